@@ -1,0 +1,23 @@
+# One set of compiler flags for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+# x86-64-v2 is the oldest machine Etude promises identical bytes on. Contracting a*b+c into a
+# fused multiply-add would change the last bit from one CPU to the next.
+add_compile_options(-march=x86-64-v2 -ffp-contract=off)
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
+if(ETUDE_WERROR)
+  add_compile_options(-Werror)
+endif()
+
+if(ETUDE_SANITIZE)
+  add_compile_options(-fsanitize=${ETUDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
+  add_link_options(-fsanitize=${ETUDE_SANITIZE})
+endif()

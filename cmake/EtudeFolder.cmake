@@ -1,0 +1,67 @@
+# One folder = one target. The name of the target, its sources and its tests all follow from the
+# folder's path, so that nothing can be listed in one place and forgotten in another.
+
+# etude_folder(DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
+#   Makes the library etude_<path> of every .cc file of the current folder.
+function(etude_folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cc")
+  if(sources)
+    add_library(${target} STATIC ${sources})
+    set(scope PUBLIC)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  target_include_directories(${target} ${scope} "${CMAKE_SOURCE_DIR}")
+  target_link_libraries(${target} ${scope} glm::glm tl::expected ${ARG_LIBRARIES})
+  if(ARG_PRIVATE_LIBRARIES)
+    target_link_libraries(${target} PRIVATE ${ARG_PRIVATE_LIBRARIES})
+  endif()
+  foreach(folder IN LISTS ARG_DEPENDS)
+    etude_target_name("${CMAKE_SOURCE_DIR}/${folder}" dependency)
+    target_link_libraries(${target} ${scope} ${dependency})
+  endforeach()
+endfunction()
+
+# etude_tests(DEPENDS <folder>... LIBRARIES <target>... LABELS <label>...)
+#   Makes one test program of every .cc file of the current folder, which mirrors the folder it
+#   tests (tests/engine/motion tests engine/motion), and registers each test with ctest in the
+#   pinned environment of design.md section 6.
+function(etude_tests)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;LABELS" ${ARGN})
+  etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cc")
+  add_executable(${target} ${sources})
+  target_compile_definitions(${target} PRIVATE ETUDE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  file(RELATIVE_PATH mirrored "${CMAKE_SOURCE_DIR}/tests" "${CMAKE_CURRENT_SOURCE_DIR}")
+  etude_target_name("${CMAKE_SOURCE_DIR}/${mirrored}" subject)
+  if(TARGET ${subject})
+    target_link_libraries(${target} PRIVATE ${subject})
+  endif()
+  foreach(folder IN LISTS ARG_DEPENDS)
+    etude_target_name("${CMAKE_SOURCE_DIR}/${folder}" dependency)
+    target_link_libraries(${target} PRIVATE ${dependency})
+  endforeach()
+  target_link_libraries(${target} PRIVATE etude_tests_support ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${target}
+    TEST_PREFIX "${mirrored}: "
+    WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}"
+    DISCOVERY_TIMEOUT 60
+    PROPERTIES ENVIRONMENT "${ETUDE_PINNED_ENVIRONMENT}" LABELS "${ARG_LABELS}")
+endfunction()
+
+# etude_target_name(<absolute folder> <out>): engine/motion -> etude_engine_motion
+function(etude_target_name FOLDER OUT)
+  file(RELATIVE_PATH path "${CMAKE_SOURCE_DIR}" "${FOLDER}")
+  string(REPLACE "/" "_" name "etude_${path}")
+  set(${OUT} ${name} PARENT_SCOPE)
+endfunction()
+
+# What bench/run gives its workers, so that tests see the same bytes.
+set(ETUDE_PINNED_ENVIRONMENT
+  "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4"
+  "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1"
+  "MESA_SHADER_CACHE_DISABLE=true"
+  "LP_NUM_THREADS=0")

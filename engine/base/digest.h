@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace etude {
+
+/// A 64-bit fingerprint (XXH3) of a sequence of values, the same on every machine. Names the output
+/// of a pipeline stage, so that two runs can be compared stage by stage.
+class Digest {
+ public:
+  Digest();
+  ~Digest();
+  Digest(Digest&&) noexcept;
+  Digest& operator=(Digest&&) noexcept;
+
+  Digest& Add(std::string_view bytes);
+  Digest& Add(std::span<const std::uint8_t> bytes);
+  Digest& Add(double value);
+  Digest& Add(std::int64_t value);
+  Digest& Add(std::span<const double> values);
+
+  std::uint64_t Value() const;
+  /// Sixteen lower-case hexadecimal digits.
+  std::string Hex() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The fingerprint of one string; a stable replacement for std::hash.
+std::uint64_t Fingerprint(std::string_view text);
+
+}  // namespace etude

@@ -1,0 +1,59 @@
+#include "engine/base/names.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace etude {
+namespace {
+
+/// Damerau-Levenshtein distance in its "optimal string alignment" form, ignoring case.
+int EditDistance(std::string_view a, std::string_view b) {
+  const auto same = [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  };
+  std::vector<std::vector<int>> cost(a.size() + 1, std::vector<int>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = static_cast<int>(i);
+  for (std::size_t j = 0; j <= b.size(); ++j) cost[0][j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int replace = same(a[i - 1], b[j - 1]) ? 0 : 1;
+      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + replace});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
+        cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return cost[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string NearestName(std::string_view name, std::span<const std::string> known) {
+  constexpr std::size_t kLongestComparedName = 100;
+  if (name.size() > kLongestComparedName) return "";
+  std::string best;
+  int best_distance = 1 + static_cast<int>(name.size()) / 3;
+  for (const std::string& candidate : known) {
+    const int distance = EditDistance(name, candidate);
+    if (distance <= best_distance && (best.empty() || distance < best_distance)) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known) {
+  const std::string nearest = NearestName(name, known);
+  const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+  return fmt::format("unknown {} '{}'{} Allowed: {}", kind, name, nearest.empty() ? "." : hint, Join(known));
+}
+
+std::string Join(std::span<const std::string> items, std::string_view separator) {
+  return fmt::format("{}", fmt::join(items, separator));
+}
+
+}  // namespace etude

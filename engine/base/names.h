@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace etude {
+
+/// The known name closest to `name` by edit distance (insert, delete, replace, swap neighbours), or
+/// an empty string when none is close enough to be a likely typing error.
+std::string NearestName(std::string_view name, std::span<const std::string> known);
+
+/// The one wording of every complaint about an unknown name:
+/// "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, ccd-hinges".
+std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known);
+
+/// "a, b, c"
+std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
+
+}  // namespace etude

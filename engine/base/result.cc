@@ -1,0 +1,16 @@
+#include "engine/base/result.h"
+
+namespace etude {
+
+std::string ToString(const Place& place) {
+  if (place.line == 0) return place.file;
+  if (place.column == 0) return fmt::format("{}:{}", place.file, place.line);
+  return fmt::format("{}:{}:{}", place.file, place.line, place.column);
+}
+
+std::string ToString(const Error& error) {
+  const std::string where = ToString(error.place);
+  return where.empty() ? error.message : where + ": " + error.message;
+}
+
+}  // namespace etude

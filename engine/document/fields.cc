@@ -1,0 +1,170 @@
+#include "engine/document/fields.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+std::string Allowed(Range range) {
+  const bool low = std::isfinite(range.lowest), high = std::isfinite(range.highest);
+  if (low && high) return fmt::format("{} to {}", range.lowest, range.highest);
+  if (low) return fmt::format("at least {}", range.lowest);
+  if (high) return fmt::format("at most {}", range.highest);
+  return "any finite number";
+}
+
+Result<double> NumberIn(const Node& node, Range range) {
+  auto value = AsNumber(node);
+  if (!value) return value;
+  if (*value < range.lowest || *value > range.highest) {
+    return Fail(node.place, "{} is out of range; allowed: {}", node.scalar, Allowed(range));
+  }
+  return value;
+}
+
+}  // namespace
+
+Result<double> AsNumber(const Node& node) {
+  if (node.kind != Node::Kind::kScalar) return Fail(node.place, "expected a number, found {}", Describe(node));
+  double value = 0;
+  const char* end = node.scalar.data() + node.scalar.size();
+  const auto [stop, status] = std::from_chars(node.scalar.data(), end, value);
+  if (status != std::errc() || stop != end || !std::isfinite(value)) {
+    return Fail(node.place, "expected a number, found {}", Describe(node));
+  }
+  return value;
+}
+
+Result<std::vector<std::string>> AsTexts(const Node& node) {
+  if (node.kind != Node::Kind::kSequence) return Fail(node.place, "expected a list, found {}", Describe(node));
+  std::vector<std::string> texts;
+  for (const Node& item : node.items) {
+    if (item.kind != Node::Kind::kScalar) return Fail(item.place, "expected text, found {}", Describe(item));
+    texts.push_back(item.scalar);
+  }
+  return texts;
+}
+
+Fields::Fields(const Node& node, std::string what) : node_(node), what_(std::move(what)) {
+  if (node.kind != Node::Kind::kMapping) {
+    Complain(node.place, fmt::format("{} must be a mapping (key: value), found {}", what_, Describe(node)));
+  }
+}
+
+const Node* Fields::Raw(std::string_view key) {
+  known_.emplace_back(key);
+  return node_.Find(key);
+}
+
+void Fields::Complain(Place place, std::string message) {
+  if (!error_) error_ = Error{std::move(place), std::move(message)};
+}
+
+const Node* Fields::Scalar(std::string_view key, std::string_view expected) {
+  const Node* value = Raw(key);
+  if (value == nullptr || value->kind == Node::Kind::kScalar) return value;
+  Complain(value->place, fmt::format("'{}' must be {}, found {}", key, expected, Describe(*value)));
+  return nullptr;
+}
+
+std::optional<double> Fields::OptionalNumber(std::string_view key, Range range) {
+  const Node* value = Scalar(key, "a number");
+  if (value == nullptr) return std::nullopt;
+  auto number = NumberIn(*value, range);
+  if (number) return *number;
+  Complain(number.error().place, fmt::format("'{}': {}", key, number.error().message));
+  return std::nullopt;
+}
+
+double Fields::Number(std::string_view key, double fallback, Range range) {
+  return OptionalNumber(key, range).value_or(fallback);
+}
+
+int Fields::Integer(std::string_view key, int fallback, Range range) {
+  constexpr double kLargest = std::numeric_limits<int>::max();
+  range.lowest = std::max(range.lowest, -kLargest);
+  range.highest = std::min(range.highest, kLargest);
+  const std::optional<double> number = OptionalNumber(key, range);
+  if (!number) return fallback;
+  if (*number != std::floor(*number)) {
+    Complain(node_.Find(key)->place, fmt::format("'{}' must be a whole number, found {}", key, *number));
+    return fallback;
+  }
+  return static_cast<int>(*number);
+}
+
+bool Fields::Boolean(std::string_view key, bool fallback) {
+  const Node* value = Scalar(key, "true or false");
+  if (value == nullptr) return fallback;
+  if (value->scalar == "true") return true;
+  if (value->scalar == "false") return false;
+  Complain(value->place, fmt::format("'{}' must be true or false, found {}", key, Describe(*value)));
+  return fallback;
+}
+
+std::string Fields::Text(std::string_view key, std::string_view fallback) {
+  const Node* value = Scalar(key, "text");
+  return value == nullptr ? std::string(fallback) : value->scalar;
+}
+
+std::string Fields::RequiredText(std::string_view key) {
+  const Node* value = Scalar(key, "text");
+  if (value == nullptr || value->scalar.empty()) {
+    Complain(node_.place, fmt::format("{} needs '{}'", what_, key));
+    return "";
+  }
+  return value->scalar;
+}
+
+std::string Fields::Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view fallback) {
+  const Node* value = Scalar(key, "text");
+  if (value == nullptr) return std::string(fallback);
+  for (const std::string& name : allowed) {
+    if (name == value->scalar) return name;
+  }
+  Complain(value->place, UnknownName(key, value->scalar, allowed));
+  return std::string(fallback);
+}
+
+std::vector<std::string> Fields::Texts(std::string_view key) {
+  const Node* value = Raw(key);
+  if (value == nullptr) return {};
+  auto texts = AsTexts(*value);
+  if (texts) return *texts;
+  Complain(texts.error().place, fmt::format("'{}': {}", key, texts.error().message));
+  return {};
+}
+
+std::vector<double> Fields::Numbers(std::string_view key, Range range) {
+  const Node* value = Raw(key);
+  if (value == nullptr) return {};
+  if (value->kind != Node::Kind::kSequence) {
+    Complain(value->place, fmt::format("'{}' must be a list of numbers, found {}", key, Describe(*value)));
+    return {};
+  }
+  std::vector<double> numbers;
+  for (const Node& item : value->items) {
+    auto number = NumberIn(item, range);
+    if (!number) {
+      Complain(number.error().place, fmt::format("'{}': {}", key, number.error().message));
+      return {};
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Result<void> Fields::Finish() {
+  if (error_) return tl::unexpected(*error_);
+  for (const Node::Entry& entry : node_.entries) {
+    bool known = false;
+    for (const std::string& name : known_) known = known || name == entry.key;
+    if (!known) return Fail(entry.place, "{}", UnknownName("key of " + what_, entry.key, known_));
+  }
+  return {};
+}
+
+}  // namespace etude

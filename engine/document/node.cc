@@ -1,0 +1,146 @@
+#include "engine/document/node.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLargestDocument = 1 << 20;
+constexpr int kDeepestNesting = 32;
+
+/// Counts nesting the way a scanner would, before yaml-cpp's recursive parser sees the text: the
+/// deepest indentation step and the deepest bracket, whichever is larger. It may overestimate.
+int EstimateNesting(std::string_view text) {
+  int deepest = 0;
+  int brackets = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = text.find('\n', i);
+    if (end == std::string_view::npos) end = text.size();
+    const std::string_view line = text.substr(i, end - i);
+    int dashes = 0;
+    for (std::size_t k = 0; k + 1 < line.size() && (line[k] == ' ' || (line[k] == '-' && line[k + 1] == ' ')); ++k) {
+      if (line[k] == '-') ++dashes;
+    }
+    for (char c : line) {
+      if (c == '[' || c == '{') ++brackets;
+      if ((c == ']' || c == '}') && brackets > 0) --brackets;
+      deepest = std::max(deepest, brackets);
+    }
+    deepest = std::max(deepest, dashes);
+    i = end + 1;
+  }
+  return deepest;
+}
+
+class Builder {
+ public:
+  explicit Builder(std::string file) : file_(std::move(file)) {}
+
+  Result<Node> Build(const YAML::Node& yaml, int depth) {
+    Node node;
+    node.place = At(yaml.Mark());
+    if (depth > kDeepestNesting) return Fail(node.place, "nested deeper than {} levels", kDeepestNesting);
+    switch (yaml.Type()) {
+      case YAML::NodeType::Scalar:
+        node.kind = Node::Kind::kScalar;
+        node.scalar = yaml.Scalar();
+        break;
+      case YAML::NodeType::Sequence:
+        node.kind = Node::Kind::kSequence;
+        for (const auto& child : yaml) {
+          auto item = Build(child, depth + 1);
+          if (!item) return item;
+          node.items.push_back(std::move(*item));
+        }
+        break;
+      case YAML::NodeType::Map:
+        node.kind = Node::Kind::kMapping;
+        for (const auto& pair : yaml) {
+          const Place key_place = At(pair.first.Mark());
+          if (!pair.first.IsScalar()) return Fail(key_place, "a key must be plain text");
+          const std::string key = pair.first.Scalar();
+          if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
+          auto value = Build(pair.second, depth + 1);
+          if (!value) return value;
+          node.entries.push_back({key, key_place, std::move(*value)});
+        }
+        break;
+      default:
+        break;
+    }
+    return node;
+  }
+
+  Place At(const YAML::Mark& mark) const {
+    if (mark.is_null()) return {file_, 0, 0};
+    return {file_, mark.line + 1, mark.column + 1};
+  }
+
+ private:
+  std::string file_;
+};
+
+/// An alias (`*name`) repeats a whole subtree, so a few lines can expand to gigabytes. yaml-cpp gives
+/// no way to see them after parsing; they are found in its event stream, which does not expand them.
+class AliasFinder : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    if (found.is_null()) found = mark;
+  }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+
+  YAML::Mark found = YAML::Mark::null_mark();
+};
+
+}  // namespace
+
+const Node* Node::Find(std::string_view key) const {
+  for (const Entry& entry : entries) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+Result<Node> ParseYaml(std::string_view text, const std::string& file) {
+  const Place whole{file, 0, 0};
+  if (text.size() > kLargestDocument) {
+    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), kLargestDocument);
+  }
+  if (EstimateNesting(text) > kDeepestNesting) return Fail(whole, "nested deeper than {} levels", kDeepestNesting);
+  Builder builder(file);
+  try {
+    std::istringstream events{std::string(text)};
+    AliasFinder aliases;
+    YAML::Parser parser(events);
+    parser.HandleNextDocument(aliases);
+    if (!aliases.found.is_null()) return Fail(builder.At(aliases.found), "aliases (*name) are not read; write it out");
+    return builder.Build(YAML::Load(std::string(text)), 0);
+  } catch (const YAML::Exception& error) {
+    return Fail(builder.At(error.mark), "not valid YAML: {}", error.msg);
+  }
+}
+
+std::string Describe(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::kScalar:
+      return fmt::format("'{}'", node.scalar.substr(0, 60));
+    case Node::Kind::kSequence:
+      return "a list";
+    case Node::Kind::kMapping:
+      return "a mapping";
+    case Node::Kind::kNull:
+      break;
+  }
+  return "nothing";
+}
+
+}  // namespace etude

@@ -1,0 +1,106 @@
+#include "engine/motion/body.h"
+
+#include <cmath>
+
+namespace etude {
+namespace {
+
+struct RoleFacts {
+  std::string_view name;
+  Role parent;  // its own for the root
+  Role mirrored;
+};
+
+using enum Role;
+
+constexpr std::array<RoleFacts, kRoleCount> kFacts = {{
+    {"hip_centre", kHipCentre, kHipCentre},
+    {"spine", kHipCentre, kSpine},
+    {"shoulder_centre", kSpine, kShoulderCentre},
+    {"head", kShoulderCentre, kHead},
+    {"left_shoulder", kShoulderCentre, kRightShoulder},
+    {"left_elbow", kLeftShoulder, kRightElbow},
+    {"left_wrist", kLeftElbow, kRightWrist},
+    {"left_hand", kLeftWrist, kRightHand},
+    {"right_shoulder", kShoulderCentre, kLeftShoulder},
+    {"right_elbow", kRightShoulder, kLeftElbow},
+    {"right_wrist", kRightElbow, kLeftWrist},
+    {"right_hand", kRightWrist, kLeftHand},
+    {"left_hip", kHipCentre, kRightHip},
+    {"left_knee", kLeftHip, kRightKnee},
+    {"left_ankle", kLeftKnee, kRightAnkle},
+    {"left_foot", kLeftAnkle, kRightFoot},
+    {"right_hip", kHipCentre, kLeftHip},
+    {"right_knee", kRightHip, kLeftKnee},
+    {"right_ankle", kRightKnee, kLeftAnkle},
+    {"right_foot", kRightAnkle, kLeftFoot},
+}};
+
+constexpr std::array<Role, kRoleCount> kRoles = [] {
+  std::array<Role, kRoleCount> roles{};
+  for (std::size_t i = 0; i < kRoleCount; ++i) roles[i] = static_cast<Role>(i);
+  return roles;
+}();
+
+constexpr std::array<Bone, kRoleCount - 1> kBones = [] {
+  std::array<Bone, kRoleCount - 1> bones{};
+  for (std::size_t i = 1; i < kRoleCount; ++i) bones[i - 1] = {kFacts[i].parent, static_cast<Role>(i)};
+  return bones;
+}();
+
+}  // namespace
+
+std::span<const Role, kRoleCount> AllRoles() { return kRoles; }
+
+std::string_view RoleName(Role role) { return kFacts[Index(role)].name; }
+
+std::optional<Role> FindRole(std::string_view name) {
+  for (Role role : kRoles) {
+    if (RoleName(role) == name) return role;
+  }
+  return std::nullopt;
+}
+
+std::optional<Role> ParentOf(Role role) {
+  if (role == kHipCentre) return std::nullopt;
+  return kFacts[Index(role)].parent;
+}
+
+Role Mirrored(Role role) { return kFacts[Index(role)].mirrored; }
+
+std::span<const Bone, kRoleCount - 1> AllBones() { return kBones; }
+
+double BoneLength(const BodyPose& pose, const Bone& bone) { return glm::distance(pose[bone.parent], pose[bone.child]); }
+
+glm::dvec3 FloorMove::Apply(const glm::dvec3& point) const {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  return {c * point.x + s * point.z + x, point.y, -s * point.x + c * point.z + z};
+}
+
+BodyPose FloorMove::Apply(const BodyPose& pose) const {
+  BodyPose moved;
+  for (std::size_t i = 0; i < kRoleCount; ++i) moved.joints[i] = Apply(pose.joints[i]);
+  return moved;
+}
+
+glm::dvec3 Facing(const BodyPose& pose) {
+  // Both rows of the torso point to the person's left (+X at rest); left × up is forward.
+  const glm::dvec3 left = (pose[kLeftHip] - pose[kRightHip]) + (pose[kLeftShoulder] - pose[kRightShoulder]);
+  const glm::dvec3 forward = glm::cross(left, glm::dvec3(0, 1, 0));
+  const double length = glm::length(forward);
+  constexpr double kDegenerate = 1e-9;
+  return length < kDegenerate ? glm::dvec3(0, 0, 1) : forward / length;
+}
+
+double Heading(const BodyPose& pose) {
+  const glm::dvec3 forward = Facing(pose);
+  return std::atan2(forward.x, forward.z);
+}
+
+FloorMove ToOrigin(const BodyPose& pose) {
+  FloorMove turn{.yaw = -Heading(pose)};
+  const glm::dvec3 hips = turn.Apply(pose[kHipCentre]);
+  return {.yaw = turn.yaw, .x = -hips.x, .z = -hips.z};
+}
+
+}  // namespace etude

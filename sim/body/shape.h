@@ -1,0 +1,50 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// What a pixel or a ray can meet: the parts of a body, as numbers in label images.
+enum class Part : std::uint32_t {
+  kBackground = 0,
+  kShadow = 1,
+  kTrunk = 2,
+  kHead,
+  kLeftUpperArm,
+  kLeftForearm,
+  kLeftHand,
+  kRightUpperArm,
+  kRightForearm,
+  kRightHand,
+  kLeftThigh,
+  kLeftShank,
+  kLeftFoot,
+  kRightThigh,
+  kRightShank,
+  kRightFoot,
+};
+constexpr std::uint32_t kFirstBodyPart = 2;
+
+/// A cylinder with two half-spheres: every point within `radius` of the segment a–b, metres.
+struct Capsule {
+  Part part;
+  glm::dvec3 a;
+  glm::dvec3 b;
+  double radius;
+};
+
+/// The flesh around a pose: the one shape that the renderer draws, the depth sensor measures and
+/// occlusion is decided by. Radii scale with the body's own limb lengths.
+std::vector<Capsule> BodyCapsules(const BodyPose& pose);
+
+/// The distance along the ray (unit direction) to the first surface met, or infinity. A ray that
+/// starts inside the capsule meets it at 0.
+double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction);
+
+/// Whether some part other than those ending in `role` stands between `eye` and the joint.
+bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
+
+}  // namespace etude

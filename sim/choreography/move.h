@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/motion/body.h"
+#include "engine/motion/clip.h"
+
+namespace etude {
+
+/// Anatomical joint angles of one key pose, radians; zero everywhere is standing with arms hanging.
+struct JointAngles;
+
+/// A target that a recogniser looks for: the move is right when these angles are reached together.
+struct KeyPose {
+  struct Target {
+    std::string feature;  ///< one of paper A's ten features: "RH", "LHE", … (engine/fuzzy)
+    double degrees;
+    double tolerance_deg;
+  };
+  double beat = 0;  ///< when it is reached, counted from the move's first beat
+  std::vector<Target> targets;
+};
+
+/// A built-in move, authored as key poses in scenarios/choreography/*.yaml.
+struct Move {
+  std::string name;    ///< "clap"
+  double tempo_bpm = 120;
+  double beats = 8;    ///< length of one performance
+  bool loops = true;   ///< the end joins the start
+  std::vector<KeyPose> key_poses;
+  BodyMotion motion;   ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
+};
+
+/// The names of all built-in moves, sorted.
+std::vector<std::string> BuiltinMoveNames();
+/// The built-in move of that name; the error lists the known ones.
+Result<Move> LoadBuiltinMove(const std::string& name);
+/// Reads one move from the text of a choreography file.
+Result<Move> ParseMove(std::string_view yaml, const std::string& file);
+
+}  // namespace etude

@@ -1,0 +1,53 @@
+#include "sim/random/stream.h"
+
+#include <Random123/philox.h>
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+
+RandomStream::RandomStream(const WorldKey& world, std::string_view purpose)
+    : key_{Fingerprint(fmt::format("{}/{}/{}", world.suite_seed, world.scenario, world.trial)), Fingerprint(purpose)} {}
+
+std::uint64_t RandomStream::Bits() {
+  if (used_ == 4) {
+    const r123::Philox4x64::ctr_type counter{{counter_++, 0, 0, 0}};
+    const auto block = r123::Philox4x64()(counter, {{key_[0], key_[1]}});
+    for (int i = 0; i < 4; ++i) block_[i] = block[i];
+    used_ = 0;
+  }
+  return block_[used_++];
+}
+
+double RandomStream::Uniform() { return static_cast<double>(Bits() >> 11) * 0x1.0p-53; }
+
+double RandomStream::Normal() {
+  if (has_spare_normal_) {
+    has_spare_normal_ = false;
+    return spare_normal_;
+  }
+  const double radius = std::sqrt(-2.0 * std::log(1.0 - Uniform()));  // 1 − u is in (0, 1]
+  const double angle = 2.0 * kPi * Uniform();
+  spare_normal_ = radius * std::sin(angle);
+  has_spare_normal_ = true;
+  return radius * std::cos(angle);
+}
+
+glm::dvec3 RandomStream::Normal3() {
+  const double x = Normal(), y = Normal(), z = Normal();
+  return {x, y, z};
+}
+
+std::uint64_t RandomStream::IndexBelow(std::uint64_t count) {
+  // Values past the last whole multiple of `count` are thrown away, so that none is favoured.
+  const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % count);
+  std::uint64_t bits = Bits();
+  while (bits >= limit) bits = Bits();
+  return bits % count;
+}
+
+}  // namespace etude

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+
+namespace etude {
+
+/// What a world's dice are keyed by: never the method, never the condition's values, so that every
+/// method meets the same world and a sweep changes strengths, not the dice (design.md §2).
+struct WorldKey {
+  std::uint64_t suite_seed = 1;
+  std::string_view scenario;
+  int trial = 0;
+};
+
+/// A stream of random numbers that depends on its key alone (counter-based: Philox 4×64-10 of
+/// Random123, Salmon et al. 2011), the same on every machine. Distributions are our own, because the
+/// standard library's differ from one implementation to the next.
+class RandomStream {
+ public:
+  /// One independent stream per purpose, e.g. "joint-noise" or "camera-0/pixel-noise".
+  RandomStream(const WorldKey& world, std::string_view purpose);
+
+  std::uint64_t Bits();
+  /// Uniform in [0, 1), 53 bits.
+  double Uniform();
+  double Uniform(double low, double high) { return low + (high - low) * Uniform(); }
+  /// Standard normal (Box–Muller, both values used).
+  double Normal();
+  double Normal(double mean, double deviation) { return mean + deviation * Normal(); }
+  /// Three independent standard normals.
+  glm::dvec3 Normal3();
+  /// Uniform in {0, …, count − 1}, unbiased; `count` > 0.
+  std::uint64_t IndexBelow(std::uint64_t count);
+  bool Chance(double probability) { return Uniform() < probability; }
+
+ private:
+  std::array<std::uint64_t, 2> key_;
+  std::uint64_t counter_ = 0;
+  std::array<std::uint64_t, 4> block_{};
+  int used_ = 4;
+  bool has_spare_normal_ = false;
+  double spare_normal_ = 0;
+};
+
+}  // namespace etude
