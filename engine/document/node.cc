@@ -1,8 +1,10 @@
 #include "engine/document/node.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace etude {
 namespace {

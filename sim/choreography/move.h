@@ -10,9 +10,6 @@
 
 namespace etude {
 
-/// Anatomical joint angles of one key pose, radians; zero everywhere is standing with arms hanging.
-struct JointAngles;
-
 /// A target that a recogniser looks for: the move is right when these angles are reached together.
 struct KeyPose {
   struct Target {

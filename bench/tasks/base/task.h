@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/tasks/clip_library.h"
+#include "bench/tasks/base/clip_library.h"
 #include "engine/document/fields.h"
 #include "sim/random/stream.h"
 
@@ -87,9 +87,5 @@ struct TaskKind {
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
 };
-
-/// transition, detection, ik, capture.
-std::span<const TaskKind> AllTaskKinds();
-const TaskKind* FindTaskKind(std::string_view name);
 
 }  // namespace etude

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+namespace etude {
+
+/// A pinhole camera's inside, pixels. Image axes: u right, v down, origin at the top left corner;
+/// the centre of pixel (i, j) is (i + 0.5, j + 0.5).
+struct Intrinsics {
+  int width = 640;
+  int height = 480;
+  double fx = 600;
+  double fy = 600;
+  double cx = 320;
+  double cy = 240;
+  double skew = 0;
+};
+
+/// A camera in the world W. Its own frame C: x right, y down, z forward (as OpenCV).
+struct Camera {
+  Intrinsics intrinsics;
+  glm::dmat3 R_CW{1};     ///< rotates world directions into the camera's frame
+  glm::dvec3 p_WC{0};     ///< the centre of projection in the world, metres
+};
+
+/// The camera at `eye` looking at `target`, its v axis pointing down as far as possible.
+/// `eye` ≠ `target`, and the view is not vertical.
+Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& eye, const glm::dvec3& target);
+
+/// Paper B's H (section 2.2): (u·w, v·w, w)ᵀ = H (X, Y, Z, 1)ᵀ, defined up to scale.
+struct ProjectionMatrix {
+  std::array<std::array<double, 4>, 3> h{};
+};
+
+ProjectionMatrix MatrixOf(const Camera& camera);
+
+/// The pixel that shows `point`; nothing when the point lies on or behind the camera's plane. The sign
+/// of H is taken such that w > 0 in front of the camera (DLT normalises it so).
+std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& point);
+
+}  // namespace etude

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <ostream>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// Lets a failed expectation on a Result print the complaint instead of raw bytes.
+inline void PrintTo(const Error& error, std::ostream* out) { *out << ToString(error); }
+
+}  // namespace etude
