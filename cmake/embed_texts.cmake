@@ -1,0 +1,24 @@
+# Writes a .cc file that holds text files as string literals:
+#   cmake -D OUT=<file.cc> -D HEADER=<header> -D FUNCTION=<name> -D "FILES=<a;b>" -P embed_texts.cmake
+# The header declares `std::span<const etude::EmbeddedText> <FUNCTION>()`; entries stand in the order
+# of FILES, named by their path's last part.
+set(entries "")
+foreach(file IN LISTS FILES)
+  file(READ "${file}" text)
+  get_filename_component(name "${file}" NAME)
+  string(APPEND entries "    {\"${name}\", R\"__text__(${text})__text__\"},\n")
+endforeach()
+file(WRITE "${OUT}" "#include \"${HEADER}\"
+
+namespace etude {
+namespace {
+
+constexpr EmbeddedText kTexts[] = {
+${entries}};
+
+}  // namespace
+
+std::span<const EmbeddedText> ${FUNCTION}() { return kTexts; }
+
+}  // namespace etude
+")

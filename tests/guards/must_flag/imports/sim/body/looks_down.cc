@@ -1,0 +1,1 @@
+#include "bench/tasks/base/task.h"
