@@ -8,6 +8,9 @@ namespace etude {
 
 enum class Direction { kLowerIsBetter, kHigherIsBetter, kNeither };
 
+/// How a run sums up the cells' values: shares and other 0/1 values by their mean, the rest by median.
+enum class Aggregate { kMedian, kMean };
+
 /// What a metric means: the entry that tables, comparisons and other implementations go by.
 struct MetricInfo {
   std::string id;          ///< unit in the name, e.g. "position_error_cm"
@@ -15,6 +18,7 @@ struct MetricInfo {
   std::string label;       ///< for people: "position error"
   std::string unit;        ///< "cm", "deg", "" for shares and counts
   Direction direction = Direction::kLowerIsBetter;
+  Aggregate aggregate = Aggregate::kMedian;
   double practical = 0;    ///< the smallest difference that matters, in the metric's unit
   std::string definition;  ///< one sentence
 };

@@ -2,12 +2,24 @@
 
 #include <filesystem>
 
+#include "bench/results/json.h"
 #include "bench/results/run_data.h"
 
 namespace etude {
 
-/// Reads a result folder (design.md §4). Fails with file:line when a file is missing, torn or of
-/// another schema version.
+/// The version of the layout of a result folder (design.md §4), raised when old readers would fail.
+constexpr int kResultSchema = 1;
+
+/// Writes `text` whole or not at all: into a temporary neighbour, then renamed.
+Result<void> WriteFileAtomically(const std::filesystem::path& path, const std::string& text);
+Result<std::string> ReadFile(const std::filesystem::path& path);
+
+/// Writes cells.jsonl, series/, recordings/ and summary.json of a whole run from `rows` (canonical
+/// order) and `scenarios`; these files are the same bytes for any number of workers.
+Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
+                         const std::vector<ScenarioSummary>& scenarios);
+
+/// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema version.
 Result<RunData> LoadRun(const std::filesystem::path& folder);
 
 }  // namespace etude

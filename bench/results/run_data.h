@@ -29,16 +29,18 @@ struct Row {
   std::string Id() const;
 };
 
-/// "key=value, key=value" or "".
+/// For people: "key=value, key=value", or "" when nothing is swept.
 std::string ConditionLabel(const std::vector<Setting>& condition);
+/// For identities: "key=value,key=value", or "-".
+std::string CompactLabel(const std::vector<Setting>& condition);
 
 /// One metric of one method over the trials of one condition.
 struct MetricSummary {
   std::string id;
   int present = 0;
   int missing = 0;  ///< cells without a value, whatever the reason
-  std::optional<double> median, ci_low, ci_high;  ///< 95 % bootstrap interval of the median
-  std::optional<double> mean;
+  std::optional<double> median, mean;
+  std::optional<double> ci_low, ci_high;  ///< 95 % bootstrap interval of the metric's own aggregate (MetricInfo)
 };
 
 struct MethodSummary {
@@ -50,13 +52,14 @@ struct MethodSummary {
 enum class Verdict { kBetter, kWorse, kNoDifference, kInconclusive };
 std::string_view VerdictName(Verdict verdict);
 
-/// `method` against `baseline` on the same worlds. `difference` = method − baseline.
+/// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares)
+/// of the paired differences method − baseline.
 struct Comparison {
   std::string metric;
   std::string baseline;
   std::string method;
   int pairs = 0;
-  std::optional<double> median_difference, ci_low, ci_high;  ///< 95 % bootstrap, pairs resampled
+  std::optional<double> difference, ci_low, ci_high;  ///< 95 % bootstrap, pairs resampled
   double share_better = 0;                                   ///< of the pairs, ties count half
   Verdict verdict = Verdict::kInconclusive;
 };

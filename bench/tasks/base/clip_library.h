@@ -24,4 +24,9 @@ struct ClipLibrary {
   std::vector<LibraryClip> clips;
 };
 
+/// Loads every reference, in order: "builtin:NAME", "builtin:*", a path, or a glob ("mocap/*.bvh";
+/// `~/` is the home folder), relative to the current folder. Fails with the name of what cannot be found,
+/// read or understood. `place` is where the reference stands, for complaints.
+Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place);
+
 }  // namespace etude

@@ -55,6 +55,13 @@ struct CellResult {
   std::vector<Series> series;
   std::optional<Recording> recording;
 
+  /// A cell that ended without measurements.
+  static CellResult Ended(Status status, std::string reason) {
+    CellResult result;
+    result.status = status;
+    result.reason = std::move(reason);
+    return result;
+  }
   void Measure(std::string id, double value) { metrics.push_back({std::move(id), value, ""}); }
   void Missing(std::string id, std::string why) { metrics.push_back({std::move(id), std::nullopt, std::move(why)}); }
 };
@@ -86,6 +93,8 @@ struct TaskKind {
   std::string question;                      ///< one line, for `etude list`
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
+  /// The keys of its methods beside `name`, each with what it may say, for `etude list methods`.
+  std::vector<std::pair<std::string, std::string>> method_keys = {};
 };
 
 }  // namespace etude

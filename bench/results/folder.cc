@@ -1,0 +1,178 @@
+#include "bench/results/folder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "bench/results/row_json.h"
+#include "bench/results/summary_json.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "scenario/condition/trial/method" as one file name.
+std::string FileNameOf(std::string cell) {
+  std::replace(cell.begin(), cell.end(), '/', '~');
+  return cell + ".json";
+}
+
+Result<Json> ReadJsonFile(const fs::path& path) {
+  const auto text = ReadFile(path);
+  if (!text) return tl::unexpected(text.error());
+  return ReadJson(*text, path.string());
+}
+
+/// Calls `use(json, place)` for every line; stops at the first complaint.
+template <typename Use>
+Result<void> ForEachLine(const fs::path& path, Use use) {
+  const auto text = ReadFile(path);
+  if (!text) return tl::unexpected(text.error());
+  std::istringstream lines(*text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const Place place{path.string(), number, 0};
+    auto json = ReadJson(line, place.file, place.line);
+    if (!json) return tl::unexpected(json.error());
+    if (Result<void> used = use(*json, place); !used) return used;
+  }
+  return {};
+}
+
+Result<void> LoadSeries(const fs::path& folder, RunData& run) {
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    const fs::path path = folder / "series" / (scenario.name + ".jsonl");
+    if (!fs::exists(path)) continue;
+    auto read = ForEachLine(path, [&](const Json& json, const Place& place) -> Result<void> {
+      try {
+        run.series.push_back({json.at("cell").get<std::string>(), DecodeSeries(json.at("series"))});
+        return {};
+      } catch (const Json::exception& error) {
+        return Fail(place, "not a line of series: {}", error.what());
+      }
+    });
+    if (!read) return read;
+  }
+  return {};
+}
+
+Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
+  for (const Row& row : run.rows) {
+    const fs::path path = folder / "recordings" / FileNameOf(row.Id());
+    if (!fs::exists(path)) continue;
+    const auto json = ReadJsonFile(path);
+    if (!json) return tl::unexpected(json.error());
+    auto recording = DecodeRecording(*json, {path.string(), 0, 0});
+    if (!recording) return tl::unexpected(recording.error());
+    run.recordings.push_back({row.Id(), std::move(*recording)});
+  }
+  return {};
+}
+
+Result<void> LoadManifest(const fs::path& folder, RunData& run) {
+  const auto manifest = ReadJsonFile(folder / "manifest.json");
+  if (!manifest) return tl::unexpected(manifest.error());
+  const auto host = ReadJsonFile(folder / "host.json");
+  if (!host) return tl::unexpected(host.error());
+  const Place place{(folder / "manifest.json").string(), 0, 0};
+  try {
+    const int schema = manifest->at("schema").get<int>();
+    if (schema != kResultSchema) return Fail(place, "schema {}; this program reads {}", schema, kResultSchema);
+    run.suite = manifest->at("suite").get<std::string>();
+    run.seed = manifest->at("seed").get<std::uint64_t>();
+    run.program_version = manifest->at("etude").get<std::string>();
+    run.command_line = host->at("command_line").get<std::string>();
+    run.host = host->at("host").get<std::string>();
+    run.wall_seconds = host->at("wall_seconds").get<double>();
+  } catch (const Json::exception& error) {
+    return Fail(place, "not a manifest: {}", error.what());
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> WriteFileAtomically(const fs::path& path, const std::string& text) {
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) return Fail({path.parent_path().string(), 0, 0}, "cannot be made: {}", error.message());
+  const fs::path temporary = path.string() + ".tmp";
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.flush();
+    if (!out) return Fail({temporary.string(), 0, 0}, "cannot be written");
+  }
+  fs::rename(temporary, path, error);
+  if (error) return Fail({path.string(), 0, 0}, "cannot be written: {}", error.message());
+  return {};
+}
+
+Result<std::string> ReadFile(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return Fail({path.string(), 0, 0}, "no such file");
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) return Fail({path.string(), 0, 0}, "cannot be read");
+  return text.str();
+}
+
+Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
+                         const std::vector<ScenarioSummary>& scenarios) {
+  std::string cells;
+  for (const Row& row : rows) {
+    const auto line = WriteJson(EncodeRow(row));
+    if (!line) return tl::unexpected(line.error());
+    cells += *line + "\n";
+    if (!row.result.recording) continue;
+    const auto json = EncodeRecording(*row.result.recording);
+    if (!json) return tl::unexpected(json.error());
+    const auto text = WriteJson(*json);
+    if (!text) return tl::unexpected(text.error());
+    auto saved = WriteFileAtomically(folder / "recordings" / FileNameOf(row.Id()), *text + "\n");
+    if (!saved) return saved;
+  }
+  for (const ScenarioSummary& scenario : scenarios) {
+    std::string lines;
+    for (const Row& row : rows) {
+      if (row.scenario != scenario.name || row.result.series.empty()) continue;
+      const auto line = WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}});
+      if (!line) return tl::unexpected(line.error());
+      lines += *line + "\n";
+    }
+    if (lines.empty()) continue;
+    auto saved = WriteFileAtomically(folder / "series" / (scenario.name + ".jsonl"), lines);
+    if (!saved) return saved;
+  }
+  const auto summary = WriteJson(EncodeSummaries(scenarios));
+  if (!summary) return tl::unexpected(summary.error());
+  auto saved = WriteFileAtomically(folder / "summary.json", *summary + "\n");
+  if (!saved) return saved;
+  return WriteFileAtomically(folder / "cells.jsonl", cells);
+}
+
+Result<RunData> LoadRun(const fs::path& folder) {
+  RunData run;
+  if (!fs::is_directory(folder)) return Fail({folder.string(), 0, 0}, "no such folder; a run writes one (etude run)");
+  if (auto loaded = LoadManifest(folder, run); !loaded) return tl::unexpected(loaded.error());
+  auto rows = ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& place) -> Result<void> {
+    auto row = DecodeRow(json, place);
+    if (!row) return tl::unexpected(row.error());
+    run.rows.push_back(std::move(*row));
+    return {};
+  });
+  if (!rows) return tl::unexpected(rows.error());
+  const auto summary = ReadJsonFile(folder / "summary.json");
+  if (!summary) return tl::unexpected(summary.error());
+  auto scenarios = DecodeSummaries(*summary, {(folder / "summary.json").string(), 0, 0});
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  run.scenarios = std::move(*scenarios);
+  if (auto loaded = LoadSeries(folder, run); !loaded) return tl::unexpected(loaded.error());
+  if (auto loaded = LoadRecordings(folder, run); !loaded) return tl::unexpected(loaded.error());
+  return run;
+}
+
+}  // namespace etude

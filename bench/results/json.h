@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+using Json = nlohmann::ordered_json;
+
+/// The one way JSON leaves Etude: one line, keys in the order given, shortest digits that read back the
+/// same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.
+Result<std::string> WriteJson(const Json& json);
+
+/// Reads one JSON value; complains with the file and `line` (0 = a file of one value).
+Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
+
+}  // namespace etude

@@ -1,0 +1,203 @@
+#include "bench/results/row_json.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/metrics/catalogue.h"
+
+namespace etude {
+namespace {
+
+constexpr std::string_view kDigestPrefix = "digest_";
+
+/// A swept value as the number it looks like, so that tables can plot against it; else as text.
+Json SettingValue(const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, number);
+  if (status == std::errc() && stop == end && std::isfinite(number)) return number;
+  return text;
+}
+
+std::vector<Setting> SplitCondition(const std::string& label) {
+  std::vector<Setting> settings;
+  for (std::size_t at = 0; at < label.size() && label != "-";) {
+    const std::size_t end = std::min(label.find(',', at), label.size());
+    const std::size_t equals = label.find('=', at);
+    if (equals == std::string::npos || equals > end) break;
+    settings.push_back({label.substr(at, equals - at), label.substr(equals + 1, end - equals - 1)});
+    at = end + 1;
+  }
+  return settings;
+}
+
+std::optional<Status> FindStatus(const std::string& name) {
+  for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
+    if (StatusName(static_cast<Status>(i)) == name) return static_cast<Status>(i);
+  }
+  return std::nullopt;
+}
+
+/// Why this cell cannot be written as it is, or "".
+std::string FindBadValue(const CellResult& result) {
+  for (const MetricValue& metric : result.metrics) {
+    if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";
+    if (metric.value && !std::isfinite(*metric.value)) return "the metric '" + metric.id + "' is not a finite number";
+  }
+  for (const Series& series : result.series) {
+    for (double value : series.values) {
+      if (!std::isfinite(value)) return "the series '" + series.name + "' holds a value that is not finite";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Json EncodeRow(const Row& row) {
+  Json json;
+  json["cell"] = row.Id();
+  json["scenario"] = row.scenario;
+  json["task"] = row.task;
+  json["condition"] = CompactLabel(row.condition);
+  for (const Setting& setting : row.condition) json[setting.key] = SettingValue(setting.value);
+  json["trial"] = row.trial;
+  json["clip"] = row.clip.empty() ? Json(nullptr) : Json(row.clip);
+  json["method"] = row.method;
+  json["status"] = StatusName(row.result.status);
+  json["reason"] = row.result.reason.empty() ? Json(nullptr) : Json(row.result.reason);
+  Json null_reasons = Json::object();
+  for (const MetricValue& metric : row.result.metrics) {
+    json[metric.id] = metric.value ? Json(*metric.value) : Json(nullptr);
+    if (!metric.value) null_reasons[metric.id] = metric.null_reason;
+  }
+  if (!null_reasons.empty()) json["null_reasons"] = std::move(null_reasons);
+  for (const auto& [stage, digest] : row.result.digests) json[std::string(kDigestPrefix) + stage] = digest;
+  return json;
+}
+
+Result<Row> DecodeRow(const Json& json, const Place& place) {
+  Row row;
+  try {
+    row.scenario = json.at("scenario").get<std::string>();
+    row.task = json.at("task").get<std::string>();
+    row.condition = SplitCondition(json.at("condition").get<std::string>());
+    row.trial = json.at("trial").get<int>();
+    row.clip = json.at("clip").is_null() ? "" : json.at("clip").get<std::string>();
+    row.method = json.at("method").get<std::string>();
+    const auto status = FindStatus(json.at("status").get<std::string>());
+    if (!status) return Fail(place, "unknown status {}", json.at("status").dump());
+    row.result.status = *status;
+    row.result.reason = json.at("reason").is_null() ? "" : json.at("reason").get<std::string>();
+    const Json null_reasons = json.value("null_reasons", Json::object());
+    for (const auto& [key, value] : json.items()) {
+      if (key.starts_with(kDigestPrefix)) {
+        row.result.digests.emplace_back(key.substr(kDigestPrefix.size()), value.get<std::string>());
+      } else if (FindMetric(key) != nullptr) {
+        if (value.is_null()) {
+          row.result.Missing(key, null_reasons.value(key, ""));
+        } else {
+          row.result.Measure(key, value.get<double>());
+        }
+      }
+    }
+  } catch (const Json::exception& error) {
+    return Fail(place, "not a row of cells.jsonl: {}", error.what());
+  }
+  return row;
+}
+
+Json EncodeSeries(const std::vector<Series>& series) {
+  Json list = Json::array();
+  for (const Series& curve : series) {
+    list.push_back({{"name", curve.name}, {"axis", curve.axis}, {"values", curve.values}});
+  }
+  return list;
+}
+
+std::vector<Series> DecodeSeries(const Json& json) {
+  std::vector<Series> series;
+  for (const Json& curve : json) {
+    series.push_back({curve.at("name").get<std::string>(), curve.at("axis").get<std::string>(),
+                      curve.at("values").get<std::vector<double>>()});
+  }
+  return series;
+}
+
+Result<Json> EncodeRecording(const Recording& recording) {
+  Json json;
+  Json& tracks = json["tracks"] = Json::array();
+  for (const Track& track : recording.tracks) {
+    Json poses = Json::array();
+    for (const BodyPose& pose : track.motion.poses) {
+      Json numbers = Json::array();
+      for (const glm::dvec3& joint : pose.joints) {
+        for (int axis = 0; axis < 3; ++axis) numbers.push_back(joint[axis]);
+      }
+      poses.push_back(std::move(numbers));
+    }
+    tracks.push_back({{"name", track.name}, {"rate_hz", track.motion.rate_hz}, {"poses", std::move(poses)}});
+  }
+  auto extras = ReadJson(recording.extras_json.empty() ? "{}" : recording.extras_json, "a recording's extras");
+  if (!extras) return extras;
+  json["extras"] = std::move(*extras);
+  return json;
+}
+
+Result<Recording> DecodeRecording(const Json& json, const Place& place) {
+  Recording recording;
+  try {
+    for (const Json& entry : json.at("tracks")) {
+      Track track{entry.at("name").get<std::string>(), {entry.at("rate_hz").get<double>(), {}}};
+      for (const Json& numbers : entry.at("poses")) {
+        if (numbers.size() != 3 * kRoleCount) return Fail(place, "a pose has {} numbers, not 60", numbers.size());
+        BodyPose& pose = track.motion.poses.emplace_back();
+        for (std::size_t i = 0; i < numbers.size(); ++i) pose.joints[i / 3][i % 3] = numbers[i].get<double>();
+      }
+      recording.tracks.push_back(std::move(track));
+    }
+    recording.extras_json = json.at("extras").dump();
+  } catch (const Json::exception& error) {
+    return Fail(place, "not a recording: {}", error.what());
+  }
+  return recording;
+}
+
+Json EncodeCell(Row row) {
+  Json recording;
+  std::string bad = FindBadValue(row.result);
+  if (bad.empty() && row.result.recording) {
+    auto encoded = EncodeRecording(*row.result.recording);
+    if (encoded && WriteJson(*encoded)) {
+      recording = std::move(*encoded);
+    } else {
+      bad = "the recording holds a value that is not finite";
+    }
+  }
+  if (!bad.empty()) row.result = CellResult::Ended(Status::kBadOutput, bad);
+  Json cell{{"row", EncodeRow(row)}};
+  if (!row.result.series.empty()) cell["series"] = EncodeSeries(row.result.series);
+  if (!recording.is_null()) cell["recording"] = std::move(recording);
+  return cell;
+}
+
+Result<Row> DecodeCell(const Json& json, const Place& place) {
+  if (!json.is_object() || !json.contains("row")) return Fail(place, "an answer without a row");
+  auto row = DecodeRow(json["row"], place);
+  if (!row) return row;
+  try {
+    if (json.contains("series")) row->result.series = DecodeSeries(json["series"]);
+  } catch (const Json::exception& error) {
+    return Fail(place, "a series that cannot be read: {}", error.what());
+  }
+  if (json.contains("recording")) {
+    auto recording = DecodeRecording(json["recording"], place);
+    if (!recording) return tl::unexpected(recording.error());
+    row->result.recording = std::move(*recording);
+  }
+  return row;
+}
+
+}  // namespace etude

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bench/results/json.h"
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// A row as a line of cells.jsonl: flat, identity first, metrics under their ids, null where a value is
+/// missing (why: "null_reasons"), stage digests as "digest_<stage>".
+Json EncodeRow(const Row& row);
+Result<Row> DecodeRow(const Json& json, const Place& place);
+
+Json EncodeSeries(const std::vector<Series>& series);
+std::vector<Series> DecodeSeries(const Json& json);
+
+/// A recording: each track's poses as rows of 60 numbers (x, y, z of the 20 joints, metres).
+Result<Json> EncodeRecording(const Recording& recording);
+Result<Recording> DecodeRecording(const Json& json, const Place& place);
+
+/// What a worker answers for one cell: the row, its series and, when kept, its recording. A value that
+/// is not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
+Json EncodeCell(Row row);
+Result<Row> DecodeCell(const Json& json, const Place& place);
+
+}  // namespace etude

@@ -1,0 +1,157 @@
+#include "bench/results/summary_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace etude {
+namespace {
+
+Json Number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+std::optional<double> AsOptional(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional<double>(json.get<double>());
+}
+
+/// The value among the first `count` of an enum whose name this is.
+template <typename Enum>
+Enum ByName(const std::string& name, std::string_view (*name_of)(Enum), int count) {
+  for (int i = 0; i < count; ++i) {
+    if (name_of(static_cast<Enum>(i)) == name) return static_cast<Enum>(i);
+  }
+  throw Json::other_error::create(501, "unknown name '" + name + "'", nullptr);
+}
+
+Json Encode(const std::vector<Setting>& condition) {
+  Json json = Json::array();
+  for (const Setting& setting : condition) json.push_back({{"key", setting.key}, {"value", setting.value}});
+  return json;
+}
+
+Json Encode(const MetricSummary& metric) {
+  return {{"id", metric.id},
+          {"present", metric.present},
+          {"missing", metric.missing},
+          {"median", Number(metric.median)},
+          {"mean", Number(metric.mean)},
+          {"ci95_low", Number(metric.ci_low)},
+          {"ci95_high", Number(metric.ci_high)}};
+}
+
+Json Encode(const MethodSummary& method) {
+  Json statuses = Json::object();
+  for (const auto& [status, count] : method.statuses) statuses[std::string(StatusName(status))] = count;
+  Json metrics = Json::array();
+  for (const MetricSummary& metric : method.metrics) metrics.push_back(Encode(metric));
+  return {{"method", method.method}, {"statuses", std::move(statuses)}, {"metrics", std::move(metrics)}};
+}
+
+Json Encode(const Comparison& comparison) {
+  return {{"metric", comparison.metric},
+          {"baseline", comparison.baseline},
+          {"method", comparison.method},
+          {"pairs", comparison.pairs},
+          {"difference", Number(comparison.difference)},
+          {"ci95_low", Number(comparison.ci_low)},
+          {"ci95_high", Number(comparison.ci_high)},
+          {"share_better", comparison.share_better},
+          {"verdict", VerdictName(comparison.verdict)}};
+}
+
+std::vector<Setting> DecodeCondition(const Json& json) {
+  std::vector<Setting> condition;
+  for (const Json& setting : json) {
+    condition.push_back({setting.at("key").get<std::string>(), setting.at("value").get<std::string>()});
+  }
+  return condition;
+}
+
+MethodSummary DecodeMethod(const Json& json) {
+  MethodSummary method{json.at("method").get<std::string>(), {}, {}};
+  constexpr int kStatuses = static_cast<int>(Status::kSkipped) + 1;
+  for (const auto& [name, count] : json.at("statuses").items()) {
+    method.statuses.emplace_back(ByName<Status>(name, StatusName, kStatuses), count.get<int>());
+  }
+  for (const Json& metric : json.at("metrics")) {
+    method.metrics.push_back({metric.at("id").get<std::string>(), metric.at("present").get<int>(),
+                              metric.at("missing").get<int>(), AsOptional(metric.at("median")),
+                              AsOptional(metric.at("mean")), AsOptional(metric.at("ci95_low")),
+                              AsOptional(metric.at("ci95_high"))});
+  }
+  return method;
+}
+
+Comparison DecodeComparison(const Json& json) {
+  Comparison comparison;
+  comparison.metric = json.at("metric").get<std::string>();
+  comparison.baseline = json.at("baseline").get<std::string>();
+  comparison.method = json.at("method").get<std::string>();
+  comparison.pairs = json.at("pairs").get<int>();
+  comparison.difference = AsOptional(json.at("difference"));
+  comparison.ci_low = AsOptional(json.at("ci95_low"));
+  comparison.ci_high = AsOptional(json.at("ci95_high"));
+  comparison.share_better = json.at("share_better").get<double>();
+  comparison.verdict = ByName<Verdict>(json.at("verdict").get<std::string>(), VerdictName, 4);
+  return comparison;
+}
+
+}  // namespace
+
+Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
+  Json list = Json::array();
+  for (const ScenarioSummary& scenario : scenarios) {
+    Json conditions = Json::array();
+    for (const ConditionSummary& condition : scenario.conditions) {
+      Json methods = Json::array(), comparisons = Json::array();
+      for (const MethodSummary& method : condition.methods) methods.push_back(Encode(method));
+      for (const Comparison& comparison : condition.comparisons) comparisons.push_back(Encode(comparison));
+      conditions.push_back({{"condition", Encode(condition.condition)},
+                            {"methods", std::move(methods)},
+                            {"comparisons", std::move(comparisons)}});
+    }
+    Json expectations = Json::array();
+    for (const ExpectationResult& expectation : scenario.expectations) {
+      expectations.push_back({{"text", expectation.text},
+                              {"outcome", OutcomeName(expectation.outcome)},
+                              {"detail", expectation.detail}});
+    }
+    list.push_back({{"name", scenario.name},
+                    {"task", scenario.task},
+                    {"question", scenario.question},
+                    {"methods", scenario.methods},
+                    {"headline_metrics", scenario.headline_metrics},
+                    {"conditions", std::move(conditions)},
+                    {"expectations", std::move(expectations)}});
+  }
+  return {{"scenarios", std::move(list)}};
+}
+
+Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Place& place) {
+  std::vector<ScenarioSummary> scenarios;
+  try {
+    for (const Json& entry : json.at("scenarios")) {
+      ScenarioSummary scenario{entry.at("name").get<std::string>(),
+                               entry.at("task").get<std::string>(),
+                               entry.at("question").get<std::string>(),
+                               entry.at("methods").get<std::vector<std::string>>(),
+                               entry.at("headline_metrics").get<std::vector<std::string>>(),
+                               {},
+                               {}};
+      for (const Json& part : entry.at("conditions")) {
+        ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}};
+        for (const Json& method : part.at("methods")) condition.methods.push_back(DecodeMethod(method));
+        for (const Json& row : part.at("comparisons")) condition.comparisons.push_back(DecodeComparison(row));
+        scenario.conditions.push_back(std::move(condition));
+      }
+      for (const Json& expectation : entry.at("expectations")) {
+        scenario.expectations.push_back({expectation.at("text").get<std::string>(),
+                                         ByName<Outcome>(expectation.at("outcome").get<std::string>(), OutcomeName, 3),
+                                         expectation.at("detail").get<std::string>()});
+      }
+      scenarios.push_back(std::move(scenario));
+    }
+  } catch (const Json::exception& error) {
+    return Fail(place, "not a summary: {}", error.what());
+  }
+  return scenarios;
+}
+
+}  // namespace etude

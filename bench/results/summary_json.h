@@ -1,0 +1,12 @@
+#pragma once
+
+#include "bench/results/json.h"
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// summary.json: every scenario's aggregates, comparisons and expectations.
+Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios);
+Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Place& place);
+
+}  // namespace etude

@@ -1,0 +1,90 @@
+#include "bench/statistics/expectations.h"
+
+#include <algorithm>
+
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/select.h"
+
+namespace etude {
+namespace {
+
+bool Matches(const Condition& condition, const std::vector<Setting>& where) {
+  return std::all_of(where.begin(), where.end(), [&](const Setting& wanted) {
+    return std::any_of(condition.settings.begin(), condition.settings.end(), [&](const Setting& setting) {
+      return setting.key == wanted.key && setting.value == wanted.value;
+    });
+  });
+}
+
+std::string Claim(const Expectation& expectation) {
+  std::string text = expectation.metric + " of " + expectation.of;
+  if (!expectation.below.empty()) text += " below " + expectation.below;
+  if (!expectation.above.empty()) text += " above " + expectation.above;
+  const auto bound = [&](std::string_view words, double value) {
+    return fmt::format("{} {} of {} {} {}", expectation.statistic, expectation.metric, expectation.of, words, value);
+  };
+  if (expectation.at_most) text = bound("at most", *expectation.at_most);
+  if (expectation.at_least) text = bound("at least", *expectation.at_least);
+  if (!expectation.where.empty()) text += " where " + ConditionLabel(expectation.where);
+  return text;
+}
+
+struct Finding {
+  Outcome outcome;
+  std::string detail;
+};
+
+Finding JudgeComparison(const Expectation& expectation, std::span<const Row* const> rows, const std::string& other,
+                        bool wants_lower, std::uint64_t seed, const std::string& purpose) {
+  MetricInfo metric = *FindMetric(expectation.metric);
+  metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
+  const auto pairs = PairsOf(rows, other, expectation.of, expectation.metric);
+  const Comparison found = ComparePaired(pairs, metric, seed, purpose);
+  if (!found.ci_low) return {Outcome::kUndecided, fmt::format("only {} worlds have both values", found.pairs)};
+  const Outcome outcome = found.verdict == Verdict::kBetter         ? Outcome::kMet
+                          : found.verdict == Verdict::kInconclusive ? Outcome::kUndecided
+                                                                    : Outcome::kUnmet;
+  return {outcome, fmt::format("difference {:.4g} (95 % interval {:.4g} to {:.4g}) on {} worlds", *found.difference,
+                               *found.ci_low, *found.ci_high, found.pairs)};
+}
+
+Finding JudgeBound(const Expectation& expectation, std::span<const Row* const> rows) {
+  int missing = 0;
+  const std::vector<double> values = ValuesOf(rows, expectation.of, expectation.metric, missing);
+  if (values.empty()) return {Outcome::kUndecided, "no cell has a value"};
+  const double value = expectation.statistic == "mean"  ? Mean(values)
+                       : expectation.statistic == "p95" ? Quantile(values, 0.95)
+                                                        : Quantile(values, 0.5);
+  const bool met = expectation.at_most ? value <= *expectation.at_most : value >= *expectation.at_least;
+  std::string detail = fmt::format("{:.4g} over {} worlds", value, values.size());
+  if (missing > 0) detail += fmt::format(", {} more have no value", missing);
+  if (met && missing > 0) return {Outcome::kUndecided, detail};
+  return {met ? Outcome::kMet : Outcome::kUnmet, detail};
+}
+
+}  // namespace
+
+ExpectationResult JudgeExpectation(const Expectation& expectation, const Scenario& scenario, std::span<const Row> rows,
+                                   std::uint64_t seed) {
+  ExpectationResult result{Claim(expectation), Outcome::kMet, ""};
+  const bool wants_lower = !expectation.below.empty();
+  const std::string& other = wants_lower ? expectation.below : expectation.above;
+  for (const Condition& condition : scenario.conditions) {
+    if (!Matches(condition, expectation.where)) continue;
+    const auto selected = RowsIn(rows, condition.settings);
+    const std::string purpose =
+        PurposeOf(scenario.name, condition.settings, expectation.metric, other, expectation.of);
+    const Finding finding = other.empty()
+                                ? JudgeBound(expectation, selected)
+                                : JudgeComparison(expectation, selected, other, wants_lower, seed, purpose);
+    const std::string label = ConditionLabel(condition.settings);
+    if (!result.detail.empty()) result.detail += "; ";
+    result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
+    // One condition that fails decides; else one that is undecided does.
+    if (finding.outcome == Outcome::kUnmet) result.outcome = Outcome::kUnmet;
+    if (finding.outcome == Outcome::kUndecided && result.outcome == Outcome::kMet) result.outcome = finding.outcome;
+  }
+  return result;
+}
+
+}  // namespace etude

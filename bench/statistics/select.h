@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/results/run_data.h"
+#include "bench/statistics/compare.h"
+
+namespace etude {
+
+/// The rows of one condition, in order.
+std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Setting>& condition);
+
+/// A row's value of a metric; nothing when it is missing or was not measured.
+std::optional<double> ValueOf(const Row& row, const std::string& metric);
+
+/// All values of a metric of one method, in order; `missing` counts the cells without one.
+std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string& method, const std::string& metric,
+                             int& missing);
+
+/// The worlds in which both methods have a value. Rows of one world share their trial.
+std::vector<Pair> PairsOf(std::span<const Row* const> rows, const std::string& baseline, const std::string& method,
+                          const std::string& metric);
+
+/// What keys the dice of a comparison: stable under adding methods, metrics or conditions.
+std::string PurposeOf(const std::string& scenario, const std::vector<Setting>& condition, const std::string& metric,
+                      const std::string& baseline, const std::string& method);
+
+}  // namespace etude

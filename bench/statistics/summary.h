@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bench/results/run_data.h"
+#include "bench/scenario/scenario.h"
+
+namespace etude {
+
+/// Sums up one scenario's rows: per condition and method the aggregate of every metric with its
+/// interval, every method against the scenario's first on the headline metrics, and the verdict on each
+/// expectation. `rows` are the scenario's own, in canonical order. Seeded, so the same rows give the
+/// same bytes.
+ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed);
+
+}  // namespace etude

@@ -1,0 +1,25 @@
+#include "bench/tasks/base/task.h"
+
+namespace etude {
+
+std::string_view StatusName(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return "ok";
+    case Status::kUnsolved:
+      return "unsolved";
+    case Status::kFailed:
+      return "failed";
+    case Status::kTimeout:
+      return "timeout";
+    case Status::kCrashed:
+      return "crashed";
+    case Status::kBadOutput:
+      return "bad_output";
+    case Status::kSkipped:
+      return "skipped";
+  }
+  return "failed";
+}
+
+}  // namespace etude

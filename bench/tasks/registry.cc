@@ -1,0 +1,23 @@
+#include "bench/tasks/registry.h"
+
+#include "bench/tasks/capture/capture_task.h"
+#include "bench/tasks/detection/detection_task.h"
+#include "bench/tasks/ik/ik_task.h"
+#include "bench/tasks/transition/transition_task.h"
+
+namespace etude {
+
+std::span<const TaskKind> AllTaskKinds() {
+  static const std::vector<TaskKind> kinds = {MakeTransitionTaskKind(), MakeDetectionTaskKind(), MakeIkTaskKind(),
+                                              MakeCaptureTaskKind()};
+  return kinds;
+}
+
+const TaskKind* FindTaskKind(std::string_view name) {
+  for (const TaskKind& kind : AllTaskKinds()) {
+    if (kind.name == name) return &kind;
+  }
+  return nullptr;
+}
+
+}  // namespace etude

@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "bench/results/folder.h"
+#include "bench/results/row_json.h"
+#include "bench/results/summary_json.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const Place kPlace{"cells.jsonl", 1, 0};
+
+Row SampleRow() {
+  Row row{"ik-weights", "ik", {{"joint_noise_deg", "10"}, {"noise", "gaussian"}}, 7, "builtin:clap", "adaptive", {}};
+  row.result.status = Status::kUnsolved;
+  row.result.reason = "worst effector 0.8 cm";
+  row.result.Measure("position_error_cm", 0.1 + 0.2);
+  row.result.Missing("hidden_angle_error_deg", "no truth");
+  row.result.digests = {{"problem", "00ff"}, {"solution", "11ee"}};
+  row.result.series = {{"position_error_cm", "iteration", {3, 2, 1}}};
+  BodyPose pose;
+  pose[Role::kHead] = {0.1, 1.7, -0.3};
+  row.result.recording = Recording{{{"truth", {30, {pose, pose}}}}, R"({"from":"clap"})"};
+  return row;
+}
+
+TEST(Row, SurvivesTheWayToAFileAndBack) {
+  const Row row = SampleRow();
+  const auto text = WriteJson(EncodeCell(row));
+  ASSERT_TRUE(text);
+  const auto back = DecodeCell(*ReadJson(*text, "x"), kPlace);
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(back->Id(), "ik-weights/joint_noise_deg=10,noise=gaussian/007/adaptive");
+  EXPECT_EQ(back->result.status, Status::kUnsolved);
+  EXPECT_EQ(back->result.reason, row.result.reason);
+  ASSERT_EQ(back->result.metrics.size(), 2u);
+  EXPECT_EQ(*back->result.metrics[0].value, 0.1 + 0.2);
+  EXPECT_FALSE(back->result.metrics[1].value);
+  EXPECT_EQ(back->result.metrics[1].null_reason, "no truth");
+  EXPECT_EQ(back->result.digests, row.result.digests);
+  EXPECT_EQ(back->result.series[0].values, row.result.series[0].values);
+  EXPECT_EQ(back->result.recording->tracks[0].motion.poses[1][Role::kHead], glm::dvec3(0.1, 1.7, -0.3));
+  EXPECT_EQ(*WriteJson(EncodeCell(*back)), *text);
+}
+
+TEST(Row, IsFlatWithNumbersAsNumbers) {
+  const Json json = EncodeRow(SampleRow());
+  EXPECT_EQ(json.at("joint_noise_deg"), 10.0);
+  EXPECT_EQ(json.at("noise"), "gaussian");
+  EXPECT_EQ(json.at("status"), "unsolved");
+  EXPECT_TRUE(json.at("hidden_angle_error_deg").is_null());
+  EXPECT_EQ(json.at("digest_solution"), "11ee");
+}
+
+TEST(Row, WithAValueThatIsNotFiniteBecomesBadOutput) {
+  for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Row metric = SampleRow(), series = SampleRow(), recording = SampleRow();
+    metric.result.Measure("orientation_error_deg", bad);
+    series.result.series[0].values[1] = bad;
+    recording.result.recording->tracks[0].motion.poses[0][Role::kSpine].y = bad;
+    for (const Row& row : {metric, series, recording}) {
+      const auto back = DecodeCell(EncodeCell(row), kPlace);
+      ASSERT_TRUE(back);
+      EXPECT_EQ(back->result.status, Status::kBadOutput);
+      EXPECT_THAT(back->result.reason, HasSubstr("finite"));
+      EXPECT_TRUE(WriteJson(EncodeCell(row)));
+    }
+  }
+}
+
+TEST(Row, WithAMetricThatNobodyDefinedBecomesBadOutput) {
+  Row row = SampleRow();
+  row.result.Measure("happiness", 1);
+  EXPECT_THAT(DecodeCell(EncodeCell(row), kPlace)->result.reason, HasSubstr("'happiness' is not in the catalogue"));
+}
+
+TEST(WriteJson, RefusesWhatJsonCannotHoldAndNamesItsPath) {
+  const Json json{{"a", {1, {{"b", std::numeric_limits<double>::quiet_NaN()}}}}};
+  const auto text = WriteJson(json);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().message, "/a/1/b is not a finite number");
+}
+
+TEST(Summary, SurvivesTheWayToAFileAndBack) {
+  ScenarioSummary scenario{"s", "ik", "q?", {"a", "b"}, {"position_error_cm"}, {}, {}};
+  scenario.conditions.push_back(
+      {{{"x", "1"}},
+       {{"a", {{Status::kOk, 3}, {Status::kCrashed, 1}}, {{"position_error_cm", 3, 1, 2.0, 2.5, 1.0, 3.0}}}},
+       {{"position_error_cm", "a", "b", 3, -1.0, -2.0, -0.5, 1, Verdict::kBetter}}});
+  scenario.expectations.push_back({"b below a", Outcome::kUndecided, "few"});
+  const auto text = WriteJson(EncodeSummaries({scenario}));
+  const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(*WriteJson(EncodeSummaries(*back)), *text);
+  EXPECT_EQ((*back)[0].conditions[0].comparisons[0].verdict, Verdict::kBetter);
+}
+
+TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "etude_torn_run";
+  std::filesystem::remove_all(folder);
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("no such folder"));
+  ASSERT_TRUE(SaveResults(folder, {SampleRow()}, {}));
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("manifest.json: no such file"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json", R"({"schema":1,"suite":"s","seed":1,"etude":"0"})"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
+  ASSERT_TRUE(LoadRun(folder)) << ToString(LoadRun(folder).error());
+  std::ofstream(folder / "cells.jsonl", std::ios::app) << R"({"cell":"x","scen)";
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("cells.jsonl:2: not valid JSON"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json", R"({"schema":99})"));
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("schema 99; this program reads 1"));
+}
+
+}  // namespace
+}  // namespace etude
