@@ -1,0 +1,18 @@
+#include <fmt/core.h>
+
+#include "bench/results/folder.h"
+#include "cli/commands.h"
+#include "reports/report.h"
+
+namespace etude {
+
+int ReportCommand(const std::string& folder, bool with_video) {
+  const auto run = LoadRun(folder);
+  if (!run) return Complain(run.error());
+  const auto written = WriteReport(*run, folder, {.pictures = with_video});
+  if (!written) return Complain(written.error());
+  fmt::print("{}/report/index.html\n", folder);
+  return kSuccess;
+}
+
+}  // namespace etude
