@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
 #include <vector>
 
@@ -12,21 +13,30 @@
 
 namespace etude {
 
+/// One colour for every Part, by its number.
+using PartColours = std::array<Rgb8, 16>;
+
 /// A person in the scene: its shape and the colour of each part.
 struct Figure {
   std::vector<Capsule> shape;
-  std::array<Rgb8, 16> colours{};  ///< by Part
+  PartColours colours{};
 };
 
-/// The colours of the captured performer: clothes whose hues stand apart from the room's.
-std::array<Rgb8, 16> PerformerColours();
-/// The colours of the coach.
-std::array<Rgb8, 16> CoachColours();
+/// The colours of the captured performer: clothes and skin of warm hues (335° over red to 45°), at
+/// least 85° of hue away from anything in the room, because segmentation compares hues.
+PartColours PerformerColours();
+/// The colours of the coach, told apart from the performer at a glance.
+PartColours CoachColours();
+
+/// The room's wall is the plane z = kWallZ, endless and seen from its front only; the floor is y = 0.
+constexpr double kWallZ = -2.5;
+/// Where the one lamp hangs, metres.
+constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 
 /// The room: a floor at y = 0 and a wall behind, both textured, lit by one lamp that casts shadows.
 struct Room {
   std::uint64_t texture_seed = 1;  ///< where the spots of the wall and floor lie
-  double brightness = 1.0;         ///< multiplies the light: exposure or lamp drift, hue kept
+  double brightness = 1.0;         ///< multiplies the light: exposure or lamp drift, hue kept; ≥ 0
   bool casts_shadows = true;
 };
 
@@ -36,8 +46,11 @@ struct View {
   DepthImage depth;   ///< metres along the viewing axis; infinity where only the clear colour is seen
 };
 
-/// Which pictures a caller needs; colour alone is the fastest.
+/// Which pictures a caller needs; colour alone is the fastest. The others are left empty.
 enum class Targets { kColour, kAll };
+
+/// The largest picture, pixels per side.
+constexpr int kLargestPicture = 4096;
 
 /// Draws rooms and people offscreen with OSMesa (the one door to GL). Not thread-safe: one renderer
 /// per process is enough, it can be used for cameras of any size.
@@ -48,8 +61,14 @@ class Renderer {
   ~Renderer();
 
   /// Draws `figures` (none = the background picture) in `room`, seen by `camera`. The same bytes every
-  /// time in the pinned environment (design.md §6). Pixel geometry is `Project`'s.
+  /// time in the pinned environment (design.md §6). Pixel geometry is `Project`'s, without smoothing of
+  /// edges. Pictures have 1 to `kLargestPicture` pixels a side. The camera stands above the floor and in
+  /// front of the wall; up to about 55° to the side, every pixel then shows floor, wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
+
+  /// The same picture with smooth edges, for people to look at: drawn at twice the size and averaged,
+  /// at about four times the cost. At most kLargestPicture / 2 wide and high.
+  ColourImage RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera);
 
  private:
   struct State;

@@ -1,0 +1,93 @@
+#include "sim/render/gl_context.h"
+
+#include <GL/osmesa.h>
+
+namespace etude {
+namespace {
+
+Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::string& source) {
+  const GLuint shader = gl.CreateShader(stage);
+  const char* text = source.c_str();
+  gl.ShaderSource(shader, 1, &text, nullptr);
+  gl.CompileShader(shader);
+  GLint compiled = 0;
+  gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+  if (compiled) return shader;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  gl.DeleteShader(shader);
+  return Fail({}, "this GL refuses one of Etude's shaders: {}", log);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<GlContext>> GlContext::Create() {
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_DEPTH_BITS,
+                            0,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0};
+  std::unique_ptr<GlContext> result(new GlContext);
+  result->context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+  if (!result->context_) return Fail({}, "OSMesa gives no OpenGL 3.3 core context");
+  result->MakeCurrent();
+#define ETUDE_GL_LOAD(type, name)                                                     \
+  result->functions_.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name)); \
+  if (!result->functions_.name) return Fail({}, "OSMesa lacks the OpenGL function gl{}", #name);
+  ETUDE_GL_FUNCTIONS(ETUDE_GL_LOAD)
+#undef ETUDE_GL_LOAD
+  return result;
+}
+
+GlContext::~GlContext() {
+  if (context_) OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+}
+
+void GlContext::MakeCurrent() {
+  OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), unused_framebuffer_.data(), GL_UNSIGNED_BYTE, 64, 64);
+}
+
+Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const std::string& fragment_source,
+                                      const std::vector<std::string>& attributes) const {
+  const GlFunctions& gl = functions_;
+  const auto vertex = CompileShader(gl, GL_VERTEX_SHADER, vertex_source);
+  if (!vertex) return tl::unexpected(vertex.error());
+  const auto fragment = CompileShader(gl, GL_FRAGMENT_SHADER, fragment_source);
+  if (!fragment) return tl::unexpected(fragment.error());
+  const GLuint program = gl.CreateProgram();
+  gl.AttachShader(program, *vertex);
+  gl.AttachShader(program, *fragment);
+  for (std::size_t i = 0; i < attributes.size(); ++i) {
+    gl.BindAttribLocation(program, static_cast<GLuint>(i), attributes[i].c_str());
+  }
+  gl.LinkProgram(program);
+  gl.DeleteShader(*vertex);
+  gl.DeleteShader(*fragment);
+  GLint linked = 0;
+  gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked) return program;
+  std::string log(4096, '\0');
+  GLsizei length = 0;
+  gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
+  log.resize(static_cast<std::size_t>(length));
+  return Fail({}, "this GL does not link one of Etude's shader programs: {}", log);
+}
+
+GLuint MakeUnfilteredTexture(const GlFunctions& gl) {
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+}  // namespace etude

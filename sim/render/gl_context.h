@@ -1,0 +1,111 @@
+#pragma once
+
+// The door to GL: only the .cc files of this folder include this header.
+#include <GL/glcorearb.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+// Every GL function that this folder calls. They are asked of OSMesa by name, because the ready-made
+// loaders (libepoxy, GLEW) do not work with it.
+#define ETUDE_GL_FUNCTIONS(X)                                  \
+  X(PFNGLATTACHSHADERPROC, AttachShader)                       \
+  X(PFNGLBINDATTRIBLOCATIONPROC, BindAttribLocation)           \
+  X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
+  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
+  X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)               \
+  X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
+  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
+  X(PFNGLBLENDEQUATIONPROC, BlendEquation)                     \
+  X(PFNGLBUFFERDATAPROC, BufferData)                           \
+  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
+  X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
+  X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
+  X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
+  X(PFNGLCREATESHADERPROC, CreateShader)                       \
+  X(PFNGLCULLFACEPROC, CullFace)                               \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
+  X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)         \
+  X(PFNGLDELETESHADERPROC, DeleteShader)                       \
+  X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
+  X(PFNGLDISABLEPROC, Disable)                                 \
+  X(PFNGLDISABLEIPROC, Disablei)                               \
+  X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
+  X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)         \
+  X(PFNGLDRAWBUFFERSPROC, DrawBuffers)                         \
+  X(PFNGLENABLEPROC, Enable)                                   \
+  X(PFNGLENABLEIPROC, Enablei)                                 \
+  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
+  X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
+  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
+  X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
+  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
+  X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
+  X(PFNGLGENTEXTURESPROC, GenTextures)                         \
+  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
+  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
+  X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
+  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
+  X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
+  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
+  X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
+  X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
+  X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
+  X(PFNGLREADPIXELSPROC, ReadPixels)                           \
+  X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
+  X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
+  X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
+  X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
+  X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
+  X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
+  X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
+  X(PFNGLUNIFORM3FPROC, Uniform3f)                             \
+  X(PFNGLUNIFORM4FVPROC, Uniform4fv)                           \
+  X(PFNGLUNIFORMMATRIX3FVPROC, UniformMatrix3fv)               \
+  X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
+  X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)         \
+  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
+  X(PFNGLVIEWPORTPROC, Viewport)
+
+/// The GL functions, without their prefix: `gl.Clear(…)`.
+struct GlFunctions {
+#define ETUDE_GL_MEMBER(type, name) type name = nullptr;
+  ETUDE_GL_FUNCTIONS(ETUDE_GL_MEMBER)
+#undef ETUDE_GL_MEMBER
+};
+
+/// An offscreen GL 3.3 core context. Everything is drawn into framebuffer objects of our own.
+class GlContext {
+ public:
+  /// Fails when OSMesa has no such context or lacks a function, saying which.
+  static Result<std::unique_ptr<GlContext>> Create();
+  ~GlContext();
+  GlContext(const GlContext&) = delete;
+  GlContext& operator=(const GlContext&) = delete;
+
+  void MakeCurrent();
+  const GlFunctions& functions() const { return functions_; }
+
+  /// Compiles and links; `attributes` get the locations 0, 1, 2, … in order. The shader's own
+  /// messages travel in the error.
+  Result<GLuint> LinkProgram(const std::string& vertex_source, const std::string& fragment_source,
+                             const std::vector<std::string>& attributes = {}) const;
+
+ private:
+  GlContext() = default;
+
+  void* context_ = nullptr;
+  GlFunctions functions_;
+  // OSMesa insists on a default framebuffer, however small; nothing is drawn there.
+  std::vector<unsigned char> unused_framebuffer_ = std::vector<unsigned char>(64 * 64 * 4);
+};
+
+/// A texture whose texels are read one by one, left bound.
+GLuint MakeUnfilteredTexture(const GlFunctions& gl);
+
+}  // namespace etude

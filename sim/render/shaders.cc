@@ -1,0 +1,317 @@
+#include "sim/render/shaders.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kVersion = "#version 330 core\n";
+
+// The pixel's ray and where it meets the empty room.
+constexpr const char* kRoomGeometry = R"glsl(
+uniform mat3 ray_of_pixel;  // (u, v, 1) -> direction in E, of length 1 along the viewing axis
+uniform vec3 eye;           // the camera's centre in the world
+uniform vec3 lamp;          // in the world
+uniform float wall_z;
+
+const float kInfinity = uintBitsToFloat(0x7f800000u);
+
+vec3 PixelRay() { return ray_of_pixel * vec3(gl_FragCoord.xy, 1.0); }
+
+struct RoomHit {
+  float depth;  // along the viewing axis; infinity when nothing is met
+  bool is_wall;
+};
+
+RoomHit MeetRoom(vec3 ray) {
+  float floor_depth = ray.y < 0.0 && eye.y > 0.0 ? -eye.y / ray.y : kInfinity;
+  float wall_depth = ray.z < 0.0 && eye.z > wall_z ? (wall_z - eye.z) / ray.z : kInfinity;
+  return RoomHit(min(floor_depth, wall_depth), wall_depth < floor_depth);
+}
+
+// The light of a room's surface: x = what is left in shadow, y = what the lamp adds.
+vec2 RoomLight(vec3 point, vec3 normal) {
+  vec3 to_lamp = lamp - point;
+  float square = dot(to_lamp, to_lamp);
+  float slant = max(dot(normal, to_lamp) / sqrt(square), 0.0);
+  return vec2(0.54, 1.05 * slant * 60.0 / (50.0 + square));
+}
+
+vec3 RoomNormal(bool is_wall) { return is_wall ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0); }
+)glsl";
+
+constexpr const char* kRoomPaint = R"glsl(
+uniform vec4 floor_tiles[64];
+uniform vec4 wall_tiles[64];
+uniform float pixel_angle;  // the width of a pixel at depth 1
+
+out vec4 room;
+
+int Wrap(float tile) { return int(tile - 8.0 * floor(tile / 8.0)); }
+
+// Hues stay between 140 and 240 degrees: people wear the others.
+vec3 SpotPaint(float tone, bool is_wall) {
+  float pick = fract(tone * 7.0);
+  if (!is_wall) return mix(vec3(0.26, 0.50, 0.62), vec3(0.34, 0.60, 0.64), pick);
+  if (pick < 0.34) return vec3(0.24, 0.58, 0.48);
+  if (pick < 0.67) return vec3(0.28, 0.48, 0.72);
+  return vec3(0.44, 0.74, 0.74);
+}
+
+vec3 Paint(vec2 place, bool is_wall, float blur) {
+  float size = is_wall ? 0.85 : 0.6;
+  vec2 tile = floor(place / size);
+  vec2 within = place / size - tile;
+  int index = Wrap(tile.x) + 8 * Wrap(tile.y);
+  vec4 pattern = is_wall ? wall_tiles[index] : floor_tiles[index];
+  blur /= size;
+
+  vec3 paint = is_wall ? mix(vec3(0.34, 0.62, 0.62), vec3(0.36, 0.56, 0.68), pattern.w)
+                       : mix(vec3(0.30, 0.42, 0.62), vec3(0.36, 0.48, 0.70), pattern.w);
+  float spot = 1.0 - smoothstep(-blur, blur, distance(within, pattern.xy) - pattern.z);
+  paint = mix(paint, SpotPaint(pattern.w, is_wall), pattern.z > 0.0 ? 0.85 * spot : 0.0);
+
+  float to_joint = min(min(within.x, 1.0 - within.x), min(within.y, 1.0 - within.y));
+  float joint = 1.0 - smoothstep(-blur, blur, to_joint - 0.008);
+  return paint * (1.0 - (is_wall ? 0.10 : 0.20) * joint);
+}
+
+void main() {
+  vec3 ray = PixelRay();
+  RoomHit hit = MeetRoom(ray);
+  if (hit.depth == kInfinity) {
+    room = vec4(0.30, 0.40, 0.50, kInfinity);
+    return;
+  }
+  vec3 point = eye + hit.depth * ray;
+  vec2 light = RoomLight(point, RoomNormal(hit.is_wall));
+  float blur = 0.7 * hit.depth * pixel_angle;
+  vec3 paint = Paint(hit.is_wall ? point.xy : point.xz, hit.is_wall, blur);
+  // A skirting board ends the wall.
+  if (hit.is_wall) paint *= 1.0 - 0.35 * (1.0 - smoothstep(-blur, blur, point.y - 0.09));
+  room = vec4(paint * (light.x + light.y), hit.depth);
+}
+)glsl";
+
+constexpr const char* kBackdrop = R"glsl(
+uniform sampler2D kept_room;
+uniform float brightness;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+layout(location = 2) out float depth;
+
+void main() {
+  vec4 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0);
+  colour = vec4(room.rgb * brightness, 1.0);
+  label = 0u;
+  depth = room.a;
+}
+)glsl";
+
+// One instance per capsule; its box is a strip of 14 corners.
+constexpr const char* kBox = R"glsl(
+in vec4 start_and_radius;  // in E
+in vec4 end_and_label;
+in vec4 paint_in;          // rgb; a = 1 for a head with a face
+in vec3 front_in;          // where the face looks
+
+uniform mat3 image_of_direction;  // E -> (u w, v w, w)
+uniform vec2 image_size;
+
+flat out vec4 capsule_start;
+flat out vec4 capsule_end;
+flat out vec4 paint;
+flat out vec3 front;
+
+vec3 BoxCorner() {
+  vec3 start = start_and_radius.xyz, end = end_and_label.xyz;
+  float radius = 1.01 * start_and_radius.w;
+  float span = distance(start, end);
+  vec3 along = span > 0.0 ? (end - start) / span : vec3(0.0, 1.0, 0.0);
+  vec3 across = normalize(cross(along, abs(along.y) < 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
+  vec3 third = cross(along, across);
+  int bit = 1 << gl_VertexID;
+  vec3 side = vec3((0x287a & bit) != 0, (0x02af & bit) != 0, (0x31e3 & bit) != 0) * 2.0 - 1.0;
+  return 0.5 * (start + end) + along * side.x * (0.5 * span + radius) + (across * side.y + third * side.z) * radius;
+}
+
+void Place(vec3 point) {
+  vec3 image = image_of_direction * point;
+  // Row 0 of the framebuffer is the picture's top row, so nothing needs to be flipped. Depth is
+  // written per pixel; z = 0 keeps near boxes from being cut.
+  gl_Position = vec4(2.0 * image.xy / image_size - image.z, 0.0, image.z);
+  capsule_start = start_and_radius;
+  capsule_end = end_and_label;
+  paint = paint_in;
+  front = front_in;
+}
+)glsl";
+
+constexpr const char* kBodyPlace = R"glsl(
+void main() { Place(BoxCorner()); }
+)glsl";
+
+constexpr const char* kShadowPlace = R"glsl(
+uniform vec3 eye;
+uniform vec3 lamp;
+uniform float wall_z;
+uniform bool onto_wall;
+
+void main() {
+  vec3 lamp_E = lamp - eye;
+  vec3 from_lamp = BoxCorner() - lamp_E;
+  float reach = onto_wall ? lamp.z - wall_z : lamp.y;
+  // A corner level with the lamp would throw its shadow to infinity: far is enough.
+  float fall = max(onto_wall ? -from_lamp.z : -from_lamp.y, 0.05);
+  Place(lamp_E + from_lamp * (reach / fall));
+}
+)glsl";
+
+constexpr const char* kBody = R"glsl(
+uniform float brightness;
+uniform float farthest;
+
+flat in vec4 capsule_start;
+flat in vec4 capsule_end;
+flat in vec4 paint;
+flat in vec3 front;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+layout(location = 2) out float depth;
+
+// The depth at which `ray` enters the capsule, or infinity. The ray's start is moved next to the
+// capsule first: far away, the difference of squares would lose most of a float's digits.
+float MeetCapsule(vec3 ray) {
+  vec3 start = capsule_start.xyz, along = capsule_end.xyz - start;
+  float radius = capsule_start.w;
+  float square = dot(ray, ray);
+  float shift = dot(start + 0.5 * along, ray) / square;
+  vec3 origin = shift * ray - start;
+
+  float along_along = dot(along, along), along_ray = dot(along, ray), along_origin = dot(along, origin);
+  float a = along_along * square - along_ray * along_ray;
+  float b = along_along * dot(origin, ray) - along_origin * along_ray;
+  float c = along_along * (dot(origin, origin) - radius * radius) - along_origin * along_origin;
+  float h = b * b - a * c;
+  if (along_along > 0.0 && h < 0.0) return kInfinity;
+
+  // First the endless cylinder; beyond its ends, the half-sphere of that end.
+  float cylinder = -(b + sqrt(max(h, 0.0))) / max(a, 1e-20);
+  float share = along_origin + cylinder * along_ray;
+  if (along_along > 0.0 && share > 0.0 && share < along_along) return shift + cylinder;
+  vec3 from_end = share <= 0.0 ? origin : origin - along;
+  b = dot(from_end, ray);
+  h = b * b - square * (dot(from_end, from_end) - radius * radius);
+  return h < 0.0 ? kInfinity : shift - (b + sqrt(h)) / square;
+}
+
+vec3 Normal(vec3 point) {
+  vec3 along = capsule_end.xyz - capsule_start.xyz, from_start = point - capsule_start.xyz;
+  float share = clamp(dot(from_start, along) / max(dot(along, along), 1e-20), 0.0, 1.0);
+  return (from_start - share * along) / capsule_start.w;
+}
+
+// Hair, eyes and a smile, so that one sees where the person looks.
+vec3 FacePaint(vec3 skin, vec3 point) {
+  vec3 middle = 0.5 * (capsule_start.xyz + capsule_end.xyz);
+  vec3 upward = capsule_end.xyz - capsule_start.xyz;
+  float height = length(upward);
+  upward = height > 0.0 ? upward / height : vec3(0.0, 1.0, 0.0);
+  vec3 forward = front - dot(front, upward) * upward;
+  forward /= max(length(forward), 1e-6);
+  vec3 place = (point - middle) / capsule_start.w;
+  vec3 face = vec3(dot(place, cross(upward, forward)), dot(place, upward), dot(place, forward));
+
+  if (face.y - 0.75 * face.z > 0.25) return vec3(0.26, 0.13, 0.08);
+  if (face.z < 0.0) return skin;
+  if (length(vec2(abs(face.x) - 0.36, 0.7 * (face.y - 0.05))) < 0.11) return vec3(0.16, 0.08, 0.06);
+  float smile = abs(length(vec2(face.x, face.y + 0.22)) - 0.34);
+  if (smile < 0.05 && face.y < -0.40) return vec3(0.62, 0.20, 0.18);
+  return skin;
+}
+
+void main() {
+  vec3 ray = PixelRay();
+  depth = MeetCapsule(ray);
+  if (!(depth > 0.0 && depth < MeetRoom(ray).depth && depth < farthest)) discard;
+  vec3 point = depth * ray;
+  vec3 normal = Normal(point);
+
+  vec3 skin = paint.rgb;
+  if (paint.a > 0.5) skin = FacePaint(skin, point);
+  vec3 to_lamp = normalize(lamp - eye - point);
+  float facing = max(-dot(normal, normalize(ray)), 0.0);
+  float sky = 0.5 + 0.5 * normal.y;
+  float sun = max((dot(normal, to_lamp) + 0.2) / 1.2, 0.0);
+  float rim = (1.0 - facing) * (1.0 - facing) * (1.0 - facing);
+  float light = 0.36 + 0.18 * sky + 0.52 * sun;
+  colour = vec4((skin * light + 0.12 * rim * sky) * brightness, 1.0);
+  label = uint(capsule_end.w);
+  gl_FragDepth = depth / farthest;
+}
+)glsl";
+
+constexpr const char* kShadow = R"glsl(
+uniform sampler2D kept_room;
+uniform float brightness;
+uniform bool onto_wall;
+
+flat in vec4 capsule_start;
+flat in vec4 capsule_end;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+
+// The squared distance between the segments p1-q1 and p2-q2 (Ericson 2005, section 5.1.9).
+float SquaredDistance(vec3 p1, vec3 q1, vec3 p2, vec3 q2) {
+  vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
+  float a = dot(d1, d1), e = dot(d2, d2), f = dot(d2, r), c = dot(d1, r), b = dot(d1, d2);
+  float denominator = a * e - b * b;
+  float s = denominator > 1e-12 ? clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
+  float t = e > 0.0 ? clamp((b * s + f) / e, 0.0, 1.0) : 0.0;
+  s = clamp((b * t - c) / a, 0.0, 1.0);
+  vec3 gap = p1 + s * d1 - p2 - t * d2;
+  return dot(gap, gap);
+}
+
+void main() {
+  vec3 ray = PixelRay();
+  RoomHit hit = MeetRoom(ray);
+  if (hit.is_wall != onto_wall || hit.depth == kInfinity) discard;
+  vec3 point = hit.depth * ray, lamp_E = lamp - eye;
+  // How deep the light's way runs inside the capsule: 0 at its skin, 1 at its axis.
+  float gap = sqrt(SquaredDistance(point, lamp_E, capsule_start.xyz, capsule_end.xyz));
+  float inside = 1.0 - gap / capsule_start.w;
+  if (inside <= 0.0) discard;
+
+  // Softer the farther the shadow falls; the outermost edge is where the label ends.
+  float softness = clamp(0.2 * distance(point, capsule_start.xyz), 0.15, 0.6);
+  vec2 light = RoomLight(eye + point, RoomNormal(hit.is_wall));
+  float left_over = 1.0 - smoothstep(0.0, softness, inside) * light.y / (light.x + light.y);
+  vec3 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).rgb;
+  colour = vec4(room * (brightness * left_over), 1.0);
+  label = 1u;
+}
+)glsl";
+
+std::string Assemble(std::initializer_list<const char*> pieces) {
+  std::string source = kVersion;
+  for (const char* piece : pieces) source += piece;
+  return source;
+}
+
+}  // namespace
+
+std::string FullScreenVertexShader() {
+  return Assemble({R"glsl(
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
+)glsl"});
+}
+std::string RoomFragmentShader() { return Assemble({kRoomGeometry, kRoomPaint}); }
+std::string BackdropFragmentShader() { return Assemble({kBackdrop}); }
+std::string BodyVertexShader() { return Assemble({kBox, kBodyPlace}); }
+std::string BodyFragmentShader() { return Assemble({kRoomGeometry, kBody}); }
+std::string ShadowVertexShader() { return Assemble({kBox, kShadowPlace}); }
+std::string ShadowFragmentShader() { return Assemble({kRoomGeometry, kShadow}); }
+
+}  // namespace etude

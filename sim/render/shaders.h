@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+namespace etude {
+
+// The GLSL programs. All of them work per pixel: a pixel's viewing ray meets planes and capsules in
+// closed form, so edges, labels and depths are exact and no mesh is needed.
+//
+// Frame E: the world's axes, with the origin at the camera's centre (keeps floats small).
+
+/// Covers the whole picture.
+std::string FullScreenVertexShader();
+/// The empty room: RGB = its colour at brightness 1, A = its depth. Drawn once per camera, then kept.
+std::string RoomFragmentShader();
+/// Copies the kept room into the picture.
+std::string BackdropFragmentShader();
+/// A box around each capsule, drawn only to find the pixels worth asking.
+std::string BodyVertexShader();
+std::string BodyFragmentShader();
+/// The same box, thrown from the lamp onto the floor or the wall.
+std::string ShadowVertexShader();
+std::string ShadowFragmentShader();
+
+}  // namespace etude
