@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -44,7 +45,8 @@ std::vector<Capsule> BodyCapsules(const BodyPose& pose);
 /// starts inside the capsule meets it at 0.
 double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// Whether some part other than those ending in `role` stands between `eye` and the joint.
+/// Whether some part other than those ending in `role` stands between `eye` and the joint: clearly
+/// (2 cm) before the skin that the eye would see there. `body` is `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
 
 }  // namespace etude

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
-#include "engine/motion/clip.h"
+#include "sim/choreography/move_curves.h"
 
 namespace etude {
 
@@ -14,7 +14,7 @@ namespace etude {
 struct KeyPose {
   struct Target {
     std::string feature;  ///< one of paper A's ten features: "RH", "LHE", … (engine/fuzzy)
-    double degrees;
+    double degrees;       ///< for Posture: its scale, standing = 80
     double tolerance_deg;
   };
   double beat = 0;  ///< when it is reached, counted from the move's first beat
@@ -23,12 +23,13 @@ struct KeyPose {
 
 /// A built-in move, authored as key poses in scenarios/choreography/*.yaml.
 struct Move {
-  std::string name;    ///< "clap"
+  std::string name;  ///< "clap"
   double tempo_bpm = 120;
-  double beats = 8;    ///< length of one performance
-  bool loops = true;   ///< the end joins the start
+  double beats = 8;   ///< length of one performance
+  bool loops = true;  ///< the end joins the start: true of every built-in move
   std::vector<KeyPose> key_poses;
-  BodyMotion motion;   ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
+  MoveCurves curves;  ///< the same performance before joints were made of it, over `beats` beats
+  BodyMotion motion;  ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
 };
 
 /// The names of all built-in moves, sorted.

@@ -1,0 +1,213 @@
+#include "sim/body/shape.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Radii as shares of the length named: chosen so that a 1.70 m body looks like a dressed adult.
+constexpr double kUpperArmPerLength = 0.155;
+constexpr double kForearmPerLength = 0.145;
+constexpr double kHandPerForearm = 0.13;  // files often end the hand at the wrist: its own bone is no measure
+constexpr double kThighPerLength = 0.165;
+constexpr double kShankPerLength = 0.12;
+constexpr double kFootPerShank = 0.068;
+constexpr double kPelvisPerTrunk = 0.195;
+constexpr double kFlankPerTrunk = 0.19;
+constexpr double kChestPerTrunk = 0.215;
+constexpr double kShoulderPerTrunk = 0.13;
+constexpr double kNeckPerTrunk = 0.11;
+constexpr double kHeadPerTrunk = 0.185;
+constexpr double kSkullPerTrunk = 0.06;       // half the length of the head's axis
+constexpr double kNeckToHeadPerTrunk = 0.34;  // files end the head at its middle or at its top
+
+struct Limb {
+  Part part;
+  Role from, to;
+  Role measured_from, measured_to;  // the bone whose length gives the radius
+  double radius_per_length;
+};
+
+constexpr std::array<Limb, 12> kLimbs = {{
+    {Part::kLeftUpperArm, kLeftShoulder, kLeftElbow, kLeftShoulder, kLeftElbow, kUpperArmPerLength},
+    {Part::kLeftForearm, kLeftElbow, kLeftWrist, kLeftElbow, kLeftWrist, kForearmPerLength},
+    {Part::kLeftHand, kLeftWrist, kLeftHand, kLeftElbow, kLeftWrist, kHandPerForearm},
+    {Part::kRightUpperArm, kRightShoulder, kRightElbow, kRightShoulder, kRightElbow, kUpperArmPerLength},
+    {Part::kRightForearm, kRightElbow, kRightWrist, kRightElbow, kRightWrist, kForearmPerLength},
+    {Part::kRightHand, kRightWrist, kRightHand, kRightElbow, kRightWrist, kHandPerForearm},
+    {Part::kLeftThigh, kLeftHip, kLeftKnee, kLeftHip, kLeftKnee, kThighPerLength},
+    {Part::kLeftShank, kLeftKnee, kLeftAnkle, kLeftKnee, kLeftAnkle, kShankPerLength},
+    {Part::kLeftFoot, kLeftAnkle, kLeftFoot, kLeftKnee, kLeftAnkle, kFootPerShank},
+    {Part::kRightThigh, kRightHip, kRightKnee, kRightHip, kRightKnee, kThighPerLength},
+    {Part::kRightShank, kRightKnee, kRightAnkle, kRightKnee, kRightAnkle, kShankPerLength},
+    {Part::kRightFoot, kRightAnkle, kRightFoot, kRightKnee, kRightAnkle, kFootPerShank},
+}};
+
+/// The parts whose flesh a joint lies in: at most two.
+struct OwnParts {
+  Part first, second;
+};
+
+OwnParts OwnPartsOf(Role role) {
+  switch (role) {
+    case kHipCentre:
+    case kSpine:
+      return {Part::kTrunk, Part::kTrunk};
+    case kShoulderCentre:
+      return {Part::kTrunk, Part::kHead};
+    case kHead:
+      return {Part::kHead, Part::kHead};
+    case kLeftShoulder:
+      return {Part::kTrunk, Part::kLeftUpperArm};
+    case kLeftElbow:
+      return {Part::kLeftUpperArm, Part::kLeftForearm};
+    case kLeftWrist:
+      return {Part::kLeftForearm, Part::kLeftHand};
+    case kLeftHand:
+      return {Part::kLeftHand, Part::kLeftHand};
+    case kRightShoulder:
+      return {Part::kTrunk, Part::kRightUpperArm};
+    case kRightElbow:
+      return {Part::kRightUpperArm, Part::kRightForearm};
+    case kRightWrist:
+      return {Part::kRightForearm, Part::kRightHand};
+    case kRightHand:
+      return {Part::kRightHand, Part::kRightHand};
+    case kLeftHip:
+      return {Part::kTrunk, Part::kLeftThigh};
+    case kLeftKnee:
+      return {Part::kLeftThigh, Part::kLeftShank};
+    case kLeftAnkle:
+      return {Part::kLeftShank, Part::kLeftFoot};
+    case kLeftFoot:
+      return {Part::kLeftFoot, Part::kLeftFoot};
+    case kRightHip:
+      return {Part::kTrunk, Part::kRightThigh};
+    case kRightKnee:
+      return {Part::kRightThigh, Part::kRightShank};
+    case kRightAnkle:
+      return {Part::kRightShank, Part::kRightFoot};
+    case kRightFoot:
+      return {Part::kRightFoot, Part::kRightFoot};
+  }
+  return {Part::kTrunk, Part::kTrunk};
+}
+
+double TrunkLength(const BodyPose& pose) {
+  return glm::distance(pose[kHipCentre], pose[kSpine]) + glm::distance(pose[kSpine], pose[kShoulderCentre]);
+}
+
+void AddTrunk(const BodyPose& pose, std::vector<Capsule>& body) {
+  const double length = TrunkLength(pose);
+  // The ribs' widest points lie between the middle of the back and the shoulders.
+  constexpr double kRibs = 0.45;
+  const glm::dvec3 middle = 0.5 * (pose[kSpine] + pose[kShoulderCentre]);
+  const glm::dvec3 left_rib = glm::mix(middle, pose[kLeftShoulder], kRibs);
+  const glm::dvec3 right_rib = glm::mix(middle, pose[kRightShoulder], kRibs);
+  const auto add = [&](const glm::dvec3& a, const glm::dvec3& b, double share) {
+    body.push_back({Part::kTrunk, a, b, share * length});
+  };
+  add(pose[kLeftHip], pose[kRightHip], kPelvisPerTrunk);
+  add(pose[kHipCentre], pose[kSpine], kChestPerTrunk);
+  add(pose[kSpine], middle, kChestPerTrunk);
+  add(pose[kLeftHip], left_rib, kFlankPerTrunk);
+  add(pose[kRightHip], right_rib, kFlankPerTrunk);
+  add(left_rib, right_rib, kChestPerTrunk);
+  add(pose[kLeftShoulder], pose[kRightShoulder], kShoulderPerTrunk);
+}
+
+void AddHead(const BodyPose& pose, std::vector<Capsule>& body) {
+  const double trunk = TrunkLength(pose);
+  const glm::dvec3 neck = pose[kHead] - pose[kShoulderCentre];
+  const double length = glm::length(neck);
+  const glm::dvec3 up = length > 0 ? neck / length : glm::dvec3(0, 1, 0);
+  const glm::dvec3 middle = pose[kShoulderCentre] + up * std::min(length, kNeckToHeadPerTrunk * trunk);
+  body.push_back({Part::kHead, pose[kShoulderCentre], middle, kNeckPerTrunk * trunk});
+  const glm::dvec3 half = up * (kSkullPerTrunk * trunk);
+  body.push_back({Part::kHead, middle - half, middle + half, kHeadPerTrunk * trunk});
+}
+
+/// The smaller root of t² + 2bt + c = 0 when the ray enters from outside, else infinity.
+double EntryRoot(double b, double c) {
+  const double discriminant = b * b - c;
+  if (discriminant < 0) return kInfinity;
+  const double t = -b - std::sqrt(discriminant);
+  return t >= 0 ? t : kInfinity;
+}
+
+double SphereEntry(const glm::dvec3& centre, double radius, const glm::dvec3& origin, const glm::dvec3& direction) {
+  const glm::dvec3 from = origin - centre;
+  return EntryRoot(glm::dot(from, direction), glm::dot(from, from) - radius * radius);
+}
+
+bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
+  const glm::dvec3 axis = capsule.b - capsule.a;
+  const double squared = glm::dot(axis, axis);
+  const double along = squared > 0 ? std::clamp(glm::dot(point - capsule.a, axis) / squared, 0.0, 1.0) : 0.0;
+  const glm::dvec3 off = point - (capsule.a + along * axis);
+  return glm::dot(off, off) <= capsule.radius * capsule.radius;
+}
+
+/// Where the ray enters the round side of the capsule, its half-spheres aside.
+double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+  const glm::dvec3 axis = capsule.b - capsule.a;
+  const double length = glm::length(axis);
+  if (length == 0) return kInfinity;
+  const glm::dvec3 unit = axis / length;
+  const glm::dvec3 from = origin - capsule.a;
+  const glm::dvec3 across = direction - glm::dot(direction, unit) * unit;
+  const glm::dvec3 from_across = from - glm::dot(from, unit) * unit;
+  const double scale = glm::dot(across, across);
+  constexpr double kParallel = 1e-18;  // squared sine: the half-spheres are met first then
+  if (scale < kParallel) return kInfinity;
+  const double t = EntryRoot(glm::dot(from_across, across) / scale,
+                             (glm::dot(from_across, from_across) - capsule.radius * capsule.radius) / scale);
+  const double along = glm::dot(from + t * direction, unit);
+  return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
+}
+
+}  // namespace
+
+std::vector<Capsule> BodyCapsules(const BodyPose& pose) {
+  std::vector<Capsule> body;
+  body.reserve(kLimbs.size() + 9);
+  AddTrunk(pose, body);
+  AddHead(pose, body);
+  for (const Limb& limb : kLimbs) {
+    const double length = glm::distance(pose[limb.measured_from], pose[limb.measured_to]);
+    body.push_back({limb.part, pose[limb.from], pose[limb.to], limb.radius_per_length * length});
+  }
+  return body;
+}
+
+double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+  if (IsInside(capsule, origin)) return 0;
+  return std::min({SideEntry(capsule, origin, direction), SphereEntry(capsule.a, capsule.radius, origin, direction),
+                   SphereEntry(capsule.b, capsule.radius, origin, direction)});
+}
+
+bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
+  const glm::dvec3 line = pose[role] - eye;
+  const double distance = glm::length(line);
+  if (distance == 0) return false;
+  const glm::dvec3 direction = line / distance;
+  const auto [first, second] = OwnPartsOf(role);
+  double own = distance, other = kInfinity;
+  for (const Capsule& capsule : body) {
+    const double hit = HitDistance(capsule, eye, direction);
+    double& nearest = capsule.part == first || capsule.part == second ? own : other;
+    nearest = std::min(nearest, hit);
+  }
+  // Parts that touch (a hand on the hip) hide nothing: the other must stand clearly before the skin.
+  constexpr double kClearance = 0.02;
+  return other < own - kClearance;
+}
+
+}  // namespace etude

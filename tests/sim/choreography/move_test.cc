@@ -1,0 +1,227 @@
+#include "sim/choreography/move.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "engine/fuzzy/features.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/choreography/reach.h"
+#include "sim/choreography/stance.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const std::vector<Move>& AllMoves() {
+  static const std::vector<Move> moves = [] {
+    std::vector<Move> loaded;
+    for (const std::string& name : BuiltinMoveNames()) {
+      auto move = LoadBuiltinMove(name);
+      EXPECT_TRUE(move) << ToString(move.error());
+      if (move) loaded.push_back(std::move(*move));
+    }
+    return loaded;
+  }();
+  return moves;
+}
+
+const BodyPose& FrameAt(const Move& move, double beat) {
+  const std::size_t frames = move.motion.poses.size();
+  return move.motion
+      .poses[static_cast<std::size_t>(std::lround(beat / move.beats * static_cast<double>(frames))) % frames];
+}
+
+double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < kRoleCount; ++i) worst = std::max(worst, glm::distance(a.joints[i], b.joints[i]));
+  return worst;
+}
+
+TEST(BuiltinMoves, AreTheTenOfThePaperAndABird) {
+  EXPECT_THAT(BuiltinMoveNames(), testing::ElementsAre("aerobic", "bird", "boxing", "clap", "fast_sway", "jump",
+                                                       "robot", "side_kick", "side_stretch", "stretch", "sway"));
+  for (const Move& move : AllMoves()) EXPECT_THAT(BuiltinMoveNames(), testing::Contains(move.name));
+}
+
+TEST(BuiltinMoves, LastAsLongAsTheirBeatsSay) {
+  for (const Move& move : AllMoves()) {
+    EXPECT_NEAR(move.motion.DurationSeconds(), move.beats * 60 / move.tempo_bpm, 0.5 / kJudgedRateHz) << move.name;
+  }
+}
+
+TEST(BuiltinMoves, ShowEveryKeyPoseAtItsBeatWithRoomToSpare) {
+  const double standing = StandingHipHeight(StandingPose());
+  for (const Move& move : AllMoves()) {
+    for (const KeyPose& key_pose : move.key_poses) {
+      const PoseFeatures features = ComputeFeatures(FrameAt(move, key_pose.beat), standing);
+      for (const KeyPose::Target& target : key_pose.targets) {
+        EXPECT_NEAR(features[*FindFeature(target.feature)], target.degrees, 0.25 * target.tolerance_deg)
+            << move.name << " " << target.feature << " at beat " << key_pose.beat;
+      }
+    }
+  }
+}
+
+TEST(BuiltinMoves, AreNotReachedByStandingStill) {
+  const BodyMotion still = {.poses = {PoseOf(ReadyStance()), StandingPose()}};
+  for (const Move& move : AllMoves()) {
+    EXPECT_FALSE(FirstReached(move.key_poses, still, 0, 1)) << move.name;
+    for (const KeyPose& key_pose : move.key_poses) {
+      EXPECT_FALSE(ShowsKeyPose(key_pose, StandingPose(), StandingHipHeight(StandingPose()))) << move.name;
+    }
+  }
+}
+
+TEST(BuiltinMoves, AreToldApartByTheirKeyPoses) {
+  for (const Move& asked : AllMoves()) {
+    for (const Move& danced : AllMoves()) {
+      const bool reached = FirstReached(asked.key_poses, danced.motion, 0, danced.motion.DurationSeconds()).has_value();
+      EXPECT_EQ(reached, asked.name == danced.name) << danced.name << " danced for " << asked.name;
+    }
+  }
+}
+
+TEST(BuiltinMoves, LoopWithoutASeam) {
+  for (const Move& move : AllMoves()) {
+    const auto& poses = move.motion.poses;
+    double within = 0;
+    for (std::size_t i = 1; i < poses.size(); ++i)
+      within = std::max(within, WorstJointDistance(poses[i], poses[i - 1]));
+    EXPECT_LE(WorstJointDistance(poses.front(), poses.back()), within) << move.name;
+    EXPECT_LT(WorstJointDistance(PoseOf(move.curves.At(move.beats)), poses.front()), 1e-9) << move.name;
+  }
+}
+
+TEST(BuiltinMoves, StartNearTheReadyStance) {
+  for (const Move& move : AllMoves()) {
+    const BodyPose ready = PoseOf(ReadyStance());
+    for (Role role : {Role::kLeftFoot, Role::kRightFoot}) {
+      EXPECT_LT(glm::distance(move.motion.poses.front()[role], ready[role]), 0.02) << move.name;
+    }
+    EXPECT_LT(glm::distance(move.motion.poses.front()[Role::kHipCentre], ready[Role::kHipCentre]), 0.12) << move.name;
+  }
+}
+
+TEST(BuiltinMoves, NeverMoveFasterThanADancer) {
+  constexpr double kFastest = 8.0;  // m/s: a quick punch of a trained amateur
+  for (const Move& move : AllMoves()) {
+    const auto& poses = move.motion.poses;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      EXPECT_LT(WorstJointDistance(poses[i], poses[(i + 1) % poses.size()]) * kJudgedRateHz, kFastest) << move.name;
+    }
+  }
+}
+
+/// metrics.md's foot slide of one foot's toe, cm/s, over one loop.
+double FootSlide(const BodyMotion& motion, Role toe) {
+  double sum = 0;
+  const std::size_t frames = motion.poses.size();
+  for (std::size_t i = 0; i < frames; ++i) {
+    const glm::dvec3 here = motion.poses[i][toe], there = motion.poses[(i + 1) % frames][toe];
+    const double height_cm = 100 * (here.y - CanonicalBody::kToeHeight);
+    const double speed_cmps = 100 * std::hypot(there.x - here.x, there.z - here.z) * motion.rate_hz;
+    sum += speed_cmps * glm::clamp(2 - std::exp2(height_cm / 2.5), 0.0, 1.0);
+  }
+  return sum / static_cast<double>(frames);
+}
+
+TEST(BuiltinMoves, KeepTheirFeetWhereTheyStand) {
+  for (const Move& move : AllMoves()) {
+    EXPECT_LT(FootSlide(move.motion, Role::kLeftFoot), 4) << move.name;
+    EXPECT_LT(FootSlide(move.motion, Role::kRightFoot), 4) << move.name;
+  }
+  // The control: a body that is shifted along slides.
+  BodyMotion shifted = AllMoves().front().motion;
+  for (std::size_t i = 0; i < shifted.poses.size(); ++i) {
+    shifted.poses[i] = FloorMove{.x = 0.01 * static_cast<double>(i)}.Apply(shifted.poses[i]);
+  }
+  EXPECT_GT(FootSlide(shifted, Role::kLeftFoot), 10);
+}
+
+TEST(BuiltinMoves, HandsMeetInAClap) {
+  const auto clap = LoadBuiltinMove("clap");
+  ASSERT_TRUE(clap);
+  const auto gap = [](const BodyPose& pose) { return glm::distance(pose[Role::kLeftHand], pose[Role::kRightHand]); };
+  EXPECT_LT(gap(FrameAt(*clap, 1.12)), 0.08);
+  EXPECT_GT(gap(FrameAt(*clap, 0.5)), 0.8);
+}
+
+TEST(LoadBuiltinMove, NamesTheNearestKnownMove) {
+  const auto move = LoadBuiltinMove("side_kik");
+  ASSERT_FALSE(move);
+  EXPECT_THAT(move.error().message, HasSubstr("side_kick"));
+}
+
+constexpr std::string_view kSmallMove = R"(move: nod
+beats: 2
+poses:
+  - beat: 0
+  - {beat: 1, neck: {bend: 20}, left_arm: {forward: 90}, jump_cm: 3}
+key_poses:
+  - {beat: 1, LH: {degrees: 90, tolerance_deg: 5}}
+)";
+
+std::string ComplaintAbout(const std::string& from, const std::string& to) {
+  std::string yaml(kSmallMove);
+  const std::size_t at = yaml.find(from);
+  EXPECT_NE(at, std::string::npos);
+  yaml.replace(at, from.size(), to);
+  const auto move = ParseMove(yaml, "nod.yaml");
+  EXPECT_FALSE(move);
+  return move ? "" : ToString(move.error());
+}
+
+TEST(ParseMove, ReadsAnglesLengthsAndKeyPoses) {
+  const auto move = ParseMove(kSmallMove, "nod.yaml");
+  ASSERT_TRUE(move) << ToString(move.error());
+  EXPECT_EQ(move->motion.poses.size(), 30u) << "2 beats at the default 120 per minute";
+  EXPECT_NEAR(move->curves.At(1)[MiddleControl::kJump], 0.03, 1e-12);
+  ASSERT_EQ(move->key_poses.size(), 1u);
+  EXPECT_EQ(move->key_poses[0].targets[0].tolerance_deg, 5);
+  EXPECT_EQ(ReadyStance().Of(Side::kRight, SideControl::kElbow),
+            move->curves.At(1).Of(Side::kRight, SideControl::kElbow));
+}
+
+TEST(ParseMove, TellsWhereAndWhatIsWrong) {
+  EXPECT_THAT(ComplaintAbout("neck:", "nek:"), testing::AllOf(HasSubstr("nod.yaml:5:"), HasSubstr("neck")));
+  EXPECT_THAT(ComplaintAbout("forward", "foward"), testing::AllOf(HasSubstr("nod.yaml:5:"), HasSubstr("forward")));
+  EXPECT_THAT(ComplaintAbout("LH:", "LX:"), HasSubstr("nod.yaml:7:"));
+  EXPECT_THAT(ComplaintAbout("bend: 20", "bend: 2000"), HasSubstr("out of range"));
+  EXPECT_THAT(ComplaintAbout("bend: 20", "bend: far"), HasSubstr("expected a number"));
+  EXPECT_THAT(ComplaintAbout("{beat: 1, neck", "{beat: 0, neck"), HasSubstr("does not come after"));
+  EXPECT_THAT(ComplaintAbout("{beat: 1, neck", "{beat: 2, neck"), HasSubstr("next loop"));
+  EXPECT_THAT(ComplaintAbout("{beat: 1, neck", "{neck"), HasSubstr("needs a 'beat'"));
+  EXPECT_THAT(ComplaintAbout("{beat: 1, neck", "{beat: 1, hold_beats: 1.5, neck"), HasSubstr("held beyond"));
+  EXPECT_THAT(ComplaintAbout("LH: {degrees: 90, tolerance_deg: 5}", "tolerance_deg: 9"), HasSubstr("needs at least"));
+  EXPECT_THAT(ComplaintAbout("beats: 2", "beats: 0"), HasSubstr("out of range"));
+  EXPECT_THAT(ComplaintAbout("key_poses:", "key_pose:"), HasSubstr("key_poses"));
+  EXPECT_THAT(ComplaintAbout("move: nod\n", ""), HasSubstr("move"));
+}
+
+TEST(ParseMove, MirrorsTheFirstHalf) {
+  std::string yaml(kSmallMove);
+  yaml.replace(yaml.find("beats: 2"), 8, "beats: 4\nsecond_half_mirrored: true");
+  const auto move = ParseMove(yaml, "nod.yaml");
+  ASSERT_TRUE(move) << ToString(move.error());
+  EXPECT_NEAR(move->curves.At(1.04).Of(Side::kLeft, SideControl::kArmForward),
+              move->curves.At(3.04).Of(Side::kRight, SideControl::kArmForward), 1e-12);
+}
+
+TEST(FirstReached, WaitsForTheLastKeyPoseAndKeepsToItsWindow) {
+  const auto kick = LoadBuiltinMove("side_kick");
+  ASSERT_TRUE(kick);
+  const double end = kick->motion.DurationSeconds();
+  const auto reached = FirstReached(kick->key_poses, kick->motion, 0, end);
+  ASSERT_TRUE(reached);
+  const auto last_only = FirstReached({&kick->key_poses[1], 1}, kick->motion, 0, end);
+  EXPECT_EQ(reached, last_only) << "the drawn-up knee comes before the kick";
+  EXPECT_FALSE(FirstReached(kick->key_poses, kick->motion, 0, *reached - 0.02));
+  EXPECT_TRUE(FirstReached(kick->key_poses, kick->motion, 0, *reached));
+  EXPECT_FALSE(FirstReached(kick->key_poses, BodyMotion{}, 0, 1));
+}
+
+}  // namespace
+}  // namespace etude

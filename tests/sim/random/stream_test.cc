@@ -1,0 +1,74 @@
+#include "sim/random/stream.h"
+
+#include <Random123/philox.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace etude {
+namespace {
+
+const WorldKey kWorld{.suite_seed = 7, .scenario = "test", .trial = 3};
+
+TEST(RandomStream, RestsOnPhiloxWithItsPublishedKnownAnswer) {
+  // Random123's kat_vectors: philox 4x64-10, counter and key all ones.
+  const std::uint64_t ones = ~std::uint64_t{0};
+  const auto block = r123::Philox4x64()({{ones, ones, ones, ones}}, {{ones, ones}});
+  EXPECT_EQ(block[0], 0x87b092c3013fe90bULL);
+  EXPECT_EQ(block[1], 0x438c3c67be8d0224ULL);
+  EXPECT_EQ(block[2], 0x9cc7d7c69cd777b6ULL);
+  EXPECT_EQ(block[3], 0xa09caebf594f0ba0ULL);
+}
+
+TEST(RandomStream, DependsOnItsKeyAlone) {
+  RandomStream a(kWorld, "noise"), b(kWorld, "noise"), other_purpose(kWorld, "noise2");
+  RandomStream other_trial({7, "test", 4}, "noise"), other_seed({8, "test", 3}, "noise"),
+      other_scenario({7, "tess", 3}, "noise");
+  for (int i = 0; i < 100; ++i) {
+    const std::uint64_t bits = a.Bits();
+    EXPECT_EQ(bits, b.Bits());
+    EXPECT_NE(bits, other_purpose.Bits());
+    EXPECT_NE(bits, other_trial.Bits());
+    EXPECT_NE(bits, other_seed.Bits());
+    EXPECT_NE(bits, other_scenario.Bits());
+  }
+}
+
+TEST(RandomStream, HasTheMomentsOfItsDistributions) {
+  RandomStream stream(kWorld, "moments");
+  const int n = 200000;
+  double uniform_sum = 0, uniform_squares = 0, sum = 0, squares = 0, cubes = 0, fourths = 0;
+  for (int i = 0; i < n; ++i) {
+    const double u = stream.Uniform();
+    ASSERT_GE(u, 0);
+    ASSERT_LT(u, 1);
+    uniform_sum += u;
+    uniform_squares += u * u;
+    const double z = stream.Normal();
+    sum += z;
+    squares += z * z;
+    cubes += z * z * z;
+    fourths += z * z * z * z;
+  }
+  // Five standard errors of each moment.
+  EXPECT_NEAR(uniform_sum / n, 0.5, 5 * std::sqrt(1.0 / 12 / n));
+  EXPECT_NEAR(uniform_squares / n, 1.0 / 3, 5 * std::sqrt(4.0 / 45 / n));
+  EXPECT_NEAR(sum / n, 0, 5 / std::sqrt(n));
+  EXPECT_NEAR(squares / n, 1, 5 * std::sqrt(2.0 / n));
+  EXPECT_NEAR(cubes / n, 0, 5 * std::sqrt(15.0 / n));
+  EXPECT_NEAR(fourths / n, 3, 5 * std::sqrt(96.0 / n));
+}
+
+TEST(RandomStream, DrawsEveryIndexEquallyOften) {
+  RandomStream stream(kWorld, "index");
+  std::vector<int> counts(7);
+  const int n = 70000;
+  for (int i = 0; i < n; ++i) ++counts[stream.IndexBelow(7)];
+  double chi_square = 0;
+  for (int count : counts) chi_square += (count - 10000.0) * (count - 10000.0) / 10000.0;
+  EXPECT_LT(chi_square, 22.46);  // 99.9 % point at six degrees of freedom
+}
+
+}  // namespace
+}  // namespace etude
