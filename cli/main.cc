@@ -39,9 +39,10 @@ std::vector<std::string> KnownWords(const CLI::App& app) {
 int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
   while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  // What nobody took explains a failure better than what is missing for want of it.
   const std::vector<std::string> extras = app.remaining(true);
   std::string message = error.what();
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !extras.empty()) {
+  if (!extras.empty()) {
     message = UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));
   }
   return Complain(Error{{}, fmt::format("{} (etude {}{}--help explains)", message,

@@ -49,11 +49,13 @@ function(etude_tests)
     target_link_libraries(${target} PRIVATE ${dependency})
   endforeach()
   target_link_libraries(${target} PRIVATE etude_tests_support ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  # Through a launcher, because gtest_discover_tests takes only one value for ENVIRONMENT.
+  set_target_properties(${target} PROPERTIES CROSSCOMPILING_EMULATOR "env;${ETUDE_PINNED_ENVIRONMENT}")
   gtest_discover_tests(${target}
     TEST_PREFIX "${mirrored}: "
     WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}"
     DISCOVERY_TIMEOUT 60
-    PROPERTIES ENVIRONMENT "${ETUDE_PINNED_ENVIRONMENT}" LABELS "${ARG_LABELS}")
+    PROPERTIES LABELS "${ARG_LABELS}")
 endfunction()
 
 # etude_target_name(<absolute folder> <out>): engine/motion -> etude_engine_motion

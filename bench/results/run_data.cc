@@ -24,6 +24,13 @@ std::string Row::Id() const {
   return fmt::format("{}/{}/{:03}/{}", scenario, CompactLabel(condition), trial, method);
 }
 
+std::optional<double> ValueOf(const Row& row, std::string_view metric) {
+  for (const MetricValue& value : row.result.metrics) {
+    if (value.id == metric) return value.value;
+  }
+  return std::nullopt;
+}
+
 std::string_view VerdictName(Verdict verdict) {
   switch (verdict) {
     case Verdict::kBetter:

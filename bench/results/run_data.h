@@ -29,6 +29,9 @@ struct Row {
   std::string Id() const;
 };
 
+/// A row's value of a metric; nothing when it is missing or was not measured.
+std::optional<double> ValueOf(const Row& row, std::string_view metric);
+
 /// For people: "key=value, key=value", or "" when nothing is swept.
 std::string ConditionLabel(const std::vector<Setting>& condition);
 /// For identities: "key=value,key=value", or "-".

@@ -169,12 +169,11 @@ void ReadExpectations(Fields& fields, Scenario& scenario) {
     expectation.where = ReadWhere(entry, scenario);
     const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                        expectation.at_least.has_value();
+    if (const auto done = entry.Finish(); !done) return fields.Complain(done.error().place, done.error().message);
     if (claims != 1) {
-      entry.Complain(item.place, fmt::format("an expectation says exactly one of: below, above (a method), at_most, "
-                                             "at_least (a number); found {}", claims));
+      return fields.Complain(item.place, fmt::format("an expectation says exactly one of: below, above (a method), "
+                                                     "at_most, at_least (a number); found {}", claims));
     }
-    const auto done = entry.Finish();
-    if (!done) return fields.Complain(done.error().place, done.error().message);
     scenario.expectations.push_back(std::move(expectation));
   }
 }

@@ -14,13 +14,6 @@ std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Sett
   return selected;
 }
 
-std::optional<double> ValueOf(const Row& row, const std::string& metric) {
-  for (const MetricValue& value : row.result.metrics) {
-    if (value.id == metric) return value.value;
-  }
-  return std::nullopt;
-}
-
 std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string& method, const std::string& metric,
                              int& missing) {
   std::vector<double> values;

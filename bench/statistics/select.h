@@ -12,9 +12,6 @@ namespace etude {
 /// The rows of one condition, in order.
 std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Setting>& condition);
 
-/// A row's value of a metric; nothing when it is missing or was not measured.
-std::optional<double> ValueOf(const Row& row, const std::string& metric);
-
 /// All values of a metric of one method, in order; `missing` counts the cells without one.
 std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string& method, const std::string& metric,
                              int& missing);

@@ -21,8 +21,8 @@ struct Intrinsics {
 /// A camera in the world W. Its own frame C: x right, y down, z forward (as OpenCV).
 struct Camera {
   Intrinsics intrinsics;
-  glm::dmat3 R_CW{1};     ///< rotates world directions into the camera's frame
-  glm::dvec3 p_WC{0};     ///< the centre of projection in the world, metres
+  glm::dmat3 R_CW{1};  ///< rotates world directions into the camera's frame
+  glm::dvec3 p_WC{0};  ///< the centre of projection in the world, metres
 };
 
 /// The camera at `eye` looking at `target`, its v axis pointing down as far as possible.

@@ -21,16 +21,18 @@ int EstimateNesting(std::string_view text) {
     std::size_t end = text.find('\n', i);
     if (end == std::string_view::npos) end = text.size();
     const std::string_view line = text.substr(i, end - i);
-    int dashes = 0;
-    for (std::size_t k = 0; k + 1 < line.size() && (line[k] == ' ' || (line[k] == '-' && line[k + 1] == ' ')); ++k) {
-      if (line[k] == '-') ++dashes;
+    int markers = 0;  // "- - - x" and "? ? ? x" open a level each
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const bool marker = (line[k] == '-' || line[k] == '?') && line[k + 1] == ' ';
+      if (line[k] != ' ' && !marker) break;
+      if (marker) ++markers;
     }
     for (char c : line) {
       if (c == '[' || c == '{') ++brackets;
       if ((c == ']' || c == '}') && brackets > 0) --brackets;
       deepest = std::max(deepest, brackets);
     }
-    deepest = std::max(deepest, dashes);
+    deepest = std::max(deepest, markers);
     i = end + 1;
   }
   return deepest;

@@ -1,0 +1,82 @@
+#include "bench/metrics/detection.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace etude {
+namespace {
+
+std::optional<double> Share(int part, int whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / whole;
+}
+
+}  // namespace
+
+Confusion CountConfusion(std::span<const JudgedEvent> events) {
+  Confusion confusion;
+  for (const JudgedEvent& event : events) {
+    if (event.is_right) {
+      ++(event.called_right ? confusion.true_positives : confusion.false_negatives);
+    } else {
+      ++(event.called_right ? confusion.false_positives : confusion.true_negatives);
+    }
+  }
+  return confusion;
+}
+
+std::optional<double> Precision(const Confusion& confusion) {
+  return Share(confusion.true_positives, confusion.true_positives + confusion.false_positives);
+}
+
+std::optional<double> Recall(const Confusion& confusion) {
+  return Share(confusion.true_positives, confusion.true_positives + confusion.false_negatives);
+}
+
+std::optional<double> F1(const Confusion& confusion) {
+  const int doubled = 2 * confusion.true_positives;
+  return Share(doubled, doubled + confusion.false_positives + confusion.false_negatives);
+}
+
+std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
+  std::vector<JudgedEvent> sorted(events.begin(), events.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const JudgedEvent& a, const JudgedEvent& b) { return a.score < b.score; });
+
+  // Walks up through groups of equal score; each right event beats the wrong ones below its group
+  // and half of those inside.
+  double right = 0, wrong_below = 0, won = 0;
+  for (std::size_t begin = 0; begin < sorted.size();) {
+    double group_right = 0, group_wrong = 0;
+    std::size_t end = begin;
+    for (; end < sorted.size() && sorted[end].score == sorted[begin].score; ++end) {
+      ++(sorted[end].is_right ? group_right : group_wrong);
+    }
+    won += group_right * (wrong_below + 0.5 * group_wrong);
+    right += group_right;
+    wrong_below += group_wrong;
+    begin = end;
+  }
+  if (right == 0 || wrong_below == 0) return std::nullopt;
+  return won / (right * wrong_below);
+}
+
+std::optional<double> KaplanMeierMedian(std::span<const Wait> waits) {
+  std::vector<Wait> sorted(waits.begin(), waits.end());
+  // What happens at a time happens before what is given up at that time (the usual convention).
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Wait& a, const Wait& b) {
+    return a.seconds != b.seconds ? a.seconds < b.seconds : a.happened > b.happened;
+  });
+  double still_waiting = 1.0;
+  constexpr double kRounding = 1e-12;  // ½ reached by products of fractions
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (!sorted[i].happened) continue;
+    const auto at_risk = static_cast<double>(sorted.size() - i);
+    still_waiting *= (at_risk - 1.0) / at_risk;
+    if (still_waiting <= 0.5 + kRounding) return sorted[i].seconds;
+  }
+  return std::nullopt;
+}
+
+}  // namespace etude

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace etude {
+
+/// An event is one scripted performance of a move (metrics.md, "detection"). Positive = "right".
+struct JudgedEvent {
+  bool is_right = false;      ///< the truth
+  bool called_right = false;  ///< what the recogniser said by the end of the event's window
+  double score = 0;           ///< the recogniser's soft answer, higher = righter
+};
+
+struct Confusion {
+  int true_positives = 0;
+  int false_positives = 0;
+  int false_negatives = 0;
+  int true_negatives = 0;
+};
+
+Confusion CountConfusion(std::span<const JudgedEvent> events);
+
+/// Empty when nothing was called right.
+std::optional<double> Precision(const Confusion& confusion);
+/// Empty when nothing was right.
+std::optional<double> Recall(const Confusion& confusion);
+/// 2 TP / (2 TP + FP + FN); empty when nothing was right and nothing was called so.
+std::optional<double> F1(const Confusion& confusion);
+
+/// The chance that a right event scores higher than a wrong one, ties counting half (Mann–Whitney).
+/// Empty when all events are right or none is.
+std::optional<double> RocAuc(std::span<const JudgedEvent> events);
+
+/// A time until something happened, or until it was given up waiting for.
+struct Wait {
+  double seconds = 0;
+  bool happened = false;  ///< false: censored, it took longer than `seconds`
+};
+
+/// The median waiting time with censored waits (Kaplan and Meier 1958): the first time at which the
+/// estimated share still waiting is ½ or less. Empty when it never is.
+std::optional<double> KaplanMeierMedian(std::span<const Wait> waits);
+
+}  // namespace etude

@@ -1,0 +1,55 @@
+#include "bench/metrics/segmentation.h"
+
+#include <cassert>
+#include <cstdint>
+
+namespace etude {
+namespace {
+
+std::optional<double> Share(std::int64_t part, std::int64_t whole) {
+  if (whole == 0) return std::nullopt;
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+std::optional<double> MeanOf(std::span<const MaskScore> scores, std::optional<double> MaskScore::*member) {
+  double sum = 0;
+  int count = 0;
+  for (const MaskScore& score : scores) {
+    if (!(score.*member)) continue;
+    sum += *(score.*member);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+}  // namespace
+
+MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
+  assert(found.pixels.size() == truth.pixels.size() && found.pixels.size() == shadow.pixels.size());
+  std::int64_t both = 0, found_count = 0, true_count = 0, shadow_found = 0, shadow_count = 0;
+  for (std::size_t i = 0; i < found.pixels.size(); ++i) {
+    // Without branches: half a million times per picture.
+    const int f = found.pixels[i] != 0, t = truth.pixels[i] != 0, s = shadow.pixels[i] != 0;
+    both += f & t;
+    found_count += f;
+    true_count += t;
+    shadow_found += f & s;
+    shadow_count += s;
+  }
+  return {.iou = Share(both, found_count + true_count - both),
+          .precision = Share(both, found_count),
+          .recall = Share(both, true_count),
+          .f1 = Share(2 * both, found_count + true_count),
+          .shadow_error = Share(shadow_found, shadow_count)};
+}
+
+MaskScore MeanScore(std::span<const MaskScore> scores) {
+  return {.iou = MeanOf(scores, &MaskScore::iou),
+          .precision = MeanOf(scores, &MaskScore::precision),
+          .recall = MeanOf(scores, &MaskScore::recall),
+          .f1 = MeanOf(scores, &MaskScore::f1),
+          .shadow_error = MeanOf(scores, &MaskScore::shadow_error)};
+}
+
+}  // namespace etude

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "engine/base/image.h"
+
+namespace etude {
+
+/// How well one mask, or the mean of many, agrees with the true one; nothing where a share has no pixels
+/// to be a share of.
+struct MaskScore {
+  std::optional<double> iou = {};           ///< |found ∩ true| / |found ∪ true|
+  std::optional<double> precision = {};     ///< |found ∩ true| / |found|
+  std::optional<double> recall = {};        ///< |found ∩ true| / |true|
+  std::optional<double> f1 = {};            ///< 2 |found ∩ true| / (|found| + |true|)
+  std::optional<double> shadow_error = {};  ///< |found ∩ shadow| / |shadow|
+};
+
+/// All three have the same size; `shadow` marks the pixels where the room lies in the person's shadow.
+MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow);
+
+/// Each value's mean over the images that have it.
+MaskScore MeanScore(std::span<const MaskScore> scores);
+
+}  // namespace etude

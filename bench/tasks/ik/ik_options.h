@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "engine/kinematics/solvers.h"
+
+namespace etude {
+
+enum class NoiseKind {
+  kGaussian,  ///< standard deviation = joint_noise_deg
+  kUniform,   ///< within ± joint_noise_deg
+};
+
+/// One condition of an ik scenario: how hard the trials are.
+struct IkTrialOptions {
+  double pose_range = 0.5;      ///< the true pose is uniform in this share of every joint's range, about its middle
+  double joint_noise_deg = 15;  ///< how far the start is from the truth
+  NoiseKind noise = NoiseKind::kGaussian;
+};
+
+/// A solver with its settings.
+struct IkMethod {
+  std::string name;
+  const IkSolver* solver = nullptr;
+  IkOptions options;
+};
+
+/// Reads the keys `poses`, `joint_noise_deg`, `noise` of a condition; complaints stay in `condition`.
+IkTrialOptions ReadIkTrialOptions(Fields& condition);
+
+/// Reads the methods of a condition: `solver`, `weights`, `refresh`, `limits`, `tolerance_deg`,
+/// `tolerance_times_noise`, and what the condition says for all of them: `max_sweeps`, `stop_at`.
+Result<std::vector<IkMethod>> ReadIkMethods(Fields& condition, std::span<const Node> methods,
+                                            const IkTrialOptions& trial);
+
+/// The keys of a method with what they may say.
+std::vector<std::pair<std::string, std::string>> IkMethodKeys();
+
+}  // namespace etude

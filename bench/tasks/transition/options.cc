@@ -1,0 +1,64 @@
+#include "bench/tasks/transition/options.h"
+
+#include <array>
+#include <utility>
+
+namespace etude {
+namespace {
+
+template <typename T, std::size_t N>
+T ReadChoice(Fields& fields, std::string_view key, const std::array<std::pair<const char*, T>, N>& known) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : known) names.emplace_back(name);
+  const std::string chosen = fields.Choice(key, names, names.front());
+  for (const auto& [name, value] : known) {
+    if (chosen == name) return value;
+  }
+  return known.front().second;  // the complaint is kept in `fields`
+}
+
+// The first of each is the default: paper A's method.
+constexpr std::array<std::pair<const char*, Choice>, 3> kChoices = {
+    {{"fuzzy-bridge", Choice::kFuzzyBridge}, {"now", Choice::kNow}, {"wait-for-end", Choice::kWaitForEnd}}};
+constexpr std::array<std::pair<const char*, Join>, 2> kJoins = {
+    {{"cut", Join::kCut}, {"inertialised", Join::kInertialised}}};
+constexpr std::array<std::pair<const char*, bool>, 2> kWeights = {{{"fixed", false}, {"adaptive", true}}};
+constexpr std::array<std::pair<const char*, Pick>, 2> kPicks = {
+    {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}};
+
+void ReadLimits(Fields& fields, SwitchRules& rules) {
+  // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
+  rules.threshold = fields.Number("threshold", rules.threshold, {0, 6});
+  rules.max_wait_s = fields.Number("wait_s", rules.max_wait_s, {0, 60});
+}
+
+Result<TransitionMethod> ReadMethod(const Node& node, const SwitchRules& defaults) {
+  Fields fields(node, "a method of task transition");
+  TransitionMethod method;
+  method.name = fields.RequiredText("name");
+  method.choice = ReadChoice(fields, "choice", kChoices);
+  method.join = ReadChoice(fields, "join", kJoins);
+  method.adaptive_weights = ReadChoice(fields, "weights", kWeights);
+  method.rules = defaults;
+  ReadLimits(fields, method.rules);
+  method.rules.pick = ReadChoice(fields, "pick", kPicks);
+  method.rules.within_class = fields.Boolean("within_class", false);
+  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  return method;
+}
+
+}  // namespace
+
+Result<std::vector<TransitionMethod>> ReadTransitionMethods(Fields& condition, std::span<const Node> methods) {
+  SwitchRules defaults;
+  ReadLimits(condition, defaults);
+  std::vector<TransitionMethod> read;
+  for (const Node& node : methods) {
+    auto method = ReadMethod(node, defaults);
+    if (!method) return tl::unexpected(method.error());
+    read.push_back(*std::move(method));
+  }
+  return read;
+}
+
+}  // namespace etude

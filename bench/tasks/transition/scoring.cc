@@ -1,0 +1,139 @@
+#include "bench/tasks/transition/scoring.h"
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "bench/metrics/seam.h"
+#include "bench/metrics/spectral_arc_length.h"
+
+namespace etude {
+namespace {
+
+constexpr std::array kMetricIds = {"jump_cm",
+                                   "mean_joint_jump_cm",
+                                   "rotation_step_change_deg",
+                                   "jerk_peak_mps3",
+                                   "natural_share",
+                                   "pose_gap_cm",
+                                   "velocity_gap_cmps",
+                                   "false_smooth",
+                                   "foot_slide_cmps",
+                                   "sparc",
+                                   "wait_s",
+                                   "fuzzy_distance"};
+
+/// The switch that the fuzzy distance thinks worst.
+const Switch& WorstSwitch(const Transition& plan) {
+  return *std::max_element(plan.switches.begin(), plan.switches.end(),
+                           [](const Switch& a, const Switch& b) { return a.distance.value < b.distance.value; });
+}
+
+/// Of the two clips asked for; an in-between's own clip sets no standard.
+double NaturalLimitOf(const Transition& plan, const Stage& stage) {
+  std::vector<double> jumps = stage.natural_jumps_cm[plan.switches.front().from_clip];
+  const std::vector<double>& others = stage.natural_jumps_cm[plan.switches.back().to_clip];
+  jumps.insert(jumps.end(), others.begin(), others.end());
+  return NaturalLimitCm(std::move(jumps));
+}
+
+std::vector<int> SeamFrames(const Splice& splice) {
+  std::vector<int> frames;
+  for (const Seam& seam : splice.seams) frames.push_back(seam.frame);
+  return frames;
+}
+
+/// Frames `first` … `last` of a motion, clamped to it.
+struct Cut {
+  int first, last;
+};
+Cut Around(const Splice& splice, double seconds) {
+  const int reach = static_cast<int>(seconds * splice.motion.rate_hz);
+  return {std::max(splice.seams.front().frame - reach, 0),
+          std::min(splice.seams.back().frame + reach, static_cast<int>(splice.motion.poses.size()) - 1)};
+}
+
+nlohmann::ordered_json Partials(const FuzzyDistance& distance) {
+  nlohmann::ordered_json json;
+  for (std::size_t k = 0; k < kFeatureCount; ++k)
+    json[std::string(FeatureName(AllFeatures()[k]))] = distance.partials[k];
+  return json;
+}
+
+}  // namespace
+
+void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& result) {
+  const Splice& splice = outcome.splice;
+  const SeamSmoothness smoothness = MeasureSeams(splice.motion, SeamFrames(splice));
+  result.Measure("jump_cm", smoothness.jump_cm);
+  result.Measure("mean_joint_jump_cm", smoothness.mean_joint_jump_cm);
+  result.Measure("rotation_step_change_deg", smoothness.rotation_step_change_deg);
+  result.Measure("jerk_peak_mps3", smoothness.jerk_peak_mps3);
+  result.Measure("natural_share", smoothness.jump_cm < NaturalLimitOf(outcome.plan, stage) ? 1 : 0);
+
+  double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
+  for (const Seam& seam : splice.seams) {
+    pose_gap = std::max(pose_gap, PoseGapCm(seam.leaving, seam.arriving));
+    velocity_gap = std::max(velocity_gap, VelocityGapCmps(seam.leaving_before, seam.leaving, seam.arriving,
+                                                          seam.arriving_after, splice.motion.rate_hz));
+    foot_slide = std::max(foot_slide, FootSlideCmps(splice.motion, seam.frame));
+  }
+  result.Measure("pose_gap_cm", pose_gap);
+  result.Measure("velocity_gap_cmps", velocity_gap);
+  if (outcome.method->choice == Choice::kFuzzyBridge) {
+    result.Measure("false_smooth", pose_gap > kFalseSmoothGapCm ? 1 : 0);
+  } else {
+    result.Missing("false_smooth", "this choice matches no frames");
+  }
+  result.Measure("foot_slide_cmps", foot_slide);
+  const Cut second = Around(splice, 1);
+  const auto arc = SpectralArcLength(MeanJointSpeed(splice.motion, second.first, second.last), splice.motion.rate_hz);
+  arc ? result.Measure("sparc", *arc) : result.Missing("sparc", "nothing moves around the seam");
+  result.Measure("wait_s", outcome.plan.wait_s);
+  result.Measure("fuzzy_distance", WorstSwitch(outcome.plan).distance.value);
+}
+
+void MissAllMetrics(const std::string& reason, CellResult& result) {
+  for (const char* id : kMetricIds) result.Missing(id, reason);
+}
+
+Series SeamSeries(const SwitchOutcome& outcome) {
+  const Cut cut = Around(outcome.splice, 1);
+  const std::vector<double> all = SecondDifferencesCm(outcome.splice.motion);
+  return {"second_difference_cm", "frame", {all.begin() + cut.first, all.begin() + cut.last + 1}};
+}
+
+Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage) {
+  constexpr double kSeconds = 2.5;
+  const Cut cut = Around(outcome.splice, kSeconds);
+  const std::vector<BodyPose>& all = outcome.splice.motion.poses;
+  Track coach{"coach", {outcome.splice.motion.rate_hz, {all.begin() + cut.first, all.begin() + cut.last + 1}}};
+
+  const Transition& plan = outcome.plan;
+  const FuzzyDistance& distance = WorstSwitch(plan).distance;
+  nlohmann::ordered_json facts;
+  facts["seam_frame"] = outcome.splice.seams.front().frame - cut.first;
+  facts["seam_frames"] = nlohmann::json::array();
+  for (const Seam& seam : outcome.splice.seams) facts["seam_frames"].push_back(seam.frame - cut.first);
+  facts["from"] = stage.names[plan.switches.front().from_clip];
+  facts["to"] = stage.names[plan.switches.back().to_clip];
+  facts["branch"] = BranchName(plan.branch);
+  facts["distance"] = distance.value;
+  facts["partials"] = Partials(distance);
+  facts["request_frame"] = plan.request_frame - cut.first;  // negative: before this recording begins
+  facts["wait_s"] = plan.wait_s;
+  facts["pairs_seen"] = plan.pairs_seen;
+  facts["switches"] = nlohmann::json::array();
+  for (const Switch& change : plan.switches) {
+    nlohmann::ordered_json entry;
+    entry["from"] = stage.names[change.from_clip];
+    entry["from_frame"] = change.from_frame;
+    entry["to"] = stage.names[change.to_clip];
+    entry["to_frame"] = change.to_frame;
+    entry["distance"] = change.distance.value;
+    facts["switches"].push_back(std::move(entry));
+  }
+  return {{std::move(coach)}, facts.dump()};
+}
+
+}  // namespace etude

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/tasks/base/clip_library.h"
+#include "engine/bridging/bridge_frames.h"
+#include "engine/bridging/one_character.h"
+
+namespace etude {
+
+/// A library of clips made ready for switching: all danced by one character whose hips stand at
+/// 0.90 m, tagged, and each with nature's own jumps to be compared with.
+struct Stage {
+  Character character;
+  std::vector<std::string> names;       ///< as rows and videos show them
+  std::vector<std::string> identities;  ///< equal for equal dances: the move's name, or the file
+  std::vector<BodyMotion> motions;
+  std::vector<TaggedClip> tagged;
+  std::vector<std::vector<double>> natural_jumps_cm;
+};
+
+/// Shorter clips have no unbroken window of eleven frames to be judged by.
+constexpr int kShortestClip = 13;
+
+Stage SetStage(const ClipLibrary& library);
+
+/// The clips that adaptive weights may learn from: every built-in move, and the library's other clips.
+Result<Stage> SetTrainingStage(const Stage& stage);
+
+}  // namespace etude

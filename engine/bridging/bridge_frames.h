@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/fuzzy/membership.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// Paper A: a frame with a large head motion is never a bridge frame. The limits are ours.
+struct HeadRule {
+  double max_bend = Radians(30);        ///< radians, the neck off the trunk's line
+  double max_turn_speed = Radians(60);  ///< radians per second, of the neck as seen from the trunk
+};
+
+/// Which frames keep their head still enough.
+std::vector<bool> FindQuietHeads(const BodyMotion& motion, const HeadRule& rule = {});
+
+/// A clip as the search sees it: the fuzzy side of every frame, and which frames may be switched at.
+struct TaggedClip {
+  double rate_hz = kJudgedRateHz;
+  std::vector<Grades> grades;      ///< one per frame
+  std::vector<Tags> tags;          ///< one per frame
+  std::vector<int> bridge_frames;  ///< rising
+
+  int FrameCount() const { return static_cast<int>(grades.size()); }
+};
+
+/// Marks the bridge frames of a library (algorithms A4): frames whose ten tags occur together in at
+/// least `min_clips` of its clips, and whose head is quiet. `standing_hip_height` is the one of the
+/// body that performs all clips, metres.
+std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
+                                 const HeadRule& rule = {}, int min_clips = 2);
+
+}  // namespace etude

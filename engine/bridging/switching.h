@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "engine/bridging/bridge_frames.h"
+#include "engine/fuzzy/distance.h"
+
+namespace etude {
+
+/// Which of the matching frames is taken.
+enum class Pick {
+  kFirst,     ///< paper A: the first one found
+  kSmallest,  ///< A's other wording ("the smallest difference"): the smallest distance in the window
+};
+
+struct SwitchRules {
+  FeatureWeights weights = PaperWeights();
+  double threshold = kPaperThreshold;
+  double max_wait_s = 1;  ///< ours
+  Pick pick = Pick::kFirst;
+  bool within_class = false;  ///< ours: compare only frames with the same ten tags
+};
+
+/// Two bridge frames that may be switched: `from` in the playing clip, `to` in the next one.
+struct Link {
+  int from = 0;
+  int to = 0;
+  FuzzyDistance distance;
+};
+
+struct LinkSearch {
+  std::optional<Link> link;
+  int pairs_seen = 0;  ///< how many pairs of bridge frames were compared
+};
+
+/// Frames `first` … `last` of the playing clip, both included.
+struct FrameWindow {
+  int first = 0;
+  int last = 0;
+
+  bool Contains(int frame) const { return first <= frame && frame <= last; }
+};
+
+/// The frames that paper A's wait allows: from `request` to `request` + the longest wait, inside the clip.
+FrameWindow WaitWindow(const TaggedClip& playing, int request, const SwitchRules& rules);
+
+/// Whether two frames match under the rules.
+bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const SwitchRules& rules);
+
+/// Paper A's search (algorithms A5): at each bridge frame of `playing` in the window, look at the
+/// bridge frames of `next`, front half first, because a switch into the tail looks unnatural, then
+/// rear half. The last frame of `next` is never a target: nothing would follow it.
+LinkSearch FindLink(const TaggedClip& playing, FrameWindow window, const TaggedClip& next, const SwitchRules& rules);
+
+}  // namespace etude

@@ -1,0 +1,140 @@
+#include "engine/cameras/dlt.h"
+
+#include <Eigen/Dense>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace etude {
+namespace {
+
+using Matrix34 = Eigen::Matrix<double, 3, 4>;
+
+// Below this share of its largest extent, a cloud of points counts as flat: the relief that separates
+// H's entries would be smaller than any measuring error.
+constexpr double kFlat = 1e-4;
+// Below this ratio of singular values (of the normalised system) a second H fits as well as the first.
+constexpr double kUndetermined = 1e-9;
+
+Eigen::Vector3d ToEigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+std::optional<std::string> ReasonToRefuse(std::span<const PointPair> pairs) {
+  constexpr std::size_t kFewest = 6;
+  if (pairs.size() < kFewest) return fmt::format("{} point pairs; at least 6 are needed", pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PointPair& p = pairs[i];
+    const double sum = p.world.x + p.world.y + p.world.z + p.pixel.x + p.pixel.y;
+    if (!std::isfinite(sum)) return fmt::format("point pair {} is not finite", i + 1);
+  }
+  Eigen::MatrixXd cloud(pairs.size(), 3);
+  for (std::size_t i = 0; i < pairs.size(); ++i) cloud.row(i) = ToEigen(pairs[i].world).transpose();
+  cloud.rowwise() -= cloud.colwise().mean().eval();
+  const Eigen::Vector3d extents = Eigen::JacobiSVD<Eigen::MatrixXd>(cloud).singularValues();
+  if (!(extents[1] > kFlat * extents[0])) return "the world points lie on one line; they must fill a volume";
+  if (!(extents[2] > kFlat * extents[0])) return "the world points lie in one plane; they must fill a volume";
+  return std::nullopt;
+}
+
+// A shift and scale p' = scale · (p − mean), so that the points lie around the origin at a mean distance
+// of the square root of their dimension (Hartley 1997).
+template <int N>
+struct Normalisation {
+  Eigen::Matrix<double, N, 1> mean = Eigen::Matrix<double, N, 1>::Zero();
+  double scale = 1;
+
+  Eigen::Matrix<double, N, 1> Apply(const Eigen::Matrix<double, N, 1>& p) const { return scale * (p - mean); }
+  Eigen::Matrix<double, N + 1, N + 1> Matrix() const {
+    Eigen::Matrix<double, N + 1, N + 1> m = Eigen::Matrix<double, N + 1, N + 1>::Identity();
+    m.template topLeftCorner<N, N>() *= scale;
+    m.template topRightCorner<N, 1>() = -scale * mean;
+    return m;
+  }
+};
+
+template <int N, typename PointAt>
+Normalisation<N> NormalisationOf(std::size_t count, PointAt point_at) {
+  Normalisation<N> normalisation;
+  for (std::size_t i = 0; i < count; ++i) normalisation.mean += point_at(i) / static_cast<double>(count);
+  double distance = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    distance += (point_at(i) - normalisation.mean).norm() / static_cast<double>(count);
+  }
+  if (distance > 0) normalisation.scale = std::sqrt(static_cast<double>(N)) / distance;
+  return normalisation;
+}
+
+struct Solution {
+  Matrix34 H;
+  double determined;  // second smallest over largest singular value
+};
+
+// Two equations per pair (2.4 and 2.5 of the paper, now for the entries of H), solved for |H| = 1.
+Solution SolveDlt(std::span<const PointPair> pairs, const Normalisation<3>& world, const Normalisation<2>& pixel) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * pairs.size(), 12);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Vector4d X = world.Apply(ToEigen(pairs[i].world)).homogeneous();
+    const Eigen::Vector2d x = pixel.Apply({pairs[i].pixel.x, pairs[i].pixel.y});
+    A.row(2 * i).segment<4>(0) = X;
+    A.row(2 * i).segment<4>(8) = -x[0] * X;
+    A.row(2 * i + 1).segment<4>(4) = X;
+    A.row(2 * i + 1).segment<4>(8) = -x[1] * X;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
+  const Eigen::VectorXd h = svd.matrixV().col(11);
+  Solution solution;
+  for (int row = 0; row < 3; ++row) solution.H.row(row) = h.segment<4>(4 * row).transpose();
+  solution.determined = svd.singularValues()[10] / svd.singularValues()[0];
+  return solution;
+}
+
+}  // namespace
+
+std::vector<std::string> CalibrationNames() { return {"dlt", "dlt-normalised"}; }
+
+Calibration CalibrationNamed(std::string_view name) {
+  assert(name == "dlt" || name == "dlt-normalised");
+  return name == "dlt" ? Calibration::kDlt : Calibration::kDltNormalised;
+}
+
+Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration calibration) {
+  if (const auto reason = ReasonToRefuse(pairs)) return Fail({}, "cannot calibrate a camera: {}", *reason);
+
+  const auto world = NormalisationOf<3>(pairs.size(), [&](std::size_t i) { return ToEigen(pairs[i].world); });
+  const auto pixel = NormalisationOf<2>(
+      pairs.size(), [&](std::size_t i) { return Eigen::Vector2d(pairs[i].pixel.x, pairs[i].pixel.y); });
+  // The normalised system decides whether the pairs determine a camera, whichever way it is then solved:
+  // the plain one mixes metres with squared pixels, so its singular values say little.
+  const Solution normalised = SolveDlt(pairs, world, pixel);
+  if (!(normalised.determined > kUndetermined)) {
+    return Fail({}, "cannot calibrate a camera: more than one camera fits these point pairs; move some of them");
+  }
+  const Matrix34 H = calibration == Calibration::kDlt
+                         ? SolveDlt(pairs, {}, {}).H
+                         : Matrix34(pixel.Matrix().inverse() * normalised.H * world.Matrix());
+
+  double scale = H.row(2).head<3>().norm();
+  const double w = H.row(2) * ToEigen(pairs[0].world).homogeneous();
+  if (w < 0) scale = -scale;
+  ProjectionMatrix matrix;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) matrix.h[row][column] = H(row, column) / scale;
+  }
+  if (!std::isfinite(ReprojectionRms(matrix, pairs))) {
+    return Fail({},
+                "cannot calibrate a camera: no camera has all these points in front of it; are the pairs mixed up?");
+  }
+  return matrix;
+}
+
+double ReprojectionRms(const ProjectionMatrix& matrix, std::span<const PointPair> pairs) {
+  double squares = 0;
+  for (const PointPair& pair : pairs) {
+    const auto pixel = Project(matrix, pair.world);
+    if (!pixel) return std::numeric_limits<double>::infinity();
+    squares += glm::dot(*pixel - pair.pixel, *pixel - pair.pixel);
+  }
+  return pairs.empty() ? 0 : std::sqrt(squares / static_cast<double>(pairs.size()));
+}
+
+}  // namespace etude

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/cameras/camera.h"
+
+namespace etude {
+
+/// A point whose place in the world was measured (metres), and the pixel that shows it.
+struct PointPair {
+  glm::dvec3 world{0};
+  glm::dvec2 pixel{0};
+};
+
+enum class Calibration {
+  kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
+  kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets
+};
+
+/// "dlt", "dlt-normalised": the names used in scenarios.
+std::vector<std::string> CalibrationNames();
+/// `name` is one of CalibrationNames().
+Calibration CalibrationNamed(std::string_view name);
+
+/// The projection matrix that maps the pairs' world points to their pixels, by the direct linear
+/// transform. The result is scaled such that w is the depth in metres, positive in front of the camera.
+/// Fails, saying why, when the pairs do not determine a camera: fewer than six, a number that is not
+/// finite, world points (nearly) in one plane or on one line, or pairs that no camera can have seen.
+Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration calibration);
+
+/// Root mean square distance between the pixels and the projected world points, pixels; infinity when
+/// `matrix` does not show some point.
+double ReprojectionRms(const ProjectionMatrix& matrix, std::span<const PointPair> pairs);
+
+}  // namespace etude

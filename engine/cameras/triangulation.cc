@@ -1,0 +1,53 @@
+#include "engine/cameras/triangulation.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+// Rows whose smallest singular value is below this share of the largest meet too flatly: with pixels
+// off by one the point would be metres off. Two cameras 1° apart give about 10⁻².
+constexpr double kParallel = 1e-3;
+
+double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& point) {
+  double squares = 0;
+  for (const Sighting& s : sightings) {
+    const auto pixel = Project(s.matrix, point);
+    if (!pixel) return -1;
+    squares += glm::dot(*pixel - s.pixel, *pixel - s.pixel);
+  }
+  return std::sqrt(squares / static_cast<double>(sightings.size()));
+}
+
+}  // namespace
+
+TriangulatedPoint Triangulate(std::span<const Sighting> sightings) {
+  TriangulatedPoint point;
+  if (sightings.size() < 2) return point;
+  point.status = PointStatus::kIllConditioned;
+
+  Eigen::MatrixXd M(2 * sightings.size(), 3);
+  Eigen::VectorXd b(2 * sightings.size());
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const auto& h = sightings[i].matrix.h;
+    const double scale = 1 / std::sqrt(h[2][0] * h[2][0] + h[2][1] * h[2][1] + h[2][2] * h[2][2]);
+    for (int k = 0; k < 2; ++k) {
+      const double pixel = sightings[i].pixel[k];
+      const auto row = static_cast<Eigen::Index>(2 * i + k);
+      for (int column = 0; column < 3; ++column) M(row, column) = scale * (h[k][column] - h[2][column] * pixel);
+      b[row] = scale * (h[2][3] * pixel - h[k][3]);
+    }
+  }
+  if (!M.allFinite() || !b.allFinite()) return point;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (!(svd.singularValues()[2] > kParallel * svd.singularValues()[0])) return point;
+  const Eigen::Vector3d V = svd.solve(b);
+  const glm::dvec3 position(V[0], V[1], V[2]);
+  // Behind a camera: no camera can have seen it there.
+  const double residual = ResidualPx(sightings, position);
+  if (residual < 0) return point;
+  return {PointStatus::kOk, position, residual};
+}
+
+}  // namespace etude

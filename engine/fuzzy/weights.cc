@@ -1,0 +1,130 @@
+#include "engine/fuzzy/weights.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+constexpr int kUnknowns = static_cast<int>(kFeatureCount) + 1;  // the bias comes last
+using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+/// A pair as the regression sees it. A plain array: this is the innermost loop, also in debug builds.
+using Row = std::array<double, kUnknowns>;
+
+Row ToRow(const LabelledPair& pair) {
+  Row row;
+  for (std::size_t k = 0; k < kFeatureCount; ++k) row[k] = -pair.squared_gaps[k];
+  row.back() = 1;
+  return row;
+}
+
+double Dot(const Row& row, const Row& beta) {
+  double sum = 0;
+  for (int i = 0; i < kUnknowns; ++i) sum += row[i] * beta[i];
+  return sum;
+}
+
+/// Without overflow for any finite input.
+double Sigmoid(double x) { return x >= 0 ? 1.0 / (1.0 + std::exp(-x)) : std::exp(x) / (1.0 + std::exp(x)); }
+
+/// −log likelihood plus the ridge's penalty.
+double Loss(std::span<const LabelledPair> pairs, const Row& beta, double ridge) {
+  double loss = 0;
+  for (std::size_t k = 0; k < kFeatureCount; ++k) loss += 0.5 * ridge * beta[k] * beta[k];
+  for (const LabelledPair& pair : pairs) {
+    const double score = Dot(ToRow(pair), beta) * (pair.close ? 1 : -1);
+    // log(1 + e^−score), written so that e never overflows.
+    loss += std::log1p(std::exp(-std::abs(score))) + std::max(-score, 0.0);
+  }
+  return loss;
+}
+
+Vector NewtonStep(std::span<const LabelledPair> pairs, const Row& beta, double ridge) {
+  Row gradient{};
+  std::array<Row, kUnknowns> lower{};  // triangle of the Hessian
+  for (const LabelledPair& pair : pairs) {
+    const Row row = ToRow(pair);
+    const double chance = Sigmoid(Dot(row, beta));
+    const double residual = (pair.close ? 1.0 : 0.0) - chance;
+    const double weight = chance * (1.0 - chance);
+    for (int i = 0; i < kUnknowns; ++i) {
+      gradient[i] += residual * row[i];
+      const double weighted = weight * row[i];
+      for (int j = 0; j <= i; ++j) lower[i][j] += weighted * row[j];
+    }
+  }
+  for (int k = 0; k + 1 < kUnknowns; ++k) {
+    lower[k][k] += ridge;
+    gradient[k] -= ridge * beta[k];
+  }
+  // The bias is not pulled, but a trace keeps the matrix positive definite when all chances saturate.
+  lower.back().back() += 1e-9;
+
+  Matrix hessian;
+  for (int i = 0; i < kUnknowns; ++i) {
+    for (int j = 0; j <= i; ++j) hessian(i, j) = hessian(j, i) = lower[i][j];
+  }
+  return hessian.ldlt().solve(Eigen::Map<const Vector>(gradient.data()));
+}
+
+Row Plus(const Row& beta, const Vector& step) {
+  Row sum = beta;
+  for (int i = 0; i < kUnknowns; ++i) sum[i] += step[i];
+  return sum;
+}
+
+double Largest(const Row& beta) {
+  double largest = 0;
+  for (double value : beta) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+}  // namespace
+
+WeightFit FitWeights(std::span<const LabelledPair> pairs, const WeightFitOptions& options) {
+  WeightFit fit;
+  fit.pairs = static_cast<int>(pairs.size());
+  fit.close_pairs = static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [](auto& pair) { return pair.close; }));
+  if (fit.close_pairs == 0 || fit.close_pairs == fit.pairs) return fit;
+
+  Row beta{};
+  double loss = Loss(pairs, beta, options.ridge);
+  fit.status = WeightFitStatus::kNotConverged;
+  while (fit.iterations < options.max_iterations) {
+    ++fit.iterations;
+    Vector step = NewtonStep(pairs, beta, options.ridge);
+    // A full Newton step may overshoot far from the optimum: halve it until the loss falls.
+    double next = Loss(pairs, Plus(beta, step), options.ridge);
+    for (int halvings = 0; next > loss && halvings < 30; ++halvings) {
+      step *= 0.5;
+      next = Loss(pairs, Plus(beta, step), options.ridge);
+    }
+    beta = Plus(beta, step);
+    loss = next;
+    if (step.cwiseAbs().maxCoeff() < options.tolerance * (1.0 + Largest(beta))) {
+      fit.status = WeightFitStatus::kFitted;
+      break;
+    }
+  }
+  if (fit.status != WeightFitStatus::kFitted) return fit;
+
+  FeatureWeights weights;
+  double sum = 0;
+  for (std::size_t k = 0; k < kFeatureCount; ++k) {
+    weights[k] = std::max(beta[k], 0.0);
+    sum += weights[k];
+  }
+  if (sum <= 0) {
+    fit.status = WeightFitStatus::kNothingCounts;
+    return fit;
+  }
+  for (double& weight : weights) weight *= kWeightSum / sum;
+  fit.weights = weights;
+  return fit;
+}
+
+}  // namespace etude

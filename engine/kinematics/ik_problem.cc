@@ -1,0 +1,112 @@
+#include "engine/kinematics/ik_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+constexpr double kFarthest = 1e6;  // metres: beyond this, squares of distances lose what goals are made of
+
+bool IsSane(double value) { return std::isfinite(value) && std::abs(value) <= kFarthest; }
+bool IsSane(const glm::dvec3& v) { return IsSane(v.x) && IsSane(v.y) && IsSane(v.z); }
+
+bool AreUnit(const glm::dmat3& axes) {
+  for (int k = 0; k < 3; ++k) {
+    if (!IsSane(axes[k]) || std::abs(glm::length(axes[k]) - 1) > 1e-6) return false;
+  }
+  return true;
+}
+
+bool IsWeight(double weight) { return std::isfinite(weight) && weight >= 0 && weight <= kFarthest; }
+
+bool IsGood(const EffectorTarget& target) {
+  return IsWeight(target.position_weight) && IsWeight(target.axis_weights.x) && IsWeight(target.axis_weights.y) &&
+         IsWeight(target.axis_weights.z) && IsSane(target.position) && AreUnit(target.axes);
+}
+
+}  // namespace
+
+std::string_view IkStatusName(IkStatus status) {
+  switch (status) {
+    case IkStatus::kConverged:
+      return "converged";
+    case IkStatus::kStalled:
+      return "stalled";
+    case IkStatus::kIterationLimit:
+      return "iteration_limit";
+    case IkStatus::kBadInput:
+      return "bad_input";
+  }
+  return "bad_input";
+}
+
+double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
+  double sum = 0;
+  int count = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (axis_weights[k] <= 0) continue;
+    sum += axis_angles[k];
+    ++count;
+  }
+  return count == 0 ? 0 : sum / count;
+}
+
+std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+  const std::size_t dofs = tree.limits.size();
+  if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
+    return "angles or limits do not fit the tree";
+  if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
+  for (const TreeJoint& joint : tree.joints) {
+    if (joint.parent < 0) continue;
+    if (!IsSane(joint.offset) || glm::length(joint.offset) <= 0) return "a limb has no length";
+  }
+  for (const Effector& effector : tree.effectors) {
+    if (!IsSane(effector.offset) || glm::length(effector.offset) <= 0) return "a limb has no length";
+  }
+  if (!IsSane(problem.start.root_position) || !AreUnit(problem.start.root_frame)) return "the root is no finite frame";
+  for (double angle : problem.start.angles) {
+    if (!IsSane(angle)) return "a start angle is not finite";
+  }
+  for (const AngleRange& range : problem.limits) {
+    if (!IsSane(range.lower) || !IsSane(range.upper) || range.lower > range.upper) return "a limit is inverted";
+  }
+  for (const EffectorTarget& target : problem.targets) {
+    if (!IsGood(target)) return "a target is no finite frame with weights";
+  }
+  const double change = options.angle_change_tolerance.value_or(0);
+  if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative";
+  if (options.max_iterations < 1) return "the iteration limit is below 1";
+  return {};
+}
+
+std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options) {
+  constexpr AngleRange kFree{-kFarthest, kFarthest};
+  std::vector<AngleRange> ranges(problem.limits.size(), kFree);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (options.limits) ranges[i] = problem.limits[i];
+    if (!options.angle_change_tolerance) continue;
+    const double start = std::clamp(problem.start.angles[i], ranges[i].lower, ranges[i].upper);
+    ranges[i].lower = std::max(ranges[i].lower, start - *options.angle_change_tolerance);
+    ranges[i].upper = std::min(ranges[i].upper, start + *options.angle_change_tolerance);
+  }
+  return ranges;
+}
+
+EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target) {
+  EffectorError error;
+  error.position = glm::length(target.position - effector.position);
+  for (int k = 0; k < 3; ++k) error.axis_angles[k] = AngleBetween(effector.axes[k], target.axes[k]);
+  return error;
+}
+
+WorstError FindWorst(std::span<const EffectorError> errors, std::span<const EffectorTarget> targets) {
+  WorstError worst;
+  for (std::size_t e = 0; e < errors.size(); ++e) {
+    if (targets[e].position_weight > 0) worst.position = std::max(worst.position, errors[e].position);
+    worst.axis = std::max(worst.axis, errors[e].MeanAxisAngle(targets[e].axis_weights));
+  }
+  return worst;
+}
+
+}  // namespace etude

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/kinematics/tree.h"
+#include "engine/kinematics/weights.h"
+
+namespace etude {
+
+/// Where one end effector shall be, and how much each part of that matters.
+struct EffectorTarget {
+  glm::dvec3 position{0};      ///< world, metres
+  glm::dmat3 axes{1};          ///< its three axes in the world, unit columns
+  double position_weight = 1;  ///< multiplies the weight rule's w_p; 0 = the position is unknown
+  glm::dvec3 axis_weights{1};  ///< multiplies w_o of each axis; (0, 0, 1) when only the limb's direction is known
+};
+
+/// Find angles that bring every end effector to its target, beginning with those of `start`, whose root stays where it
+/// is.
+struct IkProblem {
+  TreeState start;
+  std::vector<EffectorTarget> targets;  ///< one per effector of the tree, in its order
+  std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
+};
+
+struct IkOptions {
+  WeightRule weights = WeightRule::kAdaptive;  ///< CCD only
+  WeightRefresh refresh = WeightRefresh::kSweep;
+  bool limits = true;  ///< paper B, section 3.7.1; off: angles are free
+  /// Paper B, section 3.7.2: no angle may leave its start angle by more than this (radians). Empty: no such bound.
+  std::optional<double> angle_change_tolerance;
+  int max_iterations = 200;
+  /// Converged when every effector is nearer than both (axes and positions of weight 0 do not count). The defaults
+  /// are "solved practically": 0.1 cm and 0.1°.
+  double position_goal = 0.001;     ///< metres
+  double axis_goal = Radians(0.1);  ///< radians, mean over the three axes
+  /// Stalled when no angle moves further than this in one iteration (radians): far below what any goal can see, and
+  /// above rounding.
+  double stall_change = 1e-10;
+  bool trace = false;  ///< fill IkSolution::trace
+};
+
+enum class IkStatus {
+  kConverged,
+  kStalled,  ///< the angles do not move any more, and a goal is not reached
+  kIterationLimit,
+  kBadInput,  ///< nothing was computed; angles are zeros
+};
+std::string_view IkStatusName(IkStatus status);
+
+/// How far one end effector is from its target.
+struct EffectorError {
+  double position = 0;        ///< metres
+  glm::dvec3 axis_angles{0};  ///< of each axis to its target, radians
+
+  /// Mean over the axes of non-zero weight; 0 when there is none.
+  double MeanAxisAngle(const glm::dvec3& axis_weights) const;
+};
+
+/// The state after one iteration; entry 0 is the start.
+struct IkTraceEntry {
+  double worst_position = 0;  ///< metres, the largest over the effectors
+  double worst_axis = 0;      ///< radians, the largest mean axis angle over the effectors
+  std::vector<double> angles;
+};
+
+struct IkSolution {
+  IkStatus status = IkStatus::kBadInput;
+  std::vector<double> angles;  ///< one per degree of freedom, always finite
+  std::vector<EffectorError> errors;
+  int iterations = 0;
+  int fk_evaluations = 0;  ///< forward-kinematics passes over the whole tree
+  std::vector<IkTraceEntry> trace;
+};
+
+/// Why a problem cannot be worked on, or empty when it can: sizes that do not fit the tree, values that are not finite
+/// or absurdly far (> 1,000 km), limbs of no length, limits whose lower end is above the upper, axes that are not unit
+/// vectors, negative weights, an iteration limit below 1.
+std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+
+/// The range every angle may take: limits (when on) and the box of the angle-change tolerance, intersected. The box is
+/// laid around the start angle after that was moved into its limits, so that the intersection is never empty.
+std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
+
+EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);
+
+/// The largest errors over all effectors, counting only what has weight.
+struct WorstError {
+  double position = 0;  ///< metres
+  double axis = 0;      ///< radians
+
+  bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
+};
+WorstError FindWorst(std::span<const EffectorError> errors, std::span<const EffectorTarget> targets);
+
+}  // namespace etude

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "engine/kinematics/tree.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// What two images of a person tell (paper B, sections 3.2 and 4.2): where the five ends are and where every limb
+/// points.
+struct LimbObservation {
+  /// World, metres; only the five ends count: left and right foot, left and right hand, head.
+  BodyPose ends;
+  /// Of each limb, from its upper to its lower joint, at the index of the lower one: [left_elbow] is the direction from
+  /// shoulder to elbow, [head] from the neck's base to the head. Any length but zero. Only arms, hands, legs, feet and
+  /// the neck count; trunk, hips and shoulders are inferred.
+  std::array<glm::dvec3, kRoleCount> directions{};
+};
+
+/// The roles whose `LimbObservation::directions` count: the lower ends of thirteen limbs.
+std::span<const Role, 13> ObservedLimbs();
+
+/// The share of the way from navel to neck at which the role `spine` lies *(ours: paper B's body has no such joint;
+/// between the built-in body's 0.40 and the middle)*.
+constexpr double kSpineShare = 0.45;
+
+/// Where the twenty joints are when every limb gets its known length (paper B, section 3.2, figure 3.2):
+/// (a) from every end inwards along the limbs' directions, as far as hips and shoulders;
+/// (b) the legs are joined by the hip vector and the arms by the shoulder vector, each with its known width; the left
+///     side stays, the right side moves;
+/// (c) P₁ = the middle of the hips, P₂ = the foot of its perpendicular on the line through both shoulders; both arms
+///     move along that line until P₂ lies midway. *Ours*: P₂ and the arms then move along P₁P₂ to the trunk's known
+///     length. The head follows from P₂.
+/// All lengths are right afterwards, the left foot is where it was seen; the other ends have moved, which inverse
+/// kinematics repairs. Nothing for input that is not finite, a direction of no length, lengths that are not valid, or
+/// when both hips, both shoulders, or P₁ and P₂ coincide.
+std::optional<BodyPose> FixLimbLengths(const LimbObservation& observation, const LimbLengths& lengths);
+
+/// The lengths that paper B's body needs to follow a motion: means over both sides and all frames. The trunk ends
+/// midway between the shoulders and the neck begins there, as in the model (a real neck's base is a little higher).
+/// Needs at least one frame.
+LimbLengths MeasureLimbLengths(std::span<const BodyPose> poses);
+
+}  // namespace etude

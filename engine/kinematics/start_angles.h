@@ -1,0 +1,35 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "engine/kinematics/ik_problem.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/kinematics/tree.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// The angles of paper B's body (`MakeBodyTree`) that point its limbs as in `joints` (section 3.3), the root standing
+/// at the left foot. From the root outwards every joint takes the angles that bring its limb into the wanted
+/// direction, given where the joints before it really went: an angle clipped at its limit is made up for by the next
+/// joint as far as that one can. Two positions say nothing about the twist of a limb; these rules do *(ours)*:
+/// - upper arms and the right thigh: the X axis of elbow and knee is normal to both limbs, unless they are nearly
+///   parallel (3°): then, and for the neck, the smallest rotation from the parent's rest frame;
+/// - the left leg, whose three limbs hang on hinges with one common X axis: that axis is the mean of the normals at
+///   ankle and knee, and the limbs lie in the plane normal to it, as near as possible to where they point;
+/// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
+/// the
+///   navel; the trunk: its X axis points along the shoulders.
+/// A pose of the tree comes back exactly (all joints' positions) when `limits` allow it.
+/// Nothing when a position is not finite, or two neighbouring joints coincide, or the left leg's normals vanish.
+std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,
+                                        std::span<const AngleRange> limits);
+
+/// The problem that remains after the limb lengths are fixed: bring the ends back to where they were seen, the last
+/// limbs into their seen directions. The targets' Z axes are those directions, X and Y the start pose's, turned by the
+/// smallest rotation; a stroke says nothing about them, so their weight is 0. Limits are those of `body`.
+IkProblem MakeImageProblem(const KinematicTree& body, const LimbObservation& observation, const TreeState& start);
+
+}  // namespace etude

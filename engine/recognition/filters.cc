@@ -1,0 +1,108 @@
+#include "engine/recognition/filters.h"
+
+#include <cassert>
+#include <cmath>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+/// The weight of a new sample in a first-order low-pass (Casiez 2012, equation 5).
+double LowPassWeight(double cutoff_hz, double rate_hz) {
+  const double time_constant = 1.0 / (2.0 * kPi * cutoff_hz);
+  return 1.0 / (1.0 + time_constant * rate_hz);
+}
+
+template <typename Filter, typename Step>
+void SmoothJoint(SkeletonStream& stream, std::size_t joint, Filter filter, Step step) {
+  for (SensedFrame& frame : stream.frames) {
+    SensedJoint& sensed = frame.joints[joint];
+    if (sensed.state == TrackingState::kNotTracked) {
+      filter.Reset();
+    } else {
+      sensed.position = step(filter, sensed);
+    }
+  }
+}
+
+}  // namespace
+
+glm::dvec3 HoltFilter::Update(const glm::dvec3& raw, bool inferred) {
+  const double widening = inferred ? 2.0 : 1.0;
+  const double jitter_radius = options_.jitter_radius_m * widening;
+  const double max_deviation = options_.max_deviation_radius_m * widening;
+
+  const glm::dvec3 previous = smoothed_;
+  if (count_ == 0) {
+    smoothed_ = raw;
+    trend_ = glm::dvec3(0);
+  } else if (count_ == 1) {
+    smoothed_ = 0.5 * (raw + raw_);
+    trend_ = options_.correction * (smoothed_ - previous) + (1.0 - options_.correction) * trend_;
+  } else {
+    const double step = glm::distance(raw, previous);
+    const glm::dvec3 calmed =
+        step <= jitter_radius && jitter_radius > 0 ? glm::mix(previous, raw, step / jitter_radius) : raw;
+    smoothed_ = (1.0 - options_.smoothing) * calmed + options_.smoothing * (previous + trend_);
+    trend_ = options_.correction * (smoothed_ - previous) + (1.0 - options_.correction) * trend_;
+  }
+  raw_ = raw;
+  count_ = std::min(count_ + 1, 2);
+
+  const glm::dvec3 predicted = smoothed_ + options_.prediction_frames * trend_;
+  const double deviation = glm::distance(predicted, raw);
+  if (deviation <= max_deviation) return predicted;
+  return glm::mix(raw, predicted, max_deviation / deviation);
+}
+
+glm::dvec3 OneEuroFilter::Update(const glm::dvec3& raw) {
+  if (!started_) {
+    started_ = true;
+    smoothed_ = raw;
+    derivative_ = glm::dvec3(0);
+    return raw;
+  }
+  const double derivative_weight = LowPassWeight(options_.derivative_cutoff_hz, rate_hz_);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double slope = (raw[axis] - smoothed_[axis]) * rate_hz_;
+    derivative_[axis] += derivative_weight * (slope - derivative_[axis]);
+    const double cutoff = options_.min_cutoff_hz + options_.beta_per_m * std::abs(derivative_[axis]);
+    smoothed_[axis] += LowPassWeight(cutoff, rate_hz_) * (raw[axis] - smoothed_[axis]);
+  }
+  return smoothed_;
+}
+
+const std::vector<std::string>& FilterNames() {
+  static const std::vector<std::string> names = {"none", "holt", "one-euro"};
+  return names;
+}
+
+FilterKind FilterOf(std::string_view name) {
+  if (name == "holt") return FilterKind::kHolt;
+  if (name == "one-euro") return FilterKind::kOneEuro;
+  assert(name == "none");
+  return FilterKind::kNone;
+}
+
+SkeletonStream Smooth(const SkeletonStream& stream, const FilterOptions& options) {
+  SkeletonStream smoothed = stream;
+  for (std::size_t joint = 0; joint < kRoleCount; ++joint) {
+    switch (options.kind) {
+      case FilterKind::kNone:
+        break;
+      case FilterKind::kHolt:
+        SmoothJoint(smoothed, joint, HoltFilter(options.holt), [](HoltFilter& filter, const SensedJoint& sensed) {
+          return filter.Update(sensed.position, sensed.state == TrackingState::kInferred);
+        });
+        break;
+      case FilterKind::kOneEuro:
+        SmoothJoint(smoothed, joint, OneEuroFilter(options.one_euro, stream.rate_hz),
+                    [](OneEuroFilter& filter, const SensedJoint& sensed) { return filter.Update(sensed.position); });
+        break;
+    }
+  }
+  return smoothed;
+}
+
+}  // namespace etude

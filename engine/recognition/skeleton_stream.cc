@@ -1,0 +1,18 @@
+#include "engine/recognition/skeleton_stream.h"
+
+namespace etude {
+
+BodyPose PoseOf(const SensedFrame& frame) {
+  BodyPose pose;
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = frame.joints[i].position;
+  return pose;
+}
+
+BodyMotion MotionOf(const SkeletonStream& stream) {
+  BodyMotion motion{.rate_hz = stream.rate_hz, .poses = {}};
+  motion.poses.reserve(stream.frames.size());
+  for (const SensedFrame& frame : stream.frames) motion.poses.push_back(PoseOf(frame));
+  return motion;
+}
+
+}  // namespace etude

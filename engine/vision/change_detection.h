@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/base/image.h"
+
+namespace etude {
+
+enum class Segmenter {
+  kHue,  ///< "hue": hues compared, nothing else (paper B, chapter 4)
+  /// "hue-gated" (ours): compares hues only where both colours are far enough from grey to have one, else
+  /// greyness; then the light, beyond what a shadow or the lamp explains.
+  kHueGated,
+};
+
+/// "hue", "hue-gated": the names used in scenarios.
+std::vector<std::string> SegmenterNames();
+/// `name` is one of SegmenterNames().
+Segmenter SegmenterNamed(std::string_view name);
+
+struct ChangeOptions {
+  /// Hues further apart than this are a change. Pixel noise of 2 levels turns the hue of a moderately
+  /// coloured wall (30 levels of chroma) by 4° rms, so this is about four deviations.
+  double hue_threshold = Radians(16);
+  /// hue-gated: a hue counts only when both pixels are more saturated than this …
+  double min_saturation = 0.10;
+  /// … and this far from grey, in levels: in the dark, saturation is noise.
+  double min_chroma = 14;
+  /// hue-gated: saturations further apart than this are a change, when a hue is missing.
+  double saturation_threshold = 0.18;
+  /// hue-gated: light between these shares of the background's is shadow or lamp drift, and outside them
+  /// a change.
+  double darkest_shadow = 0.45;
+  double brightest_light = 1.30;
+};
+
+/// The pixels in which `picture` shows something else than `background`. The two have the same size.
+/// A grey pixel has hue 0 for `kHue`, as in the paper's formula.
+Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
+                  const ChangeOptions& options = {});
+
+struct PersonOptions {
+  Segmenter segmenter = Segmenter::kHue;
+  ChangeOptions change;
+  /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
+  int largest_hole = 60;
+};
+
+/// The person in the picture (paper B, chapter 4): change detection, then the largest 8-connected
+/// component, then its small holes filled. All zero when nothing changed.
+Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options);
+
+}  // namespace etude

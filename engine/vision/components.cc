@@ -1,0 +1,121 @@
+#include "engine/vision/components.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace etude {
+namespace {
+
+using Run = Components::Run;
+
+struct RunsOfMask {
+  std::vector<Run> runs;
+  std::vector<bool> set;  // of each run
+};
+
+RunsOfMask FindRuns(const Mask& mask) {
+  RunsOfMask found;
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width;) {
+      const bool set = mask.At(x, y) != 0;
+      const int begin = x;
+      while (x < mask.width && (mask.At(x, y) != 0) == set) ++x;
+      found.runs.push_back({y, begin, x, 0});
+      found.set.push_back(set);
+    }
+  }
+  return found;
+}
+
+void Paint(const Run& run, std::uint8_t value, Mask& mask) {
+  std::fill_n(&mask.At(run.begin, run.row), run.end - run.begin, value);
+}
+
+// Union-find whose representative is always the smallest index, so that the numbering of the pieces
+// follows the scan order whatever the order of the joins.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  std::size_t Find(std::size_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void Join(std::size_t a, std::size_t b) {
+    a = Find(a);
+    b = Find(b);
+    if (a > b) std::swap(a, b);
+    parent_[b] = a;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// Joins every run with the equal runs that it touches in the row above. `above` and `below` walk the
+// two rows together, so each pair of neighbours is met once.
+void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
+  const std::vector<Run>& runs = found.runs;
+  std::size_t above = 0;
+  for (std::size_t below = 0; below < runs.size(); ++below) {
+    const Run& run = runs[below];
+    while (runs[above].row < run.row - 1) ++above;
+    while (runs[above].row == run.row - 1 && runs[above].end < run.begin) ++above;
+    const bool by_corner = (connectivity == Connectivity::kEight) == found.set[below];
+    const int reach = by_corner ? 1 : 0;
+    for (std::size_t i = above; runs[i].row == run.row - 1 && runs[i].begin < run.end + reach; ++i) {
+      if (found.set[i] == found.set[below] && run.begin < runs[i].end + reach) sets.Join(i, below);
+    }
+  }
+}
+
+}  // namespace
+
+Components LabelComponents(const Mask& mask, Connectivity connectivity) {
+  RunsOfMask found = FindRuns(mask);
+  Sets sets(found.runs.size());
+  JoinRows(found, connectivity, sets);
+
+  Components components;
+  components.runs = std::move(found.runs);
+  for (std::size_t i = 0; i < components.runs.size(); ++i) {
+    Run& run = components.runs[i];
+    const std::size_t first = sets.Find(i);
+    run.piece = first == i ? components.pieces.size() : components.runs[first].piece;
+    if (first == i) components.pieces.push_back({found.set[i], 0, false});
+    Components::Piece& piece = components.pieces[run.piece];
+    piece.size += run.end - run.begin;
+    piece.touches_border |= run.row == 0 || run.row == mask.height - 1 || run.begin == 0 || run.end == mask.width;
+  }
+  return components;
+}
+
+Mask LargestComponent(const Mask& mask) {
+  const Components components = LabelComponents(mask);
+  std::size_t largest = components.pieces.size();
+  int size = 0;
+  for (std::size_t i = 0; i < components.pieces.size(); ++i) {
+    if (!components.pieces[i].set || components.pieces[i].size <= size) continue;
+    largest = i;
+    size = components.pieces[i].size;
+  }
+  Mask result(mask.width, mask.height);
+  for (const Run& run : components.runs) {
+    if (run.piece == largest) Paint(run, 1, result);
+  }
+  return result;
+}
+
+Mask FillHoles(const Mask& mask, int largest_hole) {
+  const Components components = LabelComponents(mask);
+  Mask result = mask;
+  for (const Run& run : components.runs) {
+    const Components::Piece& piece = components.pieces[run.piece];
+    if (!piece.set && !piece.touches_border && piece.size <= largest_hole) Paint(run, 1, result);
+  }
+  return result;
+}
+
+}  // namespace etude

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/base/image.h"
+
+namespace etude {
+
+/// Which neighbours belong together: the four that share an edge, or also the four that share a corner.
+enum class Connectivity { kFour, kEight };
+
+/// The pieces that equal pixels of a mask hang together in, as the runs of pixels that they consist of.
+struct Components {
+  /// The pixels begin ≤ x < end of one row.
+  struct Run {
+    int row = 0;
+    int begin = 0;
+    int end = 0;
+    std::size_t piece = 0;  ///< index into `pieces`
+  };
+  struct Piece {
+    bool set = false;  ///< pixels of 1s, or of 0s
+    int size = 0;      ///< pixels
+    bool touches_border = false;
+  };
+
+  std::vector<Run> runs;      ///< in scan order; together every pixel of the mask
+  std::vector<Piece> pieces;  ///< in order of their first pixel in scan order
+};
+
+/// Labels the pieces of 1s by `connectivity`; the 0s are pieces too, by the other connectivity (so that
+/// a closed 8-connected outline separates inside from outside).
+Components LabelComponents(const Mask& mask, Connectivity connectivity = Connectivity::kEight);
+
+/// The largest 8-connected piece of 1s alone; the first in scan order among equals; nothing from nothing.
+Mask LargestComponent(const Mask& mask);
+
+/// Sets the holes (4-connected pieces of 0s that do not touch the border) of at most `largest_hole` pixels.
+Mask FillHoles(const Mask& mask, int largest_hole);
+
+}  // namespace etude

@@ -1,0 +1,78 @@
+"""Bad input gives one message that says where and what is allowed, exit code 2, and writes nothing."""
+import unittest
+
+from etude_case import IK, EtudeCase
+
+BVH_HEAD = """HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotaton
+"""
+
+
+class Errors(EtudeCase):
+    def refuses(self, *arguments, says):
+        result = self.etude(*arguments)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        lines = result.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 1, result.stderr)
+        for words in says:
+            self.assertIn(words, lines[0])
+        self.assertFalse(self.out.exists(), "a refused run left a folder")
+
+    def refuses_scenario(self, text, says):
+        path = self.write("s.yaml", text)
+        self.refuses("run", path, "-o", self.out, says=[path + says[0], *says[1:]])
+
+    def test_missing_files(self):
+        self.refuses("run", "no/such.yaml", "-o", self.out, says=["no/such.yaml: no such scenario file or folder"])
+        self.refuses("run", self.folder, "-o", self.out, says=["holds no scenario (*.yaml)"])
+        self.refuses("report", self.folder / "nothing", says=["nothing: no such folder"])
+
+    def test_yaml_that_is_none(self):
+        self.refuses_scenario(IK + "clips: [a, b\n", says=[":10:1: not valid YAML"])
+
+    def test_unknown_keys_suggest_the_nearest(self):
+        self.refuses_scenario(IK + "trails: 4\n", says=[":9:1: ", "'trails'; did you mean 'trials'?"])
+        self.refuses_scenario(IK.replace("fixed, solver: ccd, weights:", "fixed, solver: ccd, wieghts:"),
+                              says=[":7:32: ", "'wieghts'; did you mean 'weights'?"])
+
+    def test_unknown_names_list_what_is_allowed(self):
+        self.refuses_scenario(IK.replace("task: ik", "task: ki"),
+                              says=[":3:7: ", "did you mean 'ik'? Allowed: transition, detection, ik, capture"])
+        self.refuses_scenario(IK.replace("solver: ccd, weights: fixed", "solver: cdc, weights: fixed"),
+                              says=[":7:27: ", "unknown solver 'cdc'; did you mean 'ccd'?", "ccd-hinges"])
+
+    def test_numbers_out_of_range(self):
+        self.refuses_scenario(IK.replace("trials: 4", "trials: 0"), says=[":4:9: ", "0 is out of range; allowed: 1 to"])
+        self.refuses_scenario(IK.replace("[2, 5]", "[2, many]"), says=[":5:30: ", "expected a number, found 'many'"])
+
+    def test_clips_that_cannot_be_found_or_read(self):
+        scenario = IK.replace("task: ik", "task: transition").replace("sweep: {joint_noise_deg: [2, 5]}\n", "")
+        scenario = scenario[: scenario.index("methods:")] + "methods: [{name: now, choice: now}]\n"
+        self.refuses_scenario(scenario + "clips: ['builtin:clapp']\n", says=["", "did you mean 'clap'?"])
+        self.refuses_scenario(scenario + "clips: ['/nowhere/*.bvh']\n", says=["", "no clip matches '/nowhere/*.bvh'"])
+        broken = self.write("broken.bvh", BVH_HEAD)
+        path = self.write("t.yaml", scenario + "clips: ['builtin:clap']\n")
+        self.refuses("run", path, "--clips", broken, "-o", self.out, says=[broken + ":5:", "Yrotaton", "Yrotation"])
+
+    def test_arguments(self):
+        path = self.write("s.yaml", IK)
+        self.refuses("run", path, "--job", "2", "-o", self.out, says=["unknown option '--job'; did you mean '--jobs'?"])
+        self.refuses("run", path, "--jobs", "0", "-o", self.out, says=["--jobs"])
+        self.refuses("run", path, "--seed", "-1", "-o", self.out, says=["--seed"])
+        self.refuses("rnu", says=["unknown argument 'rnu'; did you mean 'run'?"])
+        self.refuses(says=["--help explains"])
+
+    def test_a_folder_that_holds_something_is_left_alone(self):
+        path = self.write("s.yaml", IK)
+        self.write("precious.txt", "mine")
+        result = self.etude("run", path, "-o", self.folder, "--overwrite")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("holds something that is no run", result.stderr)
+        self.assertEqual((self.folder / "precious.txt").read_text(), "mine")
+
+
+if __name__ == "__main__":
+    unittest.main()

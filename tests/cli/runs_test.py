@@ -1,0 +1,92 @@
+"""Runs as users start them: every cell has its row, and workers change nothing but the time."""
+import filecmp
+import os
+import signal
+import subprocess
+import time
+import unittest
+
+from etude_case import ETUDE, IK, EtudeCase
+
+SHARED = ["manifest.json", "cells.jsonl", "summary.json", "series/ik.jsonl"]
+
+
+def children_of(pid):
+    with open(f"/proc/{pid}/task/{pid}/children") as file:
+        return [int(child) for child in file.read().split()]
+
+
+class Runs(EtudeCase):
+    def test_every_cell_has_its_row_in_canonical_order(self):
+        rows = self.run_suite(self.write("ik.yaml", IK))
+        wanted = [f"ik/joint_noise_deg={noise}/{trial:03}/{method}"
+                  for noise in (2, 5) for trial in range(4) for method in ("fixed", "least-squares")]
+        self.assertEqual([row["cell"] for row in rows], wanted)
+        self.assertLessEqual({row["status"] for row in rows}, {"ok", "unsolved"})
+        self.assertFalse((self.out / "journal.jsonl").exists())
+
+    def test_the_number_of_workers_changes_no_byte(self):
+        path = self.write("ik.yaml", IK)
+        folders = [self.folder / f"jobs-{jobs}" for jobs in (1, 3)]
+        for jobs, folder in zip((1, 3), folders):
+            self.run_suite(path, "--jobs", jobs, out=folder)
+        same, differing, missing = filecmp.cmpfiles(*folders, SHARED, shallow=False)
+        self.assertEqual((differing, missing), ([], []))
+        self.assertEqual(len(same), len(SHARED))
+
+    def test_another_seed_gives_other_worlds_and_the_control_differs(self):
+        path = self.write("ik.yaml", IK)
+        one = self.run_suite(path, out=self.folder / "one")
+        two = self.run_suite(path, "--seed", 2, out=self.folder / "two")
+        self.assertNotEqual([row["digest_world"] for row in one], [row["digest_world"] for row in two])
+
+    def test_a_new_value_in_a_sweep_changes_no_other_world(self):
+        before = self.run_suite(self.write("ik.yaml", IK), out=self.folder / "before")
+        after = self.run_suite(self.write("ik.yaml", IK.replace("[2, 5]", "[2, 3, 5]")), out=self.folder / "after")
+        kept = [row for row in after if row["joint_noise_deg"] != 3]
+        self.assertEqual(before, kept)
+
+    def test_a_worker_that_dies_takes_only_its_world_with_it(self):
+        path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 2000"))
+        run = subprocess.Popen([ETUDE, "run", path, "--jobs", "2", "-o", self.out], stderr=subprocess.DEVNULL,
+                               stdout=subprocess.DEVNULL)
+        journal = self.out / "journal.jsonl"
+        while not (journal.exists() and journal.stat().st_size > 0):
+            time.sleep(0.01)
+        os.kill(children_of(run.pid)[0], signal.SIGSEGV)
+        self.assertEqual(run.wait(timeout=120), 0)
+        rows = [row for row in (self.out / "cells.jsonl").read_text().splitlines()]
+        self.assertEqual(len(rows), 2000 * 2 * 2)
+        crashed = [row for row in rows if '"crashed"' in row]
+        self.assertEqual(len(crashed), 2)
+        self.assertIn("signal 11 (Segmentation fault)", crashed[0])
+
+    def test_ctrl_c_keeps_the_journal(self):
+        path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 100000"))
+        run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)
+        journal = self.out / "journal.jsonl"
+        while not (journal.exists() and journal.stat().st_size > 0):
+            time.sleep(0.01)
+        run.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(timeout=20), 130)
+        self.assertGreater(journal.stat().st_size, 0)
+        self.assertFalse((self.out / "cells.jsonl").exists())
+
+    def test_a_run_is_not_overwritten_unasked(self):
+        path = self.write("ik.yaml", IK)
+        self.run_suite(path)
+        again = self.etude("run", path, "-o", self.out)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("already holds a run", again.stderr)
+        self.run_suite(path, "--overwrite")
+
+    def test_lists_what_a_scenario_can_name(self):
+        for what, words in {"methods": "capture", "metrics": "position_error_cm", "clips": "builtin:clap",
+                            "scenarios": "scenarios/quick"}.items():
+            result = self.etude("list", what)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(words, result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

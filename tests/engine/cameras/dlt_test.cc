@@ -1,0 +1,128 @@
+#include "engine/cameras/dlt.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+ProjectionMatrix TrueMatrix() {
+  Intrinsics in;
+  in.fx = 610;
+  in.fy = 590;
+  in.skew = 3;
+  return MatrixOf(LookAt(in, {2.2, 1.4, 3.1}, {0, 1, 0}));
+}
+
+// The corners of a box, and more points inside it, none of them special.
+std::vector<PointPair> Pairs(int count) {
+  std::vector<PointPair> pairs;
+  for (int i = 0; i < count; ++i) {
+    const double t = i;
+    const glm::dvec3 world(std::sin(1.7 * t), 1 + std::cos(2.3 * t), std::sin(0.9 * t + 1));
+    pairs.push_back({world, *Project(TrueMatrix(), world)});
+  }
+  return pairs;
+}
+
+std::vector<PointPair> WithPixelErrors(std::vector<PointPair> pairs, double size_px) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double t = static_cast<double>(i);
+    pairs[i].pixel += size_px * glm::dvec2(std::sin(37 * t), std::cos(91 * t));
+  }
+  return pairs;
+}
+
+class Dlt : public testing::TestWithParam<Calibration> {};
+
+TEST_P(Dlt, GivesTheMatrixBackFromSixExactPairs) {
+  const auto matrix = Calibrate(Pairs(6), GetParam());
+  ASSERT_TRUE(matrix) << ToString(matrix.error());
+  // MatrixOf is scaled alike: its third row is a unit vector, so w is the depth.
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      EXPECT_NEAR(matrix->h[row][column], TrueMatrix().h[row][column], 1e-6) << row << ", " << column;
+    }
+  }
+}
+
+TEST_P(Dlt, FitsNoisyPairsToAboutTheirNoise) {
+  const auto noisy = WithPixelErrors(Pairs(30), 0.7);
+  const auto matrix = Calibrate(noisy, GetParam());
+  ASSERT_TRUE(matrix) << ToString(matrix.error());
+  EXPECT_LT(ReprojectionRms(*matrix, noisy), 0.8);
+  EXPECT_GT(ReprojectionRms(*matrix, noisy), 0.4);
+  EXPECT_LT(ReprojectionRms(*matrix, Pairs(30)), 0.5) << "more pairs average their noise away";
+}
+
+TEST_P(Dlt, RefusesFewerThanSixPairs) {
+  const auto matrix = Calibrate(Pairs(5), GetParam());
+  ASSERT_FALSE(matrix);
+  EXPECT_THAT(matrix.error().message, HasSubstr("5 point pairs"));
+}
+
+TEST_P(Dlt, RefusesPointsInOnePlane) {
+  std::vector<PointPair> pairs = Pairs(12);
+  for (PointPair& p : pairs) {
+    p.world.y = 0.5 + 0.25 * p.world.x;
+    p.pixel = *Project(TrueMatrix(), p.world);
+  }
+  const auto matrix = Calibrate(WithPixelErrors(pairs, 0.5), GetParam());
+  ASSERT_FALSE(matrix);
+  EXPECT_THAT(matrix.error().message, HasSubstr("in one plane"));
+}
+
+TEST_P(Dlt, RefusesPointsOnOneLine) {
+  std::vector<PointPair> pairs = Pairs(12);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].world = glm::dvec3(0.1, 1, 0.2) + 0.1 * static_cast<double>(i) * glm::dvec3(1, 0.5, -0.3);
+  }
+  const auto matrix = Calibrate(pairs, GetParam());
+  ASSERT_FALSE(matrix);
+  EXPECT_THAT(matrix.error().message, HasSubstr("on one line"));
+}
+
+TEST_P(Dlt, RefusesOnePointRepeated) { EXPECT_FALSE(Calibrate(std::vector<PointPair>(8, Pairs(1)[0]), GetParam())); }
+
+TEST_P(Dlt, RefusesNumbersThatAreNotFinite) {
+  std::vector<PointPair> pairs = Pairs(8);
+  pairs[2].pixel.x = std::numeric_limits<double>::quiet_NaN();
+  auto matrix = Calibrate(pairs, GetParam());
+  ASSERT_FALSE(matrix);
+  EXPECT_THAT(matrix.error().message, HasSubstr("pair 3 is not finite"));
+  pairs = Pairs(8);
+  pairs[7].world.z = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(Calibrate(pairs, GetParam()));
+}
+
+TEST_P(Dlt, RefusesPairsThatManyCamerasFit) {
+  // All but one point in a plane: the other's distance cannot be told from the camera's.
+  std::vector<PointPair> pairs = Pairs(10);
+  for (std::size_t i = 1; i < pairs.size(); ++i) {
+    pairs[i].world.y = 0.5;
+    pairs[i].pixel = *Project(TrueMatrix(), pairs[i].world);
+  }
+  const auto matrix = Calibrate(pairs, GetParam());
+  ASSERT_FALSE(matrix);
+  EXPECT_THAT(matrix.error().message, HasSubstr("more than one camera"));
+}
+
+INSTANTIATE_TEST_SUITE_P(BothWays, Dlt, testing::Values(Calibration::kDlt, Calibration::kDltNormalised),
+                         [](const auto& which) { return which.param == Calibration::kDlt ? "plain" : "normalised"; });
+
+TEST(ReprojectionRms, IsZeroForTheTrueMatrixAndTheShiftForAShiftedOne) {
+  EXPECT_NEAR(ReprojectionRms(TrueMatrix(), Pairs(9)), 0, 1e-9);
+  std::vector<PointPair> shifted = Pairs(9);
+  for (PointPair& p : shifted) p.pixel += glm::dvec2(3, 4);
+  EXPECT_NEAR(ReprojectionRms(TrueMatrix(), shifted), 5, 1e-9);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,84 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/document/fields.h"
+#include "engine/document/node.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+std::string Complaint(const std::string& yaml) {
+  const auto node = ParseYaml(yaml, "t.yaml");
+  if (!node) return ToString(node.error());
+  Fields fields(*node, "a test");
+  fields.Number("speed", 1, {0, 10});
+  fields.Integer("count", 3, {1, 5});
+  fields.Choice("solver", {"ccd", "dls"}, "ccd");
+  fields.Boolean("on", false);
+  fields.Texts("names");
+  const auto done = fields.Finish();
+  return done ? "" : ToString(done.error());
+}
+
+TEST(Document, KnowsTheLineAndColumnOfEveryValue) {
+  const auto node = ParseYaml("a: 1\nb:\n  - x\n  - {c: 2}\n", "t.yaml");
+  ASSERT_TRUE(node);
+  const Node& inner = node->Find("b")->items[1];
+  EXPECT_EQ(ToString(inner.Find("c")->place), "t.yaml:4:9");
+  EXPECT_EQ(ToString(node->Find("b")->items[0].place), "t.yaml:3:5");
+}
+
+TEST(Document, AcceptsWhatIsAllowed) {
+  EXPECT_EQ(Complaint("{speed: 2.5, count: 5, solver: dls, on: true, names: [a, b]}"), "");
+}
+
+TEST(Document, ComplainsWithPlaceValueAndWhatIsAllowed) {
+  EXPECT_EQ(Complaint("speed: fast\n"), "t.yaml:1:8: 'speed': expected a number, found 'fast'");
+  EXPECT_EQ(Complaint("speed: 11\n"), "t.yaml:1:8: 'speed': 11 is out of range; allowed: 0 to 10");
+  EXPECT_EQ(Complaint("\ncount: 2.5\n"), "t.yaml:2:8: 'count' must be a whole number, found 2.5");
+  EXPECT_EQ(Complaint("solver: cdc\n"), "t.yaml:1:9: unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, dls");
+  EXPECT_EQ(Complaint("on: maybe\n"), "t.yaml:1:5: 'on' must be true or false, found 'maybe'");
+  EXPECT_EQ(Complaint("names: a\n"), "t.yaml:1:8: 'names': expected a list, found 'a'");
+  EXPECT_EQ(Complaint("speed: [1]\n"), "t.yaml:1:8: 'speed' must be a number, found a list");
+  EXPECT_EQ(Complaint("- 1\n"), "t.yaml:1:1: a test must be a mapping (key: value), found a list");
+  EXPECT_THAT(Complaint("sped: 1\n"), HasSubstr("t.yaml:1:1: unknown key of a test 'sped'; did you mean 'speed'?"));
+}
+
+TEST(Document, RefusesInfinitiesAndNotANumber) {
+  for (const char* text : {"speed: inf", "speed: nan", "speed: .inf", "speed: .nan", "speed: 1e999"}) {
+    EXPECT_THAT(Complaint(text), HasSubstr("expected a number")) << text;
+  }
+}
+
+TEST(Document, RefusesBrokenOrHostileText) {
+  EXPECT_THAT(Complaint("a: [1, 2\n"), HasSubstr("not valid YAML"));
+  EXPECT_THAT(Complaint("speed: 1\nspeed: 2\n"), HasSubstr("t.yaml:2:1: the key 'speed' stands here twice"));
+  EXPECT_THAT(Complaint("a: &x 1\nb: *x\n"), HasSubstr("t.yaml:2:4: aliases (*name) are not read"));
+  EXPECT_THAT(Complaint(std::string(200000, '[')), HasSubstr("nested deeper than 32 levels"));
+  EXPECT_THAT(Complaint(std::string(200000, '{')), HasSubstr("nested deeper than 32 levels"));
+  for (const char* marker : {"- ", "? "}) {
+    std::string markers;
+    for (int i = 0; i < 50000; ++i) markers += marker;
+    EXPECT_THAT(Complaint(markers), HasSubstr("nested deeper than 32 levels"));
+  }
+  EXPECT_THAT(Complaint(std::string(2 << 20, 'x')), HasSubstr("at most 1048576 are read"));
+}
+
+TEST(Document, SurvivesEveryTruncationAndManyMutations) {
+  const std::string good = "scenario: ik\ntrials: 5\nsweep: {a: [1, 2]}\nmethods:\n  - {name: x, solver: 'c\"d'}\n";
+  for (std::size_t length = 0; length <= good.size(); ++length) ParseYaml(good.substr(0, length), "t.yaml");
+  int refused = 0;
+  for (std::size_t at = 0; at < good.size(); ++at) {
+    for (char c : {'\0', '*', '&', '{', ']', ':', '\n', '\t', '\xff', '%', '!', '|'}) {
+      std::string bad = good;
+      bad[at] = c;
+      if (!ParseYaml(bad, "t.yaml")) ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+}  // namespace
+}  // namespace etude

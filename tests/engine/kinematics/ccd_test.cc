@@ -1,0 +1,134 @@
+#include "engine/kinematics/ccd.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/kinematics/ccd_sweep.h"
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+// What a sweep with fixed weights makes smaller: Σ w_p |P_d − P_c|² + Σ w_o |u_d − u_c|².
+double Penalty(const KinematicTree& tree, const IkProblem& problem, std::span<const double> angles, WeightRule rule) {
+  const EffectorWeights weights = ComputeWeights(rule, 0, glm::dvec3(0));
+  const TreeFrames frames =
+      ComputeFrames(tree, {problem.start.root_position, problem.start.root_frame, {angles.begin(), angles.end()}});
+  double penalty = 0;
+  for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+    const glm::dvec3 gap = problem.targets[e].position - frames.effectors[e].position;
+    penalty += weights.position * glm::dot(gap, gap);
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3 off = problem.targets[e].axes[k] - frames.effectors[e].axes[k];
+      penalty += weights.axes[k] * glm::dot(off, off);
+    }
+  }
+  return penalty;
+}
+
+// The largest rise of the penalty from one sweep to the next, relative to where it stood.
+double LargestRise(CcdJoint joint_kind, bool limits) {
+  const KinematicTree tree = MakeBodyTree({});
+  double largest = -1;
+  for (int trial = 0; trial < 10; ++trial) {
+    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 30);
+    for (WeightRule rule : {WeightRule::kFixed, WeightRule::kFixedTuned}) {
+      IkOptions options;
+      options.weights = rule;
+      options.limits = limits;
+      CcdSweep ccd(tree, problem, options, joint_kind);
+      double before = Penalty(tree, problem, ccd.angles(), rule);
+      for (int sweep = 0; sweep < 40; ++sweep) {
+        ccd.Sweep();
+        const double after = Penalty(tree, problem, ccd.angles(), rule);
+        largest = std::max(largest, (after - before) / before);
+        before = after;
+      }
+    }
+  }
+  return largest;
+}
+
+TEST(Ccd, HingesNeverRaiseThePenaltyOfFixedWeights) {
+  EXPECT_LE(LargestRise(CcdJoint::kHinges, true), 1e-12);
+  EXPECT_LE(LargestRise(CcdJoint::kHinges, false), 1e-12);
+}
+
+TEST(Ccd, ClippingAWholeJointsAnglesCanRaiseThePenalty) {
+  EXPECT_GT(LargestRise(CcdJoint::kWhole, true), 1e-6)
+      << "B's joint treatment is not monotone, which is why hinges are";
+}
+
+TEST(Ccd, AHingeInReachOfItsTargetNeedsOneSweep) {
+  KinematicTree arm;
+  arm.joints = {{.name = "root", .role = Role::kLeftShoulder},
+                {.name = "hinge", .role = Role::kLeftElbow, .parent = 0, .offset = {0, 0, 1}, .dof_count = 1}};
+  arm.effectors = {{"tip", Role::kLeftWrist, 1, {0, 0, 0.5}}};
+  arm.limits = {{-kPi, kPi}};
+  // X turns Z towards −Y: the tip at angle q is (0, −sin q / 2, 1 + cos q / 2).
+  IkProblem problem{StandingState(arm), {EffectorTarget{}}, arm.limits};
+  problem.targets[0].position = {0, -0.5 * std::sin(2.0), 1 + 0.5 * std::cos(2.0)};
+  problem.targets[0].axis_weights = glm::dvec3(0);
+  for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
+    const IkSolution solution = solve(arm, problem, IkOptions{});
+    EXPECT_EQ(solution.status, IkStatus::kConverged);
+    EXPECT_EQ(solution.iterations, 1);
+    EXPECT_NEAR(solution.angles[0], 2.0, 1e-12);
+  }
+}
+
+TEST(Ccd, RefreshingFixedWeightsChangesNoBit) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 4, 0.5), 4, 15);
+  for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
+    IkOptions options;
+    options.max_iterations = 20;
+    options.weights = WeightRule::kFixedTuned;
+    const IkSolution per_sweep = solve(tree, problem, options);
+    options.refresh = WeightRefresh::kDof;
+    EXPECT_EQ(solve(tree, problem, options).angles, per_sweep.angles);
+
+    options.weights = WeightRule::kAdaptive;
+    const IkSolution adaptive_per_dof = solve(tree, problem, options);
+    options.refresh = WeightRefresh::kJoint;
+    const IkSolution adaptive_per_joint = solve(tree, problem, options);
+    options.refresh = WeightRefresh::kSweep;
+    const IkSolution adaptive_per_sweep = solve(tree, problem, options);
+    EXPECT_NE(adaptive_per_dof.angles, adaptive_per_joint.angles) << "adaptive weights must feel the difference";
+    EXPECT_NE(adaptive_per_joint.angles, adaptive_per_sweep.angles);
+  }
+}
+
+TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
+  KinematicTree tree = MakeBodyTree({});
+  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 5, 0.5), 5, 15);
+  IkOptions options;
+  options.max_iterations = 5;
+  const IkSolution listed = SolveCcd(tree, problem, options);
+  std::swap(tree.effectors[0], tree.effectors[3]);
+  std::swap(problem.targets[0], problem.targets[3]);
+  const IkSolution swapped = SolveCcd(tree, problem, options);
+  for (std::size_t i = 0; i < listed.angles.size(); ++i) EXPECT_NEAR(listed.angles[i], swapped.angles[i], 1e-9);
+}
+
+// Tables 3.3 and 5.1: with untuned fixed weights positions come right and axes stay off; updated weights bring both.
+TEST(Ccd, UpdatedWeightsBringTheAxesHomeThatFixedOnesLeaveOff) {
+  const KinematicTree tree = MakeBodyTree({});
+  for (int trial = 0; trial < 4; ++trial) {
+    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.5), trial, 15);
+    const auto worst = [&](WeightRule rule) {
+      IkOptions options;
+      options.weights = rule;
+      options.max_iterations = 300;
+      return FindWorst(SolveCcd(tree, problem, options).errors, problem.targets);
+    };
+    const WorstError fixed = worst(WeightRule::kFixed), adaptive = worst(WeightRule::kAdaptive);
+    EXPECT_LT(fixed.position, 0.01) << trial;
+    EXPECT_GT(fixed.axis, Radians(5)) << trial;
+    EXPECT_LT(adaptive.axis, 0.5 * fixed.axis) << trial;
+  }
+}
+
+}  // namespace
+}  // namespace etude

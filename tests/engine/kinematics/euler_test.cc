@@ -1,0 +1,64 @@
+#include "engine/kinematics/euler.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+double Difference(const glm::dmat3& a, const glm::dmat3& b) {
+  double largest = 0;
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) largest = std::max(largest, std::abs(a[c][r] - b[c][r]));
+  }
+  return largest;
+}
+
+TEST(Euler, RotationXyzIsTheProductOfThreeAxisRotations) {
+  const glm::dvec3 angles(0.3, -1.1, 2.5);
+  const glm::dmat3 product =
+      AxisRotation({1, 0, 0}, 0.3) * AxisRotation({0, 1, 0}, -1.1) * AxisRotation({0, 0, 1}, 2.5);
+  EXPECT_LT(Difference(RotationXyz(angles), product), 1e-15);
+  EXPECT_GT(Difference(RotationXyz({2.5, -1.1, 0.3}), product), 0.1) << "the order must matter";
+}
+
+TEST(Euler, AQuarterTurnAboutZTurnsXIntoY) {
+  EXPECT_LT(glm::length(AxisRotation({0, 0, 1}, kPi / 2) * glm::dvec3(1, 0, 0) - glm::dvec3(0, 1, 0)), 1e-15);
+}
+
+TEST(Euler, AnglesComeBackFromTheirRotation) {
+  for (double x : {-3.0, -0.5, 0.0, 1.2, 3.1}) {
+    for (double y : {-1.5, -0.2, 0.0, 0.9, 1.5}) {
+      for (double z : {-2.9, 0.0, 0.4, 2.2}) {
+        EXPECT_LT(glm::length(AnglesXyz(RotationXyz({x, y, z})) - glm::dvec3(x, y, z)), 1e-12) << x << y << z;
+      }
+    }
+  }
+}
+
+TEST(Euler, AnglesAtThePolesStillMakeTheSameRotation) {
+  for (double y : {-kPi / 2, kPi / 2}) {
+    const glm::dmat3 rotation = RotationXyz({0.7, y, -1.3});
+    EXPECT_LT(Difference(RotationXyz(AnglesXyz(rotation)), rotation), 1e-12);
+  }
+}
+
+TEST(Euler, SmallestRotationTurnsAboutTheCommonNormalOnly) {
+  const glm::dvec3 from = glm::normalize(glm::dvec3(1, 2, 3)), to = glm::normalize(glm::dvec3(-2, 1, 0.5));
+  const glm::dmat3 rotation = SmallestRotation(from, to);
+  const glm::dvec3 normal = glm::normalize(glm::cross(from, to));
+  EXPECT_LT(glm::length(rotation * from - to), 1e-14);
+  EXPECT_LT(glm::length(rotation * normal - normal), 1e-14);
+}
+
+TEST(Euler, SmallestRotationOfOppositeVectorsIsHalfATurn) {
+  for (const glm::dvec3& v : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1), glm::dvec3(0.6, 0, 0.8)}) {
+    const glm::dmat3 rotation = SmallestRotation(v, -v);
+    EXPECT_LT(glm::length(rotation * v + v), 1e-14);
+    EXPECT_NEAR(glm::determinant(rotation), 1, 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace etude

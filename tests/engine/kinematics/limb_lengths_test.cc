@@ -1,0 +1,97 @@
+#include "engine/kinematics/limb_lengths.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/engine/kinematics/observed_tree.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+double LargestGap(const BodyPose& a, const BodyPose& b) {
+  double largest = 0;
+  for (Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
+  return largest;
+}
+
+void ExpectLengths(const BodyPose& pose, const LimbLengths& lengths) {
+  const LimbLengths found = MeasureLimbLengths(std::span(&pose, 1));
+  EXPECT_NEAR(found.foot, lengths.foot, 1e-12);
+  EXPECT_NEAR(found.shank, lengths.shank, 1e-12);
+  EXPECT_NEAR(found.thigh, lengths.thigh, 1e-12);
+  EXPECT_NEAR(found.hip_width, lengths.hip_width, 1e-12);
+  EXPECT_NEAR(found.trunk, lengths.trunk, 1e-12);
+  EXPECT_NEAR(found.neck, lengths.neck, 1e-12);
+  EXPECT_NEAR(found.shoulder_width, lengths.shoulder_width, 1e-12);
+  EXPECT_NEAR(found.upper_arm, lengths.upper_arm, 1e-12);
+  EXPECT_NEAR(found.forearm, lengths.forearm, 1e-12);
+  EXPECT_NEAR(found.hand, lengths.hand, 1e-12);
+}
+
+constexpr LimbLengths kChild{0.12, 0.30, 0.31, 0.14, 0.38, 0.20, 0.28, 0.20, 0.17, 0.12};
+
+TEST(LimbLengths, OfATreeComeBackByMeasuring) {
+  ExpectLengths(ToBodyPose(MakeBodyTree(kChild), RandomPose(MakeBodyTree(kChild), 0, 1.0)), kChild);
+}
+
+TEST(LimbLengths, FixingFindsEveryJointOfAConsistentObservation) {
+  const KinematicTree tree = MakeBodyTree(kChild);
+  for (int trial = 0; trial < 20; ++trial) {
+    const BodyPose truth = ToBodyPose(tree, RandomPose(tree, trial, 1.0));
+    const auto fixed = FixLimbLengths(Observe(truth), kChild);
+    ASSERT_TRUE(fixed);
+    EXPECT_LT(LargestGap(*fixed, truth), 1e-12);
+  }
+}
+
+TEST(LimbLengths, StrokesMayHaveAnyLength) {
+  const BodyPose truth = ToBodyPose(MakeBodyTree({}), RandomPose(MakeBodyTree({}), 0, 1.0));
+  LimbObservation observation = Observe(truth);
+  for (glm::dvec3& direction : observation.directions) direction *= 37.0;
+  EXPECT_LT(LargestGap(*FixLimbLengths(observation, {}), truth), 1e-12);
+}
+
+TEST(LimbLengths, AreRightAfterFixingADisturbedObservation) {
+  const KinematicTree tree = MakeBodyTree({});
+  for (int trial = 0; trial < 20; ++trial) {
+    const BodyPose truth = ToBodyPose(tree, RandomPose(tree, trial, 0.8));
+    const LimbObservation observation = Disturb(Observe(truth), trial, 0.02, 5);
+    const auto fixed = FixLimbLengths(observation, {});
+    ASSERT_TRUE(fixed);
+    ExpectLengths(*fixed, {});
+    EXPECT_EQ((*fixed)[kLeftFoot], observation.ends[kLeftFoot]) << "the root stays where it was seen";
+    EXPECT_GT(glm::distance((*fixed)[kHead], observation.ends[kHead]), 1e-4) << "other ends move";
+    const glm::dvec3 trunk = (*fixed)[kShoulderCentre] - (*fixed)[kHipCentre];
+    EXPECT_NEAR(glm::dot(trunk, (*fixed)[kRightShoulder] - (*fixed)[kLeftShoulder]), 0, 1e-12) << "trunk ⟂ shoulders";
+  }
+}
+
+TEST(LimbLengths, FixingKeepsTheSeenDirectionsOfArmsAndLegs) {
+  const KinematicTree tree = MakeBodyTree({});
+  const LimbObservation seen = Disturb(Observe(ToBodyPose(tree, RandomPose(tree, 1, 0.8))), 1, 0.02, 5);
+  const BodyPose fixed = *FixLimbLengths(seen, {});
+  for (Role limb : ObservedLimbs()) {
+    const glm::dvec3 direction = fixed[limb] - fixed[*ParentOf(limb)];
+    EXPECT_LT(AngleBetween(direction, seen.directions[Index(limb)]), 1e-7) << RoleName(limb);
+  }
+}
+
+TEST(LimbLengths, UnusableObservationsGiveNothing) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const KinematicTree tree = MakeBodyTree({});
+  const LimbObservation sound = Observe(ToBodyPose(tree, RandomPose(tree, 0, 0.5)));
+  ASSERT_TRUE(FixLimbLengths(sound, {}));
+  LimbObservation lost_hand = sound;
+  lost_hand.ends[kLeftHand].x = kNaN;
+  EXPECT_FALSE(FixLimbLengths(lost_hand, {}));
+  LimbObservation no_stroke = sound;
+  no_stroke.directions[Index(kRightKnee)] = glm::dvec3(0);
+  EXPECT_FALSE(FixLimbLengths(no_stroke, {}));
+  EXPECT_FALSE(FixLimbLengths(sound, LimbLengths{.thigh = 0}));
+}
+
+}  // namespace
+}  // namespace etude

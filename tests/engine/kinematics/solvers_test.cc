@@ -1,0 +1,189 @@
+#include "engine/kinematics/solvers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "engine/kinematics/ccd_sweep.h"
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
+
+// A near pose: noise that every solver gets rid of.
+IkProblem NearProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3); }
+// A far one, near its limits.
+IkProblem FarProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30); }
+
+IkOptions PatientOptions() {
+  IkOptions options;
+  options.weights = WeightRule::kAdaptivePower;
+  options.max_iterations = 2000;
+  return options;
+}
+
+class EverySolver : public testing::TestWithParam<std::string> {
+ protected:
+  IkSolution Solve(const IkProblem& problem, const IkOptions& options) const {
+    return FindIkSolver(GetParam())->solve(Body(), problem, options);
+  }
+};
+
+TEST_P(EverySolver, BringsTheEffectorsHome) {
+  for (int trial = 0; trial < 5; ++trial) {
+    const IkProblem problem = NearProblem(trial);
+    const IkSolution solution = Solve(problem, PatientOptions());
+    ASSERT_EQ(solution.status, IkStatus::kConverged) << trial;
+    EXPECT_GT(solution.iterations, 0);
+    // Judged by forward kinematics of our own, not by the solver's word.
+    const TreeFrames found =
+        ComputeFrames(Body(), {problem.start.root_position, problem.start.root_frame, solution.angles});
+    for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+      EXPECT_LT(glm::distance(found.effectors[e].position, problem.targets[e].position), 0.001);
+      const EffectorError error = ErrorOf(found.effectors[e], problem.targets[e]);
+      EXPECT_LT(error.MeanAxisAngle(glm::dvec3(1)), Radians(0.1));
+      EXPECT_EQ(error.position, solution.errors[e].position);
+    }
+  }
+}
+
+TEST_P(EverySolver, HasNothingToDoAtTheTarget) {
+  const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), 1, 0.5), 1, 0);
+  const IkSolution solution = Solve(problem, PatientOptions());
+  EXPECT_EQ(solution.status, IkStatus::kConverged);
+  EXPECT_EQ(solution.iterations, 0);
+  EXPECT_EQ(solution.fk_evaluations, 1);
+  EXPECT_EQ(solution.angles, problem.start.angles);
+}
+
+TEST_P(EverySolver, NeverLeavesTheLimits) {
+  IkOptions options;
+  options.max_iterations = 60;
+  options.trace = true;
+  int checked = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    for (const IkTraceEntry& entry : Solve(FarProblem(trial), options).trace) {
+      for (std::size_t i = 0; i < entry.angles.size(); ++i, ++checked) {
+        EXPECT_GE(entry.angles[i], Body().limits[i].lower);
+        EXPECT_LE(entry.angles[i], Body().limits[i].upper);
+      }
+    }
+  }
+  EXPECT_GT(checked, 1000);
+}
+
+TEST_P(EverySolver, CrossesTheLimitsWhenTheyAreOff) {
+  IkOptions options;
+  options.limits = false;
+  options.max_iterations = 60;
+  int outside = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const IkSolution solution = Solve(FarProblem(trial), options);
+    for (std::size_t i = 0; i < solution.angles.size(); ++i) {
+      outside += solution.angles[i] < Body().limits[i].lower || solution.angles[i] > Body().limits[i].upper;
+    }
+  }
+  EXPECT_GT(outside, 0) << "else the test of the limits proves nothing";
+}
+
+TEST_P(EverySolver, KeepsEveryAngleInTheToleranceAroundItsStart) {
+  IkOptions options;
+  options.angle_change_tolerance = Radians(4);
+  options.max_iterations = 60;
+  for (int trial = 0; trial < 8; ++trial) {
+    const IkProblem problem = FarProblem(trial);
+    const IkSolution solution = Solve(problem, options);
+    double largest = 0;
+    for (std::size_t i = 0; i < solution.angles.size(); ++i) {
+      largest = std::max(largest, std::abs(solution.angles[i] - problem.start.angles[i]));
+    }
+    EXPECT_LE(largest, Radians(4) + 1e-12);
+    EXPECT_GT(largest, Radians(3.9)) << "so large a disturbance must run into the tolerance";
+  }
+}
+
+TEST_P(EverySolver, FollowsDirectionsAloneWhenOtherAxesHaveNoWeight) {
+  IkProblem problem = NearProblem(2);
+  for (EffectorTarget& target : problem.targets) {
+    target.axis_weights = {0, 0, 1};
+    // X and Y lie: turned about Z by a right angle.
+    target.axes = {target.axes[1], -target.axes[0], target.axes[2]};
+  }
+  EXPECT_EQ(Solve(problem, PatientOptions()).status, IkStatus::kConverged);
+}
+
+TEST_P(EverySolver, SaysWhenItRanOutOfIterations) {
+  IkOptions options = PatientOptions();
+  options.max_iterations = 1;
+  options.trace = true;
+  const IkSolution solution = Solve(FarProblem(0), options);
+  EXPECT_EQ(solution.status, IkStatus::kIterationLimit);
+  EXPECT_EQ(solution.iterations, 1);
+  EXPECT_EQ(solution.trace.size(), 2u) << "the start and one iteration";
+}
+
+TEST_P(EverySolver, StallsAtATargetOutOfReach) {
+  IkProblem problem = NearProblem(0);
+  for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(0);
+  problem.targets[3].position += glm::dvec3(0, 5, 0);
+  IkOptions options;
+  options.weights = WeightRule::kFixed;
+  options.max_iterations = 20000;
+  const IkSolution solution = Solve(problem, options);
+  EXPECT_EQ(solution.status, IkStatus::kStalled);
+  for (double angle : solution.angles) EXPECT_TRUE(std::isfinite(angle));
+}
+
+TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const std::vector<void (*)(KinematicTree&, IkProblem&, IkOptions&)> faults = {
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles[5] = kNaN; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles.pop_back(); },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.root_position.x = kInfinite; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.root_frame[1] = glm::dvec3(0); },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets[2].position.z = kNaN; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets[2].position.z = 1e200; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets[0].axes[2] *= 2.0; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets[0].axis_weights.y = -1; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets[1].position_weight = kNaN; },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets.pop_back(); },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { std::swap(p.limits[3].lower, p.limits[3].upper); },
+      [](KinematicTree&, IkProblem& p, IkOptions&) { p.limits[3].upper = kNaN; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].offset = glm::dvec3(0); },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[1].offset.z = kNaN; },
+      [](KinematicTree&, IkProblem&, IkOptions& o) { o.angle_change_tolerance = -0.1; },
+      [](KinematicTree&, IkProblem&, IkOptions& o) { o.max_iterations = 0; },
+  };
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    KinematicTree tree = Body();
+    IkProblem problem = NearProblem(0);
+    IkOptions options;
+    ASSERT_EQ(FindFault(tree, problem, options), "") << "sound before the fault";
+    faults[i](tree, problem, options);
+    EXPECT_NE(FindFault(tree, problem, options), "") << "fault " << i;
+    const IkSolution solution = FindIkSolver(GetParam())->solve(tree, problem, options);
+    EXPECT_EQ(solution.status, IkStatus::kBadInput) << "fault " << i;
+    EXPECT_EQ(solution.angles, std::vector<double>(29, 0.0));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()), [](const auto& tested) {
+  std::string name = tested.param;
+  std::erase(name, '-');
+  return name;
+});
+
+TEST(Solvers, AreFoundByName) {
+  EXPECT_EQ(IkSolverNames(), (std::vector<std::string>{"ccd", "ccd-hinges", "damped-least-squares"}));
+  EXPECT_EQ(FindIkSolver("cdc"), nullptr);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,297 @@
+#include "sim/sensors/skeleton_sensor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "sim/choreography/move.h"
+#include "sim/sensors/skeleton_errors.h"
+
+// The simulator against the figures it is to have (algorithms A7). Every band is the published one.
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr std::array kTorso = {kHipCentre, kSpine, kShoulderCentre, kHead};
+constexpr std::array kHands = {kLeftHand, kRightHand};
+constexpr std::array kEnds = {kLeftHand, kRightHand, kLeftFoot, kRightFoot};
+constexpr std::array kArmBones = {kLeftElbow, kLeftWrist, kRightElbow, kRightWrist};  // by their child
+
+WorldKey World(int trial) { return {.suite_seed = 1, .scenario = "sensor-statistics", .trial = trial}; }
+
+BodyMotion Dance(const char* name, int repeats) {
+  const Move move = *LoadBuiltinMove(name);
+  BodyMotion motion;
+  for (int i = 0; i < repeats; ++i) {
+    motion.poses.insert(motion.poses.end(), move.motion.poses.begin(), move.motion.poses.end());
+  }
+  return motion;
+}
+
+BodyPose Standing() { return LoadBuiltinMove("sway")->motion.poses.front(); }
+
+BodyMotion StandingStill(std::size_t frames) {
+  BodyMotion motion;
+  motion.poses.assign(frames, Standing());
+  return motion;
+}
+
+/// The covariance of a joint's errors over `lag` frames, averaged over joints and axes.
+template <std::size_t N>
+double Covariance(const std::vector<std::array<glm::dvec3, kRoleCount>>& errors, const std::array<Role, N>& roles,
+                  std::size_t lag) {
+  double sum = 0;
+  for (Role role : roles) {
+    glm::dvec3 mean(0);
+    for (const auto& frame : errors) mean += frame[Index(role)] / static_cast<double>(errors.size());
+    for (std::size_t t = 0; t + lag < errors.size(); ++t) {
+      sum += glm::dot(errors[t][Index(role)] - mean, errors[t + lag][Index(role)] - mean);
+    }
+  }
+  return sum / (3.0 * N * static_cast<double>(errors.size() - lag));
+}
+
+/// What a process "slow wander + white" is made of, told from its covariance at lags 0, 5 and 10.
+struct Wander {
+  double slow_mm, white_mm, time_constant_s;
+};
+template <std::size_t N>
+Wander AnalyseWander(const std::vector<std::array<glm::dvec3, kRoleCount>>& errors, const std::array<Role, N>& roles) {
+  const double c0 = Covariance(errors, roles, 0), c5 = Covariance(errors, roles, 5),
+               c10 = Covariance(errors, roles, 10);
+  const double slow = c5 * c5 / c10;  // an exponential, extrapolated to lag 0
+  return {.slow_mm = 1000 * std::sqrt(slow),
+          .white_mm = 1000 * std::sqrt(std::max(0.0, c0 - slow)),
+          .time_constant_s = 5.0 / kJudgedRateHz / std::log(c5 / c10)};
+}
+
+TEST(SkeletonSensor, WandersByMillimetresWithATimeConstantOfHalfASecondWhenTheBodyStands) {
+  const auto errors = ContinuousErrors(StandingStill(10000), {}, World(0));
+  const Wander torso = AnalyseWander(errors, kTorso), ends = AnalyseWander(errors, kEnds);
+  EXPECT_GT(torso.slow_mm, 1.0);
+  EXPECT_LT(torso.slow_mm, 2.0);
+  EXPECT_GT(ends.slow_mm, 2.0);
+  EXPECT_LT(ends.slow_mm, 4.0);
+  for (const Wander& wander : {torso, ends}) {
+    EXPECT_GT(wander.time_constant_s, 0.3);
+    EXPECT_LT(wander.time_constant_s, 0.5);
+  }
+  EXPECT_LT(torso.white_mm, 0.4);  // 0.3, and what the estimate's own noise adds
+  EXPECT_LT(ends.white_mm, 1.5);
+  EXPECT_GT(ends.white_mm, 0.5);
+}
+
+/// The errors' lengths in centimetres in a dance, sorted, pooled over moves and worlds.
+template <std::size_t N>
+std::vector<double> DancingErrorsCm(const std::array<Role, N>& roles, double strength) {
+  std::vector<double> lengths;
+  SkeletonSensorOptions options;
+  options.strength = strength;
+  int trial = 0;
+  for (const char* move : {"clap", "side_kick", "boxing", "sway"}) {
+    const BodyMotion motion = Dance(move, 2);
+    for (int world = 0; world < 8; ++world) {
+      for (const auto& frame : ContinuousErrors(motion, options, World(trial++))) {
+        for (Role role : roles) lengths.push_back(100 * glm::length(frame[Index(role)]));
+      }
+    }
+  }
+  std::sort(lengths.begin(), lengths.end());
+  return lengths;
+}
+
+double RootMeanSquare(const std::vector<double>& values) {
+  double sum = 0;
+  for (double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+TEST(SkeletonSensor, ErrsByTwoToThreeCentimetresAtTheTorsoAndFiveToSixAtTheHandsInADance) {
+  const auto torso = DancingErrorsCm(kTorso, 1), hands = DancingErrorsCm(kHands, 1);
+  EXPECT_GT(RootMeanSquare(torso), 2.0);
+  EXPECT_LT(RootMeanSquare(torso), 3.0);
+  EXPECT_GT(RootMeanSquare(hands), 5.0);
+  EXPECT_LT(RootMeanSquare(hands), 6.0);
+  const double p95 = hands[hands.size() * 95 / 100];
+  EXPECT_GT(p95, 8.0);
+  EXPECT_LT(p95, 11.0);
+}
+
+TEST(SkeletonSensor, ErrsInProportionToItsStrength) {
+  // Also the control of the test above: at double strength the bands are left.
+  const double once = RootMeanSquare(DancingErrorsCm(kHands, 1)), twice = RootMeanSquare(DancingErrorsCm(kHands, 2));
+  EXPECT_NEAR(twice, 2 * once, 1e-9);
+  EXPECT_GT(twice, 6.0);
+}
+
+TEST(SkeletonSensor, ErrsMoreWhenTheBodyMovesFaster) {
+  BodyMotion slow = Dance("boxing", 4), fast;
+  for (std::size_t t = 0; t < slow.poses.size(); t += 2) fast.poses.push_back(slow.poses[t]);
+  const auto size = [](const BodyMotion& motion) {
+    double sum = 0, count = 0;
+    for (int trial = 0; trial < 10; ++trial) {
+      for (const auto& frame : ContinuousErrors(motion, {}, World(trial))) {
+        sum += glm::dot(frame[Index(kLeftHand)], frame[Index(kLeftHand)]);
+        ++count;
+      }
+    }
+    return std::sqrt(sum / count);
+  };
+  EXPECT_GT(size(fast), 1.05 * size(slow));
+}
+
+TEST(SkeletonSensor, StretchesTheArmsBonesByFourToTwelvePercent) {
+  double sum = 0, count = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const BodyMotion motion = Dance(trial % 2 == 0 ? "clap" : "sway", 3);
+    const auto errors = ContinuousErrors(motion, {}, World(trial));
+    for (Role child : kArmBones) {
+      const std::size_t c = Index(child), p = Index(*ParentOf(child));
+      double lengths = 0, squares = 0;
+      for (std::size_t t = 0; t < errors.size(); ++t) {
+        const glm::dvec3 bone = motion.poses[t].joints[c] + errors[t][c] - motion.poses[t].joints[p] - errors[t][p];
+        lengths += glm::length(bone);
+        squares += glm::dot(bone, bone);
+      }
+      const double mean = lengths / static_cast<double>(errors.size());
+      sum += std::sqrt(squares / static_cast<double>(errors.size()) - mean * mean) / mean;
+      ++count;
+    }
+  }
+  EXPECT_GT(sum / count, 0.04);
+  EXPECT_LT(sum / count, 0.12);
+}
+
+TEST(SkeletonSensor, LosesTheWholeBodyInTwoPercentOfFrames) {
+  const std::vector<bool> lost = Dropouts(300000, {}, World(0));
+  const double share = static_cast<double>(std::count(lost.begin(), lost.end(), true)) / 300000;
+  EXPECT_NEAR(share, 0.02, 0.003);
+}
+
+/// A stretch of frames with one guess; on a body that stands still, an episode.
+struct Stretch {
+  int frames;
+  double off_m;
+};
+
+TEST(SkeletonSensor, GuessesHiddenHandsFarOffInEpisodesOfThreeToFortyFrames) {
+  const std::size_t frames = 20000;
+  std::vector<HiddenJoints> hidden(frames);
+  for (HiddenJoints& frame : hidden) frame[Index(kLeftHand)] = true;
+  const auto guesses = OcclusionGuesses(StandingStill(frames), hidden, {}, World(0));
+  std::vector<Stretch> stretches;
+  for (std::size_t t = 0; t < frames; ++t) {
+    const Guess& guess = guesses[t][Index(kLeftHand)];
+    ASSERT_TRUE(guess.inferred);
+    ASSERT_FALSE(guesses[t][Index(kLeftElbow)].inferred);
+    const bool same = t > 0 && guess.offset == guesses[t - 1][Index(kLeftHand)].offset;
+    if (!same) stretches.push_back({0, glm::length(guess.offset)});
+    ++stretches.back().frames;
+  }
+  int wrong_frames = 0, shortest = 1000, longest = 0;
+  double nearest = 10, farthest = 0;
+  stretches.pop_back();  // cut off by the end
+  for (const Stretch& stretch : stretches) {
+    if (stretch.off_m == 0) continue;  // good guesses, perhaps several in a row
+    wrong_frames += stretch.frames;
+    shortest = std::min(shortest, stretch.frames);
+    longest = std::max(longest, stretch.frames);
+    nearest = std::min(nearest, stretch.off_m);
+    farthest = std::max(farthest, stretch.off_m);
+  }
+  EXPECT_EQ(shortest, 3);
+  EXPECT_EQ(longest, 40);
+  EXPECT_NEAR(nearest, 0.2, 0.02);
+  EXPECT_NEAR(farthest, 1.1, 0.05);
+  EXPECT_NEAR(wrong_frames / static_cast<double>(frames), SkeletonSensorOptions{}.wrong_guess_chance, 0.08);
+}
+
+TEST(SkeletonSensor, InfersAtLeastThreeFramesOnceAJointWasHidden) {
+  std::vector<HiddenJoints> hidden(30);
+  hidden[10][Index(kRightWrist)] = true;
+  const auto guesses = OcclusionGuesses(StandingStill(30), hidden, {}, World(0));
+  for (std::size_t t = 0; t < 30; ++t) {
+    EXPECT_EQ(guesses[t][Index(kRightWrist)].inferred, t >= 10 && t < 13) << "frame " << t;
+  }
+}
+
+/// No error but what the test asks for.
+SkeletonSensorOptions Faultless() {
+  SkeletonSensorOptions options;
+  options.strength = 0;
+  return options;
+}
+
+TEST(SkeletonSensor, InfersTheArmBehindTheBodyAndTracksTheOneBeforeIt) {
+  // Seen from the dancer's left, the trunk stands before the right arm.
+  const BodyMotion motion = StandingStill(5);
+  const SkeletonStream stream = SenseSkeleton(motion, SkeletonSensorAt(2.75, Radians(90)), Faultless(), World(0));
+  for (const SensedFrame& frame : stream.frames) {
+    EXPECT_EQ(frame[kLeftElbow].state, TrackingState::kTracked);
+    EXPECT_EQ(frame[kRightElbow].state, TrackingState::kInferred);
+    EXPECT_EQ(frame[kRightElbow].position, motion.poses[0][kRightElbow]);  // strength 0: a good guess
+  }
+}
+
+TEST(SkeletonSensor, RepeatsTheLastReportOfAJointThatLeavesTheView) {
+  BodyMotion motion = StandingStill(4);
+  motion.poses[2][kLeftHand] = {0, 5, 0};
+  motion.poses[3][kLeftHand] = {0, 5, 0};
+  const SkeletonStream stream = SenseSkeleton(motion, SkeletonSensorAt(2.75, 0), Faultless(), World(0));
+  EXPECT_EQ(stream.frames[1][kLeftHand].state, TrackingState::kTracked);
+  EXPECT_EQ(stream.frames[3][kLeftHand].state, TrackingState::kNotTracked);
+  EXPECT_EQ(stream.frames[3][kLeftHand].position, motion.poses[1][kLeftHand]);
+  EXPECT_TRUE(stream.frames[3].body_seen);
+}
+
+TEST(SkeletonSensor, ExchangesArmsOrLegsForAThirdOfASecondNowAndThen) {
+  SkeletonSensorOptions options;
+  options.swaps_per_minute = 30;
+  const std::size_t frames = 18000;  // ten minutes
+  int arms = 0, legs = 0;
+  for (const Swap& swap : Swaps(frames, 30, options, World(0))) {
+    arms += swap.arms;
+    legs += swap.legs;
+    EXPECT_FALSE(swap.arms && swap.legs);
+  }
+  // One begins on average 60 frames after the last one's ten are over.
+  constexpr double kSwapFrames = 10, kPause = 60;
+  EXPECT_NEAR((arms + legs) / static_cast<double>(frames), kSwapFrames / (kSwapFrames + kPause), 0.02);
+  EXPECT_GT(std::min(arms, legs), 500);
+}
+
+TEST(SkeletonSensor, ThrowsTheSameDiceWhateverTheOptionsSay) {
+  const BodyMotion motion = Dance("clap", 2);
+  const Camera sensor = SkeletonSensorAt(2.75, 0);
+  SkeletonSensorOptions no_dropouts;
+  no_dropouts.dropout_share = 0;
+  const SkeletonStream with = SenseSkeleton(motion, sensor, {}, World(1));
+  const SkeletonStream without = SenseSkeleton(motion, sensor, no_dropouts, World(1));
+  int compared = 0;
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    EXPECT_TRUE(without.frames[t].body_seen);
+    if (!with.frames[t].body_seen) continue;
+    for (Role role : AllRoles()) {
+      EXPECT_EQ(with.frames[t][role].position, without.frames[t][role].position);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST(SkeletonSensor, DependsOnItsWorldAlone) {
+  const BodyMotion motion = Dance("clap", 1);
+  const Camera sensor = SkeletonSensorAt(2.75, 0.5);
+  const auto hand = [&](int trial) {
+    return SenseSkeleton(motion, sensor, {}, World(trial)).frames[20][kLeftHand].position;
+  };
+  EXPECT_EQ(hand(3), hand(3));
+  EXPECT_NE(hand(3), hand(4));
+}
+
+}  // namespace
+}  // namespace etude
