@@ -70,7 +70,7 @@ struct Comparison {
 struct ConditionSummary {
   std::vector<Setting> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;  ///< every method against the scenario's first, headline metrics
+  std::vector<Comparison> comparisons;  ///< every method against its baseline, headline metrics
 };
 
 enum class Outcome { kMet, kUnmet, kUndecided };

@@ -50,6 +50,12 @@ void ReadMethods(Fields& fields, Scenario& scenario) {
     scenario.method_names.push_back(name);
     scenario.methods.push_back(item);
   }
+  for (Node& method : scenario.methods) {
+    Fields entry(method, "a method");
+    scenario.baselines.push_back(entry.Choice("against", scenario.method_names, scenario.method_names.front()));
+    if (!entry.ok()) return fields.Complain(entry.Finish().error().place, entry.Finish().error().message);
+    std::erase_if(method.entries, [](const Node::Entry& key) { return key.key == "against"; });
+  }
 }
 
 /// The product of all swept lists; the last key varies fastest.

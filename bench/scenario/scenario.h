@@ -45,7 +45,8 @@ struct Scenario {
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;   ///< at least one
   std::vector<std::string> method_names;
-  std::vector<Node> methods;           ///< the mappings behind the names
+  std::vector<std::string> baselines;  ///< of each method: the one it is compared with; the first has itself
+  std::vector<Node> methods;           ///< the mappings behind the names, as their task reads them
   std::vector<std::string> metrics;    ///< headline metrics; the task's own when the file names none
   std::vector<Expectation> expectations;
   RecordingWish recordings;

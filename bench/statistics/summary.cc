@@ -66,8 +66,9 @@ ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, s
     const std::vector<const MetricInfo*> metrics = MetricsIn(selected);
     ConditionSummary& part = summary.conditions.emplace_back();
     part.condition = condition.settings;
-    const std::string& baseline = scenario.method_names.front();
-    for (const std::string& method : scenario.method_names) {
+    for (std::size_t m = 0; m < scenario.method_names.size(); ++m) {
+      const std::string& method = scenario.method_names[m];
+      const std::string& baseline = scenario.baselines[m];
       part.methods.push_back(SummariseMethod(method, selected, metrics, scenario, condition, seed));
       if (method == baseline) continue;
       for (const std::string& id : scenario.metrics) {

@@ -33,6 +33,17 @@ TEST(Scenario, PutsASweptValueInPlaceOfTheWrittenOne) {
   EXPECT_EQ(scenario->conditions[1].node.Find("x")->scalar, "2");
 }
 
+TEST(Scenario, ComparesEachMethodWithTheFirstOrTheOneItNames) {
+  const auto scenario =
+      ParseScenario(kHead + "methods: [{name: a}, {name: b}, {name: c, against: b, solver: ccd}]\n", "s.yaml");
+  ASSERT_TRUE(scenario);
+  EXPECT_EQ(scenario->baselines, (std::vector<std::string>{"a", "a", "b"}));
+  EXPECT_EQ(scenario->methods[2].Find("against"), nullptr);
+  EXPECT_EQ(scenario->methods[2].Find("solver")->scalar, "ccd");
+  EXPECT_THAT(Complaint(kHead + "methods: [{name: a}, {name: b, against: d}]\n"),
+              HasSubstr("s.yaml:4:41: unknown against 'd'"));
+}
+
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_THAT(Complaint("question: q?\ntask: ik\n" + kMethods), HasSubstr("a scenario needs 'scenario'"));
   EXPECT_THAT(Complaint("scenario: ../x\n" + kMethods), HasSubstr("s.yaml:1:11: '../x' is no scenario"));

@@ -1,0 +1,110 @@
+#include "bench/tasks/capture/capture_options.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kCameraCount = 2;
+
+// One number per camera.
+std::vector<double> ReadPerCamera(Fields& condition, std::string_view key, const std::vector<double>& fallback,
+                                  Range range) {
+  const Node* node = condition.Raw(key);
+  if (node == nullptr) return fallback;
+  std::vector<double> values = condition.Numbers(key, range);
+  if (values.size() == kCameraCount) return values;
+  condition.Complain(node->place, fmt::format("'{}' has {} numbers; it needs one for each of the {} cameras", key,
+                                              values.size(), kCameraCount));
+  return fallback;
+}
+
+const std::vector<std::string> kOracles = {"calibration", "segmentation", "directions", "points"};
+
+Oracle ReadOracle(Fields& fields) {
+  Oracle oracle;
+  const Node* node = fields.Raw("oracle");
+  if (node == nullptr) return oracle;
+  const std::vector<std::string> stages = fields.Texts("oracle");
+  for (const std::string& stage : stages) {
+    if (std::find(kOracles.begin(), kOracles.end(), stage) == kOracles.end()) {
+      fields.Complain(node->place, UnknownName("oracle", stage, kOracles));
+    }
+  }
+  auto names = [&](const char* stage) { return std::find(stages.begin(), stages.end(), stage) != stages.end(); };
+  return {names("calibration"), names("segmentation"), names("directions"), names("points")};
+}
+
+// Weights mean nothing to a solver that does not use them: naming them is a mistake worth telling.
+void ReadWeights(Fields& fields, const IkSolver& solver, IkOptions& ik) {
+  if (solver.uses_weights) {
+    ik.weights = *FindWeightRule(fields.Choice("weights", WeightRuleNames(), "adaptive"));
+    ik.refresh = *FindWeightRefresh(fields.Choice("refresh", WeightRefreshNames(), "sweep"));
+    return;
+  }
+  for (const char* key : {"weights", "refresh"}) {
+    const Node* value = fields.Raw(key);
+    if (value != nullptr) fields.Complain(value->place, fmt::format("solver '{}' has no '{}'", solver.name, key));
+  }
+}
+
+Result<CaptureMethod> ReadMethod(const Node& node) {
+  Fields fields(node, "a method of task capture");
+  CaptureMethod method;
+  method.name = fields.RequiredText("name");
+  method.segmenter = SegmenterNamed(fields.Choice("segmenter", SegmenterNames(), "hue"));
+  method.calibration = CalibrationNamed(fields.Choice("calibration", CalibrationNames(), "dlt"));
+  method.solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), "ccd"));
+  ReadWeights(fields, *method.solver, method.ik);
+  method.ik.max_iterations = fields.Integer("max_sweeps", 100, {1, 100'000});
+  if (const std::optional<double> degrees = fields.OptionalNumber("tolerance_deg", {0, 360})) {
+    method.ik.angle_change_tolerance = Radians(*degrees);
+  }
+  method.oracle = ReadOracle(fields);
+  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  return method;
+}
+
+}  // namespace
+
+StudioOptions ReadStudioOptions(Fields& condition) {
+  StudioOptions o;
+  o.duration_s = condition.Number("duration_s", o.duration_s, {0.1, 60});
+  o.camera_angles_deg = ReadPerCamera(condition, "camera_angles_deg", o.camera_angles_deg, {-180, 180});
+  o.camera_heights_m = ReadPerCamera(condition, "camera_heights_m", o.camera_heights_m, {0.2, 5});
+  o.camera_distance_m = condition.Number("camera_distance_m", o.camera_distance_m, {2, 10});
+  if (condition.Choice("clothes", {"studio", "everyday"}, "studio") == "everyday") o.clothes = Clothes::kEveryday;
+  o.light_drift = condition.Number("light_drift", o.light_drift, {0, 0.5});
+  o.camera_noise = condition.Number("camera_noise", o.camera_noise, {0, 20});
+  o.calibration_pairs = condition.Integer("calibration_pairs", o.calibration_pairs, {6, 1000});
+  o.calibration_noise_px = condition.Number("calibration_noise_px", o.calibration_noise_px, {0, 20});
+  o.annotation_error_px = condition.Number("annotation_error_px", o.annotation_error_px, {0, 50});
+  o.mark_every = condition.Integer("mark_every", o.mark_every, {1, 300});
+  return o;
+}
+
+Result<std::vector<CaptureMethod>> ReadCaptureMethods(std::span<const Node> methods) {
+  std::vector<CaptureMethod> read;
+  for (const Node& node : methods) {
+    auto method = ReadMethod(node);
+    if (!method) return tl::unexpected(method.error());
+    read.push_back(*std::move(method));
+  }
+  return read;
+}
+
+std::vector<std::pair<std::string, std::string>> CaptureMethodKeys() {
+  return {{"segmenter", Join(SegmenterNames())},
+          {"calibration", Join(CalibrationNames())},
+          {"solver", Join(IkSolverNames())},
+          {"weights", Join(WeightRuleNames())},
+          {"refresh", Join(WeightRefreshNames())},
+          {"tolerance_deg", "how far an angle may leave the one seen in the images; absent: as far as it likes"},
+          {"max_sweeps", "the solver's steps per frame, at most; default 100"},
+          {"oracle", "stages replaced by the truth, a list of " + Join(kOracles)}};
+}
+
+}  // namespace etude

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/segmentation.h"
+#include "bench/tasks/capture/capture_world.h"
+#include "engine/vision/strokes.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// How the person was cut out of the pictures: by a segmenter, or by the truth.
+struct PersonSource {
+  Segmenter segmenter = Segmenter::kHue;
+  bool is_truth = false;
+  friend bool operator==(const PersonSource&, const PersonSource&) = default;
+};
+
+/// What one way of cutting out the person makes of a take. Indices: [camera][frame].
+struct Observation {
+  PersonSource source;
+  std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that no human looked at
+  std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for
+  MaskScore score;                        ///< mean over all pictures
+  std::string masks_digest;
+  std::string marks_digest;
+};
+
+struct Take {
+  std::string pictures_digest;
+  std::vector<Observation> observations;  ///< one per source asked for, in that order
+};
+
+/// Films the world and shows the pictures to the human: every picture is rendered once, cut out by each of
+/// `sources`, and marked on each cut-out with the same dice.
+Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
+          std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer);
+
+}  // namespace etude

@@ -1,0 +1,149 @@
+#include "bench/tasks/detection/scoring.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "bench/metrics/detection.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+constexpr std::array kMetricIds = {"f1", "precision", "recall", "roc_auc", "latency_s", "false_alarms_per_min"};
+
+void MeasureOr(CellResult& result, const char* id, std::optional<double> value, const char* reason) {
+  if (value) {
+    result.Measure(id, *value);
+  } else {
+    result.Missing(id, reason);
+  }
+}
+
+std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const SessionVerdict& verdict) {
+  std::vector<JudgedEvent> events;
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const Judgement& judgement = verdict.events[i];
+    events.push_back({world.session.events[i].IsRight(), judgement.right_at.has_value(), judgement.score});
+  }
+  return events;
+}
+
+/// How long each right performance had to wait for its praise; a miss waited in vain until its window closed.
+std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
+  std::vector<Wait> waits;
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const SessionEvent& event = world.session.events[i];
+    if (!event.first_right_s) continue;
+    const Window window = WindowOf(event, world.stream);
+    const std::optional<int>& right_at = verdict.events[i].right_at;
+    const int frame = right_at ? window.begin + *right_at : window.end;
+    waits.push_back({frame / world.stream.rate_hz - *event.first_right_s, right_at.has_value()});
+  }
+  return waits;
+}
+
+void AddPose(Digest& digest, const BodyPose& pose) {
+  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+}
+
+std::string SessionDigest(const Performance& session) {
+  Digest digest;
+  for (const SessionEvent& event : session.events) {
+    digest.Add(event.move).Add(event.danced).Add(FaultName(event.fault)).Add(event.start_s).Add(event.end_s);
+    digest.Add(event.first_right_s.value_or(-1));
+  }
+  for (const BodyPose& pose : session.motion.poses) AddPose(digest, pose);
+  return digest.Hex();
+}
+
+std::string StreamDigest(const SkeletonStream& stream) {
+  Digest digest;
+  for (const SensedFrame& frame : stream.frames) {
+    AddPose(digest, PoseOf(frame));
+    for (const SensedJoint& joint : frame.joints) digest.Add(static_cast<std::int64_t>(joint.state));
+    digest.Add(std::int64_t{frame.body_seen});
+  }
+  return digest.Hex();
+}
+
+std::string EventsDigest(const SessionVerdict& verdict) {
+  Digest digest;
+  for (const Judgement& judgement : verdict.events) {
+    digest.Add(std::int64_t{judgement.right_at.value_or(-1)}).Add(judgement.score);
+  }
+  for (const Alarm& alarm : verdict.alarms) digest.Add(alarm.move).Add(std::int64_t{alarm.frame});
+  return digest.Hex();
+}
+
+std::string StateLetters(const SensedFrame& frame) {
+  std::string letters;
+  for (const SensedJoint& joint : frame.joints) {
+    const bool tracked = joint.state == TrackingState::kTracked, inferred = joint.state == TrackingState::kInferred;
+    letters += tracked ? 't' : inferred ? 'i' : 'n';
+  }
+  return letters;
+}
+
+}  // namespace
+
+void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result) {
+  const std::vector<JudgedEvent> events = JudgedEvents(world, verdict);
+  const Confusion confusion = CountConfusion(events);
+  const std::vector<Wait> waits = WaitsOf(world, verdict);
+  MeasureOr(result, "f1", F1(confusion), "no performance was right, and none was called right");
+  MeasureOr(result, "precision", Precision(confusion), "no performance was called right");
+  MeasureOr(result, "recall", Recall(confusion), "no performance was right");
+  MeasureOr(result, "roc_auc", RocAuc(events), "all performances were right, or all were wrong");
+  MeasureOr(result, "latency_s", KaplanMeierMedian(waits),
+            waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
+  const double minutes = world.session.motion.DurationSeconds() / 60.0;
+  result.Measure("false_alarms_per_min", static_cast<double>(verdict.alarms.size()) / minutes);
+}
+
+void MissAllDetectionMetrics(const std::string& reason, CellResult& result) {
+  for (const char* id : kMetricIds) result.Missing(id, reason);
+}
+
+StageDigests WorldDigests(const DetectionWorld& world) {
+  return {{"session", SessionDigest(world.session)}, {"stream", StreamDigest(world.stream)}};
+}
+
+StageDigests VerdictDigests(const SessionVerdict& verdict) {
+  return {{"filtered", StreamDigest(verdict.filtered)}, {"events", EventsDigest(verdict)}};
+}
+
+Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
+  Series series{.name = "score", .axis = "frame", .values = std::vector<double>(world.stream.frames.size(), 0.0)};
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const Window window = WindowOf(world.session.events[i], world.stream);
+    const std::vector<double>& scores = verdict.events[i].running_score;
+    std::copy(scores.begin(), scores.end(), series.values.begin() + window.begin);
+  }
+  return series;
+}
+
+Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict) {
+  nlohmann::ordered_json extras = {{"format", "etude-detection"}, {"version", 1}};
+  extras["events"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const SessionEvent& event = world.session.events[i];
+    const Judgement& judgement = verdict.events[i];
+    const Window window = WindowOf(event, world.stream);
+    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultName(event.fault)},
+                                   {"danced", event.danced},  {"begin_frame", window.begin},
+                                   {"end_frame", window.end}, {"called_right", judgement.right_at.has_value()},
+                                   {"score", judgement.score}};
+    if (judgement.right_at) told["called_frame"] = window.begin + *judgement.right_at;
+    extras["events"].push_back(std::move(told));
+  }
+  extras["alarms"] = nlohmann::ordered_json::array();
+  for (const Alarm& alarm : verdict.alarms) {
+    extras["alarms"].push_back({{"move", alarm.move}, {"frame", alarm.frame}});
+  }
+  extras["joint_states"] = nlohmann::ordered_json::array();
+  for (const SensedFrame& frame : world.stream.frames) extras["joint_states"].push_back(StateLetters(frame));
+  return {.tracks = {{"truth", world.session.motion}, {"sensed", MotionOf(verdict.filtered)}},
+          .extras_json = extras.dump()};
+}
+
+}  // namespace etude

@@ -1,0 +1,130 @@
+#include "bench/tasks/capture/capture_task.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/tasks/capture/recording_extras.h"
+#include "engine/document/node.h"
+#include "engine/motion/bvh.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const WorldKey kKey{.suite_seed = 3, .scenario = "capture-test", .trial = 0};
+
+Result<std::unique_ptr<Task>> Make(const std::string& yaml, bool wants_recordings = false) {
+  const auto node = ParseYaml(yaml, "test.yaml");
+  if (!node) return tl::unexpected(node.error());
+  const auto clips = LoadClips({"builtin:boxing"}, {});
+  if (!clips) return tl::unexpected(clips.error());
+  Fields condition(*node, "a test");
+  TaskInput input{condition, node->Find("methods")->items, *clips, wants_recordings};
+  auto task = MakeCaptureTaskKind().make(input);
+  if (task && !condition.ok()) return tl::unexpected(condition.Finish().error());
+  return task;
+}
+
+std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
+  for (const MetricValue& metric : cell.metrics) {
+    if (metric.id == id) return metric.value;
+  }
+  ADD_FAILURE() << id << " is not among the metrics";
+  return std::nullopt;
+}
+
+std::string DigestOf(const CellResult& cell, std::string_view stage) {
+  for (const auto& [name, digest] : cell.digests) {
+    if (name == stage) return digest;
+  }
+  ADD_FAILURE() << stage << " is not among the digests";
+  return "";
+}
+
+TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
+  const auto task =
+      Make("duration_s: 0.1\nmethods:\n- {name: fixed, weights: fixed}\n- {name: adaptive, weights: adaptive}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  EXPECT_EQ((*task)->ClipOf(kKey), "builtin:boxing");
+  const auto cells = (*task)->RunWorld(kKey), again = (*task)->RunWorld(kKey);
+  ASSERT_EQ(cells.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(cells[i].status, Status::kOk) << cells[i].reason;
+    EXPECT_EQ(cells[i].digests, again[i].digests);
+  }
+  for (const char* stage : {"calibration", "pictures", "masks", "marks", "directions", "points", "lengths"}) {
+    EXPECT_EQ(DigestOf(cells[0], stage), DigestOf(cells[1], stage)) << stage;
+  }
+  EXPECT_NE(DigestOf(cells[0], "pose"), DigestOf(cells[1], "pose"));
+  EXPECT_GT(*ValueOf(cells[0], "iou"), 0.9);
+  EXPECT_LT(*ValueOf(cells[0], "mpjpe_mm"), 150);
+  EXPECT_EQ(cells[0].series[0].values.size(), 3u);
+}
+
+TEST(CaptureTask, ComesCloseToTheTruthWhenEveryStageIsOne) {
+  const auto task = Make(
+      "duration_s: 0.1\nmethods:\n- {name: seen}\n"
+      "- {name: true, oracle: [calibration, segmentation, directions, points]}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = (*task)->RunWorld(kKey);
+  EXPECT_NEAR(*ValueOf(cells[1], "limb_direction_error_deg"), 0, 1e-6);
+  EXPECT_NEAR(*ValueOf(cells[1], "triangulation_error_mm"), 0, 1e-9);
+  EXPECT_EQ(*ValueOf(cells[1], "iou"), 1);
+  EXPECT_LT(*ValueOf(cells[1], "mpjpe_mm"), 20);
+  EXPECT_GT(*ValueOf(cells[0], "mpjpe_mm"), *ValueOf(cells[1], "mpjpe_mm"));
+  EXPECT_GT(*ValueOf(cells[0], "limb_direction_error_deg"), 1);
+}
+
+TEST(CaptureTask, FailsWithAReasonWhenTheMarksAreMissing) {
+  // Hue alone does not see dark blue trousers on a bluish floor: the feet are never marked.
+  const auto task = Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = (*task)->RunWorld(kKey);
+  EXPECT_EQ(cells[0].status, Status::kFailed);
+  EXPECT_THAT(cells[0].reason, HasSubstr("never marked in both pictures"));
+  EXPECT_FALSE(ValueOf(cells[0], "mpjpe_mm"));
+  EXPECT_EQ(ValueOf(cells[0], "frames_recovered"), 0);
+}
+
+TEST(CaptureTask, RecordsWhatAVideoAndABvhFileNeed) {
+  const auto task = Make("duration_s: 0.1\nmark_every: 2\nmethods:\n- {name: a}\n", true);
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = (*task)->RunWorld(kKey);
+  ASSERT_TRUE(cells[0].recording) << cells[0].reason;
+  ASSERT_EQ(cells[0].recording->tracks.size(), 2u);
+  EXPECT_EQ(cells[0].recording->tracks[0].name, "truth");
+  EXPECT_EQ(cells[0].recording->tracks[1].name, "recovered");
+  EXPECT_EQ(cells[0].recording->tracks[1].motion.poses.size(), 3u);
+  const auto extras = ReadRecordingExtras(cells[0].recording->extras_json);
+  ASSERT_TRUE(extras) << ToString(extras.error());
+  ASSERT_EQ(extras->views.size(), 2u);
+  EXPECT_EQ(extras->views[0].masks.size(), 3u);
+  const auto clip = ReadBvh(extras->bvh, "a.bvh");
+  ASSERT_TRUE(clip) << ToString(clip.error());
+  EXPECT_EQ(clip->frames.size(), 3u);
+}
+
+TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
+  struct Case {
+    const char* yaml;
+    const char* complaint;
+  };
+  for (const Case& c : {
+           Case{"methods: [{name: a, segmenter: hew}]", "did you mean 'hue'"},
+           Case{"methods: [{name: a, solver: cdc}]", "did you mean 'ccd'"},
+           Case{"methods: [{name: a, oracle: [pints]}]", "did you mean 'points'"},
+           Case{"methods: [{name: a, wieghts: fixed}]", "did you mean 'weights'"},
+           Case{"methods: [{name: a, solver: damped-least-squares, weights: fixed}]", "has no 'weights'"},
+           Case{"camera_heights_m: [1]\nmethods: [{name: a}]", "one for each of the 2 cameras"},
+           Case{"duration_s: -1\nmethods: [{name: a}]", "duration_s"},
+       }) {
+    const auto task = Make(c.yaml);
+    ASSERT_FALSE(task) << c.yaml;
+    EXPECT_THAT(ToString(task.error()), HasSubstr(c.complaint));
+  }
+}
+
+}  // namespace
+}  // namespace etude
