@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
+#include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/results/folder.h"
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
@@ -52,7 +52,7 @@ int ListScenarios(const std::string& folder) {
   const auto files = FindScenarioFiles({folder});
   if (!files) return Complain(files.error());
   for (const std::string& file : *files) {
-    auto text = ReadFile(file);
+    auto text = ReadWholeFile(file);
     if (!text) return Complain(text.error());
     const auto scenario = ParseScenario(*text, file);
     if (!scenario) return Complain(scenario.error());

@@ -1,10 +1,10 @@
 #include "bench/results/folder.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bench/files/files.h"
 #include "bench/results/row_json.h"
 #include "bench/results/summary_json.h"
 
@@ -20,7 +20,7 @@ std::string FileNameOf(std::string cell) {
 }
 
 Result<Json> ReadJsonFile(const fs::path& path) {
-  const auto text = ReadFile(path);
+  const auto text = ReadWholeFile(path);
   if (!text) return tl::unexpected(text.error());
   return ReadJson(*text, path.string());
 }
@@ -28,7 +28,7 @@ Result<Json> ReadJsonFile(const fs::path& path) {
 /// Calls `use(json, place)` for every line; stops at the first complaint.
 template <typename Use>
 Result<void> ForEachLine(const fs::path& path, Use use) {
-  const auto text = ReadFile(path);
+  const auto text = ReadWholeFile(path);
   if (!text) return tl::unexpected(text.error());
   std::istringstream lines(*text);
   std::string line;
@@ -93,32 +93,6 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
 }
 
 }  // namespace
-
-Result<void> WriteFileAtomically(const fs::path& path, const std::string& text) {
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  if (error) return Fail({path.parent_path().string(), 0, 0}, "cannot be made: {}", error.message());
-  const fs::path temporary = path.string() + ".tmp";
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) return Fail({temporary.string(), 0, 0}, "cannot be written");
-  }
-  fs::rename(temporary, path, error);
-  if (error) return Fail({path.string(), 0, 0}, "cannot be written: {}", error.message());
-  return {};
-}
-
-Result<std::string> ReadFile(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return Fail({path.string(), 0, 0}, "no such file");
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) return Fail({path.string(), 0, 0}, "cannot be read");
-  return text.str();
-}
 
 Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios) {

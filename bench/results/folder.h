@@ -10,10 +10,6 @@ namespace etude {
 /// The version of the layout of a result folder (design.md §4), raised when old readers would fail.
 constexpr int kResultSchema = 1;
 
-/// Writes `text` whole or not at all: into a temporary neighbour, then renamed.
-Result<void> WriteFileAtomically(const std::filesystem::path& path, const std::string& text);
-Result<std::string> ReadFile(const std::filesystem::path& path);
-
 /// Writes cells.jsonl, series/, recordings/ and summary.json of a whole run from `rows` (canonical
 /// order) and `scenarios`; these files are the same bytes for any number of workers.
 Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,

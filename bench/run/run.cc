@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/run/child_process.h"
@@ -39,7 +40,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
   for (const std::string& file : *files) {
-    auto text = ReadFile(file);
+    auto text = ReadWholeFile(file);
     if (!text) return tl::unexpected(text.error());
     const auto scenario = ParseScenario(*text, file);
     if (!scenario) return tl::unexpected(scenario.error());

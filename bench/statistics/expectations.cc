@@ -17,11 +17,13 @@ bool Matches(const Condition& condition, const std::vector<Setting>& where) {
 }
 
 std::string Claim(const Expectation& expectation) {
-  std::string text = expectation.metric + " of " + expectation.of;
-  if (!expectation.below.empty()) text += " below " + expectation.below;
-  if (!expectation.above.empty()) text += " above " + expectation.above;
+  const MetricInfo& metric = *FindMetric(expectation.metric);
+  std::string text = metric.label + " of " + expectation.of;
+  if (!expectation.below.empty()) text += " below that of " + expectation.below;
+  if (!expectation.above.empty()) text += " above that of " + expectation.above;
   const auto bound = [&](std::string_view words, double value) {
-    return fmt::format("{} {} of {} {} {}", expectation.statistic, expectation.metric, expectation.of, words, value);
+    const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
+    return fmt::format("{} {} of {} {} {}{}", expectation.statistic, metric.label, expectation.of, words, value, unit);
   };
   if (expectation.at_most) text = bound("at most", *expectation.at_most);
   if (expectation.at_least) text = bound("at least", *expectation.at_least);

@@ -3,9 +3,8 @@
 #include <glob.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "bench/files/files.h"
 #include "engine/motion/to_body.h"
 
 namespace etude {
@@ -15,7 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kBuiltinPrefix = "builtin:";
 constexpr std::size_t kMostClips = 1000;
-constexpr std::uintmax_t kLargestFile = 512u << 20;
 
 Result<void> AddBuiltins(const std::string& reference, const Place& place, ClipLibrary& library) {
   const std::string wanted = reference.substr(kBuiltinPrefix.size());
@@ -45,16 +43,9 @@ Result<std::vector<std::string>> FilesOf(const std::string& reference, const Pla
 }
 
 Result<void> AddFile(const std::string& path, ClipLibrary& library) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return Fail({path, 0, 0}, "is no file");
-  if (fs::file_size(path, error) > kLargestFile) {
-    return Fail({path, 0, 0}, "{} MiB; at most {} are read", fs::file_size(path, error) >> 20, kLargestFile >> 20);
-  }
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  if (!in) return Fail({path, 0, 0}, "cannot be read");
-  auto read = ReadBodyMotion(bytes.str(), path);
+  const auto bytes = ReadWholeFile(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  auto read = ReadBodyMotion(*bytes, path);
   if (!read) return tl::unexpected(read.error());
   library.clips.push_back({fs::path(path).stem().string(), path, std::move(read->motion), std::nullopt, read->note});
   return {};

@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/results/summary_json.h"

@@ -1,0 +1,68 @@
+#include "bench/files/files.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace etude {
+namespace {
+
+Place InFile(const std::filesystem::path& path) { return Place{.file = path.string()}; }
+
+}  // namespace
+
+std::filesystem::path TemporaryName(const std::filesystem::path& path) {
+  // The extension stays last: encoders choose the container by it.
+  return path.parent_path() / (path.stem().string() + ".partial" + path.extension().string());
+}
+
+Result<void> MakeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Fail(InFile(folder), "cannot make this folder: {}", error.message());
+  return {};
+}
+
+Result<void> RenameFinished(const std::filesystem::path& temporary, const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::rename(temporary, path, error);
+  if (!error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(temporary, ignored);
+  return Fail(InFile(path), "cannot write this file: {}", error.message());
+}
+
+Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
+  if (auto made = MakeFolder(path.parent_path()); !made) return made;
+  const std::filesystem::path temporary = TemporaryName(path);
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) {
+      const std::string reason = std::strerror(errno);
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      return Fail(InFile(path), "cannot write this file: {}", reason);
+    }
+  }
+  return RenameFinished(temporary, path);
+}
+
+Result<std::string> ReadWholeFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return Fail(InFile(path), "no such file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error && size > kLargestFile) {
+    return Fail(InFile(path), "{} MiB; at most {} MiB are read", size >> 20, kLargestFile >> 20);
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (in.bad()) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
+  return bytes;
+}
+
+}  // namespace etude

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+
+#include "engine/base/image.h"
+
+namespace etude {
+
+/// A colour with its opacity, 0…1 each.
+struct Paint {
+  double r = 0, g = 0, b = 0, a = 1;
+};
+
+/// A rectangle of a canvas, pixels, origin at the top left.
+struct Box {
+  double x = 0, y = 0, width = 0, height = 0;
+};
+
+/// A drawing surface of fixed size, opaque black at first (the one door to cairo). Coordinates are
+/// pixels from the top left corner.
+class Canvas {
+ public:
+  Canvas(int width, int height);
+  ~Canvas();
+  Canvas(Canvas&&) noexcept;
+  Canvas& operator=(Canvas&&) noexcept;
+
+  int width() const;
+  int height() const;
+
+  void FillBox(const Box& box, const Paint& paint, double radius = 0);
+  /// From `top` at the box's upper edge to `bottom` at its lower one.
+  void FillShade(const Box& box, const Paint& top, const Paint& bottom);
+  void DrawImage(const ColourImage& image, const Box& box, double radius = 0);
+  /// Paints where the mask is set, the mask stretched over the box.
+  void DrawMask(const Mask& mask, const Box& box, const Paint& paint);
+  void DrawLine(const glm::dvec2& from, const glm::dvec2& to, double width, const Paint& paint);
+  void DrawDot(const glm::dvec2& centre, double radius, const Paint& paint);
+  /// `origin` is the left end of the baseline. Text wider than `room` pixels is cut and ends in "…".
+  void DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
+                bool bold = false);
+  double TextWidth(const std::string& text, double size, bool bold = false) const;
+
+  ColourImage Pixels() const;
+  /// The picture as the bytes of a PNG file.
+  std::string Png() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace etude

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// A recorded cell that is worth showing.
+struct CastCell {
+  const ScenarioSummary* scenario;
+  const Row* row;
+  const Recording* recording;
+};
+
+/// Chooses what the film shows of this kind of task: among the recorded cells that ended well and have
+/// this track, those of the method that answers the scenario's question (else of any method), and of
+/// these the one in the middle by the first headline metric. A typical cell, not the best one.
+std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
+
+/// The motion of that name, or null.
+const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
+
+/// The curve of that name of a cell, or null.
+const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
+
+}  // namespace etude

@@ -1,0 +1,210 @@
+#include "reports/charts.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "reports/figures.h"
+#include "reports/findings.h"
+
+namespace etude {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// More steps than a screen has room for only make the page heavy.
+constexpr std::size_t kMostSteps = 120;
+// Beyond this ratio a linear axis squeezes all but the largest values into one line.
+constexpr double kLogarithmicFrom = 100;
+
+std::string_view DirectionWords(Direction direction) {
+  switch (direction) {
+    case Direction::kLowerIsBetter:
+      return "lower is better";
+    case Direction::kHigherIsBetter:
+      return "higher is better";
+    case Direction::kNeither:
+      break;
+  }
+  return "";
+}
+
+std::string Caption(const std::string& what, const MetricWords& words) {
+  std::string unit = words.suffix;
+  unit.erase(0, unit.find_first_not_of(' '));
+  std::string caption = what + " of the " + words.label;
+  if (!unit.empty()) caption += fmt::format(" ({})", unit);
+  if (const auto direction = DirectionWords(words.direction); !direction.empty())
+    caption += fmt::format("; {}", direction);
+  return caption;
+}
+
+bool NeedsLogarithm(const std::vector<double>& values) {
+  if (values.empty() || std::ranges::any_of(values, [](double v) { return v <= 0; })) return false;
+  const auto [low, high] = std::ranges::minmax(values);
+  return high / low > kLogarithmicFrom;
+}
+
+Json OrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
+
+// The values of the swept parameters, without the keys when only one is swept.
+std::string GroupLabel(const std::vector<Setting>& condition) {
+  return condition.size() == 1 ? condition.front().value : ConditionLabel(condition);
+}
+
+struct Mark {
+  std::optional<double> value, low, high;
+};
+
+std::optional<double> Scaled(std::optional<double> value, double scale) {
+  return value && std::isfinite(*value) ? std::optional(*value * scale) : std::nullopt;
+}
+
+// As shown: shares are percentages already.
+Mark MarkOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
+            const MetricWords& words) {
+  for (const MethodSummary& summary : condition.methods) {
+    const MetricSummary* found = summary.method == method ? FindSummary(summary, metric) : nullptr;
+    if (found == nullptr) continue;
+    return {Scaled(TypicalValue(*found, words), words.scale), Scaled(found->ci_low, words.scale),
+            Scaled(found->ci_high, words.scale)};
+  }
+  return {};
+}
+
+double Median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+// The first curve name whose axis is "iteration", in the order of the run.
+std::optional<std::string> IterationCurveName(const RunData& run, const std::set<std::string>& cells) {
+  for (const CellSeries& cell : run.series) {
+    if (!cells.contains(cell.cell)) continue;
+    for (const Series& series : cell.series) {
+      if (series.axis == "iteration" && !series.values.empty()) return series.name;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<double> Thinned(const std::vector<double>& curve, std::size_t stride) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < curve.size(); i += stride) out.push_back(curve[i]);
+  return out;
+}
+
+}  // namespace
+
+std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
+  if (scenario.headline_metrics.empty()) return std::nullopt;
+  const std::string& metric = scenario.headline_metrics.front();
+  const MetricWords words = WordsFor(metric);
+
+  Chart chart;
+  chart.caption = Caption(words.is_share ? "Mean with 95 % interval" : "Median with 95 % interval", words);
+  Json groups = Json::array(), methods = Json::array();
+  for (const ConditionSummary& condition : scenario.conditions) groups.push_back(GroupLabel(condition.condition));
+  std::vector<double> drawn;
+  for (const std::string& method : scenario.methods) {
+    Json marks = Json::array();
+    for (const ConditionSummary& condition : scenario.conditions) {
+      const Mark mark = MarkOf(condition, method, metric, words);
+      for (const auto& part : {mark.value, mark.low, mark.high}) {
+        if (part) drawn.push_back(*part);
+      }
+      marks.push_back({{"value", OrNull(mark.value)}, {"low", OrNull(mark.low)}, {"high", OrNull(mark.high)}});
+      const std::string where = scenario.conditions.size() > 1 ? ", " + ConditionLabel(condition.condition) : "";
+      chart.description += fmt::format("{}{}: {}. ", method, where,
+                                       mark.value ? FormatNumber(*mark.value) + words.suffix : std::string(kNoValue));
+    }
+    methods.push_back({{"name", method}, {"marks", std::move(marks)}});
+  }
+  if (drawn.empty()) return std::nullopt;
+
+  const bool one_condition = scenario.conditions.size() == 1;
+  if (one_condition) chart.rows = static_cast<int>(scenario.methods.size());
+  Json json{{"kind", "intervals"}, {"label", words.label},          {"suffix", words.suffix},
+            {"groups", groups},    {"methods", std::move(methods)}, {"logarithmic", NeedsLogarithm(drawn)}};
+  const auto& first = scenario.conditions.front().condition;
+  json["groupLabel"] = first.size() == 1 ? first.front().key : "";
+  chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return chart;
+}
+
+std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves) {
+  std::size_t longest = 0;
+  for (const auto* curve : curves) longest = std::max(longest, curve->size());
+  std::vector<double> median;
+  for (std::size_t step = 0; step < longest; ++step) {
+    std::vector<double> values;
+    for (const auto* curve : curves) {
+      if (!curve->empty()) values.push_back((*curve)[std::min(step, curve->size() - 1)]);
+    }
+    median.push_back(Median(std::move(values)));
+  }
+  return median;
+}
+
+std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary& scenario) {
+  std::map<std::string, std::string> method_of;
+  std::set<std::string> cells;
+  for (const Row& row : run.rows) {
+    if (row.scenario != scenario.name) continue;
+    method_of[row.Id()] = row.method;
+    cells.insert(row.Id());
+  }
+  const auto name = IterationCurveName(run, cells);
+  if (!name) return std::nullopt;
+
+  std::map<std::string, std::vector<const std::vector<double>*>> curves;
+  for (const CellSeries& cell : run.series) {
+    const auto method = method_of.find(cell.cell);
+    if (method == method_of.end()) continue;
+    for (const Series& series : cell.series) {
+      if (series.name == *name && !series.values.empty()) curves[method->second].push_back(&series.values);
+    }
+  }
+
+  std::map<std::string, std::vector<double>> medians;
+  std::size_t longest = 0;
+  for (const auto& [method, of_method] : curves) {
+    medians[method] = MedianCurve(of_method);
+    longest = std::max(longest, medians[method].size());
+  }
+  const std::size_t stride = std::max<std::size_t>(1, (longest + kMostSteps - 1) / kMostSteps);
+
+  const MetricWords words = WordsFor(*name);
+  Chart chart;
+  chart.caption = Caption("How fast it gets there: median", words);
+  Json methods = Json::array();
+  std::vector<double> drawn;
+  for (const std::string& method : scenario.methods) {
+    const auto found = medians.find(method);
+    if (found == medians.end()) continue;
+    const std::vector<double>& curve = found->second;
+    drawn.insert(drawn.end(), curve.begin(), curve.end());
+    chart.description += fmt::format("{}: from {} to {} in {}. ", method, FormatNumber(curve.front()) + words.suffix,
+                                     FormatNumber(curve.back()) + words.suffix,
+                                     Plural(static_cast<long long>(curve.size()) - 1, "iteration"));
+    Json values = Json::array();
+    for (const double value : Thinned(curve, stride)) values.push_back(value);
+    methods.push_back({{"name", method}, {"values", std::move(values)}});
+  }
+  Json json{{"kind", "curves"},
+            {"label", words.label},
+            {"suffix", words.suffix},
+            {"axis", "iteration"},
+            {"stride", stride},
+            {"methods", std::move(methods)},
+            {"logarithmic", NeedsLogarithm(drawn)}};
+  chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return chart;
+}
+
+}  // namespace etude

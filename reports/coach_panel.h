@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "engine/motion/body.h"
+#include "reports/canvas.h"
+#include "reports/cast.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// The left half of the film: the coach changes from one move to another, seen from the front by a
+/// camera that follows.
+class CoachPanel {
+ public:
+  /// Cuts the recording to at most `longest` frames around the seam. Fails when the recording's facts
+  /// cannot be read.
+  static Result<CoachPanel> Make(const CastCell& cell, int longest);
+
+  int Frames() const { return static_cast<int>(motion_.poses.size()); }
+  int Seam() const { return seam_; }
+  /// "clap → side kick, by fuzzy-bridge"
+  std::string Title() const;
+  void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
+
+ private:
+  Camera CameraAt(int frame, const Box& panel) const;
+  void DrawTimeline(Canvas& canvas, const Box& panel, int frame) const;
+
+  BodyMotion motion_;
+  std::vector<glm::dvec3> followed_;  ///< the smoothed way of the hips, one per frame
+  int seam_ = 0;
+  std::string from_, to_, method_, branch_;
+};
+
+}  // namespace etude

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "engine/base/image.h"
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// Makes an MP4 of pictures by piping them into ffmpeg (started directly, no shell). The same pictures
+/// give the same bytes on every CPU. The file gets its name when it is whole; an encoder that is
+/// dropped before Finish leaves nothing behind.
+class Encoder {
+ public:
+  /// Pictures must have this size (even numbers) and follow at `rate_hz`. Fails when `program` cannot
+  /// be started, saying why.
+  static Result<Encoder> Start(const std::filesystem::path& path, int width, int height, int rate_hz,
+                               const std::string& program = "ffmpeg");
+  ~Encoder();
+  Encoder(Encoder&& other) noexcept;
+  Encoder& operator=(Encoder&&) = delete;
+
+  /// Fails when ffmpeg has given up; its last words come with the error.
+  Result<void> Add(const ColourImage& picture);
+  /// Waits for ffmpeg to end and puts the file at its path.
+  Result<void> Finish();
+
+ private:
+  using Log = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+  Encoder(std::filesystem::path path, pid_t child, int pictures, Log log);
+  tl::unexpected<Error> Complaint(const std::string& what);
+  int CloseAndWait();
+
+  std::filesystem::path path_;
+  pid_t child_;   ///< −1 once it has ended
+  int pictures_;  ///< the socket that ffmpeg reads from; −1 once closed
+  Log log_;       ///< what ffmpeg says on its standard error
+};
+
+}  // namespace etude

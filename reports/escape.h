@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace etude {
+
+/// `text` made safe inside HTML or XML, in content and in quoted attributes. Control characters that XML
+/// forbids become U+FFFD, and so does every byte that is not UTF-8: a hostile name cannot break a file.
+std::string EscapeMarkup(std::string_view text);
+
+/// JSON text made safe inside a <script> element: no "<" survives, so nothing in it can end the element.
+std::string EscapeScriptJson(std::string_view json);
+
+/// `text` made safe in a line or table cell of Markdown.
+std::string EscapeMarkdown(std::string_view text);
+
+/// A field of a CSV file (RFC 4180), quoted when it must be.
+std::string EscapeCsv(std::string_view text);
+
+std::string Base64(std::span<const unsigned char> bytes);
+
+}  // namespace etude

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/metrics/catalogue.h"
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// What stands in the place of a value that does not exist. Never a zero.
+inline constexpr std::string_view kNoValue = "—";
+
+/// How people read a metric: its words from the catalogue, or its id when it is not listed there. Shares
+/// (metrics that are summed up by their mean) are shown as percentages.
+struct MetricWords {
+  std::string label;              ///< "orientation error"; "share “solved”" for shares
+  std::string suffix;             ///< put behind a value: "°", " cm", " %", ""
+  std::string difference_suffix;  ///< the same, but " percentage points" for shares
+  double scale = 1;               ///< what values are multiplied by before they are shown
+  bool is_share = false;
+  Direction direction = Direction::kNeither;
+};
+MetricWords WordsFor(const std::string& metric_id);
+
+/// The one number that stands for all cells: the median, or the mean of a share. In the metric's unit.
+std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
+/// "12.3°", "98 %"; kNoValue without a value.
+std::string FormatValue(std::optional<double> value, const MetricWords& words);
+
+/// Digits behind the point that show about three significant digits of `value`.
+int DecimalsFor(double value);
+/// "12.3", "1,284", "0.0021", "3.1e-06"; kNoValue when not finite.
+std::string FormatNumber(double value);
+/// With the given digits behind the point, for figures that stand beside each other.
+std::string FormatFixed(double value, int decimals);
+/// "1,284"
+std::string FormatCount(long long count);
+/// "98 %"; never rounded up to 100 % or down to 0 % when something is missing from it.
+std::string FormatShare(long long part, long long whole);
+/// "10.1–14.0", both ends with the same digits, or "−1.2 to 0.4"; kNoValue without an interval.
+std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
+/// "1 world", "3 worlds"
+std::string Plural(long long count, std::string_view singular);
+
+}  // namespace etude

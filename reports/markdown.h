@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// The page's verdicts as a short Markdown text, for a pull request or a closing note.
+std::string WriteMarkdown(const RunData& run);
+
+}  // namespace etude

@@ -1,0 +1,98 @@
+#include "reports/number_table.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "reports/escape.h"
+#include "reports/figures.h"
+#include "reports/findings.h"
+
+namespace etude {
+namespace {
+
+std::string Cell(std::string_view html) { return fmt::format("<td>{}</td>", html); }
+std::string NumberCell(std::string_view html) { return fmt::format("<td class=\"n\">{}</td>", html); }
+
+// The shortest text that reads back as the same number; empty when there is none.
+std::string Exact(std::optional<double> value) {
+  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
+}
+
+std::string MissingText(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
+                        const MethodSummary& method, const MetricSummary& metric) {
+  if (metric.missing == 0) return "";
+  return MissingReasons(run, scenario.name, condition.condition, method.method, metric.id);
+}
+
+}  // namespace
+
+std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario) {
+  const bool swept = scenario.conditions.size() > 1;
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"All numbers\"><table><thead><tr>";
+  if (swept) html += "<th scope=\"col\">Condition</th>";
+  html +=
+      "<th scope=\"col\">Metric</th><th scope=\"col\">Method</th><th scope=\"col\" class=\"n\">Median</th>"
+      "<th scope=\"col\" class=\"n\">95 % interval</th><th scope=\"col\" class=\"n\">Mean</th>"
+      "<th scope=\"col\" class=\"n\">Values</th><th scope=\"col\">Missing, and why</th></tr></thead><tbody>";
+  for (const ConditionSummary& condition : scenario.conditions) {
+    if (condition.methods.empty()) continue;
+    // Grouped by metric, so that methods stand under each other.
+    for (const MetricSummary& first : condition.methods.front().metrics) {
+      const MetricWords words = WordsFor(first.id);
+      for (const MethodSummary& method : condition.methods) {
+        const MetricSummary* metric = FindSummary(method, first.id);
+        if (metric == nullptr) continue;
+        html += "<tr>";
+        if (swept) html += Cell(EscapeMarkup(ConditionLabel(condition.condition)));
+        html += Cell(fmt::format("<span title=\"{}\">{}</span>", EscapeMarkup(metric->id), EscapeMarkup(words.label)));
+        html += Cell(EscapeMarkup(method.method));
+        html += NumberCell(FormatValue(metric->median, words));
+        html += NumberCell(FormatInterval(metric->ci_low, metric->ci_high, words));
+        html += NumberCell(FormatValue(metric->mean, words));
+        html += NumberCell(FormatCount(metric->present));
+        html += Cell(metric->missing == 0
+                         ? ""
+                         : fmt::format("{} of {}: {}", metric->missing, metric->missing + metric->present,
+                                       EscapeMarkup(MissingText(run, scenario, condition, method, *metric))));
+        html += "</tr>";
+      }
+    }
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) {
+  std::string csv =
+      "scenario,condition,method,metric,unit_label,median,ci95_low,ci95_high,mean,present,missing,missing_why\n";
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const MethodSummary& method : condition.methods) {
+      for (const MetricSummary& metric : method.metrics) {
+        const MetricInfo* info = FindMetric(metric.id);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
+                           EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method),
+                           EscapeCsv(metric.id), EscapeCsv(info == nullptr ? "" : info->unit), Exact(metric.median),
+                           Exact(metric.ci_low), Exact(metric.ci_high), Exact(metric.mean), metric.present,
+                           metric.missing, EscapeCsv(MissingText(run, scenario, condition, method, metric)));
+      }
+    }
+  }
+  return csv;
+}
+
+std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
+  std::string csv =
+      "scenario,condition,metric,baseline,method,pairs,difference,ci95_low,ci95_high,share_better,verdict\n";
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const Comparison& c : condition.comparisons) {
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
+                         EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(c.metric), EscapeCsv(c.baseline),
+                         EscapeCsv(c.method), c.pairs, Exact(c.difference), Exact(c.ci_low), Exact(c.ci_high),
+                         Exact(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict));
+    }
+  }
+  return csv;
+}
+
+}  // namespace etude

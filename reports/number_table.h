@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// Every summary of one scenario as an HTML table: median, interval, mean, how many values there are,
+/// how many are missing and why.
+std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario);
+
+/// The same as CSV, full precision, empty fields for values that do not exist.
+std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario);
+
+/// Every comparison of one scenario as CSV.
+std::string ComparisonTableCsv(const ScenarioSummary& scenario);
+
+}  // namespace etude

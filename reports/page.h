@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "bench/results/run_data.h"
+#include "reports/media.h"
+
+namespace etude {
+
+/// The page that shows a run to people: verdict first, plain words, pictures; numbers folded away. It
+/// holds everything it needs, and forbids itself the network.
+std::string WritePage(const RunData& run, const Media& media);
+
+}  // namespace etude

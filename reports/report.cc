@@ -1,0 +1,75 @@
+#include "reports/report.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "bench/files/files.h"
+#include "bench/tasks/capture/recording_extras.h"
+#include "reports/film.h"
+#include "reports/junit.h"
+#include "reports/markdown.h"
+#include "reports/number_table.h"
+#include "reports/page.h"
+
+namespace etude {
+namespace {
+
+// A scenario's name comes from a file of the user: only harmless characters reach a path.
+std::string FileNameOf(const std::string& scenario, std::size_t index) {
+  std::string name = scenario;
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
+  return name == scenario ? name : fmt::format("{}-{}", name, index + 1);
+}
+
+Result<void> WriteTables(const RunData& run, const std::filesystem::path& folder) {
+  for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
+    const ScenarioSummary& scenario = run.scenarios[i];
+    const std::string name = FileNameOf(scenario.name, i);
+    auto written = WriteFileAtomically(folder / (name + ".csv"), NumberTableCsv(run, scenario));
+    if (!written) return written;
+    written = WriteFileAtomically(folder / (name + "-comparisons.csv"), ComparisonTableCsv(scenario));
+    if (!written) return written;
+  }
+  return {};
+}
+
+// The motions that captures recovered, for any program that reads BVH.
+Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folder) {
+  for (const CellRecording& recorded : run.recordings) {
+    const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
+    if (row == run.rows.end() || row->task != "capture") continue;
+    const auto extras = ReadRecordingExtras(recorded.recording.extras_json);
+    if (!extras) return tl::unexpected(extras.error());
+    std::string name = recorded.cell;
+    std::ranges::replace(name, '/', '~');
+    if (auto written = WriteFileAtomically(folder / (name + ".bvh"), extras->bvh); !written) return written;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
+  const std::filesystem::path folder = run_folder / "report";
+  // The cheap texts first: whatever happens to the film, they stand.
+  auto written = WriteFileAtomically(folder / "summary.md", WriteMarkdown(run));
+  if (!written) return written;
+  written = WriteFileAtomically(folder / "junit.xml", WriteJunit(run));
+  if (!written) return written;
+  written = WriteTables(run, folder / "tables");
+  if (!written) return written;
+
+  written = WriteMotions(run, folder / "motions");
+  if (!written) return written;
+
+  Media media;
+  if (options.pictures) {
+    media = MakeMedia(run, {.film = run_folder / "video" / "etude.mp4", .pictures = folder / "pictures"});
+  } else {
+    media.why_no_film = "There is no film: none was asked for.";
+  }
+  return WriteFileAtomically(folder / "index.html", WritePage(run, media));
+}
+
+}  // namespace etude

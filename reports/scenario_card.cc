@@ -1,0 +1,160 @@
+#include "reports/scenario_card.h"
+
+#include <fmt/core.h>
+
+#include <span>
+
+#include "reports/charts.h"
+#include "reports/escape.h"
+#include "reports/figures.h"
+#include "reports/number_table.h"
+
+namespace etude {
+namespace {
+
+std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
+  if (!verdict) return "mixed";
+  switch (*verdict) {
+    case Verdict::kBetter:
+      return "better";
+    case Verdict::kWorse:
+      return "worse";
+    case Verdict::kNoDifference:
+      return "same";
+    case Verdict::kInconclusive:
+      break;
+  }
+  return "open";
+}
+
+std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
+  if (!verdict) return "±";
+  switch (*verdict) {
+    case Verdict::kBetter:
+      return "▲";
+    case Verdict::kWorse:
+      return "▼";
+    case Verdict::kNoDifference:
+      return "=";
+    case Verdict::kInconclusive:
+      break;
+  }
+  return "?";
+}
+
+// The data lies in an island beside the canvas: text, never code.
+std::string ChartFigure(const Chart& chart, const std::string& id) {
+  const std::string shape = chart.rows > 0 ? fmt::format(" style=\"height:{}px\"", 64 + 38 * chart.rows) : "";
+  return fmt::format(
+      "<figure class=\"chart\"><figcaption>{}</figcaption><div class=\"canvas\"{}>"
+      "<canvas data-chart=\"{}\" role=\"img\" aria-label=\"{}\"></canvas></div>"
+      "<script type=\"application/json\" id=\"{}\">{}</script></figure>",
+      EscapeMarkup(chart.caption), shape, id, EscapeMarkup(chart.description), id, EscapeScriptJson(chart.json));
+}
+
+std::string Charts(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
+  std::string html;
+  if (const auto chart = IntervalChart(scenario)) html += ChartFigure(*chart, fmt::format("chart-{}-medians", index));
+  if (const auto chart = ConvergenceChart(run, scenario)) {
+    html += ChartFigure(*chart, fmt::format("chart-{}-curves", index));
+  }
+  if (html.empty()) return "<p class=\"quiet\">No cell gave a value that could be drawn.</p>";
+  return fmt::format("<div class=\"charts\">{}</div>", html);
+}
+
+std::string Methods(const ScenarioFindings& findings) {
+  if (findings.methods.empty()) return "";
+  std::string html = "<ul class=\"methods\" aria-label=\"Every method compared with its baseline\">";
+  for (const MethodFinding& method : findings.methods) {
+    html += fmt::format(
+        "<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">than {}</span></li>",
+        EscapeMarkup(method.sentence), VerdictBadge(method), EscapeMarkup(method.method),
+        EscapeMarkup(method.baseline));
+  }
+  return html + "</ul>";
+}
+
+std::string Expectations(const ScenarioSummary& scenario) {
+  if (scenario.expectations.empty()) return "";
+  std::string html = "<ul class=\"expectations\">", figures;
+  for (const ExpectationResult& e : scenario.expectations) {
+    const bool met = e.outcome == Outcome::kMet, unmet = e.outcome == Outcome::kUnmet;
+    html += fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span></li>",
+                        met     ? "met"
+                        : unmet ? "unmet"
+                                : "undecided",
+                        met     ? "✓ expected and met"
+                        : unmet ? "✗ expected, not met"
+                                : "? could not be decided",
+                        EscapeMarkup(e.text));
+    figures += fmt::format("<li><b>{}</b> {}</li>", EscapeMarkup(e.text), EscapeMarkup(e.detail));
+  }
+  return html + "</ul><details><summary>Figures behind the expectations</summary><ul class=\"reasons\">" + figures +
+         "</ul></details>";
+}
+
+std::string Failures(const ScenarioFindings& findings) {
+  if (findings.reasons.empty()) return "";
+  std::string html = "<details><summary>What did not end well, and why</summary><ul class=\"reasons\">";
+  for (const ReasonCount& reason : findings.reasons) {
+    html += fmt::format("<li><b>{} × {}</b> in {}: {}</li>", FormatCount(reason.cells), StatusName(reason.status),
+                        EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
+  }
+  return html + "</ul></details>";
+}
+
+// How the cells ended, as a bar whose widths are shares; the words below it say the same.
+std::string StatusBar(const ScenarioFindings& findings) {
+  std::string html = "<div class=\"status\"><div class=\"bar\" aria-hidden=\"true\">";
+  for (const auto& [status, count] : findings.statuses) {
+    html += fmt::format("<i class=\"s-{}\" style=\"flex-grow:{}\"></i>", StatusName(status), count);
+  }
+  return html + fmt::format("</div><p>{}</p></div>", EscapeMarkup(StatusSentence(findings)));
+}
+
+std::string Strip(const ScenarioSummary& scenario, const Media& media) {
+  if (media.strip_scenario != scenario.name || media.strip.empty()) return "";
+  std::string html = "<div class=\"strip\">";
+  for (const Picture& picture : media.strip) {
+    html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", ImageElement(picture),
+                        EscapeMarkup(picture.caption));
+  }
+  return html + "</div>";
+}
+
+}  // namespace
+
+std::string CardAnchor(std::size_t index) { return fmt::format("scenario-{}", index + 1); }
+
+std::string VerdictBadge(const MethodFinding& finding) {
+  return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>",
+                     VerdictClass(finding.verdict), VerdictSign(finding.verdict), finding.Words());
+}
+
+std::string ImageElement(const Picture& picture) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(picture.png.data());
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", picture.width,
+                     picture.height, EscapeMarkup(picture.caption), Base64(std::span(bytes, picture.png.size())));
+}
+
+std::string WriteScenarioCard(const RunData& run, std::size_t index, const ScenarioFindings& findings,
+                              const Media& media) {
+  const ScenarioSummary& scenario = run.scenarios[index];
+  const std::string anchor = CardAnchor(index);
+  std::string html = fmt::format("<article class=\"card\" id=\"{}\" aria-labelledby=\"{}-title\">", anchor, anchor);
+  html += fmt::format("<p class=\"eyebrow\">{}</p><h2 id=\"{}-title\">{}</h2>", EscapeMarkup(scenario.name), anchor,
+                      EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
+  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadge(findings.answer),
+                      EscapeMarkup(findings.answer.sentence));
+  html += Strip(scenario, media);
+  html += Charts(run, scenario, index);
+  // With one alternative the answer has said it all.
+  if (findings.methods.size() > 1) html += Methods(findings);
+  html += Expectations(scenario);
+  html += StatusBar(findings);
+  html += Failures(findings);
+  html += fmt::format("<details><summary>All numbers</summary>{}</details></article>", NumberTableHtml(run, scenario));
+  return html;
+}
+
+}  // namespace etude

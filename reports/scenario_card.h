@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "reports/findings.h"
+#include "reports/media.h"
+
+namespace etude {
+
+/// The anchor of a scenario's card, unique by its place in the run.
+std::string CardAnchor(std::size_t index);
+
+/// One scenario as HTML: its question, the answer, a chart, what was expected, what failed, all numbers.
+/// `media` gives its picture strip when it belongs to this scenario.
+std::string WriteScenarioCard(const RunData& run, std::size_t index, const ScenarioFindings& findings,
+                              const Media& media);
+
+/// A verdict as a coloured label: sign and word, so that colour says nothing alone.
+std::string VerdictBadge(const MethodFinding& finding);
+
+/// <img> with the picture inside the page.
+std::string ImageElement(const Picture& picture);
+
+}  // namespace etude

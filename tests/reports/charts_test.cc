@@ -1,0 +1,54 @@
+#include "reports/charts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/reports/example_run.h"
+
+namespace etude {
+namespace {
+
+TEST(MedianCurve, LetsACurveThatEndedKeepItsLastValue) {
+  const std::vector<double> stops{9, 1}, goes_on{9, 5, 4, 3}, slow{9, 8, 7, 6};
+  EXPECT_THAT(MedianCurve({&stops, &goes_on, &slow}), ::testing::ElementsAre(9, 5, 4, 3));
+  EXPECT_THAT(MedianCurve({&stops, &goes_on}), ::testing::ElementsAre(9, 3, 2.5, 2));
+  EXPECT_THAT(MedianCurve({}), ::testing::IsEmpty());
+}
+
+TEST(IntervalChart, HasAMarkForEveryMethodUnderEveryCondition) {
+  const RunData run = ExampleRun();
+  const auto chart = IntervalChart(run.scenarios[2]);
+  ASSERT_TRUE(chart.has_value());
+  const auto json = nlohmann::json::parse(chart->json);
+  EXPECT_EQ(json["groups"], (nlohmann::json{"5", "10", "20"}));
+  EXPECT_EQ(json["groupLabel"], "joint_noise_deg");
+  ASSERT_EQ(json["methods"].size(), 4u);
+  for (const auto& method : json["methods"]) EXPECT_EQ(method["marks"].size(), 3u);
+  EXPECT_DOUBLE_EQ(json["methods"][0]["marks"][1]["value"], 14.2);
+  EXPECT_DOUBLE_EQ(json["methods"][0]["marks"][1]["low"], 13.1);
+}
+
+TEST(IntervalChart, DrawsNothingRatherThanZeroForAMissingValue) {
+  RunData run = ExampleRun();
+  MetricSummary& metric = run.scenarios[1].conditions[0].methods[1].metrics[0];
+  metric.median = metric.ci_low = metric.ci_high = std::nullopt;
+  const auto json = nlohmann::json::parse(IntervalChart(run.scenarios[1])->json);
+  EXPECT_TRUE(json["methods"][1]["marks"][0]["value"].is_null());
+  metric = run.scenarios[1].conditions[0].methods[0].metrics[0];
+  for (auto& method : run.scenarios[1].conditions[0].methods) {
+    method.metrics[0].median = method.metrics[0].ci_low = method.metrics[0].ci_high = std::nullopt;
+  }
+  EXPECT_FALSE(IntervalChart(run.scenarios[1]).has_value());
+}
+
+TEST(ConvergenceChart, IsDrawnOnlyFromCurvesAlongIterations) {
+  RunData run = ExampleRun();
+  AddRecordings(run);  // brings a curve along frames
+  EXPECT_TRUE(ConvergenceChart(run, run.scenarios[2]).has_value());
+  EXPECT_FALSE(ConvergenceChart(run, run.scenarios[3]).has_value());
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// A small hand-made run: four scenarios as `scenarios/quick` asks them, with plausible figures, all
+/// verdicts, failures with reasons, missing values, curves, and hostile names. Nothing is recorded.
+RunData ExampleRun();
+
+/// Adds what a film needs: a coach stepping from one arm move to another, and a capture by two cameras
+/// whose recovered skeleton is slightly off.
+void AddRecordings(RunData& run);
+
+}  // namespace etude

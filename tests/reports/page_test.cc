@@ -1,0 +1,143 @@
+#include "reports/page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "reports/escape.h"
+#include "reports/findings.h"
+#include "tests/reports/example_run.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr std::string_view kIsland = "<script type=\"application/json\"";
+
+/// The page without the programs in it: what the reader's browser takes as markup.
+std::string MarkupOf(const std::string& page) {
+  std::string markup;
+  std::size_t from = 0;
+  for (std::size_t at = page.find("<script"); at != std::string::npos; at = page.find("<script", from)) {
+    markup += page.substr(from, at - from);
+    from = page.find("</script>", at);
+  }
+  return markup + page.substr(from);
+}
+
+/// Everything that would make a browser look elsewhere.
+std::vector<std::string> OutsideReferences(const std::string& page) {
+  const std::string markup = MarkupOf(page);
+  const std::regex reference(
+      R"re((src|href|poster|data|action)="([^"]{0,40})|url\(([^)]{0,40})|@import|<link|<iframe)re");
+  std::vector<std::string> found;
+  for (auto it = std::sregex_iterator(markup.begin(), markup.end(), reference); it != std::sregex_iterator(); ++it) {
+    const std::string target = (*it)[2];
+    if (!target.starts_with("data:") && !target.starts_with("#")) found.push_back(it->str());
+  }
+  return found;
+}
+
+std::vector<std::string> IslandsOf(const std::string& page) {
+  std::vector<std::string> islands;
+  for (std::size_t at = page.find(kIsland); at != std::string::npos; at = page.find(kIsland, at + 1)) {
+    const std::size_t begin = page.find('>', at) + 1;
+    islands.push_back(page.substr(begin, page.find("</script>", begin) - begin));
+  }
+  return islands;
+}
+
+TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
+  const RunData run = ExampleRun();
+  const std::string page = WritePage(run, {});
+  EXPECT_THAT(page, HasSubstr(EscapeMarkup(FindingsOf(run).sentence)));
+  int checked = 0;
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    EXPECT_THAT(page, HasSubstr(EscapeMarkup(scenario.question)));
+    const ScenarioFindings findings = FindingsOf(run, scenario);
+    EXPECT_THAT(page, HasSubstr(EscapeMarkup(findings.answer.sentence)));
+    for (const ReasonCount& reason : findings.reasons) {
+      EXPECT_THAT(page, HasSubstr(EscapeMarkup(reason.reason)));
+      ++checked;
+    }
+    for (const ExpectationResult& expectation : scenario.expectations) {
+      EXPECT_THAT(page, HasSubstr(EscapeMarkup(expectation.text)));
+    }
+  }
+  EXPECT_GE(checked, 3);
+}
+
+TEST(Page, PointsToNothingOutsideItself) {
+  Media media;
+  media.mp4 = "film";
+  media.poster = {"png", 1280, 720, "poster"};
+  EXPECT_THAT(OutsideReferences(WritePage(ExampleRun(), media)), ::testing::IsEmpty());
+  // The control: the search must find what must not be there.
+  EXPECT_THAT(OutsideReferences("<img src=\"https://example.org/a.png\">"), ::testing::SizeIs(1));
+  EXPECT_THAT(OutsideReferences("<link rel=stylesheet>"), ::testing::SizeIs(1));
+}
+
+TEST(Page, ItsChartsAreDataThatParses) {
+  const std::vector<std::string> islands = IslandsOf(WritePage(ExampleRun(), {}));
+  ASSERT_EQ(islands.size(), 5u);  // one per scenario, and the convergence of ik
+  for (const std::string& island : islands) {
+    const auto json = nlohmann::json::parse(island, nullptr, false);
+    ASSERT_TRUE(json.is_object()) << island;
+    EXPECT_FALSE(json.at("methods").empty());
+  }
+}
+
+TEST(Page, SurvivesHostileNames) {
+  RunData run = ExampleRun();
+  const std::string hostile = "</script><script>alert(1)</script>&\"'\xff";
+  run.suite = run.host = run.command_line = hostile;
+  ScenarioSummary& scenario = run.scenarios.back();
+  for (Row& row : run.rows) {
+    if (row.scenario == scenario.name) row.scenario = hostile;
+    if (row.method == "ccd-fixed") row.method = hostile;
+    if (row.result.status != Status::kOk) row.result.reason = hostile;
+  }
+  scenario.name = scenario.question = scenario.methods[1] = hostile;
+  scenario.conditions[0].methods[1].method = hostile;
+  scenario.conditions[0].comparisons[0].method = hostile;
+  scenario.expectations = {{hostile, Outcome::kUnmet, hostile}};
+
+  const std::string page = WritePage(run, {});
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  for (const std::string& island : IslandsOf(page)) {
+    EXPECT_TRUE(nlohmann::json::accept(island)) << island;
+  }
+}
+
+TEST(Page, ShowsAMissingValueAsADashWithItsReason) {
+  RunData run = ExampleRun();
+  MetricSummary& metric = run.scenarios.front().conditions[0].methods[0].metrics[0];
+  metric = {metric.id, 0, 12, std::nullopt, std::nullopt, std::nullopt, std::nullopt};
+  for (Row& row : run.rows) {
+    if (row.scenario != "transition" || row.method != "now") continue;
+    row.result.metrics.clear();
+    row.result.Missing(metric.id, "the seam lies in the clip's last frame");
+  }
+  const std::string page = WritePage(run, {});
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\">—</td><td class=\"n\">—</td><td class=\"n\">—</td><td class=\"n\">0</td>"
+                              "<td>12 of 12: 12 × the seam lies in the clip&#39;s last frame</td>"));
+}
+
+TEST(Page, SaysWhyThereIsNoFilm) {
+  Media media;
+  media.why_no_film = "There is no film: ffmpeg could not be started.";
+  EXPECT_THAT(WritePage(ExampleRun(), media), HasSubstr(media.why_no_film));
+}
+
+TEST(Page, OfAnEmptyRunIsStillAPage) {
+  const std::string page = WritePage(RunData{}, {});
+  EXPECT_THAT(page, HasSubstr("No cell ran."));
+  EXPECT_THAT(page, HasSubstr("</html>"));
+}
+
+}  // namespace
+}  // namespace etude
