@@ -7,7 +7,7 @@ namespace etude {
 Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& eye, const glm::dvec3& target) {
   const glm::dvec3 forward = glm::normalize(target - eye);
   const glm::dvec3 right = glm::cross(forward, glm::dvec3(0, 1, 0));
-  constexpr double kVertical = 1e-9;
+  [[maybe_unused]] constexpr double kVertical = 1e-9;
   assert(glm::length(right) > kVertical && "a vertical view has no upright picture");
   const glm::dvec3 x = glm::normalize(right);
   const glm::dvec3 y = glm::cross(forward, x);
