@@ -74,7 +74,7 @@ std::string Footer(const RunData& run, bool has_film) {
   entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
   entry("Command", run.command_line);
-  html += "</dl><p>All tables as CSV: <code>report/tables/</code>.";
+  html += "</dl><p>All tables as CSV: <code>report/tables/</code>; recovered motions as BVH, pictures with depth and labels as EXR beside them.";
   if (has_film) html += " The film as a file: <code>video/etude.mp4</code>.";
   return html + "</p></footer>";
 }
@@ -88,7 +88,7 @@ std::string WritePage(const RunData& run, const Media& media) {
   std::string html = Head(run);
   html += fmt::format(
       "<body><a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
-      "</p><h1>{}</h1><p class=\"verdict\">{}</p></header>",
+      "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
       CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
   html += Hero(media);
   html += Contents(run, findings);

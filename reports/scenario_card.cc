@@ -67,7 +67,7 @@ std::string Methods(const ScenarioFindings& findings) {
   std::string html = "<ul class=\"methods\" aria-label=\"Every method compared with its baseline\">";
   for (const MethodFinding& method : findings.methods) {
     html += fmt::format(
-        "<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">than {}</span></li>",
+        "<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
         EscapeMarkup(method.sentence), VerdictBadge(method), EscapeMarkup(method.method),
         EscapeMarkup(method.baseline));
   }

@@ -83,7 +83,10 @@ TEST_F(SummaryTest, JudgesExpectations) {
 }
 
 TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
-  const Expectation bound{.metric = "position_error_cm", .of = "b", .at_most = 100};
+  Expectation bound;
+  bound.metric = "position_error_cm";
+  bound.of = "b";
+  bound.at_most = 100;
   EXPECT_EQ(JudgeExpectation(bound, scenario, rows, 1).outcome, Outcome::kUndecided);
 }
 
