@@ -1,6 +1,11 @@
-#include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
+#include <exception>
 #include <iostream>
 
 #include "bench/run/worker.h"
@@ -43,10 +48,22 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> extras = app.remaining(true);
   std::string message = error.what();
   if (!extras.empty()) {
-    message = UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));
+    message =
+        UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));
   }
-  return Complain(Error{{}, fmt::format("{} (etude {}{}--help explains)", message,
-                                        command == &app ? "" : command->get_name(), command == &app ? "" : " ")});
+  return Complain(Error{{},
+                        fmt::format("{} (etude {}{}--help explains)", message,
+                                    command == &app ? "" : command->get_name(), command == &app ? "" : " ")});
+}
+
+/// A standard stream that was closed by whoever started us would lend its number to the next file opened,
+/// and what is printed would land in there.
+void OpenStandardStreams() {
+  for (int descriptor = ::open("/dev/null", O_RDWR); descriptor >= 0; descriptor = ::dup(descriptor)) {
+    if (descriptor <= STDERR_FILENO) continue;
+    ::close(descriptor);
+    break;
+  }
 }
 
 int Main(int argc, char** argv) {
@@ -107,4 +124,13 @@ int Main(int argc, char** argv) {
 }  // namespace
 }  // namespace etude
 
-int main(int argc, char** argv) { return etude::Main(argc, argv); }
+int main(int argc, char** argv) {
+  etude::OpenStandardStreams();
+  try {
+    const int code = etude::Main(argc, argv);
+    if (std::fflush(stdout) == 0) return code;
+    return etude::Complain({{"standard output", 0, 0}, std::strerror(errno)});
+  } catch (const std::exception& error) {  // out of memory, or an output that takes nothing more
+    return etude::Complain({{}, error.what()});
+  }
+}

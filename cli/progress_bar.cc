@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <string>
 
 namespace etude {
@@ -16,6 +17,9 @@ std::string Remaining(const Progress& progress) {
   return fmt::format(", about {:.0f} s to go", each * static_cast<double>(progress.worlds - progress.worlds_done));
 }
 
+/// fmt::print throws when nobody listens any more; that must not end a run.
+void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 }  // namespace
 
 ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
@@ -28,11 +32,11 @@ void ProgressBar::Show(const Progress& progress) {
   if (is_terminal_) {
     const int filled = static_cast<int>(share * kWidth);
     const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-    fmt::print(stderr, "\r\033[K[{}] {}{}", bar, text, Remaining(progress));
-    if (progress.worlds_done == progress.worlds) fmt::print(stderr, "\n");
+    const std::string_view end = progress.worlds_done == progress.worlds ? "\n" : "";
+    Print(fmt::format("\r\033[K[{}] {}{}{}", bar, text, Remaining(progress), end));
   } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
     tenths_shown_ = tenths;
-    fmt::print(stderr, "{:3d} %  {}\n", tenths * 10, text);
+    Print(fmt::format("{:3d} %  {}\n", tenths * 10, text));
   }
 }
 

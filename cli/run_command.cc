@@ -1,7 +1,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
+#include <cstdio>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
@@ -13,7 +15,10 @@ namespace {
 
 std::atomic<bool> stop_requested = false;
 
-void RequestStop(int) { stop_requested = true; }
+void RequestStop(int signal) {
+  stop_requested = true;
+  std::signal(signal, SIG_DFL);  // the second one ends us at once
+}
 
 std::string Value(const MethodSummary& method, const MetricInfo& metric) {
   for (const MetricSummary& summary : method.metrics) {
@@ -24,8 +29,20 @@ std::string Value(const MethodSummary& method, const MetricInfo& metric) {
   return "-";
 }
 
-/// One small table per scenario and condition: methods down, headline metrics across.
-void PrintTable(const ScenarioSummary& scenario) {
+/// Why nothing was measured under a condition of which every cell was skipped; else "".
+std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
+  const bool skipped = std::all_of(condition.methods.begin(), condition.methods.end(), [](const auto& method) {
+    return method.statuses.size() == 1 && method.statuses.front().first == Status::kSkipped;
+  });
+  if (!skipped) return "";
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
+    return other.scenario == scenario && other.condition == condition.condition;
+  });
+  return row == rows.end() ? "" : row->result.reason;
+}
+
+/// One small table per condition: methods down, headline metrics across.
+void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) {
   constexpr std::size_t kColumns = 4;
   std::vector<const MetricInfo*> metrics;
   for (const std::string& id : scenario.headline_metrics) {
@@ -34,6 +51,11 @@ void PrintTable(const ScenarioSummary& scenario) {
   std::size_t width = 6;
   for (const std::string& method : scenario.methods) width = std::max(width, method.size());
   for (const ConditionSummary& condition : scenario.conditions) {
+    if (const std::string why = WhySkipped(condition, scenario.name, rows); !why.empty()) {
+      const std::string label = ConditionLabel(condition.condition);
+      fmt::print("  {}{}skipped: {}\n", label, label.empty() ? "" : "  ", why);
+      continue;
+    }
     fmt::print("  {:<{}}", ConditionLabel(condition.condition), width + 2);
     for (const MetricInfo* metric : metrics) fmt::print("  {:>24}", metric->id);
     fmt::print("\n");
@@ -48,7 +70,7 @@ void PrintTable(const ScenarioSummary& scenario) {
 void PrintSummary(const RunData& run) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     fmt::print("\n{} ({}): {}\n", scenario.name, scenario.task, scenario.question);
-    PrintTable(scenario);
+    PrintTables(scenario, run.rows);
     for (const ExpectationResult& expectation : scenario.expectations) {
       fmt::print("  {}: {} [{}]\n", OutcomeName(expectation.outcome), expectation.text, expectation.detail);
     }
@@ -58,7 +80,7 @@ void PrintSummary(const RunData& run) {
 }  // namespace
 
 int Complain(const Error& error) {
-  fmt::print(stderr, "etude: {}\n", ToString(error));
+  std::fputs(("etude: " + ToString(error) + "\n").c_str(), stderr);
   return kBadInput;
 }
 
@@ -67,12 +89,16 @@ int RunCommand(const RunOptions& given) {
   options.stop = &stop_requested;
   std::signal(SIGINT, RequestStop);
   std::signal(SIGTERM, RequestStop);
-  std::signal(SIGPIPE, SIG_IGN);  // a worker that died is a row, not our end
+  const auto piped = std::signal(SIGPIPE, SIG_IGN);  // a worker that died is a row, not our end
   ProgressBar bar;
   const auto outcome = Run(options, [&](const Progress& progress) { bar.Show(progress); });
+  std::signal(SIGPIPE, piped);  // all is written; whoever closes our output now has read enough
   if (!outcome) return Complain(outcome.error());
   if (outcome->stopped) {
-    fmt::print(stderr, "\netude: stopped; {} cells are in {}/journal.jsonl\n", outcome->cells, outcome->folder.string());
+    Complain({{},
+              outcome->cells == 0 ? "stopped before any world ended; nothing is kept"
+                                  : fmt::format("stopped; {} cells are in {}", outcome->cells,
+                                                (outcome->folder / kJournalFile).string())});
     return kInterrupted;
   }
   const auto run = LoadRun(outcome->folder);

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "reports/look.h"
 
@@ -52,6 +52,26 @@ void DrawSkeleton(Canvas& canvas, const ProjectedJoints& joints) {
   }
 }
 
+// The part of the pictures, in their own proportions, that holds the person in every frame with some air.
+Box CropAround(const BodyMotion& motion, const Camera& camera) {
+  constexpr double kAirPixels = 45;
+  const ProjectionMatrix matrix = MatrixOf(camera);
+  const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};
+  glm::dvec2 low = size, high{0};
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) {
+      const auto pixel = Project(matrix, joint);
+      if (!pixel) continue;
+      low = glm::min(low, *pixel - kAirPixels);
+      high = glm::max(high, *pixel + kAirPixels);
+    }
+  }
+  const glm::dvec2 wanted = (high - low) / size;
+  const double share = std::clamp(std::max(wanted.x, wanted.y), 0.3, 1.0);
+  const glm::dvec2 corner = glm::clamp((low + high - share * size) / 2.0, glm::dvec2{0}, size * (1 - share));
+  return {corner.x, corner.y, share * size.x, share * size.y};
+}
+
 }  // namespace
 
 Mask OutlineOf(const Mask& mask) {
@@ -84,8 +104,9 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   panel.truth_ = *truth;
   panel.recovered_ = *recovered;
   panel.extras_ = std::move(*extras);
+  for (const auto& view : panel.extras_.views) panel.crops_.push_back(CropAround(panel.truth_, view.truth));
   panel.method_ = cell.row->method;
-  panel.clip_ = cell.row->clip;
+  panel.clip_ = ClipInWords(cell.row->clip);
   panel.error_mm_ = ValueOf(*cell.row, "mpjpe_mm");
   if (const Series* errors = FindSeries(run, *cell.row, "mpjpe_mm");
       errors != nullptr && errors->values.size() == frames) {
@@ -113,12 +134,18 @@ std::string CapturePanel::ErrorWords(int frame) const {
 View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const {
   const std::size_t k = static_cast<std::size_t>(frame);
   const Room room{extras_.texture_seed, extras_.brightness[k], extras_.casts_shadows};
-  return renderer.Render(room, {{BodyCapsules(truth_.poses[k]), extras_.colours}}, extras_.views[camera].truth, targets);
+  return renderer.Render(room, {{BodyCapsules(truth_.poses[k]), extras_.colours}}, extras_.views[camera].truth,
+                         targets);
 }
 
-void CapturePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, std::size_t camera, int frame) const {
+void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {
   const std::size_t k = static_cast<std::size_t>(frame);
   const RecordingExtras::View& view = extras_.views[camera];
+  // The whole picture, laid so that its crop covers the canvas; the rest falls off the edge.
+  const Box& crop = crops_[camera];
+  const double scale = canvas.width() / crop.width;
+  const Intrinsics& inside = view.truth.intrinsics;
+  const Box panel{-crop.x * scale, -crop.y * scale, inside.width * scale, inside.height * scale};
   canvas.DrawImage(Seen(renderer, camera, frame, Targets::kColour).colour, panel);
   canvas.DrawMask(view.masks[k], panel, kMaskTint);
   canvas.DrawMask(OutlineOf(view.masks[k]), panel, kMaskEdge);

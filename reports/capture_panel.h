@@ -31,13 +31,14 @@ class CapturePanel {
   /// What one camera saw, without noise.
   View Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const;
 
-  /// The picture of one camera with mask and skeleton over it, without words. The same canvas size asks
-  /// for the same picture, so callers may keep it.
-  void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, std::size_t camera, int frame) const;
+  /// The part of one camera's picture around the person, with mask and skeleton over it, without words;
+  /// it fills the whole canvas. The same canvas size asks for the same picture, so callers may keep it.
+  void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
 
  private:
   BodyMotion truth_, recovered_;
   RecordingExtras extras_;
+  std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
   std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve
   std::optional<double> error_mm_;
   std::string method_, clip_;

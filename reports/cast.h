@@ -19,6 +19,9 @@ struct CastCell {
 /// these the one in the middle by the first headline metric. A typical cell, not the best one.
 std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
+/// A clip's name as people say it: "builtin:side_kick" is "side kick".
+std::string ClipInWords(std::string name);
+
 /// The motion of that name, or null.
 const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
 

@@ -17,8 +17,6 @@
 
 #include "bench/files/files.h"
 
-extern char** environ;
-
 namespace etude {
 namespace {
 

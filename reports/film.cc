@@ -55,9 +55,8 @@ class Film {
     if (coach_) words += fmt::format("Left: the coach changes moves ({}). ", coach_->Title());
     if (capture_) {
       words += fmt::format(
-          "{}: a performer seen by two cameras; the person as found in the pictures (tinted) and the skeleton "
-          "recovered "
-          "from them ({}).",
+          "{}: a performer seen by two cameras (cut to the middle); tinted, the person as found in the pictures; over "
+          "it, the skeleton recovered from them ({}).",
           coach_ ? "Right" : "Right side", capture_->Title());
     }
     return words;
@@ -95,9 +94,9 @@ class Film {
   const ColourImage& ViewPicture(std::size_t camera, int frame) {
     const auto [kept, is_new] = views_.try_emplace({camera, frame});
     if (is_new) {
-      const Box whole{0, 0, kViewBoxes[camera].width, kViewBoxes[camera].height};
-      Canvas canvas(static_cast<int>(whole.width), static_cast<int>(whole.height));
-      capture_->Draw(canvas, whole, renderer_, camera, frame);
+      const Box& box = kViewBoxes[camera];
+      Canvas canvas(static_cast<int>(box.width), static_cast<int>(box.height));
+      capture_->Draw(canvas, renderer_, camera, frame);
       kept->second = canvas.Pixels();
     }
     return kept->second;
@@ -124,16 +123,14 @@ Result<std::string> Encode(Film& film, const std::filesystem::path& path) {
 }
 
 // Both cameras at one third and two thirds of the capture.
-std::array<int, 2> StripFrames(const CapturePanel& capture) {
-  return {capture.Frames() / 3, capture.Frames() * 2 / 3};
-}
+std::array<int, 2> StripFrames(const CapturePanel& capture) { return {capture.Frames() / 3, capture.Frames() * 2 / 3}; }
 
 std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer) {
   std::vector<Picture> strip;
   for (const int frame : StripFrames(capture)) {
     for (std::size_t camera = 0; camera < std::min(kShownCameras, capture.Cameras()); ++camera) {
       Canvas canvas(480, 360);
-      capture.Draw(canvas, {0, 0, 480, 360}, renderer, camera, frame);
+      capture.Draw(canvas, renderer, camera, frame);
       strip.push_back(
           PictureOf(canvas, fmt::format("{}, {:.1f} s", capture.CameraName(camera), frame / capture.RateHz())));
     }

@@ -66,7 +66,19 @@ RunFindings FindingsOf(const RunData& run) {
   RunFindings f;
   for (const Row& row : run.rows) {
     ++f.cells;
-    if (row.result.status == Status::kOk) ++f.ok;
+    switch (row.result.status) {
+      case Status::kOk:
+        ++f.ok;
+        break;
+      case Status::kUnsolved:
+        ++f.unsolved;
+        break;
+      case Status::kSkipped:
+        ++f.skipped;
+        break;
+      default:
+        ++f.broken;
+    }
   }
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
@@ -81,8 +93,10 @@ RunFindings FindingsOf(const RunData& run) {
   } else if (f.ok == f.cells) {
     f.sentence += fmt::format(" Every one of the {} ended well.", Plural(f.cells, "cell"));
   } else {
-    f.sentence += fmt::format(" {} of {} ended well; the others are counted too, each with its reason.",
-                              FormatShare(f.ok, f.cells), Plural(f.cells, "cell"));
+    f.sentence += fmt::format(" {} of {} reached their goal", FormatShare(f.ok, f.cells), Plural(f.cells, "cell"));
+    if (f.unsolved > 0) f.sentence += fmt::format(", {} did not", FormatCount(f.unsolved));
+    if (f.skipped > 0) f.sentence += fmt::format(", {} did not apply", FormatCount(f.skipped));
+    f.sentence += f.broken > 0 ? fmt::format(", {} broke.", FormatCount(f.broken)) : ", none broke.";
   }
   return f;
 }

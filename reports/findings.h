@@ -43,6 +43,9 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 /// The whole run in one sentence, and the counts that it speaks of.
 struct RunFindings {
   int cells = 0, ok = 0;
+  int unsolved = 0;  ///< ended in order, without reaching the goal
+  int skipped = 0;   ///< the world lacked what the task needs
+  int broken = 0;    ///< failed, crashed, out of time or of bad output
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;
 };

@@ -53,7 +53,12 @@ Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_
 
 Result<std::string> ReadWholeFile(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return Fail(InFile(path), "no such file");
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    const bool absent = status.type() == std::filesystem::file_type::not_found;
+    return Fail(InFile(path), "{}", absent ? "no such file" : "cannot read this file: " + error.message());
+  }
+  if (!std::filesystem::is_regular_file(status)) return Fail(InFile(path), "is no file");
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error && size > kLargestFile) {
     return Fail(InFile(path), "{} MiB; at most {} MiB are read", size >> 20, kLargestFile >> 20);

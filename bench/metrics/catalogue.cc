@@ -44,8 +44,6 @@ const std::vector<MetricInfo>& Catalogue() {
        "Share of joints and frames whose error is below 50 mm."},
       {"auc_200mm", 1, "area under PCK, 0–20 cm", "", kHigherIsBetter, kMedian, 0.01,
        "Area under the share of joints within t, for t from 0 to 200 mm, divided by 200 mm."},
-      {"joint_angle_error_deg", 1, "joint angle error", "deg", kLowerIsBetter, kMedian, 0.5,
-       "Angle between the recovered and the true joint rotation, mean over joints and frames."},
       {"bone_length_error_cm", 1, "limb length error", "cm", kLowerIsBetter, kMedian, 0.1,
        "Absolute difference of recovered and true limb length, mean over limbs and frames."},
       {"limb_direction_error_deg", 1, "limb direction error", "deg", kLowerIsBetter, kMedian, 0.25,

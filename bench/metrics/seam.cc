@@ -117,6 +117,7 @@ double NaturalLimitCm(std::vector<double> natural_jumps) {
 }
 
 double FootSlideCmps(const BodyMotion& motion, int seam) {
+  assert(seam + 1 < static_cast<int>(motion.poses.size()));
   constexpr double kHeight = 0.025;  // metres: a foot this high counts no more
   const int end = std::min(seam + static_cast<int>(motion.rate_hz), static_cast<int>(motion.poses.size()) - 1);
   double sum = 0;
@@ -130,7 +131,7 @@ double FootSlideCmps(const BodyMotion& motion, int seam) {
       ++samples;
     }
   }
-  return samples > 0 ? sum / samples : 0;
+  return sum / samples;
 }
 
 double PoseGapCm(const BodyPose& leaving, const BodyPose& arriving) {

@@ -36,7 +36,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip);
 double NaturalLimitCm(std::vector<double> natural_jumps);
 
 /// Mean over both feet and the second after frame `seam` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1):
-/// the horizontal speed of feet that should be standing.
+/// the horizontal speed of feet that should be standing. Needs a frame after the seam.
 double FootSlideCmps(const BodyMotion& motion, int seam);
 
 /// The worst joint between the frame left and the frame entered, already aligned on the floor.

@@ -7,15 +7,18 @@
 #include "bench/files/files.h"
 #include "bench/results/row_json.h"
 #include "bench/results/summary_json.h"
+#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// "scenario/condition/trial/method" as one file name.
+/// "scenario/condition/trial/method" as one file name; a long one is cut, and told apart by its digest.
 std::string FileNameOf(std::string cell) {
+  constexpr std::size_t kLongest = 200;  // file systems take 255 bytes, ending included
   std::replace(cell.begin(), cell.end(), '/', '~');
+  if (cell.size() > kLongest) cell = cell.substr(0, kLongest) + "~" + Digest().Add(std::string_view(cell)).Hex();
   return cell + ".json";
 }
 
@@ -44,7 +47,7 @@ Result<void> ForEachLine(const fs::path& path, Use use) {
 Result<void> LoadSeries(const fs::path& folder, RunData& run) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     const fs::path path = folder / "series" / (scenario.name + ".jsonl");
-    if (!fs::exists(path)) continue;
+    if (std::error_code none; !fs::exists(path, none)) continue;
     auto read = ForEachLine(path, [&](const Json& json, const Place& place) -> Result<void> {
       try {
         run.series.push_back({json.at("cell").get<std::string>(), DecodeSeries(json.at("series"))});
@@ -61,7 +64,7 @@ Result<void> LoadSeries(const fs::path& folder, RunData& run) {
 Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   for (const Row& row : run.rows) {
     const fs::path path = folder / "recordings" / FileNameOf(row.Id());
-    if (!fs::exists(path)) continue;
+    if (std::error_code none; !fs::exists(path, none)) continue;
     const auto json = ReadJsonFile(path);
     if (!json) return tl::unexpected(json.error());
     auto recording = DecodeRecording(*json, {path.string(), 0, 0});
@@ -130,10 +133,15 @@ Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
 
 Result<RunData> LoadRun(const fs::path& folder) {
   RunData run;
-  if (!fs::is_directory(folder)) return Fail({folder.string(), 0, 0}, "no such folder; a run writes one (etude run)");
+  const Place place{folder.string(), 0, 0};
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return Fail(place, "no such folder; a run writes one (etude run)");
+  if (fs::exists(folder / kJournalFile, error)) {
+    return Fail(place, "this run did not come to its end, or is still under way ({} is there)", kJournalFile);
+  }
   if (auto loaded = LoadManifest(folder, run); !loaded) return tl::unexpected(loaded.error());
-  auto rows = ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& place) -> Result<void> {
-    auto row = DecodeRow(json, place);
+  auto rows = ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
+    auto row = DecodeRow(json, line);
     if (!row) return tl::unexpected(row.error());
     run.rows.push_back(std::move(*row));
     return {};

@@ -10,12 +10,16 @@ namespace etude {
 /// The version of the layout of a result folder (design.md §4), raised when old readers would fail.
 constexpr int kResultSchema = 1;
 
+/// Stands in a result folder while its run is under way, and after it was interrupted.
+constexpr const char* kJournalFile = "journal.jsonl";
+
 /// Writes cells.jsonl, series/, recordings/ and summary.json of a whole run from `rows` (canonical
 /// order) and `scenarios`; these files are the same bytes for any number of workers.
 Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios);
 
-/// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema version.
+/// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema
+/// version, and when the run did not come to its end.
 Result<RunData> LoadRun(const std::filesystem::path& folder);
 
 }  // namespace etude

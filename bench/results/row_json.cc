@@ -62,7 +62,10 @@ Json EncodeRow(const Row& row) {
   json["scenario"] = row.scenario;
   json["task"] = row.task;
   json["condition"] = CompactLabel(row.condition);
-  for (const Setting& setting : row.condition) json[setting.key] = SettingValue(setting.value);
+  for (const Setting& setting : row.condition) {
+    // A parameter named like a metric (a transition's wait_s) leaves the column to what was measured.
+    if (FindMetric(setting.key) == nullptr) json[setting.key] = SettingValue(setting.value);
+  }
   json["trial"] = row.trial;
   json["clip"] = row.clip.empty() ? Json(nullptr) : Json(row.clip);
   json["method"] = row.method;

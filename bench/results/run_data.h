@@ -13,6 +13,7 @@ namespace etude {
 struct Setting {
   std::string key;
   std::string value;
+  bool operator==(const Setting&) const = default;
 };
 
 /// One line of cells.jsonl: a cell's identity and what came of it.

@@ -12,8 +12,6 @@
 #include <cstring>
 #include <utility>
 
-extern char** environ;
-
 namespace etude {
 namespace {
 
@@ -67,7 +65,8 @@ Result<ChildProcess> ChildProcess::Start(const std::string& program, const std::
   const pid_t pid = ::fork();
   if (pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    ::signal(SIGINT, SIG_IGN);  // Ctrl-C is the parent's to handle
+    ::signal(SIGINT, SIG_IGN);  // what is sent to the whole group is the parent's to handle
+    ::signal(SIGTERM, SIG_IGN);
     ::signal(SIGPIPE, SIG_DFL);
     ::dup2(input[0], STDIN_FILENO);
     ::dup2(output[1], STDOUT_FILENO);

@@ -1,10 +1,14 @@
 #include "bench/run/run.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -23,12 +27,15 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kMostCells = 10'000'000;  // their rows are held in memory
+
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::string SuiteName(const std::vector<std::string>& paths) {
   if (paths.size() != 1) return "suite";
   const fs::path path = fs::path(paths.front()).lexically_normal();
-  if (!fs::is_directory(path)) return path.stem().string();
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path.stem().string();
   const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   return name.empty() || name == "." ? "suite" : name;
 }
@@ -39,34 +46,57 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   SuiteSetup suite;
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
+  std::map<std::string, std::string> file_of_name;
+  std::size_t cells = 0;
   for (const std::string& file : *files) {
     auto text = ReadWholeFile(file);
     if (!text) return tl::unexpected(text.error());
     const auto scenario = ParseScenario(*text, file);
     if (!scenario) return tl::unexpected(scenario.error());
-    for (const ScenarioSetup& other : suite.scenarios) {
-      if (ParseScenario(other.text, other.file)->name != scenario->name) continue;
-      return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario->name, other.file);
+    const auto [other, is_new] = file_of_name.emplace(scenario->name, file);
+    if (!is_new) {
+      return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario->name, other->second);
+    }
+    const int trials = options.trials.value_or(scenario->trials);
+    cells += scenario->conditions.size() * scenario->methods.size() * static_cast<std::size_t>(trials);
+    if (cells > kMostCells) {
+      return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
+                  scenario->conditions.size(), scenario->methods.size(), trials, kMostCells);
     }
     const bool replaced = !options.clips.empty() && !scenario->clips.empty();
     suite.scenarios.push_back({file, std::move(*text), options.seed ? *options.seed : scenario->seed.value_or(1),
-                               options.trials.value_or(scenario->trials),
-                               replaced ? options.clips : scenario->clips});
+                               trials, replaced ? options.clips : scenario->clips});
   }
   return suite;
 }
 
+/// The name of a part of a result folder, or of one that was being written.
+bool IsPartOfRun(const fs::path& name) {
+  static const std::vector<std::string> parts = {"manifest.json", "host.json", kJournalFile, "cells.jsonl",
+                                                 "timings.jsonl", "series",    "recordings", "summary.json",
+                                                 "report",        "video"};
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return name == part || name == TemporaryName(part); });
+}
+
 /// The folder to write into. One that holds anything is left alone, unless it is a run to be replaced.
 Result<fs::path> ChooseFolder(const RunOptions& options, const SuiteSetup& suite) {
-  const fs::path folder =
-      options.output.empty() ? fs::path("out") / fmt::format("{}-{}", suite.suite, suite.seed) : fs::path(options.output);
+  const fs::path folder = options.output.empty() ? fs::path("out") / fmt::format("{}-{}", suite.suite, suite.seed)
+                                                 : fs::path(options.output);
   const Place place{folder.string(), 0, 0};
   std::error_code error;
   if (!fs::exists(folder, error)) return folder;
   if (!fs::is_directory(folder, error)) return Fail(place, "is no folder");
-  if (fs::is_empty(folder, error)) return folder;
-  const bool is_run = fs::exists(folder / "manifest.json") || fs::exists(folder / "journal.jsonl");
-  if (!is_run) return Fail(place, "holds something that is no run; choose another folder with -o");
+  bool holds_run = false;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    if (!IsPartOfRun(name)) {
+      return Fail(place, "holds something that is no run ('{}'); choose another folder with -o", name.string());
+    }
+    holds_run = true;
+  }
+  if (error) return Fail(place, "cannot be read: {}", error.message());
+  if (!holds_run) return folder;
   if (!options.overwrite) return Fail(place, "already holds a run; --overwrite replaces it, -o chooses another folder");
   return folder;
 }
@@ -125,10 +155,54 @@ std::vector<World> AllWorlds(std::span<const PreparedScenario> scenarios) {
   return worlds;
 }
 
+/// A result folder that this run alone writes into, emptied of an older run. One that ends before any
+/// world did takes the folder away again, if it made it.
+class RunFolder {
+ public:
+  static Result<RunFolder> Claim(const fs::path& path) {
+    const Place place{path.string(), 0, 0};
+    std::error_code error;
+    const bool made = !fs::exists(path, error);
+    fs::create_directories(path, error);
+    if (error) return Fail(place, "cannot be made: {}", error.message());
+    RunFolder folder(path, made, ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (::flock(folder.lock_, LOCK_EX | LOCK_NB) != 0) {
+      folder.is_ours_ = false;
+      return Fail(place, "another run is writing into it; choose another folder with -o");
+    }
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+      fs::remove_all(entry->path(), error);
+      if (error) break;
+    }
+    if (error) return Fail(place, "cannot be emptied: {}", error.message());
+    return folder;
+  }
+
+  RunFolder(RunFolder&& other) noexcept
+      : path_(std::move(other.path_)),
+        is_ours_(std::exchange(other.is_ours_, false)),
+        lock_(std::exchange(other.lock_, -1)) {}
+  ~RunFolder() {
+    std::error_code ignored;
+    if (is_ours_) fs::remove_all(path_, ignored);
+    if (lock_ >= 0) ::close(lock_);
+  }
+
+  /// From now on there is something in it worth keeping.
+  void Keep() { is_ours_ = false; }
+
+ private:
+  RunFolder(fs::path path, bool made, int lock) : path_(std::move(path)), is_ours_(made), lock_(lock) {}
+
+  fs::path path_;
+  bool is_ours_;  ///< made by this run, and nothing in it yet that is worth keeping
+  int lock_;      ///< the lock ends with the process, however that ends
+};
+
 /// The append-only record of a run that is under way.
 class Journal {
  public:
-  explicit Journal(const fs::path& folder) : path_(folder / "journal.jsonl"), out_(path_, std::ios::binary) {}
+  explicit Journal(const fs::path& folder) : path_(folder / kJournalFile), out_(path_, std::ios::binary) {}
 
   Result<void> Append(const WorldAnswer& answer) {
     Json rows = Json::array();
@@ -142,7 +216,8 @@ class Journal {
 
   void Remove() {
     out_.close();
-    fs::remove(path_);
+    std::error_code ignored;
+    fs::remove(path_, ignored);
   }
 
  private:
@@ -184,18 +259,20 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     std::error_code error;
-    if (fs::is_directory(path, error)) {
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) {
       std::vector<std::string> inside;
-      for (const auto& entry : fs::directory_iterator(path, error)) {
-        if (entry.path().extension() == ".yaml") inside.push_back(entry.path().string());
+      for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+        if (entry->path().extension() == ".yaml") inside.push_back(entry->path().string());
       }
+      if (error) return Fail({path, 0, 0}, "cannot be read: {}", error.message());
       if (inside.empty()) return Fail({path, 0, 0}, "holds no scenario (*.yaml)");
       std::sort(inside.begin(), inside.end());
       files.insert(files.end(), inside.begin(), inside.end());
-    } else if (fs::is_regular_file(path, error)) {
-      files.push_back(path);
-    } else {
+    } else if (status.type() == fs::file_type::not_found) {
       return Fail({path, 0, 0}, "no such scenario file or folder");
+    } else {
+      files.push_back(path);  // reading it tells what else is wrong with it
     }
   }
   return files;
@@ -212,10 +289,9 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const std::vector<World> worlds = AllWorlds(*scenarios);
   const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
 
-  std::error_code error;
-  fs::remove_all(*folder, error);
-  fs::create_directories(*folder, error);
-  if (error) return Fail({folder->string(), 0, 0}, "cannot be made: {}", error.message());
+  if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = *folder, .stopped = true};
+  auto claimed = RunFolder::Claim(*folder);
+  if (!claimed) return tl::unexpected(claimed.error());
   auto saved = SaveJson(*folder / "manifest.json", Manifest(*suite, *scenarios, options.program_version));
   if (!saved) return tl::unexpected(saved.error());
   Journal journal(*folder);
@@ -225,6 +301,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   std::vector<WorldAnswer> answers(worlds.size());
   const auto deliver = [&](WorldAnswer answer) -> Result<void> {
     if (auto kept = journal.Append(answer); !kept) return kept;
+    claimed->Keep();
     ++progress.worlds_done;
     progress.cells_done += answer.rows.size();
     progress.cells_ok += std::count_if(answer.rows.begin(), answer.rows.end(),
@@ -237,7 +314,11 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   };
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   const auto whole = RunWorlds(*suite, *scenarios, worlds, {program, jobs, options.stop}, deliver);
-  if (!whole) return tl::unexpected(whole.error());
+  if (!whole) {
+    Error failure = whole.error();
+    if (progress.worlds_done > 0) failure.message += fmt::format("; {} is kept", (*folder / kJournalFile).string());
+    return tl::unexpected(std::move(failure));
+  }
   RunOutcome outcome{*folder, progress.cells_done, progress.cells_ok, SecondsSince(start), !*whole};
   if (outcome.stopped) return outcome;
 

@@ -43,7 +43,8 @@ struct RunOutcome {
 };
 
 /// Runs scenarios into a result folder. Everything that can be wrong with the input is found before
-/// anything is written; from then on, every world that ends is flushed to journal.jsonl at once.
+/// anything is written; from then on, every world that ends is flushed to journal.jsonl at once. A run that
+/// ends before any world did leaves no folder that was not there before.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 /// The scenario files behind paths: a file is itself, a folder its *.yaml, sorted by name.

@@ -8,16 +8,19 @@
 
 #include "bench/results/row_json.h"
 #include "bench/run/child_process.h"
+#include "bench/run/worker.h"
 
 namespace etude {
 namespace {
 
 constexpr int kPollMilliseconds = 200;
+constexpr int kMostDeathsInSetup = 3;  // one may be chance (out of memory, a stray kill); a row of them is not
 
 struct Worker {
   ChildProcess process;
+  bool ready = false;                ///< its set-up is done
   std::optional<std::size_t> world;  ///< the one it works on
-  bool dismissed = false;            ///< it ended, and there was nothing left to hand out
+  bool dismissed = false;            ///< it ended, and no other takes its place
 };
 
 class Supervisor {
@@ -33,6 +36,7 @@ class Supervisor {
     const std::size_t jobs = std::min<std::size_t>(options_.jobs, worlds_.size());
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
+      if (!worker && !workers_.empty()) break;  // fewer do the same work
       if (!worker) return tl::unexpected(worker.error());
       workers_.push_back(std::move(*worker));
     }
@@ -48,9 +52,7 @@ class Supervisor {
     auto process = ChildProcess::Start(options_.program, {"worker"});
     if (!process) return tl::unexpected(process.error());
     process->Send(setup_line_);  // a worker that is already dead is noticed when it is polled
-    Worker worker{std::move(*process), std::nullopt, false};
-    HandOut(worker);
-    return worker;
+    return Worker{std::move(*process), false, std::nullopt, false};
   }
 
   void HandOut(Worker& worker) {
@@ -69,12 +71,21 @@ class Supervisor {
       if (outputs[i].revents == 0) continue;
       const bool alive = workers_[i].process.Receive();
       while (const auto line = workers_[i].process.NextLine()) {
-        if (auto taken = TakeAnswer(workers_[i], *line); !taken) return taken;
+        if (auto taken = Take(workers_[i], *line); !taken) return taken;
       }
       if (alive) continue;
       if (auto replaced = Replace(workers_[i]); !replaced) return replaced;
     }
     std::erase_if(workers_, [](const Worker& worker) { return worker.dismissed; });
+    return {};
+  }
+
+  Result<void> Take(Worker& worker, const std::string& line) {
+    if (worker.ready) return TakeAnswer(worker, line);
+    if (line != kWorkerReady) return Fail({}, "a worker said '{}' instead of '{}'", line.substr(0, 60), kWorkerReady);
+    worker.ready = true;
+    deaths_in_setup_ = 0;
+    HandOut(worker);
     return {};
   }
 
@@ -103,14 +114,16 @@ class Supervisor {
   /// Turns the death of a worker into rows, and starts another while there is work.
   Result<void> Replace(Worker& worker) {
     const std::string end = worker.process.Finish();
+    if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
+      return Fail({}, "{} workers in a row ended in their set-up, the last with {}", kMostDeathsInSetup, end);
+    }
     const std::optional<std::size_t> lost = worker.world;
     if (lost) {
       const World& world = worlds_[*lost];
       ++delivered_;
       auto delivered = deliver_({*lost,
-                                 scenarios_[world.scenario].RowsWithoutResult(world.condition, world.trial,
-                                                                              Status::kCrashed,
-                                                                              "its worker ended with " + end),
+                                 scenarios_[world.scenario].RowsWithoutResult(
+                                     world.condition, world.trial, Status::kCrashed, "its worker ended with " + end),
                                  0, 0});
       if (!delivered) return delivered;
     }
@@ -132,6 +145,7 @@ class Supervisor {
   std::vector<Worker> workers_;
   std::size_t next_ = 0;
   std::size_t delivered_ = 0;
+  int deaths_in_setup_ = 0;  ///< since a worker last became ready
 };
 
 }  // namespace

@@ -32,8 +32,9 @@ struct SupervisorOptions {
 };
 
 /// Hands worlds to worker processes and collects their rows. A worker that dies takes only its own world
-/// with it: that world's rows become `crashed`, with the reason, and a new worker takes over.
-/// `deliver` is called in order of completion. False when stopped early; fails when no worker can start.
+/// with it: that world's rows become `crashed`, with the reason, and a new worker takes over. One that dies
+/// in its set-up has no world to lose. `deliver` is called in order of completion. False when stopped early;
+/// fails when no worker can start, or when several in a row die in their set-up.
 Result<bool> RunWorlds(const SuiteSetup& setup, std::span<const PreparedScenario> scenarios,
                        std::span<const World> worlds, const SupervisorOptions& options,
                        const std::function<Result<void>(WorldAnswer)>& deliver);

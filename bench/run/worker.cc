@@ -54,10 +54,12 @@ int RunWorker(std::istream& in, std::ostream& out) {
     }
     scenarios.push_back(std::move(*prepared));
   }
+  out << kWorkerReady << '\n' << std::flush;
   while (std::getline(in, line)) {
     const auto world = ReadJson(line, "a worker's orders");
     if (!world) return 2;
     const auto answer = WriteJson(Answer(scenarios.at(world->at(0).get<std::size_t>()), *world));
+    if (!answer) return 2;
     out << *answer << '\n' << std::flush;
   }
   return 0;

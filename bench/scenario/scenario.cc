@@ -1,6 +1,7 @@
 #include "bench/scenario/scenario.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/tasks/registry.h"
@@ -17,7 +18,8 @@ constexpr std::size_t kMostMethods = 100;
 /// Names become parts of cell identities and file names.
 bool IsPlainName(const std::string& name) {
   const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+           c == '.';
   };
   return !name.empty() && name.size() <= 80 && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
 }
@@ -75,6 +77,9 @@ void ReadSweep(Fields& fields, Scenario& scenario) {
       return fields.Complain(swept.value.place, fmt::format("'{}' needs a list of values to sweep over, found {}",
                                                             swept.key, Describe(swept.value)));
     }
+    if (scenario.conditions.size() * swept.value.items.size() > kMostConditions) {
+      return fields.Complain(sweep->place, fmt::format("the sweep has more than {} conditions", kMostConditions));
+    }
     std::vector<Condition> product;
     for (const Condition& condition : scenario.conditions) {
       for (const Node& value : swept.value.items) {
@@ -82,8 +87,7 @@ void ReadSweep(Fields& fields, Scenario& scenario) {
           return fields.Complain(value.place, "a swept value must be a number or a text, found " + Describe(value));
         }
         if (value.scalar.empty() || value.scalar.find_first_of(",=/ ") != std::string::npos) {
-          return fields.Complain(value.place, fmt::format("a swept value has no ',', '=', '/' or space, found '{}'",
-                                                          value.scalar));
+          return fields.Complain(value.place, "a swept value has no ',', '=', '/' or space, found " + Describe(value));
         }
         const auto repeated = [&](const Condition& other) {
           return std::equal(condition.settings.begin(), condition.settings.end(), other.settings.begin(),
@@ -100,9 +104,6 @@ void ReadSweep(Fields& fields, Scenario& scenario) {
         entries.push_back({swept.key, swept.place, value});
         product.push_back(std::move(next));
       }
-    }
-    if (product.size() > kMostConditions) {
-      return fields.Complain(sweep->place, fmt::format("the sweep has more than {} conditions", kMostConditions));
     }
     scenario.conditions = std::move(product);
   }
@@ -178,7 +179,8 @@ void ReadExpectations(Fields& fields, Scenario& scenario) {
     if (const auto done = entry.Finish(); !done) return fields.Complain(done.error().place, done.error().message);
     if (claims != 1) {
       return fields.Complain(item.place, fmt::format("an expectation says exactly one of: below, above (a method), "
-                                                     "at_most, at_least (a number); found {}", claims));
+                                                     "at_most, at_least (a number); found {}",
+                                                     claims));
     }
     scenario.expectations.push_back(std::move(expectation));
   }
@@ -196,7 +198,9 @@ void ReadVideo(Fields& fields, Scenario& scenario) {
       video.Complain(methods->items[i].place, UnknownName("method", name, scenario.method_names));
     }
   }
+  const Node* trials = video.Raw("trials");
   for (double trial : video.Numbers("trials", {0, scenario.trials - 1.0})) {
+    if (trial != std::floor(trial)) video.Complain(trials->place, "'trials' must be whole numbers");
     scenario.recordings.trials.push_back(static_cast<int>(trial));
   }
   if (scenario.recordings.trials.empty()) scenario.recordings.trials = {0};
@@ -229,7 +233,7 @@ Result<Scenario> ParseScenario(std::string text, const std::string& file) {
   scenario.clips = fields.Texts("clips");
   scenario.trials = fields.Integer("trials", 10, {1, kMostTrials});
   constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
-  if (const auto seed = fields.OptionalNumber("seed", {0, kLargestSeed})) {
+  if (const auto seed = fields.OptionalWhole("seed", {0, kLargestSeed})) {
     scenario.seed = static_cast<std::uint64_t>(*seed);
   }
   ReadMethods(fields, scenario);

@@ -6,10 +6,9 @@
 namespace etude {
 
 std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Setting>& condition) {
-  const std::string label = ConditionLabel(condition);
   std::vector<const Row*> selected;
   for (const Row& row : rows) {
-    if (ConditionLabel(row.condition) == label) selected.push_back(&row);
+    if (row.condition == condition) selected.push_back(&row);
   }
   return selected;
 }

@@ -79,6 +79,13 @@ std::optional<double> Fields::OptionalNumber(std::string_view key, Range range) 
   return std::nullopt;
 }
 
+std::optional<double> Fields::OptionalWhole(std::string_view key, Range range) {
+  const std::optional<double> number = OptionalNumber(key, range);
+  if (!number || *number == std::floor(*number)) return number;
+  Complain(node_.Find(key)->place, fmt::format("'{}' must be a whole number, found {}", key, *number));
+  return std::nullopt;
+}
+
 double Fields::Number(std::string_view key, double fallback, Range range) {
   return OptionalNumber(key, range).value_or(fallback);
 }
@@ -87,13 +94,7 @@ int Fields::Integer(std::string_view key, int fallback, Range range) {
   constexpr double kLargest = std::numeric_limits<int>::max();
   range.lowest = std::max(range.lowest, -kLargest);
   range.highest = std::min(range.highest, kLargest);
-  const std::optional<double> number = OptionalNumber(key, range);
-  if (!number) return fallback;
-  if (*number != std::floor(*number)) {
-    Complain(node_.Find(key)->place, fmt::format("'{}' must be a whole number, found {}", key, *number));
-    return fallback;
-  }
-  return static_cast<int>(*number);
+  return static_cast<int>(OptionalWhole(key, range).value_or(fallback));
 }
 
 bool Fields::Boolean(std::string_view key, bool fallback) {

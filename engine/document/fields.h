@@ -39,6 +39,8 @@ class Fields {
   std::vector<std::string> Texts(std::string_view key);
   std::vector<double> Numbers(std::string_view key, Range range = {});
   std::optional<double> OptionalNumber(std::string_view key, Range range = {});
+  /// A number without fraction; may be larger than an int.
+  std::optional<double> OptionalWhole(std::string_view key, Range range = {});
   std::string RequiredText(std::string_view key);
 
   /// The raw value under `key` (null when absent), marked as known.

@@ -11,9 +11,10 @@ namespace {
 
 constexpr std::size_t kLargestDocument = 1 << 20;
 constexpr int kDeepestNesting = 32;
+constexpr int kMostValues = 10'000;  // yaml-cpp takes quadratic time to load them
 
-/// Counts nesting the way a scanner would, before yaml-cpp's recursive parser sees the text: the
-/// deepest indentation step and the deepest bracket, whichever is larger. It may overestimate.
+/// The deepest bracket or run of list markers, whichever is larger, counted before yaml-cpp's recursive
+/// parser sees the text. It may overestimate. Nesting by indentation is left to yaml-cpp's own guard.
 int EstimateNesting(std::string_view text) {
   int deepest = 0;
   int brackets = 0;
@@ -86,23 +87,28 @@ class Builder {
   std::string file_;
 };
 
-/// An alias (`*name`) repeats a whole subtree, so a few lines can expand to gigabytes. yaml-cpp gives
-/// no way to see them after parsing; they are found in its event stream, which does not expand them.
-class AliasFinder : public YAML::EventHandler {
+/// What must be known before a document is loaded, seen in yaml-cpp's event stream. An alias (`*name`)
+/// repeats a whole subtree, so a few lines can expand to gigabytes; loading expands it without a trace.
+class Survey : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override { ++values; }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    if (found.is_null()) found = mark;
+    if (alias.is_null()) alias = mark;
   }
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override { ++values; }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    ++values;
+  }
   void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+    ++values;
+  }
   void OnMapEnd() override {}
 
-  YAML::Mark found = YAML::Mark::null_mark();
+  YAML::Mark alias = YAML::Mark::null_mark();
+  int values = 0;
 };
 
 }  // namespace
@@ -123,10 +129,12 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file) {
   Builder builder(file);
   try {
     std::istringstream events{std::string(text)};
-    AliasFinder aliases;
+    Survey survey;
     YAML::Parser parser(events);
-    parser.HandleNextDocument(aliases);
-    if (!aliases.found.is_null()) return Fail(builder.At(aliases.found), "aliases (*name) are not read; write it out");
+    parser.HandleNextDocument(survey);
+    if (!survey.alias.is_null()) return Fail(builder.At(survey.alias), "aliases (*name) are not read; write it out");
+    if (survey.values > kMostValues) return Fail(whole, "{} values; at most {} are read", survey.values, kMostValues);
+    if (parser.HandleNextDocument(survey)) return Fail(whole, "more than one document (---); one is read");
     return builder.Build(YAML::Load(std::string(text)), 0);
   } catch (const YAML::Exception& error) {
     return Fail(builder.At(error.mark), "not valid YAML: {}", error.msg);

@@ -31,7 +31,7 @@ struct Node::Entry {
 };
 
 /// Reads one YAML document. `file` names it in complaints. Refused: syntax errors, duplicate keys,
-/// aliases, more than 1 MiB of text, nesting deeper than 32 levels.
+/// aliases, a second document, more than 1 MiB of text or 10,000 values, nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file);
 
 /// "a mapping", "a list", "the text 'abc'", "nothing": how complaints name what was found.

@@ -119,7 +119,7 @@ double CcdSweep::TurnWhole(int joint) {
     angles = AnglesXyz(RotationXyz(wanted) * rotation);
     for (int k = 0; k < 3; ++k) {
       const int dof = limb.first_dof + k;
-      angles[k] = k < limb.dof_count ? std::clamp(angles[k], ranges_[dof].lower, ranges_[dof].upper) : 0;
+      angles[k] = k < limb.dof_count ? ClampAngle(angles[k], ranges_[dof]) : 0;
     }
     TurnBelow(joint, base * RotationXyz(angles) * glm::transpose(rotation) * glm::transpose(base));
   }

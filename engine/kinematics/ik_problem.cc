@@ -27,20 +27,6 @@ bool IsGood(const EffectorTarget& target) {
 
 }  // namespace
 
-std::string_view IkStatusName(IkStatus status) {
-  switch (status) {
-    case IkStatus::kConverged:
-      return "converged";
-    case IkStatus::kStalled:
-      return "stalled";
-    case IkStatus::kIterationLimit:
-      return "iteration_limit";
-    case IkStatus::kBadInput:
-      return "bad_input";
-  }
-  return "bad_input";
-}
-
 double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
   double sum = 0;
   int count = 0;

@@ -53,7 +53,6 @@ enum class IkStatus {
   kIterationLimit,
   kBadInput,  ///< nothing was computed; angles are zeros
 };
-std::string_view IkStatusName(IkStatus status);
 
 /// How far one end effector is from its target.
 struct EffectorError {

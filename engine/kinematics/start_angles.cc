@@ -59,8 +59,12 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   // Both hinges turn about +X by positive angles from foot to thigh; a cross product weighs each normal by the sine of
   // its angle, which is how well it is known.
-  const glm::dvec3 normal =
-      glm::cross(directions[kTreeLeftAnkle], directions[kTreeLeftToe] + directions[kTreeLeftKnee]);
+  glm::dvec3 normal = glm::cross(directions[kTreeLeftAnkle], directions[kTreeLeftToe] + directions[kTreeLeftKnee]);
+  if (glm::length(normal) < std::sin(kStraight)) {
+    // Toe, ankle, knee and hip in one line (a leap, a stand on the very toes): then the hips tell what is right.
+    const glm::dvec3& along = directions[kTreeLeftKnee];
+    normal = directions[kTreeLeftHip] - glm::dot(directions[kTreeLeftHip], along) * along;
+  }
   if (glm::length(normal) < std::sin(kStraight)) return std::nullopt;
   const glm::dvec3 x = glm::normalize(normal);
   // A foot along X cannot be: it would be normal to the shank and to the plane of the leg at once.
@@ -118,7 +122,7 @@ std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPos
     glm::dvec3 angles = AnglesTowards(base, joint.dof_count, (*directions)[i], FindTwist(i, *directions, joints));
     for (int axis = 0; axis < joint.dof_count; ++axis) {
       const AngleRange& range = limits[joint.first_dof + axis];
-      angles[axis] = std::clamp(angles[axis], range.lower, range.upper);
+      angles[axis] = ClampAngle(angles[axis], range);
       state.angles[joint.first_dof + axis] = angles[axis];
     }
     frames[i] = base * RotationXyz(angles);

@@ -18,12 +18,14 @@ namespace etude {
 /// - upper arms and the right thigh: the X axis of elbow and knee is normal to both limbs, unless they are nearly
 ///   parallel (3°): then, and for the neck, the smallest rotation from the parent's rest frame;
 /// - the left leg, whose three limbs hang on hinges with one common X axis: that axis is the mean of the normals at
-///   ankle and knee, and the limbs lie in the plane normal to it, as near as possible to where they point;
+///   ankle and knee, and the limbs lie in the plane normal to it, as near as possible to where they point; when the
+///   whole leg is one line, toes and all, that axis is the hip line's part across it;
 /// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
 /// the
 ///   navel; the trunk: its X axis points along the shoulders.
 /// A pose of the tree comes back exactly (all joints' positions) when `limits` allow it.
-/// Nothing when a position is not finite, or two neighbouring joints coincide, or the left leg's normals vanish.
+/// Nothing when a position is not finite, or two neighbouring joints coincide, or the left leg and the hips lie in one
+/// line.
 std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,
                                         std::span<const AngleRange> limits);
 

@@ -1,5 +1,6 @@
 #include "engine/kinematics/tree.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -36,6 +37,12 @@ bool IsValid(const LimbLengths& lengths) {
     if (!std::isfinite(length) || length <= 0) return false;
   }
   return true;
+}
+
+double ClampAngle(double angle, const AngleRange& range) {
+  if (angle >= range.lower && angle <= range.upper) return angle;
+  const double middle = 0.5 * (range.lower + range.upper);
+  return std::clamp(middle + std::remainder(angle - middle, 2 * kPi), range.lower, range.upper);
 }
 
 KinematicTree MakeBodyTree(const LimbLengths& lengths) {

@@ -32,6 +32,10 @@ struct AngleRange {
   double upper = 0;
 };
 
+/// `angle` itself, or a full turn away, when that lies in `range`; else the end of `range` nearest to it on the circle:
+/// an angle just short of −π is next to +170°, not to −50°.
+double ClampAngle(double angle, const AngleRange& range);
+
 /// A point that turns, and the rigid limb beyond it. The limb's frame has its Z axis along the limb (paper B, section
 /// 3.3): F = F_parent · rest · Rx(q₀) Ry(q₁) Rz(q₂), a joint of fewer degrees of freedom leaving out the last ones.
 struct TreeJoint {

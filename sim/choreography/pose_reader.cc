@@ -86,8 +86,8 @@ KeyPose::Target ReadTarget(Fields& pose, const Node& node, std::string_view feat
     return {std::string(feature), pose.Number(feature, 0, kDegrees), tolerance_deg};
   }
   Fields keys(node, "a key pose's feature");
-  const KeyPose::Target target = {std::string(feature), keys.Number("degrees", 0, kDegrees),
-                                  keys.Number("tolerance_deg", tolerance_deg, kTolerance)};
+  KeyPose::Target target = {std::string(feature), keys.Number("degrees", 0, kDegrees),
+                            keys.Number("tolerance_deg", tolerance_deg, kTolerance)};
   if (auto ok = keys.Finish(); !ok) pose.Complain(ok.error().place, ok.error().message);
   return target;
 }

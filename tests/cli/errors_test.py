@@ -1,7 +1,8 @@
 """Bad input gives one message that says where and what is allowed, exit code 2, and writes nothing."""
+import subprocess
 import unittest
 
-from etude_case import IK, EtudeCase
+from etude_case import ETUDE, IK, EtudeCase
 
 BVH_HEAD = """HIERARCHY
 ROOT Hips
@@ -64,6 +65,25 @@ class Errors(EtudeCase):
         self.refuses("run", path, "--seed", "-1", "-o", self.out, says=["--seed"])
         self.refuses("rnu", says=["unknown argument 'rnu'; did you mean 'run'?"])
         self.refuses(says=["--help explains"])
+
+    def test_more_cells_than_memory_holds(self):
+        many = IK.replace("[2, 5]", "[1, 2, 3, 4, 5, 6]")
+        self.refuses("run", self.write("s.yaml", many), "--trials", "1000000", "-o", self.out,
+                     says=["6 conditions × 2 methods × 1000000 trials make more than 10000000 cells"])
+
+    def test_a_full_output_is_told(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([ETUDE, "list", "metrics"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("No space left on device", result.stderr)
+
+    def test_a_run_that_cannot_write_leaves_no_folder(self):
+        path = self.write("s.yaml", IK)
+        limit = 'ulimit -f 0; trap "" XFSZ; exec "$0" run "$1" -o "$2"'
+        result = subprocess.run(["sh", "-c", limit, ETUDE, path, self.out], capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("manifest.json: cannot write this file", result.stderr)
+        self.assertFalse(self.out.exists())
 
     def test_a_folder_that_holds_something_is_left_alone(self):
         path = self.write("s.yaml", IK)

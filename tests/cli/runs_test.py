@@ -61,6 +61,40 @@ class Runs(EtudeCase):
         self.assertEqual(len(crashed), 2)
         self.assertIn("signal 11 (Segmentation fault)", crashed[0])
 
+    def test_two_runs_never_share_a_folder(self):
+        path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 100000"))
+        first = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)
+        journal = self.out / "journal.jsonl"
+        while not (journal.exists() and journal.stat().st_size > 0):
+            time.sleep(0.01)
+        second = self.etude("run", path, "-o", self.out, "--overwrite")
+        first.send_signal(signal.SIGTERM)
+        self.assertEqual(first.wait(timeout=20), 130)
+        self.assertEqual(second.returncode, 2)
+        self.assertIn("another run is writing into it", second.stderr)
+        unfinished = self.etude("report", self.out)
+        self.assertEqual(unfinished.returncode, 2)
+        self.assertIn("did not come to its end", unfinished.stderr)
+
+    def test_nobody_listening_does_not_end_a_run(self):
+        path = self.write("ik.yaml", IK)
+        run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        run.stderr.close()
+        self.assertEqual(run.wait(timeout=60), 0)
+        self.assertTrue((self.out / "cells.jsonl").exists())
+
+    def test_closed_standard_streams_do_no_harm(self):
+        path = self.write("ik.yaml", IK)
+        script = 'exec "$0" run "$1" -o "$2" <&- >&- 2>&-'
+        self.assertEqual(subprocess.run(["sh", "-c", script, ETUDE, path, self.out], timeout=60).returncode, 0)
+        self.assertTrue((self.out / "cells.jsonl").exists())
+
+    def test_a_condition_without_measurements_is_one_line_with_the_reason(self):
+        clip = "/usr/share/assimp/models/BVH/01_01.bvh"
+        out = self.etude("run", "scenarios/quick/detection.yaml", "--trials", 1, "--clips", clip, "-o", self.out).stdout
+        self.assertIn("skipped: ", out)
+        self.assertNotRegex(out, r"noise=1, turn_deg=0  +f1")
+
     def test_ctrl_c_keeps_the_journal(self):
         path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 100000"))
         run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)

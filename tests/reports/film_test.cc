@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/files/files.h"
@@ -17,6 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+
+// What cairo makes of the panel's colour for the body's left side.
+constexpr Rgb8 kLeftBone{255, 204, 76};
 
 fs::path FilmPath() {
   const fs::path folder = fs::path(::testing::TempDir()) / "etude_films";
@@ -85,6 +89,17 @@ TEST(CoachPanel, CutsALongMotionAroundItsSeam) {
   EXPECT_EQ(panel->Seam(), 30);
 }
 
+TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  run.recordings.front().recording.extras_json =
+      R"({"seam_frame": 80, "seam_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
+  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500);
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  EXPECT_EQ(panel->Seam(), 80);
+  EXPECT_THAT(panel->Title(), HasSubstr("side kick → clap"));
+}
+
 TEST(CoachPanel, RefusesARecordingWithoutASeam) {
   RunData run = ExampleRun();
   AddRecordings(run);
@@ -102,6 +117,32 @@ TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {
   const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
   ASSERT_FALSE(panel.has_value());
   EXPECT_THAT(ToString(panel.error()), HasSubstr("differ in length"));
+}
+
+TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  Canvas canvas(432, 324);
+  panel->Draw(canvas, **renderer, 0, 20);
+  const ColourImage pixels = canvas.Pixels();
+  int bones = 0, highest = pixels.height, lowest = 0;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      if (pixels.At(x, y) != kLeftBone) continue;
+      ++bones;
+      highest = std::min(highest, y);
+      lowest = std::max(lowest, y);
+    }
+  }
+  EXPECT_GT(bones, 100);
+  // Cut to the person: from the raised hand to the foot it takes most of the picture's height.
+  EXPECT_GT(lowest - highest, pixels.height / 2);
+  EXPECT_GT(highest, 0);
+  EXPECT_LT(lowest, pixels.height - 1);
 }
 
 TEST(Encoder, GivesTheSameBytesForTheSamePictures) {

@@ -19,6 +19,7 @@ Result<void> AddBuiltins(const std::string& reference, const Place& place, ClipL
   const std::string wanted = reference.substr(kBuiltinPrefix.size());
   const std::vector<std::string> names = wanted == "*" ? BuiltinMoveNames() : std::vector<std::string>{wanted};
   for (const std::string& name : names) {
+    if (library.clips.size() >= kMostClips) return Fail(place, "more than {} clips", kMostClips);
     auto move = LoadBuiltinMove(name);
     if (!move) return Fail(place, "{}", move.error().message);
     const std::string full = std::string(kBuiltinPrefix) + name;

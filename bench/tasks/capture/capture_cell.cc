@@ -97,7 +97,7 @@ std::vector<FrameMeasurement> MeasureFrames(const CaptureWorld& world, const Obs
       }
       if (frame.ends[i]) point_error_mm.Add(1000 * glm::distance(*frame.ends[i], *truth.ends[i]));
     }
-    frames.push_back(std::move(frame));
+    frames.push_back(frame);
   }
   cell.digests.emplace_back("directions", directions.Hex());
   cell.digests.emplace_back("points", points.Hex());
@@ -138,7 +138,7 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
     poses.push_back(frame.pose);
     Add(frame.fixed, lengths_digest);
     Add(frame.pose, pose_digest);
-    effector_error_cm.Add(frame.effector_error_cm);
+    if (frame.effector_error_cm) effector_error_cm.Add(*frame.effector_error_cm);
   }
   const PoseErrors before = ComparePoses(fixed, world.truth), after = ComparePoses(poses, world.truth);
   cell.digests.emplace_back("lengths", lengths_digest.Hex());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bench/tasks/base/solver_fields.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -38,27 +39,13 @@ Oracle ReadOracle(Fields& fields) {
   return {names("calibration"), names("segmentation"), names("directions"), names("points")};
 }
 
-// Weights mean nothing to a solver that does not use them: naming them is a mistake worth telling.
-void ReadWeights(Fields& fields, const IkSolver& solver, IkOptions& ik) {
-  if (solver.uses_weights) {
-    ik.weights = *FindWeightRule(fields.Choice("weights", WeightRuleNames(), "adaptive"));
-    ik.refresh = *FindWeightRefresh(fields.Choice("refresh", WeightRefreshNames(), "sweep"));
-    return;
-  }
-  for (const char* key : {"weights", "refresh"}) {
-    const Node* value = fields.Raw(key);
-    if (value != nullptr) fields.Complain(value->place, fmt::format("solver '{}' has no '{}'", solver.name, key));
-  }
-}
-
 Result<CaptureMethod> ReadMethod(const Node& node) {
   Fields fields(node, "a method of task capture");
   CaptureMethod method;
   method.name = fields.RequiredText("name");
   method.segmenter = SegmenterNamed(fields.Choice("segmenter", SegmenterNames(), "hue"));
   method.calibration = CalibrationNamed(fields.Choice("calibration", CalibrationNames(), "dlt"));
-  method.solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), "ccd"));
-  ReadWeights(fields, *method.solver, method.ik);
+  method.solver = ReadIkSolver(fields, method.ik);
   method.ik.max_iterations = fields.Integer("max_sweeps", 100, {1, 100'000});
   if (const std::optional<double> degrees = fields.OptionalNumber("tolerance_deg", {0, 360})) {
     method.ik.angle_change_tolerance = Radians(*degrees);

@@ -49,8 +49,7 @@ std::vector<std::optional<RecoveredFrame>> RecoverFrames(const KinematicTree& bo
     TreeState state = *start;
     state.angles = solution.angles;
     const BodyPose pose = ToBodyPose(body, state);
-    frames[i] = RecoveredFrame{*fixed, std::move(state), pose, MeanEffectorErrorCm(solution),
-                               solution.status == IkStatus::kConverged};
+    frames[i] = RecoveredFrame{*fixed, std::move(state), pose, MeanEffectorErrorCm(solution)};
     last = frames[i];
   }
   return frames;
@@ -65,6 +64,7 @@ std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFr
       held.push_back(*frame);
     } else {
       held.push_back(held.empty() ? **first : held.back());
+      held.back().effector_error_cm.reset();
     }
   }
   return held;

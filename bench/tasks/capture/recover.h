@@ -13,11 +13,11 @@ namespace etude {
 
 /// One frame of a recovered motion.
 struct RecoveredFrame {
-  BodyPose fixed;                ///< with the known limb lengths, before inverse kinematics
-  TreeState state;               ///< after it
-  BodyPose pose;                 ///< the same as twenty joints
-  double effector_error_cm = 0;  ///< from the end effectors to where they were seen, mean
-  bool is_solved = false;        ///< the solver reached its goals
+  BodyPose fixed;   ///< with the known limb lengths, before inverse kinematics
+  TreeState state;  ///< after it
+  BodyPose pose;    ///< the same as twenty joints
+  /// From the end effectors to where they were seen, mean; nothing where they were not seen.
+  std::optional<double> effector_error_cm;
 };
 
 /// From what was seen to a skeleton (paper B, chapter 3): limb lengths fixed, then every end effector brought

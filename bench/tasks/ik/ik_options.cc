@@ -1,5 +1,6 @@
 #include "bench/tasks/ik/ik_options.h"
 
+#include "bench/tasks/base/solver_fields.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -37,17 +38,7 @@ Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkT
   IkMethod method;
   method.options = common;
   method.name = fields.RequiredText("name");
-  method.solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), "ccd"));
-  if (!method.solver->uses_weights) {
-    for (const char* key : {"weights", "refresh"}) {
-      const Node* value = fields.Raw(key);
-      if (value == nullptr) continue;
-      fields.Complain(value->place, fmt::format("solver '{}' has no '{}'", method.solver->name, key));
-    }
-  } else {
-    method.options.weights = *FindWeightRule(fields.Choice("weights", WeightRuleNames(), "adaptive"));
-    method.options.refresh = *FindWeightRefresh(fields.Choice("refresh", WeightRefreshNames(), "sweep"));
-  }
+  method.solver = ReadIkSolver(fields, method.options);
   method.options.limits = fields.Boolean("limits", true);
   const std::optional<double> degrees = fields.OptionalNumber("tolerance_deg", {0, 360});
   const std::optional<double> times_noise = fields.OptionalNumber("tolerance_times_noise", {0, 100});

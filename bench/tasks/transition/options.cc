@@ -1,20 +1,32 @@
 #include "bench/tasks/transition/options.h"
 
+#include <fmt/ranges.h>
+
 #include <array>
-#include <utility>
 
 namespace etude {
 namespace {
 
 template <typename T, std::size_t N>
-T ReadChoice(Fields& fields, std::string_view key, const std::array<std::pair<const char*, T>, N>& known) {
+std::vector<std::string> NamesOf(const std::array<std::pair<const char*, T>, N>& known) {
   std::vector<std::string> names;
   for (const auto& [name, value] : known) names.emplace_back(name);
+  return names;
+}
+
+template <typename T, std::size_t N>
+T ReadChoice(Fields& fields, std::string_view key, const std::array<std::pair<const char*, T>, N>& known) {
+  const std::vector<std::string> names = NamesOf(known);
   const std::string chosen = fields.Choice(key, names, names.front());
   for (const auto& [name, value] : known) {
     if (chosen == name) return value;
   }
   return known.front().second;  // the complaint is kept in `fields`
+}
+
+template <typename T, std::size_t N>
+std::string ListOf(const std::array<std::pair<const char*, T>, N>& known) {
+  return fmt::format("{}", fmt::join(NamesOf(known), ", "));
 }
 
 // The first of each is the default: paper A's method.
@@ -48,6 +60,16 @@ Result<TransitionMethod> ReadMethod(const Node& node, const SwitchRules& default
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> TransitionMethodKeys() {
+  return {{"choice", ListOf(kChoices)},
+          {"join", ListOf(kJoins)},
+          {"weights", ListOf(kWeights)},
+          {"pick", ListOf(kPicks)},
+          {"within_class", "true, false"},
+          {"threshold", "the distance below which two bridge frames match"},
+          {"wait_s", "how long after the request a switch may come"}};
+}
 
 Result<std::vector<TransitionMethod>> ReadTransitionMethods(Fields& condition, std::span<const Node> methods) {
   SwitchRules defaults;

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/bridging/splice.h"
@@ -20,6 +21,9 @@ struct TransitionMethod {
   bool adaptive_weights = false;
   SwitchRules rules;  ///< its weights are paper A's; adaptive ones depend on the world
 };
+
+/// The keys of a method with what they may say.
+std::vector<std::pair<std::string, std::string>> TransitionMethodKeys();
 
 /// Reads the methods. `condition` may give `threshold` and `wait_s` for all of them, which is what
 /// makes those two sweepable.

@@ -178,7 +178,8 @@ TaskKind MakeTransitionTaskKind() {
   return {.name = "transition",
           .question = "How smoothly does a dancer get from one clip into another when called?",
           .default_metrics = {"jump_cm", "natural_share", "pose_gap_cm", "false_smooth", "foot_slide_cmps", "wait_s"},
-          .make = MakeTransitionTask};
+          .make = MakeTransitionTask,
+          .method_keys = TransitionMethodKeys()};
 }
 
 }  // namespace etude

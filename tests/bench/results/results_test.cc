@@ -117,5 +117,13 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("schema 99; this program reads 1"));
 }
 
+TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {
+  Row row{"t", "transition", {{"wait_s", "0.5"}}, 0, "", "fuzzy", CellResult::Ended(Status::kCrashed, "died")};
+  const auto read = DecodeRow(EncodeRow(row), kPlace);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(ValueOf(*read, "wait_s"), std::nullopt);
+  EXPECT_EQ(read->condition, row.condition);
+}
+
 }  // namespace
 }  // namespace etude

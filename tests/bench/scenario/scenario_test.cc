@@ -73,5 +73,16 @@ TEST(Scenario, TellsWhatIsWrongWithAnExpectation) {
   EXPECT_THAT(complaint("{metric: position_error_cm, of: a, below: b, where: {x: 1}}"), HasSubstr("unknown condition"));
 }
 
+TEST(Scenario, RefusesFractionsWhereOnlyWholeNumbersMeanSomething) {
+  EXPECT_THAT(Complaint(kHead + kMethods + "seed: 1.5\n"), HasSubstr("s.yaml:5:7: 'seed' must be a whole number"));
+  EXPECT_THAT(Complaint(kHead + kMethods + "video: {trials: [0.5]}\n"), HasSubstr("must be whole numbers"));
+}
+
+TEST(Scenario, RefusesAHugeSweepBeforeItTakesMemory) {
+  std::string values = "0";
+  for (int i = 1; i < 5000; ++i) values += fmt::format(",{}", i);
+  EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {x: [" + values + "]}\n"), HasSubstr("more than 1000 conditions"));
+}
+
 }  // namespace
 }  // namespace etude

@@ -80,5 +80,12 @@ TEST(Document, SurvivesEveryTruncationAndManyMutations) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(Document, RefusesASecondDocumentAndMoreValuesThanItLoadsQuickly) {
+  EXPECT_THAT(Complaint("speed: 1\n---\nspeed: 2\n"), HasSubstr("more than one document"));
+  std::string many;
+  for (int i = 0; i < 6000; ++i) many += fmt::format("a{}: 1\n", i);
+  EXPECT_THAT(Complaint(many), HasSubstr("at most 10000 are read"));
+}
+
 }  // namespace
 }  // namespace etude

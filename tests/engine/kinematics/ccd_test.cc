@@ -78,6 +78,20 @@ TEST(Ccd, AHingeInReachOfItsTargetNeedsOneSweep) {
   }
 }
 
+TEST(Ccd, AWholeJointPushedBeyondHalfATurnStaysAtItsNearerLimit) {
+  KinematicTree arm;
+  arm.joints = {{.name = "root", .role = Role::kShoulderCentre},
+                {.name = "ball", .role = Role::kLeftShoulder, .parent = 0, .offset = {0, 0, 1}, .dof_count = 3}};
+  arm.effectors = {{"tip", Role::kLeftElbow, 1, {0, 0, 0.5}}};
+  arm.limits = {{Radians(-50), Radians(170)}, {Radians(-80), Radians(80)}, {Radians(-70), Radians(70)}};
+  TreeState truth = StandingState(arm);
+  truth.angles[0] = Radians(200);
+  const IkProblem problem = DisturbedProblem(arm, truth, 0, 0);
+  ASSERT_NEAR(Degrees(problem.start.angles[0]), 170, 1e-9);
+  EXPECT_NEAR(Degrees(SolveCcd(arm, problem, IkOptions{}).angles[0]), 170, 1e-9)
+      << "200 degrees, which Euler angles call -160, are not next to -50";
+}
+
 TEST(Ccd, RefreshingFixedWeightsChangesNoBit) {
   const KinematicTree tree = MakeBodyTree({});
   const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 4, 0.5), 4, 15);

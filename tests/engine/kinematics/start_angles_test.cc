@@ -72,6 +72,25 @@ TEST(StartAngles, ASittingBodyBendsAtItsHips) {
   for (std::size_t i = 0; i < sitting.angles.size(); ++i) EXPECT_NEAR(start->angles[i], sitting.angles[i], 1e-9) << i;
 }
 
+TEST(StartAngles, AnAngleBeyondHalfATurnIsClippedToTheNearerLimit) {
+  const KinematicTree tree = MakeBodyTree({});
+  const int raise = tree.joints[kTreeRightShoulder].first_dof;
+  TreeState raised = StandingState(tree);
+  raised.angles[raise] = Radians(185);  // the arm straight up and a little back; Euler angles call it -175
+  const auto start = FindStartState(tree, ToBodyPose(tree, raised), tree.limits);
+  ASSERT_TRUE(start);
+  EXPECT_NEAR(Degrees(start->angles[raise]), 170, 1e-9);
+}
+
+TEST(StartAngles, TheHipsTellHowAStretchedLegWithPointedToesIsTurned) {
+  const KinematicTree tree = MakeBodyTree({});
+  BodyPose leap = ToBodyPose(tree, StandingState(tree));
+  leap[kLeftFoot] = leap[kLeftAnkle] - glm::dvec3(0, 0.18, 0);
+  const auto start = FindStartState(tree, leap, NoLimits());
+  ASSERT_TRUE(start);
+  EXPECT_LT(LargestGap(ToBodyPose(tree, *start), leap), 1e-9);
+}
+
 TEST(StartAngles, UnusablePosesGiveNothing) {
   const KinematicTree tree = MakeBodyTree({});
   const BodyPose sound = ToBodyPose(tree, StandingState(tree));

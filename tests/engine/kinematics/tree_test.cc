@@ -23,6 +23,14 @@ glm::dmat4 ChainMatrix(const KinematicTree& tree, const TreeState& state, int jo
   return ChainMatrix(tree, state, joint.parent) * local;
 }
 
+TEST(Tree, AnAngleIsClampedToTheEndNearestOnTheCircle) {
+  const AngleRange raise{Radians(-50), Radians(170)};
+  for (const auto& [angle, clamped] :
+       {std::pair{20.0, 20.0}, {-60.0, -50.0}, {185.0, 170.0}, {-175.0, 170.0}, {-110.0, -50.0}, {380.0, 20.0}}) {
+    EXPECT_NEAR(Degrees(ClampAngle(Radians(angle), raise)), clamped, 1e-9) << angle;
+  }
+}
+
 TEST(Tree, HasPaperBs29DegreesOfFreedomAndFourEffectors) {
   const KinematicTree tree = MakeBodyTree({});
   EXPECT_EQ(tree.dof_count(), 29);

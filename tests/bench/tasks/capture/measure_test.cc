@@ -129,6 +129,8 @@ TEST(RecoverFrames, GivesAPoseOfTheModelBackAndHoldsItWhereNothingIsSeen) {
   const auto held = HoldFrames(recovered);
   ASSERT_EQ(held.size(), 2u);
   EXPECT_EQ(held[1].pose[Role::kHead], held[0].pose[Role::kHead]);
+  EXPECT_TRUE(held[0].effector_error_cm);
+  EXPECT_FALSE(held[1].effector_error_cm) << "a held frame met no target";
 }
 
 }  // namespace
