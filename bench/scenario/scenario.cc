@@ -177,6 +177,9 @@ void ReadExpectations(Fields& fields, Scenario& scenario) {
     const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                        expectation.at_least.has_value();
     if (const auto done = entry.Finish(); !done) return fields.Complain(done.error().place, done.error().message);
+    if (expectation.below == expectation.of || expectation.above == expectation.of) {
+      return fields.Complain(item.place, fmt::format("'{}' cannot be expected to differ from itself", expectation.of));
+    }
     if (claims != 1) {
       return fields.Complain(item.place, fmt::format("an expectation says exactly one of: below, above (a method), "
                                                      "at_most, at_least (a number); found {}",

@@ -67,6 +67,7 @@ TEST(Scenario, TellsWhatIsWrongWithAnExpectation) {
   };
   EXPECT_EQ(complaint("{metric: position_error_cm, of: a, below: b}"), "");
   EXPECT_THAT(complaint("{metric: position_error_cm, of: c, below: b}"), HasSubstr("s.yaml:6:37: unknown of 'c'"));
+  EXPECT_THAT(complaint("{metric: position_error_cm, of: a, below: a}"), HasSubstr("differ from itself"));
   EXPECT_THAT(complaint("{metric: position_error_cm, of: a}"), HasSubstr("exactly one of: below, above"));
   EXPECT_THAT(complaint("{metric: position_error_cm, of: a, below: b, at_most: 1}"), HasSubstr("found 2"));
   EXPECT_THAT(complaint("{metric: position_error_cm, of: a, belw: b}"), HasSubstr("did you mean 'below'?"));
