@@ -11,21 +11,9 @@
 namespace etude {
 namespace {
 
-std::string_view DirectionMark(Direction direction) {
-  switch (direction) {
-    case Direction::kLowerIsBetter:
-      return "lower is better";
-    case Direction::kHigherIsBetter:
-      return "higher is better";
-    case Direction::kNeither:
-      break;
-  }
-  return "descriptive";
-}
-
 void ListMetrics() {
   for (const MetricInfo& metric : AllMetrics()) {
-    fmt::print("{:<26} v{}  {:<16}  {}\n", metric.id, metric.version, DirectionMark(metric.direction),
+    fmt::print("{:<26} v{}  {:<16}  {}\n", metric.id, metric.version, DirectionWords(metric.direction),
                metric.definition);
   }
 }

@@ -21,18 +21,6 @@ constexpr std::size_t kMostSteps = 120;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
 
-std::string_view DirectionWords(Direction direction) {
-  switch (direction) {
-    case Direction::kLowerIsBetter:
-      return "lower is better";
-    case Direction::kHigherIsBetter:
-      return "higher is better";
-    case Direction::kNeither:
-      break;
-  }
-  return "";
-}
-
 std::string Caption(const std::string& what, const MetricWords& words) {
   std::string unit = words.suffix;
   unit.erase(0, unit.find_first_not_of(' '));

@@ -107,6 +107,18 @@ const std::vector<MetricInfo>& Catalogue() {
 
 }  // namespace
 
+std::string_view DirectionWords(Direction direction) {
+  switch (direction) {
+    case Direction::kLowerIsBetter:
+      return "lower is better";
+    case Direction::kHigherIsBetter:
+      return "higher is better";
+    case Direction::kNeither:
+      break;
+  }
+  return "";
+}
+
 std::span<const MetricInfo> AllMetrics() { return Catalogue(); }
 
 const MetricInfo* FindMetric(std::string_view id) {

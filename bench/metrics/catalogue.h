@@ -7,6 +7,8 @@
 namespace etude {
 
 enum class Direction { kLowerIsBetter, kHigherIsBetter, kNeither };
+/// "lower is better", "higher is better", or "" for neither.
+std::string_view DirectionWords(Direction direction);
 
 /// How a run sums up the cells' values: shares and other 0/1 values by their mean, the rest by median.
 enum class Aggregate { kMedian, kMean };
