@@ -57,8 +57,9 @@ GLuint MakeInstanceBuffer(const GlFunctions& gl, GLuint vertices) {
   gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
   const auto attribute = [&gl](GLuint index, int size, std::size_t offset) {
     gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(CapsuleInstance),
-                           reinterpret_cast<const void*>(offset));
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): what GL calls a pointer is an offset into the buffer
+    const void* pointer = reinterpret_cast<const void*>(offset);
+    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(CapsuleInstance), pointer);
     gl.VertexAttribDivisor(index, 1);
   };
   attribute(0, 4, offsetof(CapsuleInstance, start_and_radius));

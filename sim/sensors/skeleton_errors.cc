@@ -144,6 +144,7 @@ std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::v
                                            const SkeletonSensorOptions& options, const WorldKey& world) {
   RandomStream dice(world, "skeleton/occlusion");
   const double wrong_chance = std::min(1.0, options.wrong_guess_chance * options.strength);
+  const int lengths = options.longest_episode - options.shortest_episode + 1;
   std::vector<FrameGuesses> guesses(truth.poses.size());
   std::array<Episode, kLimbs.size()> episodes;
   for (std::size_t t = 0; t < truth.poses.size(); ++t) {
@@ -154,8 +155,7 @@ std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::v
       const Limb& limb = kLimbs[l];
       // Thrown in every frame, used only where an episode begins.
       Episode fresh{.age = 0,
-                    .length = options.shortest_episode + static_cast<int>(dice.IndexBelow(static_cast<std::uint64_t>(
-                                                             options.longest_episode - options.shortest_episode + 1))),
+                    .length = options.shortest_episode + static_cast<int>(dice.IndexBelow(lengths)),
                     .wrong = dice.Chance(wrong_chance),
                     .size_m = options.nearest_guess_m *
                               std::pow(options.farthest_guess_m / options.nearest_guess_m, dice.Uniform()),
