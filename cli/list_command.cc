@@ -2,6 +2,7 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/run/suite.h"
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"

@@ -8,6 +8,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")  # the sanitizers' builds: assertions stay on
 
 # x86-64-v2 is the oldest machine Etude promises identical bytes on. Contracting a*b+c into a
 # fused multiply-add would change the last bit from one CPU to the next.
@@ -24,4 +25,9 @@ endif()
 if(ETUDE_SANITIZE)
   add_compile_options(-fsanitize=${ETUDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   add_link_options(-fsanitize=${ETUDE_SANITIZE})
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)  # indices of vectors and spans, empty optionals
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # With sanitizers GCC takes parts of std::regex and std::function for uninitialized (GCC bug 105562).
+    add_compile_options(-Wno-maybe-uninitialized)
+  endif()
 endif()

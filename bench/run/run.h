@@ -47,7 +47,4 @@ struct RunOutcome {
 /// ends before any world did leaves no folder that was not there before.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
-/// The scenario files behind paths: a file is itself, a folder its *.yaml, sorted by name.
-Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths);
-
 }  // namespace etude

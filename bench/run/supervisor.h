@@ -26,7 +26,7 @@ struct WorldAnswer {
 };
 
 struct SupervisorOptions {
-  std::string program;             ///< what to start as `PROGRAM worker`
+  std::string program;  ///< what to start as `PROGRAM worker`
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;  ///< set (by Ctrl-C) to end early
 };

@@ -1,0 +1,80 @@
+#include "bench/run/suite.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "bench/files/files.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostCells = 10'000'000;  // their rows are held in memory
+
+std::string SuiteName(const std::vector<std::string>& paths) {
+  if (paths.size() != 1) return "suite";
+  const fs::path path = fs::path(paths.front()).lexically_normal();
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return path.stem().string();
+  const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  return name.empty() || name == "." ? "suite" : name;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) {
+      std::vector<std::string> inside;
+      for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+        if (entry->path().extension() == ".yaml") inside.push_back(entry->path().string());
+      }
+      if (error) return Fail({path, 0, 0}, "cannot be read: {}", error.message());
+      if (inside.empty()) return Fail({path, 0, 0}, "holds no scenario (*.yaml)");
+      std::sort(inside.begin(), inside.end());
+      files.insert(files.end(), inside.begin(), inside.end());
+    } else if (status.type() == fs::file_type::not_found) {
+      return Fail({path, 0, 0}, "no such scenario file or folder");
+    } else {
+      files.push_back(path);  // reading it tells what else is wrong with it
+    }
+  }
+  return files;
+}
+
+Result<SuiteSetup> ReadSuite(const RunOptions& options) {
+  const auto files = FindScenarioFiles(options.scenarios);
+  if (!files) return tl::unexpected(files.error());
+  SuiteSetup suite;
+  suite.suite = SuiteName(options.scenarios);
+  suite.seed = options.seed.value_or(1);
+  std::map<std::string, std::string> file_of_name;
+  std::size_t cells = 0;
+  for (const std::string& file : *files) {
+    auto text = ReadWholeFile(file);
+    if (!text) return tl::unexpected(text.error());
+    const auto scenario = ParseScenario(*text, file);
+    if (!scenario) return tl::unexpected(scenario.error());
+    const auto [other, is_new] = file_of_name.emplace(scenario->name, file);
+    if (!is_new) {
+      return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario->name, other->second);
+    }
+    const int trials = options.trials.value_or(scenario->trials);
+    cells += scenario->conditions.size() * scenario->methods.size() * static_cast<std::size_t>(trials);
+    if (cells > kMostCells) {
+      return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
+                  scenario->conditions.size(), scenario->methods.size(), trials, kMostCells);
+    }
+    const bool replaced = !options.clips.empty() && !scenario->clips.empty();
+    suite.scenarios.push_back({file, std::move(*text), options.seed ? *options.seed : scenario->seed.value_or(1),
+                               trials, replaced ? options.clips : scenario->clips});
+  }
+  return suite;
+}
+
+}  // namespace etude
