@@ -141,7 +141,8 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
   const MetricWords words = WordsFor(metric);
   const std::vector<Judged> judged = ComparisonsOf(scenario, method, metric);
   if (judged.empty()) {
-    return {method, scenario.methods.front(), Verdict::kInconclusive, fmt::format("“{}” was not compared by {}.", method, words.label)};
+    return {method, scenario.methods.front(), Verdict::kInconclusive,
+            fmt::format("“{}” was not compared by {}.", method, words.label)};
   }
   const Verdict first = judged.front().comparison->verdict;
   const bool agree = CountOf(judged, first) == static_cast<int>(judged.size());

@@ -74,7 +74,9 @@ std::string Footer(const RunData& run, bool has_film) {
   entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
   entry("Command", run.command_line);
-  html += "</dl><p>All tables as CSV: <code>report/tables/</code>; recovered motions as BVH, pictures with depth and labels as EXR beside them.";
+  html +=
+      "</dl><p>All tables as CSV: <code>report/tables/</code>; recovered motions as BVH, pictures with depth and "
+      "labels as EXR beside them.";
   if (has_film) html += " The film as a file: <code>video/etude.mp4</code>.";
   return html + "</p></footer>";
 }

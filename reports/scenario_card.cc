@@ -66,10 +66,10 @@ std::string Methods(const ScenarioFindings& findings) {
   if (findings.methods.empty()) return "";
   std::string html = "<ul class=\"methods\" aria-label=\"Every method compared with its baseline\">";
   for (const MethodFinding& method : findings.methods) {
-    html += fmt::format(
-        "<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
-        EscapeMarkup(method.sentence), VerdictBadge(method), EscapeMarkup(method.method),
-        EscapeMarkup(method.baseline));
+    html +=
+        fmt::format("<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
+                    EscapeMarkup(method.sentence), VerdictBadge(method), EscapeMarkup(method.method),
+                    EscapeMarkup(method.baseline));
   }
   return html + "</ul>";
 }

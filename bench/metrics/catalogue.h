@@ -15,10 +15,10 @@ enum class Aggregate { kMedian, kMean };
 
 /// What a metric means: the entry that tables, comparisons and other implementations go by.
 struct MetricInfo {
-  std::string id;          ///< unit in the name, e.g. "position_error_cm"
-  int version = 1;         ///< raised when the definition changes; values of two versions never mix
-  std::string label;       ///< for people: "position error"
-  std::string unit;        ///< "cm", "deg", "" for shares and counts
+  std::string id;     ///< unit in the name, e.g. "position_error_cm"
+  int version = 1;    ///< raised when the definition changes; values of two versions never mix
+  std::string label;  ///< for people: "position error"
+  std::string unit;   ///< "cm", "deg", "" for shares and counts
   Direction direction = Direction::kLowerIsBetter;
   Aggregate aggregate = Aggregate::kMedian;
   double practical = 0;    ///< the smallest difference that matters, in the metric's unit

@@ -20,9 +20,7 @@ std::string CompactLabel(const std::vector<Setting>& condition) {
 
 std::string ConditionLabel(const std::vector<Setting>& condition) { return LabelOf(condition, ", "); }
 
-std::string Row::Id() const {
-  return fmt::format("{}/{}/{:03}/{}", scenario, CompactLabel(condition), trial, method);
-}
+std::string Row::Id() const { return fmt::format("{}/{}/{:03}/{}", scenario, CompactLabel(condition), trial, method); }
 
 std::optional<double> ValueOf(const Row& row, std::string_view metric) {
   for (const MetricValue& value : row.result.metrics) {

@@ -64,7 +64,7 @@ struct Comparison {
   std::string method;
   int pairs = 0;
   std::optional<double> difference, ci_low, ci_high;  ///< 95 % bootstrap, pairs resampled
-  double share_better = 0;                                   ///< of the pairs, ties count half
+  double share_better = 0;                            ///< of the pairs, ties count half
   Verdict verdict = Verdict::kInconclusive;
 };
 
@@ -112,7 +112,7 @@ struct RunData {
   std::string command_line;  ///< from host.json
   std::string host;          ///< one line about the machine
   double wall_seconds = 0;
-  std::vector<Row> rows;     ///< canonical order: scenario, condition, trial, method
+  std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;

@@ -109,9 +109,8 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
     }
     Json expectations = Json::array();
     for (const ExpectationResult& expectation : scenario.expectations) {
-      expectations.push_back({{"text", expectation.text},
-                              {"outcome", OutcomeName(expectation.outcome)},
-                              {"detail", expectation.detail}});
+      expectations.push_back(
+          {{"text", expectation.text}, {"outcome", OutcomeName(expectation.outcome)}, {"detail", expectation.detail}});
     }
     list.push_back({{"name", scenario.name},
                     {"task", scenario.task},

@@ -12,11 +12,11 @@ namespace etude {
 /// What a scenario says should come out: judged after the run, shown in the report.
 struct Expectation {
   std::string metric;
-  std::string of;                     ///< the method judged
-  std::string below, above;           ///< the method it is compared with on the same worlds; at most one is set
+  std::string of;                           ///< the method judged
+  std::string below, above;                 ///< the method it is compared with on the same worlds; at most one is set
   std::optional<double> at_most, at_least;  ///< or the bound its statistic must keep
-  std::string statistic = "median";   ///< median, mean or p95; for bounds
-  std::vector<Setting> where;         ///< judged in these conditions only; empty = in all of them
+  std::string statistic = "median";         ///< median, mean or p95; for bounds
+  std::vector<Setting> where;               ///< judged in these conditions only; empty = in all of them
   Place place;
 };
 
@@ -43,7 +43,7 @@ struct Scenario {
   std::vector<std::string> clips;  ///< references as written
   int trials = 1;
   std::optional<std::uint64_t> seed;
-  std::vector<Condition> conditions;   ///< at least one
+  std::vector<Condition> conditions;  ///< at least one
   std::vector<std::string> method_names;
   std::vector<std::string> baselines;  ///< of each method: the one it is compared with; the first has itself
   std::vector<Node> methods;           ///< the mappings behind the names, as their task reads them

@@ -74,11 +74,9 @@ ExpectationResult JudgeExpectation(const Expectation& expectation, const Scenari
   for (const Condition& condition : scenario.conditions) {
     if (!Matches(condition, expectation.where)) continue;
     const auto selected = RowsIn(rows, condition.settings);
-    const std::string purpose =
-        PurposeOf(scenario.name, condition.settings, expectation.metric, other, expectation.of);
-    const Finding finding = other.empty()
-                                ? JudgeBound(expectation, selected)
-                                : JudgeComparison(expectation, selected, other, wants_lower, seed, purpose);
+    const std::string purpose = PurposeOf(scenario.name, condition.settings, expectation.metric, other, expectation.of);
+    const Finding finding = other.empty() ? JudgeBound(expectation, selected)
+                                          : JudgeComparison(expectation, selected, other, wants_lower, seed, purpose);
     const std::string label = ConditionLabel(condition.settings);
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;

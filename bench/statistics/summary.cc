@@ -59,8 +59,8 @@ MethodSummary SummariseMethod(const std::string& method, std::span<const Row* co
 }  // namespace
 
 ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed) {
-  ScenarioSummary summary{scenario.name,         scenario.task,    scenario.question, scenario.method_names,
-                          scenario.metrics, {}, {}};
+  ScenarioSummary summary{
+      scenario.name, scenario.task, scenario.question, scenario.method_names, scenario.metrics, {}, {}};
   for (const Condition& condition : scenario.conditions) {
     const std::vector<const Row*> selected = RowsIn(rows, condition.settings);
     const std::vector<const MetricInfo*> metrics = MetricsIn(selected);
@@ -72,9 +72,8 @@ ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, s
       part.methods.push_back(SummariseMethod(method, selected, metrics, scenario, condition, seed));
       if (method == baseline) continue;
       for (const std::string& id : scenario.metrics) {
-        Comparison comparison =
-            ComparePaired(PairsOf(selected, baseline, method, id), *FindMetric(id), seed,
-                          PurposeOf(scenario.name, condition.settings, id, baseline, method));
+        Comparison comparison = ComparePaired(PairsOf(selected, baseline, method, id), *FindMetric(id), seed,
+                                              PurposeOf(scenario.name, condition.settings, id, baseline, method));
         comparison.baseline = baseline;
         comparison.method = method;
         part.comparisons.push_back(std::move(comparison));

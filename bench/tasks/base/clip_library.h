@@ -12,11 +12,11 @@ namespace etude {
 
 /// A motion that worlds can be made of: at 30 Hz, metres, Y up, feet on the floor.
 struct LibraryClip {
-  std::string name;             ///< "builtin:clap", or the file's name without folder and extension
-  std::string source;           ///< what the scenario or --clips named: "builtin:clap" or a path
+  std::string name;    ///< "builtin:clap", or the file's name without folder and extension
+  std::string source;  ///< what the scenario or --clips named: "builtin:clap" or a path
   BodyMotion motion;
-  std::optional<Move> move;     ///< the authored move, with its key poses; only built-in clips have one
-  std::string note;             ///< what loading had to repair ("dropped a leading T-pose", "1 unit = 5.65 cm")
+  std::optional<Move> move;  ///< the authored move, with its key poses; only built-in clips have one
+  std::string note;          ///< what loading had to repair ("dropped a leading T-pose", "1 unit = 5.65 cm")
 };
 
 /// The clips of one scenario, in order; trials go round-robin over them.

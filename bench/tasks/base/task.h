@@ -81,10 +81,10 @@ class Task {
 
 /// What a scenario gives a task to make itself from.
 struct TaskInput {
-  Fields& condition;               ///< the scenario's mapping, swept keys replaced; the task reads its own keys
-  std::span<const Node> methods;   ///< each a mapping with at least `name`
+  Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
+  std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  bool wants_recordings = false;   ///< fill CellResult::recording
+  bool wants_recordings = false;  ///< fill CellResult::recording
 };
 
 /// A kind of question that can be asked: one entry per folder of bench/tasks.

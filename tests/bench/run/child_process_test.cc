@@ -31,7 +31,9 @@ ChildProcess Shell(const std::string& script) {
 }
 
 TEST(ChildProcess, SpeaksInLinesHoweverTheyArrive) {
-  ChildProcess child = Shell("printf 'one\\ntw'; sleep 0.05; printf 'o\\n'; read x; echo \"heard $x\"; head -c 300000 /dev/zero | tr '\\0' a; echo");
+  ChildProcess child = Shell(
+      "printf 'one\\ntw'; sleep 0.05; printf 'o\\n'; read x; echo \"heard $x\"; head -c 300000 /dev/zero | tr '\\0' a; "
+      "echo");
   EXPECT_TRUE(child.Send("me"));
   const auto lines = LinesUntilEnd(child);
   ASSERT_EQ(lines.size(), 4u);

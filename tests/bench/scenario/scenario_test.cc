@@ -47,15 +47,17 @@ TEST(Scenario, ComparesEachMethodWithTheFirstOrTheOneItNames) {
 TEST(Scenario, TellsWhatIsWrongAndWhere) {
   EXPECT_THAT(Complaint("question: q?\ntask: ik\n" + kMethods), HasSubstr("a scenario needs 'scenario'"));
   EXPECT_THAT(Complaint("scenario: ../x\n" + kMethods), HasSubstr("s.yaml:1:11: '../x' is no scenario"));
-  EXPECT_THAT(Complaint("scenario: s\nquestion: q?\ntask: ikk\n" + kMethods),
-              HasSubstr("s.yaml:3:7: unknown task 'ikk'; did you mean 'ik'? Allowed: transition, detection, ik, capture"));
+  EXPECT_THAT(
+      Complaint("scenario: s\nquestion: q?\ntask: ikk\n" + kMethods),
+      HasSubstr("s.yaml:3:7: unknown task 'ikk'; did you mean 'ik'? Allowed: transition, detection, ik, capture"));
   EXPECT_THAT(Complaint(kHead), HasSubstr("a scenario needs 'methods'"));
   EXPECT_THAT(Complaint(kHead + "methods: [{solver: ccd}]\n"), HasSubstr("s.yaml:4:11: a method needs 'name'"));
   EXPECT_THAT(Complaint(kHead + "methods: [{name: a}, {name: a}]\n"), HasSubstr("two methods are named 'a'"));
   EXPECT_THAT(Complaint(kHead + kMethods + "trials: 0\n"), HasSubstr("s.yaml:5:9: 'trials': 0 is out of range"));
   EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {trials: [1]}\n"), HasSubstr("'trials' cannot be swept"));
   EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {x: []}\n"), HasSubstr("needs a list of values"));
-  EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {x: [1, 1]}\n"), HasSubstr("s.yaml:5:16: the value '1' stands here twice"));
+  EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {x: [1, 1]}\n"),
+              HasSubstr("s.yaml:5:16: the value '1' stands here twice"));
   EXPECT_THAT(Complaint(kHead + kMethods + "sweep: {x: [a/b]}\n"), HasSubstr("found 'a/b'"));
   EXPECT_THAT(Complaint(kHead + kMethods + "metrics: [position_eror_cm]\n"),
               HasSubstr("s.yaml:5:11: unknown metric 'position_eror_cm'; did you mean 'position_error_cm'?"));
