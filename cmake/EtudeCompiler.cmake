@@ -27,7 +27,7 @@ if(ETUDE_SANITIZE)
   add_link_options(-fsanitize=${ETUDE_SANITIZE})
   add_compile_definitions(_GLIBCXX_ASSERTIONS)  # indices of vectors and spans, empty optionals
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # With sanitizers GCC takes parts of std::regex and std::function for uninitialized (GCC bug 105562).
+    # With sanitizers GCC takes parts of std::regex and std::function for uninitialized (GCC bug 105616).
     add_compile_options(-Wno-maybe-uninitialized)
   endif()
 endif()

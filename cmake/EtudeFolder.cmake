@@ -55,6 +55,7 @@ function(etude_tests)
     TEST_PREFIX "${mirrored}: "
     WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}"
     DISCOVERY_TIMEOUT 60
+    NO_PRETTY_VALUES  # our parameters have names; their values may be raw bytes
     PROPERTIES LABELS "${ARG_LABELS}")
 endfunction()
 
