@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/dataset/export.h"
+#include "bench/dataset/score.h"
 #include "bench/run/run.h"
 
 namespace etude {
@@ -10,17 +13,57 @@ namespace etude {
 /// Exit codes of every command.
 constexpr int kSuccess = 0;
 constexpr int kNothingWorked = 1;
+constexpr int kRegression = 1;
 constexpr int kBadInput = 2;
+constexpr int kIncomplete = 3;
 constexpr int kInterrupted = 130;
 
 /// `etude run`: runs scenarios with a progress bar and prints the verdicts.
 int RunCommand(const RunOptions& options);
+/// `etude merge DIR… -o DIR`: makes one run of its shards.
+int MergeCommand(const MergeOptions& options);
+/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or
+/// packs one into `pack_file`.
+int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
+                  const std::string& pack_file, int jobs);
+/// What `etude gate` is asked.
+struct GateOptions {
+  std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
+  std::string baseline;       ///< a baseline file, "" = none
+  bool update = false;        ///< write the baseline from the run, and show what moved
+  bool self_test = false;     ///< measure the gate's own false alarms and power
+  int repetitions = 40;       ///< of the self-test: pairs of seeds
+  std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
+};
+/// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
+int GateCommand(const GateOptions& options);
+/// `etude compare A B`: what differs between two runs of the same worlds.
+int CompareCommand(const std::string& a, const std::string& b);
+/// `etude check-method [--task T] [--time S] [--memory MB] -- CMD…`: whether a program speaks the protocol of methods
+/// outside; exit 1 when it does not.
+int CheckMethodCommand(const std::vector<std::string>& command, const std::string& task, double time_s,
+                       double memory_mb);
+/// `etude export`: writes problems, and their truth apart.
+int ExportCommand(const ExportOptions& options);
+/// `etude score`: scores a folder of answers into a result folder.
+int ScoreCommand(const ScoreOptions& options);
 /// `etude report DIR`: writes DIR/report and DIR/video.
 int ReportCommand(const std::string& folder, bool with_video);
 
-enum class Listing { kMethods, kMetrics, kScenarios, kClips };
+enum class Listing { kMethods, kScenarios, kClips };
 /// `etude list …`: what can be named in a scenario.
 int ListCommand(Listing what, const std::string& scenario_folder);
+
+/// `etude list keys`: every key of a scenario file; as the page docs/keys.md, or for people at a terminal.
+int ListKeysCommand(bool as_markdown);
+
+enum class MetricsFormat {
+  kTable,     ///< a line each, for people at a terminal
+  kJson,      ///< everything, with the test vectors (docs/schemas/metrics.schema.json)
+  kMarkdown,  ///< docs/metrics.md
+};
+/// `etude list metrics`.
+int ListMetricsCommand(MetricsFormat format);
 
 /// Prints a complaint the one way Etude does, and gives kBadInput.
 int Complain(const Error& error);

@@ -1,8 +1,7 @@
 #include <fmt/core.h>
 
-#include "bench/files/files.h"
-#include "bench/metrics/catalogue.h"
 #include "bench/run/suite.h"
+#include "bench/scenario/keys.h"
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
@@ -12,17 +11,10 @@
 namespace etude {
 namespace {
 
-void ListMetrics() {
-  for (const MetricInfo& metric : AllMetrics()) {
-    fmt::print("{:<26} v{}  {:<16}  {}\n", metric.id, metric.version, DirectionWords(metric.direction),
-               metric.definition);
-  }
-}
-
 void ListTasks() {
   for (const TaskKind& kind : AllTaskKinds()) {
     fmt::print("{:<11} {}\n{:<11} headline metrics: {}\n", kind.name, kind.question, "", Join(kind.default_metrics));
-    for (const auto& [key, values] : kind.method_keys) fmt::print("{:<11}   {}: {}\n", "", key, values);
+    for (const KeyInfo& key : kind.method_keys) fmt::print("{:<11}   {}: {}\n", "", key.key, key.allowed);
   }
 }
 
@@ -41,25 +33,42 @@ int ListScenarios(const std::string& folder) {
   const auto files = FindScenarioFiles({folder});
   if (!files) return Complain(files.error());
   for (const std::string& file : *files) {
-    auto text = ReadWholeFile(file);
-    if (!text) return Complain(text.error());
-    const auto scenario = ParseScenario(*text, file);
-    if (!scenario) return Complain(scenario.error());
-    fmt::print("{}\n  {} ({}): {}\n  {} trials × {} conditions × methods {}\n", file, scenario->name, scenario->task,
-               scenario->question, scenario->trials, scenario->conditions.size(), Join(scenario->method_names));
+    SourceTexts texts;
+    if (auto read = ReadSources(file, texts); !read) return Complain(read.error());
+    const auto scenarios = ParseScenarios(file, texts);
+    if (!scenarios) return Complain(scenarios.error());
+    fmt::print("{}\n", file);
+    for (const Scenario& scenario : *scenarios) {
+      fmt::print("  {} ({}): {}\n  {} trials × {} conditions × methods {}\n", scenario.name, scenario.task,
+                 scenario.question, scenario.trials, scenario.conditions.size(), Join(MethodNames(scenario)));
+    }
   }
   return kSuccess;
 }
 
 }  // namespace
 
+int ListKeysCommand(bool as_markdown) {
+  if (as_markdown) {
+    fmt::print("{}", KeysAsMarkdown());
+    return kSuccess;
+  }
+  for (const KeyGroup& group : AllKeyGroups()) {
+    fmt::print("{}{}\n", group.title, group.path.empty() ? "" : ": " + group.path);
+    for (const KeyInfo& key : group.keys) {
+      fmt::print("  {:<22} {}\n  {:<22} {}; {}\n", key.key, key.meaning, "", key.allowed,
+                 key.fallback.empty() ? "required" : "default: " + key.fallback);
+    }
+    fmt::print("\n");
+  }
+  fmt::print("Methods, metrics and clips: etude list methods, etude list metrics, etude list clips.\n");
+  return kSuccess;
+}
+
 int ListCommand(Listing what, const std::string& scenario_folder) {
   switch (what) {
     case Listing::kMethods:
       ListTasks();
-      return kSuccess;
-    case Listing::kMetrics:
-      ListMetrics();
       return kSuccess;
     case Listing::kClips:
       return ListClips();

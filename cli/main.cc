@@ -6,9 +6,8 @@
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <iostream>
 
-#include "bench/run/worker.h"
+#include "cli/arguments.h"
 #include "cli/commands.h"
 #include "engine/base/names.h"
 
@@ -26,8 +25,11 @@ constexpr const char* kExamples =
     "  etude run scenarios/quick                      the quick suite, into out/quick-1\n"
     "  etude run scenarios/quick --clips '~/mocap/*.bvh'   on your own motion capture\n"
     "  etude report out/quick-1                       a page, tables, JUnit and a video of it\n"
+    "  etude run scenarios/quick --resume             go on after a crash, a kill, a power cut\n"
+    "  etude gate out/quick-1 --baseline FILE         pass or fail, for a CI server\n"
     "  etude list methods                             what a scenario can name\n\n"
-    "Exit codes: 0 fine, 1 no cell was ok, 2 bad input (nothing is written), 130 interrupted.";
+    "Exit codes: 0 fine, 1 no cell was ok (gate: regression; replay: a difference), 2 bad input (nothing is\n"
+    "written), 3 incomplete, 130 interrupted.";
 
 /// The options and subcommands that could have been meant at this point of the command line.
 std::vector<std::string> KnownWords(const CLI::App& app) {
@@ -70,41 +72,10 @@ int Main(int argc, char** argv) {
   CLI::App app(kAbout, "etude");
   app.footer(kExamples);
   app.set_version_flag("--version", ETUDE_VERSION);
-  app.require_subcommand(1);
-
-  RunOptions run;
-  run.program_version = ETUDE_VERSION;
-  for (int i = 0; i < argc; ++i) run.command_line += (i == 0 ? "etude" : std::string(" ") + argv[i]);
-  CLI::App* run_command = app.add_subcommand("run", "Run scenarios into a result folder");
-  run_command->add_option("scenarios", run.scenarios, "Scenario files, or folders of them")->required();
-  run_command->add_option("-o,--output", run.output, "Result folder (default: out/<suite>-<seed>)");
-  run_command->add_option("-j,--jobs", run.jobs, "Worker processes (default: one per processor)")
-      ->check(CLI::Range(1, 1024));
-  run_command->add_option("--seed", run.seed, "Seed of all worlds (default: the scenario's, else 1)")
-      ->check(CLI::Range(0.0, 9007199254740992.0));
-  run_command->add_option("--trials", run.trials, "Trials per condition (default: the scenario's)")
-      ->check(CLI::Range(1, 1000000));
-  run_command->add_option("--clips", run.clips, "Clips instead of the scenarios' own: builtin:NAME, files, patterns");
-  run_command->add_flag("--overwrite", run.overwrite, "Replace a folder that already holds a run");
-
-  std::string report_folder;
-  bool no_video = false;
-  CLI::App* report_command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
-  report_command->add_option("folder", report_folder, "A result folder")->required();
-  report_command->add_flag("--no-video", no_video, "Leave the video out");
-
-  CLI::App* list_command = app.add_subcommand("list", "List what a scenario can name");
-  list_command->require_subcommand(1);
-  CLI::App* list_methods = list_command->add_subcommand("methods", "Tasks, and what their methods are made of");
-  CLI::App* list_metrics = list_command->add_subcommand("metrics", "Metrics with their definitions");
-  CLI::App* list_clips = list_command->add_subcommand("clips", "Built-in clips");
-  CLI::App* list_scenarios = list_command->add_subcommand("scenarios", "Scenarios of a folder");
-  std::string scenario_folder = "scenarios/quick";
-  list_scenarios->add_option("folder", scenario_folder, "Folder of scenarios")->capture_default_str();
-
-  CLI::App* worker_command = app.add_subcommand("worker", "What `etude run` starts for itself");
-  worker_command->group("");  // hidden
-
+  std::string command_line = "etude";
+  for (int i = 1; i < argc; ++i) command_line += std::string(" ") + argv[i];
+  Action action;
+  DefineCommands(app, command_line, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -112,13 +83,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);
   }
-  if (*worker_command) return RunWorker(std::cin, std::cout);
-  if (*run_command) return RunCommand(run);
-  if (*report_command) return ReportCommand(report_folder, !no_video);
-  if (*list_methods) return ListCommand(Listing::kMethods, "");
-  if (*list_metrics) return ListCommand(Listing::kMetrics, "");
-  if (*list_clips) return ListCommand(Listing::kClips, "");
-  return ListCommand(Listing::kScenarios, scenario_folder);
+  return action();
 }
 
 }  // namespace

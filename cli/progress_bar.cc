@@ -12,9 +12,10 @@ namespace {
 constexpr int kWidth = 32;
 
 std::string Remaining(const Progress& progress) {
-  if (progress.worlds_done == 0 || progress.worlds_done == progress.worlds) return "";
-  const double each = progress.seconds / static_cast<double>(progress.worlds_done);
-  return fmt::format(", about {:.0f} s to go", each * static_cast<double>(progress.worlds - progress.worlds_done));
+  const std::size_t here = progress.cells_done - progress.cells_before;
+  if (here == 0 || progress.cells_done == progress.cells) return "";
+  const double each = progress.seconds / static_cast<double>(here);
+  return fmt::format(", about {:.0f} s to go", each * static_cast<double>(progress.cells - progress.cells_done));
 }
 
 /// fmt::print throws when nobody listens any more; that must not end a run.
@@ -26,13 +27,13 @@ ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressBar::Show(const Progress& progress) {
   const double share =
-      progress.worlds == 0 ? 1 : static_cast<double>(progress.worlds_done) / static_cast<double>(progress.worlds);
-  const std::string text = fmt::format("{}/{} worlds, {}/{} cells ok, {:.0f} s", progress.worlds_done, progress.worlds,
-                                       progress.cells_ok, progress.cells_done, progress.seconds);
+      progress.cells == 0 ? 1 : static_cast<double>(progress.cells_done) / static_cast<double>(progress.cells);
+  const std::string text = fmt::format("{}/{} cells, {} ok, {:.0f} s", progress.cells_done, progress.cells,
+                                       progress.cells_ok, progress.seconds);
   if (is_terminal_) {
     const int filled = static_cast<int>(share * kWidth);
     const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-    const std::string_view end = progress.worlds_done == progress.worlds ? "\n" : "";
+    const std::string_view end = progress.cells_done == progress.cells ? "\n" : "";
     Print(fmt::format("\r\033[K[{}] {}{}{}", bar, text, Remaining(progress), end));
   } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
     tenths_shown_ = tenths;

@@ -1,24 +1,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
+#include <optional>
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 
 namespace etude {
 namespace {
-
-std::atomic<bool> stop_requested = false;
-
-void RequestStop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);  // the second one ends us at once
-}
 
 std::string Value(const MethodSummary& method, const MetricInfo& metric) {
   for (const MetricSummary& summary : method.metrics) {
@@ -77,6 +70,16 @@ void PrintSummary(const RunData& run) {
   }
 }
 
+int ShowOutcome(const RunOutcome& outcome) {
+  const auto run = LoadRun(outcome.folder);
+  if (!run) return Complain(run.error());
+  PrintSummary(*run);
+  const std::string folder = outcome.folder.string();
+  fmt::print("\n{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome.cells_ok, outcome.cells,
+             outcome.seconds, folder, folder);
+  return outcome.cells_ok > 0 ? kSuccess : kNothingWorked;
+}
+
 }  // namespace
 
 int Complain(const Error& error) {
@@ -86,27 +89,31 @@ int Complain(const Error& error) {
 
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
-  options.stop = &stop_requested;
-  std::signal(SIGINT, RequestStop);
-  std::signal(SIGTERM, RequestStop);
-  const auto piped = std::signal(SIGPIPE, SIG_IGN);  // a worker that died is a row, not our end
+  std::optional<Interrupt> interrupt(std::in_place);
+  options.stop = interrupt->requested();
   ProgressBar bar;
   const auto outcome = Run(options, [&](const Progress& progress) { bar.Show(progress); });
-  std::signal(SIGPIPE, piped);  // all is written; whoever closes our output now has read enough
+  interrupt.reset();  // all is written
   if (!outcome) return Complain(outcome.error());
+  const std::string folder = outcome->folder.string();
   if (outcome->stopped) {
     Complain({{},
-              outcome->cells == 0 ? "stopped before any world ended; nothing is kept"
-                                  : fmt::format("stopped; {} cells are in {}", outcome->cells,
-                                                (outcome->folder / kJournalFile).string())});
+              outcome->cells == 0
+                  ? "stopped before any cell ended; nothing is kept"
+                  : fmt::format("stopped; {} cells are kept in {}, --resume goes on", outcome->cells, folder)});
     return kInterrupted;
   }
-  const auto run = LoadRun(outcome->folder);
-  if (!run) return Complain(run.error());
-  PrintSummary(*run);
-  fmt::print("\n{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome->cells_ok, outcome->cells,
-             outcome->seconds, outcome->folder.string(), outcome->folder.string());
-  return outcome->cells_ok > 0 ? kSuccess : kNothingWorked;
+  if (!options.shard.IsWhole()) {
+    fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
+               ToString(options.shard), outcome->cells_ok, outcome->cells, outcome->seconds, folder);
+    return outcome->cells_ok > 0 || outcome->cells == 0 ? kSuccess : kNothingWorked;
+  }
+  return ShowOutcome(*outcome);
+}
+
+int MergeCommand(const MergeOptions& options) {
+  const auto outcome = Merge(options);
+  return outcome ? ShowOutcome(*outcome) : Complain(outcome.error());
 }
 
 }  // namespace etude

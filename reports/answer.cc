@@ -89,8 +89,8 @@ std::string SentenceFor(const Comparison& c, const MetricWords& words) {
     case Verdict::kInconclusive:
       break;
   }
-  return fmt::format("These worlds do not settle whether “{}” changes the {} compared with “{}”: {} — inconclusive.",
-                     c.method, words.label, c.baseline, figures);
+  return fmt::format("These worlds do not settle whether “{}” changes the {} compared with “{}”: {} — inconclusive{}.",
+                     c.method, words.label, c.baseline, figures, c.why_open.empty() ? "" : ": " + c.why_open);
 }
 
 // "by 5.1° (noise=5) to 12.3° (noise=20)"
@@ -135,6 +135,23 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      RangeOfChanges(judged, words));
 }
 
+// Whoever gives up on hard worlds must not look good on the easy ones alone.
+std::string UnpairedWords(const std::vector<Judged>& judged) {
+  int only_baseline = 0, only_method = 0;
+  for (const Judged& j : judged) {
+    only_baseline += j.comparison->only_baseline;
+    only_method += j.comparison->only_method;
+  }
+  const Comparison& first = *judged.front().comparison;
+  std::string text;
+  const auto add = [&](const std::string& name, int worlds) {
+    if (worlds > 0) text += fmt::format("{}only “{}” in {}", text.empty() ? "" : ", ", name, Plural(worlds, "world"));
+  };
+  add(first.baseline, only_baseline);
+  add(first.method, only_method);
+  return text.empty() ? "" : fmt::format(" Not counted, since one of the two has no value there: {}.", text);
+}
+
 }  // namespace
 
 MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric) {
@@ -148,8 +165,9 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
   const bool agree = CountOf(judged, first) == static_cast<int>(judged.size());
   const std::optional<Verdict> verdict = agree ? std::optional(first) : std::nullopt;
   const Comparison& comparison = *judged.front().comparison;
-  return {method, comparison.baseline, verdict,
-          judged.size() > 1 ? SentenceOverConditions(judged, words) : SentenceFor(comparison, words)};
+  const std::string sentence =
+      judged.size() > 1 ? SentenceOverConditions(judged, words) : SentenceFor(comparison, words);
+  return {method, comparison.baseline, verdict, sentence + UnpairedWords(judged)};
 }
 
 MethodFinding AnswerInWords(const ScenarioSummary& scenario, const std::string& metric) {

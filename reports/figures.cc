@@ -97,6 +97,12 @@ std::string FormatInterval(std::optional<double> low, std::optional<double> high
   return FormatFixed(from, decimals) + std::string(dash) + FormatFixed(to, decimals);
 }
 
+std::string FormatP(std::optional<double> p) {
+  if (!p) return std::string(kNoValue);
+  if (*p < 0.001) return "< 0.001";
+  return fmt::format("{:.{}f}", *p, *p < 0.1 ? 3 : 2);
+}
+
 std::string Plural(long long count, std::string_view singular) {
   return fmt::format("{} {}{}", FormatCount(count), singular, count == 1 ? "" : "s");
 }

@@ -41,6 +41,8 @@ std::string FormatCount(long long count);
 std::string FormatShare(long long part, long long whole);
 /// "10.1–14.0", both ends with the same digits, or "−1.2 to 0.4"; kNoValue without an interval.
 std::string FormatInterval(std::optional<double> low, std::optional<double> high, const MetricWords& words);
+/// "0.42", "0.013", "< 0.001"; kNoValue without a p.
+std::string FormatP(std::optional<double> p);
 /// "1 world", "3 worlds"
 std::string Plural(long long count, std::string_view singular);
 

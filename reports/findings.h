@@ -10,6 +10,11 @@
 
 namespace etude {
 
+/// A verdict's words, or "it depends" when there are several.
+inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
+  return verdict ? VerdictName(*verdict) : "it depends";
+}
+
 /// One method against its baseline, over all conditions, by one metric.
 struct MethodFinding {
   std::string method;
@@ -17,8 +22,7 @@ struct MethodFinding {
   std::optional<Verdict> verdict;  ///< empty when it depends on the condition
   std::string sentence;            ///< plain words with the figures that carry them
 
-  /// A verdict's words, or "it depends".
-  std::string_view Words() const { return verdict ? VerdictName(*verdict) : "it depends"; }
+  std::string_view Words() const { return VerdictWords(verdict); }
 };
 
 /// How many cells ended in one way for one reason.

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "reports/comparison_table.h"
 #include "reports/escape.h"
 #include "reports/figures.h"
 #include "reports/findings.h"
@@ -34,7 +35,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
     text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
                         EscapeMarkdown(reason.method), EscapeMarkdown(reason.reason));
   }
-  return text;
+  return text + ComparisonTableMarkdown(scenario);
 }
 
 }  // namespace

@@ -11,6 +11,9 @@
 namespace etude {
 namespace {
 
+/// How a share reads that is no metric of the catalogue.
+const MetricWords kShare{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
+
 std::string Cell(std::string_view html) { return fmt::format("<td>{}</td>", html); }
 std::string NumberCell(std::string_view html) { return fmt::format("<td class=\"n\">{}</td>", html); }
 
@@ -38,6 +41,15 @@ std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario)
       "<th scope=\"col\" class=\"n\">Values</th><th scope=\"col\">Missing, and why</th></tr></thead><tbody>";
   for (const ConditionSummary& condition : scenario.conditions) {
     if (condition.methods.empty()) continue;
+    for (const MethodSummary& method : condition.methods) {
+      if (method.attempted == 0) continue;
+      html += "<tr>";
+      if (swept) html += Cell(EscapeMarkup(ConditionLabel(condition.condition)));
+      html += Cell("<span title=\"ok_share\">cells that ended ok</span>") + Cell(EscapeMarkup(method.method));
+      html += NumberCell(kNoValue) + NumberCell(FormatInterval(method.ok_low, method.ok_high, kShare)) +
+              NumberCell(FormatShare(method.ok, method.attempted)) + NumberCell(FormatCount(method.attempted)) +
+              Cell("") + "</tr>";
+    }
     // Grouped by metric, so that methods stand under each other.
     for (const MetricSummary& first : condition.methods.front().metrics) {
       const MetricWords words = WordsFor(first.id);
@@ -65,31 +77,25 @@ std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario)
 
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) {
   std::string csv =
-      "scenario,condition,method,metric,unit_label,median,ci95_low,ci95_high,mean,present,missing,missing_why\n";
+      "scenario,condition,method,metric,unit_label,median,ci95_low,ci95_high,mean,present,missing,missing_why,"
+      "interval\n";
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
+      if (method.attempted > 0) {
+        csv +=
+            fmt::format("{},{},{},ok_share,,,{},{},{},{},0,,wilson\n", EscapeCsv(scenario.name),
+                        EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method), Exact(method.ok_low),
+                        Exact(method.ok_high), static_cast<double>(method.ok) / method.attempted, method.attempted);
+      }
       for (const MetricSummary& metric : method.metrics) {
         const MetricInfo* info = FindMetric(metric.id);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
                            EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method),
                            EscapeCsv(metric.id), EscapeCsv(info == nullptr ? "" : info->unit), Exact(metric.median),
                            Exact(metric.ci_low), Exact(metric.ci_high), Exact(metric.mean), metric.present,
-                           metric.missing, EscapeCsv(MissingText(run, scenario, condition, method, metric)));
+                           metric.missing, EscapeCsv(MissingText(run, scenario, condition, method, metric)),
+                           IntervalKindName(metric.interval));
       }
-    }
-  }
-  return csv;
-}
-
-std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
-  std::string csv =
-      "scenario,condition,metric,baseline,method,pairs,difference,ci95_low,ci95_high,share_better,verdict\n";
-  for (const ConditionSummary& condition : scenario.conditions) {
-    for (const Comparison& c : condition.comparisons) {
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
-                         EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(c.metric), EscapeCsv(c.baseline),
-                         EscapeCsv(c.method), c.pairs, Exact(c.difference), Exact(c.ci_low), Exact(c.ci_high),
-                         Exact(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict));
     }
   }
   return csv;

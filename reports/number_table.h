@@ -7,13 +7,10 @@
 namespace etude {
 
 /// Every summary of one scenario as an HTML table: median, interval, mean, how many values there are,
-/// how many are missing and why.
+/// how many are missing and why; first the share of cells that ended ok, failures in the denominator.
 std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario);
 
 /// The same as CSV, full precision, empty fields for values that do not exist.
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario);
-
-/// Every comparison of one scenario as CSV.
-std::string ComparisonTableCsv(const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "reports/assets/assets.h"
+#include "reports/badge.h"
 #include "reports/escape.h"
 #include "reports/figures.h"
 #include "reports/scenario_card.h"
@@ -51,7 +52,7 @@ std::string Contents(const RunData& run, const std::vector<ScenarioFindings>& fi
     const ScenarioSummary& scenario = run.scenarios[i];
     html += fmt::format("<li><a href=\"#{}\"><span>{}</span>{}</a></li>", CardAnchor(i),
                         EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question),
-                        VerdictBadge(findings[i].answer));
+                        VerdictBadge(findings[i].answer.verdict));
   }
   return html + "</ol></nav>";
 }

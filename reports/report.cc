@@ -5,6 +5,7 @@
 
 #include "bench/files/files.h"
 #include "bench/tasks/capture/recording_extras.h"
+#include "reports/comparison_table.h"
 #include "reports/film.h"
 #include "reports/junit.h"
 #include "reports/markdown.h"

@@ -4,43 +4,15 @@
 
 #include <span>
 
+#include "reports/badge.h"
 #include "reports/charts.h"
+#include "reports/comparison_table.h"
 #include "reports/escape.h"
 #include "reports/figures.h"
 #include "reports/number_table.h"
 
 namespace etude {
 namespace {
-
-std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
-  if (!verdict) return "mixed";
-  switch (*verdict) {
-    case Verdict::kBetter:
-      return "better";
-    case Verdict::kWorse:
-      return "worse";
-    case Verdict::kNoDifference:
-      return "same";
-    case Verdict::kInconclusive:
-      break;
-  }
-  return "open";
-}
-
-std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
-  if (!verdict) return "±";
-  switch (*verdict) {
-    case Verdict::kBetter:
-      return "▲";
-    case Verdict::kWorse:
-      return "▼";
-    case Verdict::kNoDifference:
-      return "=";
-    case Verdict::kInconclusive:
-      break;
-  }
-  return "?";
-}
 
 // The data lies in an island beside the canvas: text, never code.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
@@ -68,7 +40,7 @@ std::string Methods(const ScenarioFindings& findings) {
   for (const MethodFinding& method : findings.methods) {
     html +=
         fmt::format("<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
-                    EscapeMarkup(method.sentence), VerdictBadge(method), EscapeMarkup(method.method),
+                    EscapeMarkup(method.sentence), VerdictBadge(method.verdict), EscapeMarkup(method.method),
                     EscapeMarkup(method.baseline));
   }
   return html + "</ul>";
@@ -126,11 +98,6 @@ std::string Strip(const ScenarioSummary& scenario, const Media& media) {
 
 std::string CardAnchor(std::size_t index) { return fmt::format("scenario-{}", index + 1); }
 
-std::string VerdictBadge(const MethodFinding& finding) {
-  return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>",
-                     VerdictClass(finding.verdict), VerdictSign(finding.verdict), finding.Words());
-}
-
 std::string ImageElement(const Picture& picture) {
   const auto* bytes = reinterpret_cast<const unsigned char*>(picture.png.data());
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", picture.width,
@@ -144,7 +111,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   std::string html = fmt::format("<article class=\"card\" id=\"{}\" aria-labelledby=\"{}-title\">", anchor, anchor);
   html += fmt::format("<p class=\"eyebrow\">{}</p><h2 id=\"{}-title\">{}</h2>", EscapeMarkup(scenario.name), anchor,
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
-  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadge(findings.answer),
+  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadge(findings.answer.verdict),
                       EscapeMarkup(findings.answer.sentence));
   html += Strip(scenario, media);
   html += Charts(run, scenario, index);
@@ -153,6 +120,9 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Expectations(scenario);
   html += StatusBar(findings);
   html += Failures(findings);
+  if (const std::string table = ComparisonTableHtml(scenario); !table.empty()) {
+    html += fmt::format("<details><summary>Every comparison</summary>{}</details>", table);
+  }
   html += fmt::format("<details><summary>All numbers</summary>{}</details></article>", NumberTableHtml(run, scenario));
   return html;
 }

@@ -15,9 +15,6 @@ std::string CardAnchor(std::size_t index);
 std::string WriteScenarioCard(const RunData& run, std::size_t index, const ScenarioFindings& findings,
                               const Media& media);
 
-/// A verdict as a coloured label: sign and word, so that colour says nothing alone.
-std::string VerdictBadge(const MethodFinding& finding);
-
 /// <img> with the picture inside the page.
 std::string ImageElement(const Picture& picture);
 

@@ -19,6 +19,7 @@ std::filesystem::path TemporaryName(const std::filesystem::path& path) {
 }
 
 Result<void> MakeFolder(const std::filesystem::path& folder) {
+  if (folder.empty()) return {};  // of a plain file name: the one we stand in
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return Fail(InFile(folder), "cannot make this folder: {}", error.message());

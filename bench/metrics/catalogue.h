@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace etude {
 
@@ -12,6 +13,12 @@ std::string_view DirectionWords(Direction direction);
 
 /// How a run sums up the cells' values: shares and other 0/1 values by their mean, the rest by median.
 enum class Aggregate { kMedian, kMean };
+
+/// A key of the input of a metric's test vectors.
+struct MetricInput {
+  std::string key;
+  std::string meaning;  ///< shape and unit
+};
 
 /// What a metric means: the entry that tables, comparisons and other implementations go by.
 struct MetricInfo {
@@ -23,8 +30,16 @@ struct MetricInfo {
   Aggregate aggregate = Aggregate::kMedian;
   double practical = 0;    ///< the smallest difference that matters, in the metric's unit
   std::string definition;  ///< one sentence
+
+  std::string practical_reason;     ///< why nobody would act on less than `practical`
+  std::string formula;              ///< the definition to the letter: frames, denominators, edge cases
+  std::string null_rule;            ///< when it has no value although the method answered
+  std::string source;               ///< where the definition comes from
+  std::vector<MetricInput> inputs;  ///< what its test vectors give (bench/metrics/vectors.h)
+  std::string domain = {};          ///< "Inverse kinematics", …: its heading on the page
 };
 
+/// In the order of tables and of docs/metrics.md.
 std::span<const MetricInfo> AllMetrics();
 /// Null when there is no such metric.
 const MetricInfo* FindMetric(std::string_view id);

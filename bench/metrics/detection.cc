@@ -4,16 +4,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "bench/metrics/share.h"
+
 namespace etude {
-namespace {
-
-std::optional<double> Share(int part, int whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / whole;
-}
-
-}  // namespace
-
 Confusion CountConfusion(std::span<const JudgedEvent> events) {
   Confusion confusion;
   for (const JudgedEvent& event : events) {
@@ -60,6 +53,21 @@ std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
   }
   if (right == 0 || wrong_below == 0) return std::nullopt;
   return won / (right * wrong_below);
+}
+
+Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz) {
+  return {called_frame.value_or(window_end_frame) / rate_hz - first_right_s, called_frame.has_value()};
+}
+
+bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows) {
+  return std::none_of(windows.begin(), windows.end(), [&](const MoveWindow& window) {
+    return (window.asked == move || window.danced == move) && frame >= window.begin && frame < window.end;
+  });
+}
+
+double FalseAlarmsPerMinute(std::size_t alarms, double session_s) {
+  constexpr double kSecondsPerMinute = 60;
+  return static_cast<double>(alarms) / (session_s / kSecondsPerMinute);
 }
 
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits) {

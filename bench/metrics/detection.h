@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 namespace etude {
 
@@ -38,8 +41,28 @@ struct Wait {
   bool happened = false;  ///< false: censored, it took longer than `seconds`
 };
 
+/// How long a right performance waited to be called right (`latency_s`). `first_right_s` is when it had truly passed
+/// through every key pose asked for, seconds from the session's start; a performance that was not called (no
+/// `called_frame`) was waited for until its window closed. Negative when it was called before it was finished.
+Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz);
+
 /// The median waiting time with censored waits (Kaplan and Meier 1958): the first time at which the
 /// estimated share still waiting is ½ or less. Empty when it never is.
 std::optional<double> KaplanMeierMedian(std::span<const Wait> waits);
+
+/// The frames [begin, end) in which a performance is judged.
+struct MoveWindow {
+  std::string asked;   ///< the move that the coach asked for
+  std::string danced;  ///< the move really danced; empty when none was
+  int begin = 0;
+  int end = 0;
+};
+
+/// Whether a recogniser that fires for `move` at `frame` does so outside every performance of that move, asked for or
+/// danced.
+bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows);
+
+/// `false_alarms_per_min`, over the whole session, performances included: needs a session longer than nothing.
+double FalseAlarmsPerMinute(std::size_t alarms, double session_s);
 
 }  // namespace etude

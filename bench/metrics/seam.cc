@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <utility>
 
 #include "engine/base/angles.h"
 
@@ -116,6 +117,10 @@ double NaturalLimitCm(std::vector<double> natural_jumps) {
   return std::lerp(natural_jumps[below], natural_jumps[above], rank - static_cast<double>(below));
 }
 
+bool IsNatural(double jump_cm, std::vector<double> natural_jumps_cm) {
+  return jump_cm < NaturalLimitCm(std::move(natural_jumps_cm));
+}
+
 double FootSlideCmps(const BodyMotion& motion, int seam) {
   assert(seam + 1 < static_cast<int>(motion.poses.size()));
   constexpr double kHeight = 0.025;  // metres: a foot this high counts no more
@@ -149,6 +154,12 @@ double VelocityGapCmps(const BodyPose& leaving_before, const BodyPose& leaving, 
     worst = std::max(worst, glm::distance(old_step, new_step));
   }
   return kCm * rate_hz * worst;
+}
+
+double WaitSeconds(std::span<const Stay> stays, double rate_hz) {
+  double seconds = 0;
+  for (const Stay& stay : stays) seconds += (stay.until_frame - stay.from_frame) / rate_hz;
+  return seconds;
 }
 
 }  // namespace etude

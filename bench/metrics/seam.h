@@ -35,6 +35,9 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip);
 /// Needs a value.
 double NaturalLimitCm(std::vector<double> natural_jumps);
 
+/// `natural_share` of one switch: its jump is below the limit of the natural jumps. Needs a natural jump.
+bool IsNatural(double jump_cm, std::vector<double> natural_jumps_cm);
+
 /// Mean over both feet and the second after frame `seam` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1):
 /// the horizontal speed of feet that should be standing. Needs a frame after the seam.
 double FootSlideCmps(const BodyMotion& motion, int seam);
@@ -48,5 +51,15 @@ double VelocityGapCmps(const BodyPose& leaving_before, const BodyPose& leaving, 
 
 /// A matched pair of frames is falsely smooth when its pose gap exceeds this.
 constexpr double kFalseSmoothGapCm = 20;
+constexpr bool IsFalselySmooth(double pose_gap_cm) { return pose_gap_cm > kFalseSmoothGapCm; }
+
+/// A clip that played while the wanted one was waited for: its frames, from when on until when.
+struct Stay {
+  int from_frame = 0;
+  int until_frame = 0;
+};
+
+/// `wait_s`: from the request until the wanted clip plays, through an in-between if there is one.
+double WaitSeconds(std::span<const Stay> stays, double rate_hz);
 
 }  // namespace etude

@@ -3,13 +3,10 @@
 #include <cassert>
 #include <cstdint>
 
+#include "bench/metrics/share.h"
+
 namespace etude {
 namespace {
-
-std::optional<double> Share(std::int64_t part, std::int64_t whole) {
-  if (whole == 0) return std::nullopt;
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
 
 std::optional<double> MeanOf(std::span<const MaskScore> scores, std::optional<double> MaskScore::*member) {
   double sum = 0;

@@ -137,7 +137,10 @@ Result<RunData> LoadRun(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) return Fail(place, "no such folder; a run writes one (etude run)");
   if (fs::exists(folder / kJournalFile, error)) {
-    return Fail(place, "this run did not come to its end, or is still under way ({} is there)", kJournalFile);
+    return Fail(place,
+                "this run did not come to its end, is still under way, or is a shard ({} is there); "
+                "etude run --resume goes on with it, etude merge makes a run of shards",
+                kJournalFile);
   }
   if (auto loaded = LoadManifest(folder, run); !loaded) return tl::unexpected(loaded.error());
   auto rows = ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "bench/results/json.h"
+#include "bench/files/json.h"
 #include "bench/results/run_data.h"
 
 namespace etude {
 
 /// The version of the layout of a result folder (design.md §4), raised when old readers would fail.
-constexpr int kResultSchema = 1;
+constexpr int kResultSchema = 2;
 
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";

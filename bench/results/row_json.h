@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/results/json.h"
+#include "bench/files/json.h"
 #include "bench/results/run_data.h"
 
 namespace etude {

@@ -29,6 +29,22 @@ std::optional<double> ValueOf(const Row& row, std::string_view metric) {
   return std::nullopt;
 }
 
+std::string_view IntervalKindName(IntervalKind kind) {
+  switch (kind) {
+    case IntervalKind::kBca:
+      return "bca";
+    case IntervalKind::kPercentile:
+      return "percentile";
+    case IntervalKind::kWilson:
+      return "wilson";
+    case IntervalKind::kAdjustedWald:
+      return "adjusted wald";
+    case IntervalKind::kNone:
+      break;
+  }
+  return "none";
+}
+
 std::string_view VerdictName(Verdict verdict) {
   switch (verdict) {
     case Verdict::kBetter:

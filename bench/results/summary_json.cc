@@ -33,7 +33,8 @@ Json Encode(const MetricSummary& metric) {
           {"median", Number(metric.median)},
           {"mean", Number(metric.mean)},
           {"ci95_low", Number(metric.ci_low)},
-          {"ci95_high", Number(metric.ci_high)}};
+          {"ci95_high", Number(metric.ci_high)},
+          {"interval", IntervalKindName(metric.interval)}};
 }
 
 Json Encode(const MethodSummary& method) {
@@ -41,19 +42,41 @@ Json Encode(const MethodSummary& method) {
   for (const auto& [status, count] : method.statuses) statuses[std::string(StatusName(status))] = count;
   Json metrics = Json::array();
   for (const MetricSummary& metric : method.metrics) metrics.push_back(Encode(metric));
-  return {{"method", method.method}, {"statuses", std::move(statuses)}, {"metrics", std::move(metrics)}};
+  return {{"method", method.method},
+          {"statuses", std::move(statuses)},
+          {"ok", method.ok},
+          {"attempted", method.attempted},
+          {"ok_share_ci95_low", Number(method.ok_low)},
+          {"ok_share_ci95_high", Number(method.ok_high)},
+          {"metrics", std::move(metrics)}};
 }
+
+Json Encode(const PairedTest& test) { return {{"p", Number(test.p)}, {"how", test.how}}; }
 
 Json Encode(const Comparison& comparison) {
   return {{"metric", comparison.metric},
           {"baseline", comparison.baseline},
           {"method", comparison.method},
           {"pairs", comparison.pairs},
+          {"differing", comparison.differing},
+          {"only_baseline", comparison.only_baseline},
+          {"only_method", comparison.only_method},
+          {"neither", comparison.neither},
           {"difference", Number(comparison.difference)},
           {"ci95_low", Number(comparison.ci_low)},
           {"ci95_high", Number(comparison.ci_high)},
+          {"interval", IntervalKindName(comparison.interval)},
+          {"mean", Number(comparison.mean)},
+          {"mean_ci95_low", Number(comparison.mean_low)},
+          {"mean_ci95_high", Number(comparison.mean_high)},
+          {"signed_rank", Encode(comparison.signed_rank)},
+          {"sign_flip", Encode(comparison.sign_flip)},
+          {"p_holm", Number(comparison.p_holm)},
           {"share_better", comparison.share_better},
-          {"verdict", VerdictName(comparison.verdict)}};
+          {"effect_size", Number(comparison.effect_size)},
+          {"verdict", VerdictName(comparison.verdict)},
+          {"why_open", comparison.why_open},
+          {"notes", comparison.notes}};
 }
 
 std::vector<Setting> DecodeCondition(const Json& json) {
@@ -64,20 +87,35 @@ std::vector<Setting> DecodeCondition(const Json& json) {
   return condition;
 }
 
+MetricSummary DecodeMetric(const Json& json) {
+  MetricSummary metric;
+  metric.id = json.at("id").get<std::string>();
+  metric.present = json.at("present").get<int>();
+  metric.missing = json.at("missing").get<int>();
+  metric.median = AsOptional(json.at("median"));
+  metric.mean = AsOptional(json.at("mean"));
+  metric.ci_low = AsOptional(json.at("ci95_low"));
+  metric.ci_high = AsOptional(json.at("ci95_high"));
+  metric.interval = ByName<IntervalKind>(json.at("interval").get<std::string>(), IntervalKindName, 5);
+  return metric;
+}
+
 MethodSummary DecodeMethod(const Json& json) {
-  MethodSummary method{json.at("method").get<std::string>(), {}, {}};
+  MethodSummary method;
+  method.method = json.at("method").get<std::string>();
   constexpr int kStatuses = static_cast<int>(Status::kSkipped) + 1;
   for (const auto& [name, count] : json.at("statuses").items()) {
     method.statuses.emplace_back(ByName<Status>(name, StatusName, kStatuses), count.get<int>());
   }
-  for (const Json& metric : json.at("metrics")) {
-    method.metrics.push_back({metric.at("id").get<std::string>(), metric.at("present").get<int>(),
-                              metric.at("missing").get<int>(), AsOptional(metric.at("median")),
-                              AsOptional(metric.at("mean")), AsOptional(metric.at("ci95_low")),
-                              AsOptional(metric.at("ci95_high"))});
-  }
+  for (const Json& metric : json.at("metrics")) method.metrics.push_back(DecodeMetric(metric));
+  method.ok = json.at("ok").get<int>();
+  method.attempted = json.at("attempted").get<int>();
+  method.ok_low = AsOptional(json.at("ok_share_ci95_low"));
+  method.ok_high = AsOptional(json.at("ok_share_ci95_high"));
   return method;
 }
+
+PairedTest DecodeTest(const Json& json) { return {AsOptional(json.at("p")), json.at("how").get<std::string>()}; }
 
 Comparison DecodeComparison(const Json& json) {
   Comparison comparison;
@@ -85,11 +123,25 @@ Comparison DecodeComparison(const Json& json) {
   comparison.baseline = json.at("baseline").get<std::string>();
   comparison.method = json.at("method").get<std::string>();
   comparison.pairs = json.at("pairs").get<int>();
+  comparison.differing = json.at("differing").get<int>();
+  comparison.only_baseline = json.at("only_baseline").get<int>();
+  comparison.only_method = json.at("only_method").get<int>();
+  comparison.neither = json.at("neither").get<int>();
   comparison.difference = AsOptional(json.at("difference"));
   comparison.ci_low = AsOptional(json.at("ci95_low"));
   comparison.ci_high = AsOptional(json.at("ci95_high"));
+  comparison.interval = ByName<IntervalKind>(json.at("interval").get<std::string>(), IntervalKindName, 5);
+  comparison.mean = AsOptional(json.at("mean"));
+  comparison.mean_low = AsOptional(json.at("mean_ci95_low"));
+  comparison.mean_high = AsOptional(json.at("mean_ci95_high"));
+  comparison.signed_rank = DecodeTest(json.at("signed_rank"));
+  comparison.sign_flip = DecodeTest(json.at("sign_flip"));
+  comparison.p_holm = AsOptional(json.at("p_holm"));
   comparison.share_better = json.at("share_better").get<double>();
+  comparison.effect_size = AsOptional(json.at("effect_size"));
   comparison.verdict = ByName<Verdict>(json.at("verdict").get<std::string>(), VerdictName, 4);
+  comparison.why_open = json.at("why_open").get<std::string>();
+  comparison.notes = json.at("notes").get<std::vector<std::string>>();
   return comparison;
 }
 
@@ -117,6 +169,7 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
                     {"question", scenario.question},
                     {"methods", scenario.methods},
                     {"headline_metrics", scenario.headline_metrics},
+                    {"comparisons_in_family", scenario.family},
                     {"conditions", std::move(conditions)},
                     {"expectations", std::move(expectations)}});
   }
@@ -133,7 +186,8 @@ Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Pla
                                entry.at("methods").get<std::vector<std::string>>(),
                                entry.at("headline_metrics").get<std::vector<std::string>>(),
                                {},
-                               {}};
+                               {},
+                               entry.at("comparisons_in_family").get<int>()};
       for (const Json& part : entry.at("conditions")) {
         ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}};
         for (const Json& method : part.at("methods")) condition.methods.push_back(DecodeMethod(method));

@@ -1,13 +1,17 @@
 #include "bench/run/manifest.h"
 
+#include <gnu/libc-version.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bench/files/files.h"
+#include "bench/process/child_process.h"
 #include "bench/results/folder.h"
-#include "bench/run/child_process.h"
+#include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -22,28 +26,80 @@ std::string ProcessorName() {
   return "unknown processor";
 }
 
+Json DescribeClips(const ClipLibrary& library) {
+  Json clips = Json::array();
+  for (const LibraryClip& clip : library.clips) {
+    Digest digest;
+    for (const BodyPose& pose : clip.motion.poses) {
+      for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+    }
+    clips.push_back({{"name", clip.name},
+                     {"source", clip.source},
+                     {"frames", clip.motion.poses.size()},
+                     {"digest", digest.Hex()},
+                     {"note", clip.note}});
+  }
+  return clips;
+}
+
+Result<Json> ReadManifestJson(const std::filesystem::path& path) {
+  const auto text = ReadWholeFile(path);
+  if (!text) return tl::unexpected(text.error());
+  auto json = ReadJson(*text, path.string());
+  if (!json) return json;
+  const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
+  if (schema != kResultSchema) {
+    return Fail({path.string(), 0, 0}, "not a manifest of schema {} (found {})", kResultSchema, schema.dump());
+  }
+  return json;
+}
+
 }  // namespace
 
 Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version) {
-  Json json{{"schema", kResultSchema}, {"etude", version}, {"compiler", __VERSION__}};
+  Json json{{"schema", kResultSchema},
+            {"etude", version},
+            {"compiler", __VERSION__},
+            {"packages", ETUDE_PACKAGES},
+            {"glibc", gnu_get_libc_version()}};
   json.update(EncodeSetup(suite));
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
-    Json clips = Json::array();
-    for (const LibraryClip& clip : scenarios[s].clips().clips) {
-      Digest digest;
-      for (const BodyPose& pose : clip.motion.poses) {
-        for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
-      }
-      clips.push_back({{"name", clip.name},
-                       {"source", clip.source},
-                       {"frames", clip.motion.poses.size()},
-                       {"digest", digest.Hex()},
-                       {"note", clip.note}});
-    }
-    json["scenarios"][s]["digest"] = Digest().Add(suite.scenarios[s].text).Hex();
-    json["scenarios"][s]["loaded_clips"] = std::move(clips);
+    json["scenarios"][s]["loaded_clips"] = DescribeClips(scenarios[s].clips());
+    const TaskKind& kind = *FindTaskKind(scenarios[s].scenario().task);
+    if (kind.platform != nullptr) json["scenarios"][s]["platform"] = kind.platform();
   }
   return json;
+}
+
+Result<SuiteSetup> ReadManifest(const std::filesystem::path& path) {
+  const auto json = ReadManifestJson(path);
+  if (!json) return tl::unexpected(json.error());
+  return DecodeSetup(*json, {path.string(), 0, 0});
+}
+
+Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios) {
+  const auto json = ReadManifestJson(path);
+  if (!json) return tl::unexpected(json.error());
+  for (std::size_t s = 0; s < scenarios.size(); ++s) {
+    const Json now = DescribeClips(scenarios[s].clips());
+    const Json then = json->at("scenarios").at(s).value("loaded_clips", Json::array());
+    if (now == then) continue;
+    for (std::size_t c = 0; c < std::max(now.size(), then.size()); ++c) {
+      if (c < now.size() && c < then.size() && now[c] == then[c]) continue;
+      const auto name = [&](const Json& clips) {
+        return c < clips.size() ? clips[c].value("name", "?") + " " + clips[c].value("digest", "?") : "no clip";
+      };
+      return Fail({path.string(), 0, 0}, "clip {} of scenario {} was {} then and is {} now", c + 1,
+                  scenarios[s].scenario().name, name(then), name(now));
+    }
+  }
+  return {};
+}
+
+Result<std::string> BuildDigest() {
+  const auto bytes = ReadWholeFile("/proc/self/exe");
+  if (!bytes) return tl::unexpected(bytes.error());
+  return Digest().Add(std::string_view(*bytes)).Hex();
 }
 
 Json DescribeHost(const std::string& command_line, int jobs, double seconds) {

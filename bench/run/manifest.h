@@ -1,17 +1,27 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 
-#include "bench/results/json.h"
-#include "bench/run/setup.h"
+#include "bench/files/json.h"
+#include "bench/run/plan.h"
 
 namespace etude {
 
 /// What repeats the run: manifest.json. Its bytes do not depend on how or where it is run.
 Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> scenarios, const std::string& version);
 
+/// The suite that a manifest describes. Fails when it is of another schema.
+Result<SuiteSetup> ReadManifest(const std::filesystem::path& path);
+
+/// Checks that `scenarios`, prepared from the suite of the manifest at `path`, have the very clips that it had then.
+Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios);
+
 /// Where and how it was run: host.json.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);
+
+/// A fingerprint of the program that is running: two builds have two.
+Result<std::string> BuildDigest();
 
 }  // namespace etude

@@ -7,10 +7,13 @@
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "bench/run/finish.h"
+#include "bench/run/journal.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run_folder.h"
 #include "bench/run/suite.h"
-#include "bench/statistics/summary.h"
+#include "bench/run/supervisor.h"
+#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
@@ -20,108 +23,167 @@ using Clock = std::chrono::steady_clock;
 
 double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::vector<World> AllWorlds(std::span<const PreparedScenario> scenarios) {
-  std::vector<World> worlds;
-  for (std::size_t s = 0; s < scenarios.size(); ++s) {
-    const int conditions = static_cast<int>(scenarios[s].scenario().conditions.size());
-    for (int c = 0; c < conditions; ++c) {
-      for (int t = 0; t < scenarios[s].setup().trials; ++t) worlds.push_back({static_cast<int>(s), c, t});
+fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
+  if (!options.output.empty()) return options.output;
+  const std::string part =
+      options.shard.IsWhole() ? "" : fmt::format("-{}-of-{}", options.shard.index, options.shard.count);
+  return fmt::format("out/{}-{}{}", suite.suite, suite.seed, part);
+}
+
+/// Whether the folder may be written into as the options want it.
+Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& options) {
+  auto state = LookAtFolder(folder);
+  if (!state || *state == FolderState::kFree || options.resume || options.overwrite) return state;
+  return Fail({folder.string(), 0, 0}, "already holds {}; {}--overwrite replaces it, -o chooses another folder",
+              *state == FolderState::kFinished ? "a run" : "an unfinished run",
+              *state == FolderState::kFinished ? "" : "--resume goes on with it, ");
+}
+
+/// A folder can only be gone on with by the same build, suite, seed and clips.
+Result<void> CheckManifest(const fs::path& folder, const std::string& manifest) {
+  const fs::path path = folder / "manifest.json";
+  const auto found = ReadWholeFile(path);
+  if (!found) return tl::unexpected(found.error());
+  if (*found == manifest) return {};
+  const auto then = ReadJson(*found, path.string()), now = ReadJson(manifest, "");
+  if (!then) return tl::unexpected(then.error());
+  for (const auto& [key, value] : now->items()) {
+    if (!then->is_object() || then->value(key, Json()) != value) {
+      return Fail({path.string(), 0, 0}, "is of another run: its '{}' differs; only the same run can be resumed", key);
     }
   }
-  return worlds;
+  return Fail({path.string(), 0, 0}, "is of another run; only the same run can be resumed");
 }
 
-Result<void> SaveJson(const fs::path& path, const Json& json) {
-  const auto text = WriteJson(json);
-  if (!text) return tl::unexpected(text.error());
-  return WriteFileAtomically(path, *text + "\n");
-}
-
-Result<void> SaveTimings(const fs::path& folder, std::span<const WorldAnswer> answers) {
-  std::string lines;
-  for (const WorldAnswer& answer : answers) {
-    const Row& row = answer.rows.front();
-    const std::string world = row.Id().substr(0, row.Id().rfind('/'));
-    const auto line = WriteJson({{"world", world}, {"wall_s", answer.wall_s}, {"cpu_s", answer.cpu_s}});
-    if (!line) return tl::unexpected(line.error());
-    lines += *line + "\n";
+Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const JournalHead& wanted) {
+  const Place place{(folder / kJournalFile).string(), 1, 0};
+  if (found.build != wanted.build) return Fail(place, "was written by another build of etude; run it anew");
+  if (found.shard != wanted.shard) {
+    return Fail(place, "is of shard {}, not {}", ToString(found.shard), ToString(wanted.shard));
   }
-  return WriteFileAtomically(folder / "timings.jsonl", lines);
+  return {};
 }
 
-Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
-  std::vector<PreparedScenario> scenarios;
-  for (const ScenarioSetup& setup : suite.scenarios) {
-    auto prepared = Prepare(setup);
-    if (!prepared) return tl::unexpected(prepared.error());
-    scenarios.push_back(std::move(*prepared));
+/// Keeps what finished cells say, on disk and in memory, and tells how far the run has come.
+class Keeper {
+ public:
+  Keeper(CellTable cells, Journal journal, std::size_t wanted, const std::function<void(const Progress&)>& on_progress)
+      : cells_(std::move(cells)), journal_(std::move(journal)), on_progress_(on_progress) {
+    progress_.cells = wanted;
+    for (const auto& cell : cells_) {
+      if (cell) Count(*cell);
+    }
+    progress_.cells_before = progress_.cells_done;
+    on_progress_(progress_);
   }
-  return scenarios;
+
+  Result<void> Add(std::size_t cell, FinishedCell finished) {
+    if (auto kept = journal_.Append(cell, finished); !kept) return kept;
+    Count(finished);
+    cells_[cell] = std::move(finished);
+    progress_.seconds = SecondsSince(start_);
+    on_progress_(progress_);
+    return {};
+  }
+
+  const Progress& progress() const { return progress_; }
+  CellTable TakeCells() { return std::move(cells_); }
+
+ private:
+  void Count(const FinishedCell& cell) {
+    ++progress_.cells_done;
+    progress_.cells_ok += cell.row.result.status == Status::kOk ? 1 : 0;
+  }
+
+  const Clock::time_point start_ = Clock::now();
+  CellTable cells_;
+  Journal journal_;
+  Progress progress_;
+  const std::function<void(const Progress&)>& on_progress_;
+};
+
+/// The outcome of a folder that needs nothing more.
+Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
+  const auto run = LoadRun(folder);
+  if (!run) return tl::unexpected(run.error());
+  RunOutcome outcome{.folder = folder, .cells = run->rows.size()};
+  outcome.cells_ok = static_cast<std::size_t>(std::count_if(
+      run->rows.begin(), run->rows.end(), [](const Row& row) { return row.result.status == Status::kOk; }));
+  return outcome;
 }
 
 }  // namespace
 
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress) {
   const auto start = Clock::now();
-  const auto suite = ReadSuite(options);
+  const auto suite = options.from.empty() ? ReadSuite(options) : ReadManifest(options.from);
   if (!suite) return tl::unexpected(suite.error());
-  const std::string name = fmt::format("out/{}-{}", suite->suite, suite->seed);
-  const auto folder = ChooseFolder(options.output.empty() ? name : options.output, options.overwrite);
-  if (!folder) return tl::unexpected(folder.error());
+  const fs::path folder = FolderFor(options, *suite);
+  const auto state = CheckFolder(folder, options);
+  if (!state) return tl::unexpected(state.error());
   const auto scenarios = PrepareAll(*suite);
   if (!scenarios) return tl::unexpected(scenarios.error());
-  const std::vector<World> worlds = AllWorlds(*scenarios);
-  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  if (!options.from.empty()) {
+    if (auto same = CheckClips(options.from, *scenarios); !same) return tl::unexpected(same.error());
+  }
+  const Plan plan(*scenarios);
+  const auto manifest = WriteJson(MakeManifest(*suite, *scenarios, options.program_version));
+  if (!manifest) return tl::unexpected(manifest.error());
+  const auto build = BuildDigest();
+  if (!build) return tl::unexpected(build.error());
+  const JournalHead head{Digest().Add(*manifest + "\n").Hex(), *build, options.shard};
 
-  if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = *folder, .stopped = true};
-  auto claimed = RunFolder::Claim(*folder);
+  if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = folder, .stopped = true};
+  const bool continues = options.resume && *state != FolderState::kFree;
+  auto claimed = RunFolder::Claim(folder, continues);
   if (!claimed) return tl::unexpected(claimed.error());
-  auto saved = SaveJson(*folder / "manifest.json", MakeManifest(*suite, *scenarios, options.program_version));
-  if (!saved) return tl::unexpected(saved.error());
-  Journal journal(*folder);
+  CellTable cells(plan.cell_count());
+  if (continues) {
+    if (auto same = CheckManifest(folder, *manifest + "\n"); !same) return tl::unexpected(same.error());
+    if (*state == FolderState::kFinished) return AlreadyWhole(folder);
+    const auto found = ReadJournal(folder, plan, cells);
+    if (!found) return tl::unexpected(found.error());
+    if (auto same = CheckHead(folder, *found, head); !same) return tl::unexpected(same.error());
+  } else if (auto saved = WriteFileAtomically(folder / "manifest.json", *manifest + "\n"); !saved) {
+    return tl::unexpected(saved.error());
+  }
+  auto journal = continues ? Journal::Continue(folder) : Journal::Begin(folder, head);
+  if (!journal) return tl::unexpected(journal.error());
 
-  Progress progress{.worlds = worlds.size()};
-  on_progress(progress);
-  std::vector<WorldAnswer> answers(worlds.size());
-  const auto deliver = [&](WorldAnswer answer) -> Result<void> {
-    if (auto kept = journal.Append(answer); !kept) return kept;
-    claimed->Keep();
-    ++progress.worlds_done;
-    progress.cells_done += answer.rows.size();
-    progress.cells_ok += std::count_if(answer.rows.begin(), answer.rows.end(),
-                                       [](const Row& row) { return row.result.status == Status::kOk; });
-    progress.seconds = SecondsSince(start);
-    on_progress(progress);
-    const std::size_t at = answer.world;
-    answers[at] = std::move(answer);
-    return {};
-  };
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
-  const auto whole = RunWorlds(*suite, *scenarios, worlds, {program, jobs, options.stop}, deliver);
+  std::size_t wanted = 0;
+  for (std::size_t world = 0; world < plan.world_count(); ++world) {
+    if (plan.IsIn(options.shard, world)) wanted += plan.MethodCount(world);
+  }
+  std::vector<Order> orders = plan.OrdersFor(options.shard, DoneCells(cells));
+  const bool was_done = continues && orders.empty();
+  Keeper keeper(std::move(cells), std::move(*journal), wanted, on_progress);
+  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  const auto whole = RunOrders(*suite, plan, std::move(orders),
+                               {.program = ThisProgram(),
+                                .error_folder = (fs::absolute(folder) / "stderr").string(),
+                                .jobs = jobs,
+                                .stop = options.stop},
+                               [&](std::size_t cell, FinishedCell finished) {
+                                 auto kept = keeper.Add(cell, std::move(finished));
+                                 if (kept) claimed->Keep();
+                                 return kept;
+                               });
+  const Progress& progress = keeper.progress();
   if (!whole) {
     Error failure = whole.error();
-    if (progress.worlds_done > 0) failure.message += fmt::format("; {} is kept", (*folder / kJournalFile).string());
+    if (progress.cells_done > 0) failure.message += "; what was done is kept, --resume goes on with it";
     return tl::unexpected(std::move(failure));
   }
-  RunOutcome outcome{*folder, progress.cells_done, progress.cells_ok, SecondsSince(start), !*whole};
+  RunOutcome outcome{folder, progress.cells_done, progress.cells_ok, SecondsSince(start), !*whole};
   if (outcome.stopped) return outcome;
-
-  if (auto timed = SaveTimings(*folder, answers); !timed) return tl::unexpected(timed.error());
-  std::vector<Row> rows;
-  for (WorldAnswer& answer : answers) std::move(answer.rows.begin(), answer.rows.end(), std::back_inserter(rows));
-  std::vector<ScenarioSummary> summaries;
-  for (std::size_t s = 0, at = 0; s < scenarios->size(); ++s) {
-    const Scenario& scenario = (*scenarios)[s].scenario();
-    const std::size_t count =
-        scenario.conditions.size() * static_cast<std::size_t>(scenario.trials) * scenario.methods.size();
-    summaries.push_back(Summarise(scenario, std::span(rows).subspan(at, count), suite->scenarios[s].seed));
-    at += count;
+  claimed->Keep();
+  const Json host = DescribeHost(options.command_line, jobs, outcome.seconds);
+  if (options.shard.IsWhole()) {
+    if (auto done = FinishRun(folder, plan, keeper.TakeCells(), host); !done) return tl::unexpected(done.error());
+  } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
+    if (auto done = SaveJson(folder / "host.json", host); !done) return tl::unexpected(done.error());
   }
-  if (auto written = SaveResults(*folder, rows, summaries); !written) return tl::unexpected(written.error());
   outcome.seconds = SecondsSince(start);
-  saved = SaveJson(*folder / "host.json", DescribeHost(options.command_line, jobs, outcome.seconds));
-  if (!saved) return tl::unexpected(saved.error());
-  journal.Remove();
   return outcome;
 }
 

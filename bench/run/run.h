@@ -7,44 +7,60 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/run/plan.h"
 #include "engine/base/result.h"
 
 namespace etude {
 
 struct RunOptions {
-  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
+  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml; none with `from`
+  std::string from;                    ///< the manifest.json of a run to be repeated
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
-  std::string output;                  ///< "" = out/<suite>-<seed>
+  std::string output;                  ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;              ///< replace a folder that already holds a run
+  bool resume = false;                 ///< go on with the run that the folder holds
+  Shard shard;                         ///< run this part only
   int jobs = 0;                        ///< worker processes; 0 = one per processor
   std::string command_line;            ///< for host.json
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How far a run has come: called before the first world and after each.
+/// How far a run has come: told before the first cell and after each.
 struct Progress {
-  std::size_t worlds_done = 0;
-  std::size_t worlds = 0;
-  std::size_t cells_ok = 0;
+  std::size_t cells = 0;  ///< of this run or shard
   std::size_t cells_done = 0;
+  std::size_t cells_ok = 0;
+  std::size_t cells_before = 0;  ///< of those done: by the run that this one resumes
   double seconds = 0;
 };
 
 struct RunOutcome {
   std::filesystem::path folder;
-  std::size_t cells = 0;
+  std::size_t cells = 0;  ///< that have their row
   std::size_t cells_ok = 0;
   double seconds = 0;
   bool stopped = false;  ///< ended early; the journal holds what was done
 };
 
-/// Runs scenarios into a result folder. Everything that can be wrong with the input is found before
-/// anything is written; from then on, every world that ends is flushed to journal.jsonl at once. A run that
-/// ends before any world did leaves no folder that was not there before.
+/// Runs scenarios into a result folder. Everything that can be wrong with the input is found before anything is
+/// written; from then on, every cell that ends is flushed to journal.jsonl at once, and a run that was ended at any
+/// moment, however rudely, can be resumed to the same bytes. A shard leaves its journal, for Merge. A run that
+/// ends before any cell did leaves no folder that was not there before.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
+
+struct MergeOptions {
+  std::vector<std::string> folders;  ///< of the shards 1/n … n/n, in any order
+  std::string output;
+  bool overwrite = false;
+  std::string command_line;
+  std::string program_version;
+};
+
+/// Makes one run of its shards: the same bytes as a run in one piece. Shards of different builds, suites or
+/// seeds, shards that overlap, and cells that are missing are refused with a list.
+Result<RunOutcome> Merge(const MergeOptions& options);
 
 }  // namespace etude

@@ -5,12 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <fstream>
 #include <utility>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
-#include "bench/results/row_json.h"
 
 namespace etude {
 namespace {
@@ -21,33 +20,37 @@ namespace fs = std::filesystem;
 bool IsPartOfRun(const fs::path& name) {
   static const std::vector<std::string> parts = {"manifest.json", "host.json", kJournalFile, "cells.jsonl",
                                                  "timings.jsonl", "series",    "recordings", "summary.json",
-                                                 "report",        "video"};
+                                                 "report",        "video",     "stderr"};
   return std::any_of(parts.begin(), parts.end(),
                      [&](const std::string& part) { return name == part || name == TemporaryName(part); });
 }
 
+/// A journal without a whole head belongs to a run that was ended while it began.
+bool HoldsWholeLine(const fs::path& journal) {
+  std::ifstream in(journal, std::ios::binary);
+  std::string line;
+  return std::getline(in, line) && !in.eof();
+}
+
 }  // namespace
 
-Result<fs::path> ChooseFolder(const fs::path& folder, bool overwrite) {
-  const Place place{folder.string(), 0, 0};
+Result<FolderState> LookAtFolder(const fs::path& path) {
+  const Place place{path.string(), 0, 0};
   std::error_code error;
-  if (!fs::exists(folder, error)) return folder;
-  if (!fs::is_directory(folder, error)) return Fail(place, "is no folder");
-  bool holds_run = false;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+  if (!fs::exists(path, error)) return FolderState::kFree;
+  if (!fs::is_directory(path, error)) return Fail(place, "is no folder");
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     const fs::path name = entry->path().filename();
     if (!IsPartOfRun(name)) {
       return Fail(place, "holds something that is no run ('{}'); choose another folder with -o", name.string());
     }
-    holds_run = true;
   }
   if (error) return Fail(place, "cannot be read: {}", error.message());
-  if (!holds_run) return folder;
-  if (!overwrite) return Fail(place, "already holds a run; --overwrite replaces it, -o chooses another folder");
-  return folder;
+  if (HoldsWholeLine(path / kJournalFile)) return FolderState::kUnfinished;
+  return fs::exists(path / "host.json", error) ? FolderState::kFinished : FolderState::kFree;
 }
 
-Result<RunFolder> RunFolder::Claim(const fs::path& path) {
+Result<RunFolder> RunFolder::Claim(const fs::path& path, bool keep_contents) {
   const Place place{path.string(), 0, 0};
   std::error_code error;
   const bool made = !fs::exists(path, error);
@@ -58,6 +61,7 @@ Result<RunFolder> RunFolder::Claim(const fs::path& path) {
     folder.is_ours_ = false;
     return Fail(place, "another run is writing into it; choose another folder with -o");
   }
+  if (keep_contents) return folder;
   for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
     fs::remove_all(entry->path(), error);
     if (error) break;
@@ -75,24 +79,6 @@ RunFolder::~RunFolder() {
   std::error_code ignored;
   if (is_ours_) fs::remove_all(path_, ignored);
   if (lock_ >= 0) ::close(lock_);
-}
-
-Journal::Journal(const fs::path& folder) : path_(folder / kJournalFile), out_(path_, std::ios::binary) {}
-
-Result<void> Journal::Append(const WorldAnswer& answer) {
-  Json rows = Json::array();
-  for (const Row& row : answer.rows) rows.push_back(EncodeRow(row));
-  const auto line = WriteJson({{"world", answer.world}, {"rows", rows}, {"wall_s", answer.wall_s}});
-  if (!line) return tl::unexpected(line.error());
-  out_ << *line << '\n' << std::flush;
-  if (!out_) return Fail({path_.string(), 0, 0}, "cannot be written (is the disk full?)");
-  return {};
-}
-
-void Journal::Remove() {
-  out_.close();
-  std::error_code ignored;
-  fs::remove(path_, ignored);
 }
 
 }  // namespace etude

@@ -1,23 +1,27 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "bench/run/supervisor.h"
+#include "engine/base/result.h"
 
 namespace etude {
 
-/// The folder to write into: `path`, or one that holds nothing but a run when that may be replaced.
-/// Anything else is refused and left alone.
-Result<std::filesystem::path> ChooseFolder(const std::filesystem::path& path, bool overwrite);
+enum class FolderState {
+  kFree,        ///< not there, empty, or left by a run or merge that was ended with nothing to go on with
+  kUnfinished,  ///< holds a journal: of an interrupted run, of one under way, or of a shard
+  kFinished,    ///< holds a whole run: host.json, which is written last, and no journal
+};
 
-/// A result folder that this run alone writes into, emptied of an older run. One that ends before any
-/// world did takes the folder away again, if it made it.
+/// Looks at what a folder holds. Something that is no run is refused: it is never written into.
+Result<FolderState> LookAtFolder(const std::filesystem::path& path);
+
+/// A result folder that this run alone writes into. One that ends before any cell did takes the folder away again, if
+/// it made it.
 class RunFolder {
  public:
-  /// Makes the folder, locks it against other runs and empties it.
-  static Result<RunFolder> Claim(const std::filesystem::path& path);
+  /// Makes the folder and locks it against other runs; empties it unless it is to be continued.
+  static Result<RunFolder> Claim(const std::filesystem::path& path, bool keep_contents);
   RunFolder(RunFolder&& other) noexcept;
   ~RunFolder();
 
@@ -30,20 +34,6 @@ class RunFolder {
   std::filesystem::path path_;
   bool is_ours_;  ///< made by this run, and nothing in it yet that is worth keeping
   int lock_;      ///< the lock ends with the process, however that ends
-};
-
-/// The append-only record of a run that is under way: a line per world, flushed at once.
-class Journal {
- public:
-  explicit Journal(const std::filesystem::path& folder);
-
-  Result<void> Append(const WorldAnswer& answer);
-  /// The run is whole: its rows stand elsewhere.
-  void Remove();
-
- private:
-  std::filesystem::path path_;
-  std::ofstream out_;
 };
 
 }  // namespace etude

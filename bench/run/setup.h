@@ -4,25 +4,27 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/json.h"
+#include "bench/files/json.h"
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/base/task.h"
 
 namespace etude {
 
-/// All that is needed to make a scenario's worlds again, anywhere: what the manifest keeps and what
-/// every worker is started with.
+/// All that is needed to make a scenario's worlds again, anywhere, beside the texts it stands in.
 struct ScenarioSetup {
-  std::string file;
-  std::string text;
+  std::string file;  ///< a key of SuiteSetup::sources
+  std::string name;  ///< a file may hold several scenarios
   std::uint64_t seed = 1;
   int trials = 1;
   std::vector<std::string> clips;  ///< references; the scenario's own, or those of --clips
+  std::string digest;              ///< of the texts that the scenario stands in
 };
 
+/// What the manifest keeps, and what every worker is started with.
 struct SuiteSetup {
   std::string suite;
   std::uint64_t seed = 1;
+  SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
 };
 
@@ -35,26 +37,34 @@ class PreparedScenario {
   const ScenarioSetup& setup() const { return setup_; }
   const Scenario& scenario() const { return scenario_; }
   const ClipLibrary& clips() const { return *clips_; }
+  const Task& task(int condition) const { return *tasks_[condition]; }
 
-  /// Runs the world (condition, trial): one row per method. A task that throws gives failed rows.
-  std::vector<Row> RunWorld(int condition, int trial) const;
-  /// The rows of a world that could not be run to its end.
-  std::vector<Row> RowsWithoutResult(int condition, int trial, Status status, const std::string& reason) const;
+  /// Puts a method whose answers are known already behind those of the file, compared with the first, or `alone` in
+  /// their place, with nothing expected. Fails when the name is taken.
+  Result<void> AddMethod(const std::string& name, bool alone);
+
+  /// What keys the dice of a trial.
+  WorldKey KeyOf(int trial) const { return {setup_.seed, scenario_.name, trial}; }
+  /// A cell's row before anything is known about its result.
+  Row IdentityOf(int condition, int trial, std::size_t method) const;
+  /// The row of a cell that ended without measurements.
+  Row EndedRow(int condition, int trial, std::size_t method, Status status, const std::string& reason) const;
+  /// Names every metric of the task that `row` does not report: with the value that failing has, else as
+  /// missing for the row's reason.
+  void CompleteMetrics(int condition, Row& row) const;
 
  private:
-  friend Result<PreparedScenario> Prepare(ScenarioSetup setup);
-  bool WantsRecording(int trial) const;
-  Row IdentityOf(int condition, int trial, std::size_t method) const;
+  friend Result<PreparedScenario> Prepare(const ScenarioSetup& setup, const SourceTexts& sources);
 
   ScenarioSetup setup_;
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
-  std::vector<std::unique_ptr<Task>> tasks_;            ///< one per condition
-  std::vector<std::unique_ptr<Task>> recording_tasks_;  ///< the same, keeping motions
+  std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
 };
 
 /// Reads the scenario, loads its clips and makes its tasks; every complaint about a scenario, its
 /// methods or its clips comes from here.
-Result<PreparedScenario> Prepare(ScenarioSetup setup);
+Result<PreparedScenario> Prepare(const ScenarioSetup& setup, const SourceTexts& sources);
+Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
 
 }  // namespace etude

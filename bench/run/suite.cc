@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <map>
 
-#include "bench/files/files.h"
+#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
@@ -56,23 +56,28 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   std::map<std::string, std::string> file_of_name;
   std::size_t cells = 0;
   for (const std::string& file : *files) {
-    auto text = ReadWholeFile(file);
-    if (!text) return tl::unexpected(text.error());
-    const auto scenario = ParseScenario(*text, file);
-    if (!scenario) return tl::unexpected(scenario.error());
-    const auto [other, is_new] = file_of_name.emplace(scenario->name, file);
-    if (!is_new) {
-      return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario->name, other->second);
+    SourceTexts texts;
+    if (auto read = ReadSources(file, texts); !read) return tl::unexpected(read.error());
+    const auto scenarios = ParseScenarios(file, texts);
+    if (!scenarios) return tl::unexpected(scenarios.error());
+    Digest digest;
+    for (const auto& [path, text] : texts) digest.Add(text);
+    for (const Scenario& scenario : *scenarios) {
+      const auto [other, is_new] = file_of_name.emplace(scenario.name, file);
+      if (!is_new) {
+        return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario.name, other->second);
+      }
+      const int trials = options.trials.value_or(scenario.trials);
+      cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(trials);
+      if (cells > kMostCells) {
+        return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
+                    scenario.conditions.size(), scenario.methods.size(), trials, kMostCells);
+      }
+      const bool replaced = !options.clips.empty() && !scenario.clips.empty();
+      suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
+                                 replaced ? options.clips : scenario.clips, digest.Hex()});
     }
-    const int trials = options.trials.value_or(scenario->trials);
-    cells += scenario->conditions.size() * scenario->methods.size() * static_cast<std::size_t>(trials);
-    if (cells > kMostCells) {
-      return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
-                  scenario->conditions.size(), scenario->methods.size(), trials, kMostCells);
-    }
-    const bool replaced = !options.clips.empty() && !scenario->clips.empty();
-    suite.scenarios.push_back({file, std::move(*text), options.seed ? *options.seed : scenario->seed.value_or(1),
-                               trials, replaced ? options.clips : scenario->clips});
+    suite.sources.merge(texts);
   }
   return suite;
 }

@@ -3,44 +3,61 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <chrono>
+#include <deque>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/results/row_json.h"
-#include "bench/run/child_process.h"
+#include "bench/process/child_process.h"
+#include "bench/run/cell_json.h"
 #include "bench/run/worker.h"
 
 namespace etude {
 namespace {
 
-constexpr int kPollMilliseconds = 200;
-constexpr int kMostDeathsInSetup = 3;  // one may be chance (out of memory, a stray kill); a row of them is not
+using Clock = std::chrono::steady_clock;
 
+constexpr int kPollMilliseconds = 20;     // how stale a look at memory or at the clock may be
+constexpr int kMostDeathsInSetup = 3;     // one may be chance (out of memory, a stray kill); a row of them is not
+constexpr double kLongestSetupS = 600;    // clips are read in it
+constexpr double kGraceForOutsideS = 10;  // a method outside is ended by the worker, which then still has to tell
+
+Clock::time_point After(double seconds) {
+  constexpr double kLongest = 1e9;  // beyond any run, within what the clock can hold
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kLongest)));
+}
+
+/// A child and what it is at.
 struct Worker {
+  Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
+
   ChildProcess process;
-  bool ready = false;                ///< its set-up is done
-  std::optional<std::size_t> world;  ///< the one it works on
-  bool dismissed = false;            ///< it ended, and no other takes its place
+  Clock::time_point deadline;  ///< of what it is at
+  bool ready = false;          ///< its set-up is done
+  std::optional<Order> order;  ///< the one it works on: methods not yet answered
+  bool built = false;          ///< the order's world is
+  bool dismissed = false;      ///< it ended, and no other takes its place
 };
 
 class Supervisor {
  public:
-  Supervisor(std::span<const PreparedScenario> scenarios, std::span<const World> worlds,
-             const SupervisorOptions& options, const std::function<Result<void>(WorldAnswer)>& deliver)
-      : scenarios_(scenarios), worlds_(worlds), options_(options), deliver_(deliver) {}
+  Supervisor(const Plan& plan, std::vector<Order> orders, const SupervisorOptions& options, const Deliver& deliver)
+      : plan_(plan), orders_(orders.begin(), orders.end()), options_(options), deliver_(deliver) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    const auto setup_line = WriteJson(EncodeSetup(setup));
+    const auto setup_line = WriteJson({{"setup", EncodeSetup(setup)}, {"error_folder", options_.error_folder}});
     if (!setup_line) return tl::unexpected(setup_line.error());
     setup_line_ = *setup_line;
-    const std::size_t jobs = std::min<std::size_t>(options_.jobs, worlds_.size());
+    const std::size_t jobs = std::min<std::size_t>(options_.jobs, orders_.size());
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
       if (!worker && !workers_.empty()) break;  // fewer do the same work
       if (!worker) return tl::unexpected(worker.error());
       workers_.push_back(std::move(*worker));
     }
-    while (delivered_ < worlds_.size()) {
+    while (!workers_.empty()) {
       if (options_.stop != nullptr && *options_.stop) return false;
       if (auto stepped = Step(); !stepped) return tl::unexpected(stepped.error());
     }
@@ -49,85 +66,115 @@ class Supervisor {
 
  private:
   Result<Worker> StartWorker() {
-    auto process = ChildProcess::Start(options_.program, {"worker"});
+    auto process = ChildProcess::Start({.program = options_.program, .arguments = {"worker"}, .error_file = ""});
     if (!process) return tl::unexpected(process.error());
     process->Send(setup_line_);  // a worker that is already dead is noticed when it is polled
-    return Worker{std::move(*process), false, std::nullopt, false};
+    return Worker(std::move(*process), After(kLongestSetupS));
   }
 
+  const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
+
+  /// The next order, or the end of its work.
   void HandOut(Worker& worker) {
-    worker.world.reset();
-    if (next_ == worlds_.size()) return;
-    worker.world = next_++;
-    const World& world = worlds_[*worker.world];
-    worker.process.Send(fmt::format("[{},{},{}]", world.scenario, world.condition, world.trial));
+    worker.order.reset();
+    worker.built = false;
+    if (orders_.empty()) {
+      worker.dismissed = true;
+      return;
+    }
+    worker.order = std::move(orders_.front());
+    orders_.pop_front();
+    const World& world = plan_.world(worker.order->world);
+    Json order{{"world", {world.scenario, world.condition, world.trial}}, {"methods", worker.order->methods}};
+    worker.process.Send(order.dump());
+    worker.deadline = After(LimitsOf(*worker.order).time_s);
+  }
+
+  /// The clock starts for the first method that is not answered yet.
+  void StartNextMethod(Worker& worker) {
+    if (worker.order->methods.empty()) return HandOut(worker);
+    const auto& methods = plan_.scenario_of(worker.order->world).scenario().methods;
+    const MethodEntry& method = methods[worker.order->methods.front()];
+    const double limit_s = LimitsOf(*worker.order).time_s;
+    // Handshake, setting and problem have as long each.
+    worker.deadline = After(method.exec.empty() ? limit_s : 3 * method.time_s.value_or(limit_s) + kGraceForOutsideS);
   }
 
   Result<void> Step() {
-    std::vector<pollfd> outputs;
-    for (const Worker& worker : workers_) outputs.push_back({worker.process.output(), POLLIN, 0});
-    ::poll(outputs.data(), outputs.size(), kPollMilliseconds);
+    std::vector<pollfd> watched;
+    for (const Worker& worker : workers_) {
+      watched.push_back({worker.process.output(), POLLIN, 0});
+      watched.push_back({worker.process.HasUnsent() ? worker.process.input() : -1, POLLOUT, 0});
+    }
+    ::poll(watched.data(), watched.size(), kPollMilliseconds);
     for (std::size_t i = 0; i < workers_.size(); ++i) {
-      if (outputs[i].revents == 0) continue;
-      const bool alive = workers_[i].process.Receive();
-      while (const auto line = workers_[i].process.NextLine()) {
-        if (auto taken = Take(workers_[i], *line); !taken) return taken;
-      }
-      if (alive) continue;
-      if (auto replaced = Replace(workers_[i]); !replaced) return replaced;
+      const bool stirred = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
+      if (auto watched_over = WatchOver(workers_[i], stirred); !watched_over) return watched_over;
     }
     std::erase_if(workers_, [](const Worker& worker) { return worker.dismissed; });
     return {};
   }
 
-  Result<void> Take(Worker& worker, const std::string& line) {
-    if (worker.ready) return TakeAnswer(worker, line);
-    if (line != kWorkerReady) return Fail({}, "a worker said '{}' instead of '{}'", line.substr(0, 60), kWorkerReady);
-    worker.ready = true;
-    deaths_in_setup_ = 0;
-    HandOut(worker);
+  Result<void> WatchOver(Worker& worker, bool stirred) {
+    if (stirred) {
+      const bool alive = worker.process.Receive();
+      for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
+        auto taken = Take(worker, *line);
+        if (!taken) return tl::unexpected(taken.error());
+        if (!*taken) return Replace(worker, Status::kBadOutput, "its worker answered with something else");
+      }
+      if (worker.dismissed) return {};
+      if (!alive) return Replace(worker, Status::kCrashed, "its worker ended with " + worker.process.Finish());
+    }
+    if (Clock::now() > worker.deadline) {
+      const double limit = worker.order ? LimitsOf(*worker.order).time_s : kLongestSetupS;
+      return Replace(worker, Status::kTimeout, fmt::format("took longer than {:g} s", limit));
+    }
+    if (worker.order) {
+      const double limit = LimitsOf(*worker.order).memory_mb;
+      const double resident = worker.process.MeasureAlone().resident_mb;  // it watches methods outside itself
+      if (resident > limit) {
+        return Replace(worker, Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", limit));
+      }
+    }
     return {};
   }
 
-  Result<void> TakeAnswer(Worker& worker, const std::string& line) {
-    if (!worker.world) return Fail({}, "a worker answered without being asked");
-    const Place place{"a worker's answer", 0, 0};
-    WorldAnswer answer{*worker.world, {}, 0, 0};
-    const auto json = ReadJson(line, place.file);
-    try {
-      if (!json) return tl::unexpected(json.error());
-      for (const Json& cell : json->at("cells")) {
-        auto row = DecodeCell(cell, place);
-        if (!row) return tl::unexpected(row.error());
-        answer.rows.push_back(std::move(*row));
-      }
-      answer.wall_s = json->at("wall_s").get<double>();
-      answer.cpu_s = json->at("cpu_s").get<double>();
-    } catch (const Json::exception& error) {
-      return Fail(place, "{}", error.what());
+  /// False when a worker said something that it should not.
+  Result<bool> Take(Worker& worker, const std::string& line) {
+    if (!worker.ready) {
+      if (line != kWorkerReady) return false;
+      worker.ready = true;
+      deaths_in_setup_ = 0;
+      HandOut(worker);
+      return true;
     }
-    HandOut(worker);
-    ++delivered_;
-    return deliver_(std::move(answer));
+    if (!worker.built) {
+      worker.built = worker.order && line == kWorldBuilt;
+      if (worker.built) StartNextMethod(worker);
+      return worker.built;
+    }
+    const Place place{"a worker's answer", 0, 0};
+    const auto json = ReadJson(line, place.file);
+    auto finished = json ? DecodeFinishedCell(*json, place) : tl::unexpected(json.error());
+    const std::size_t cell = plan_.CellAt(worker.order->world, worker.order->methods.front());
+    if (!finished || finished->row.Id() != plan_.IdentityOf(cell).Id()) return false;
+    worker.order->methods.erase(worker.order->methods.begin());
+    StartNextMethod(worker);
+    if (auto delivered = deliver_(cell, std::move(*finished)); !delivered) return tl::unexpected(delivered.error());
+    return true;
   }
 
-  /// Turns the death of a worker into rows, and starts another while there is work.
-  Result<void> Replace(Worker& worker) {
-    const std::string end = worker.process.Finish();
+  /// Ends a worker, makes rows of what it was at, and starts another while there is work.
+  Result<void> Replace(Worker& worker, Status status, const std::string& reason) {
+    worker.process.Finish();
     if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
-      return Fail({}, "{} workers in a row ended in their set-up, the last with {}", kMostDeathsInSetup, end);
+      return Fail({}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
     }
-    const std::optional<std::size_t> lost = worker.world;
-    if (lost) {
-      const World& world = worlds_[*lost];
-      ++delivered_;
-      auto delivered = deliver_({*lost,
-                                 scenarios_[world.scenario].RowsWithoutResult(
-                                     world.condition, world.trial, Status::kCrashed, "its worker ended with " + end),
-                                 0, 0});
-      if (!delivered) return delivered;
+    if (worker.order) {
+      if (auto given_up = GiveUp(*worker.order, worker.built, status, reason); !given_up) return given_up;
     }
-    if (next_ == worlds_.size()) {
+    if (orders_.empty()) {
       worker.dismissed = true;
       return {};
     }
@@ -137,24 +184,39 @@ class Supervisor {
     return {};
   }
 
-  std::span<const PreparedScenario> scenarios_;
-  std::span<const World> worlds_;
+  /// Delivers the cell in progress as lost (every cell, while the world was being built), and orders the rest anew.
+  Result<void> GiveUp(Order order, bool built, Status status, const std::string& reason) {
+    const World& world = plan_.world(order.world);
+    const std::size_t lost = built ? 1 : order.methods.size();
+    for (std::size_t i = 0; i < lost; ++i) {
+      const std::size_t method = order.methods[i];
+      const std::string when = built ? reason : reason + " while its world was being built";
+      FinishedCell cell{plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, status, when),
+                        {}};
+      if (auto told = deliver_(plan_.CellAt(order.world, method), std::move(cell)); !told) return told;
+    }
+    order.methods.erase(order.methods.begin(), order.methods.begin() + static_cast<std::ptrdiff_t>(lost));
+    if (!order.methods.empty()) orders_.push_front(std::move(order));
+    return {};
+  }
+
+  const Plan& plan_;
+  std::deque<Order> orders_;
   const SupervisorOptions& options_;
-  const std::function<Result<void>(WorldAnswer)>& deliver_;
+  const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
-  std::size_t next_ = 0;
-  std::size_t delivered_ = 0;
   int deaths_in_setup_ = 0;  ///< since a worker last became ready
 };
 
 }  // namespace
 
-Result<bool> RunWorlds(const SuiteSetup& setup, std::span<const PreparedScenario> scenarios,
-                       std::span<const World> worlds, const SupervisorOptions& options,
-                       const std::function<Result<void>(WorldAnswer)>& deliver) {
-  if (worlds.empty()) return true;
-  return Supervisor(scenarios, worlds, options, deliver).Run(setup);
+Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
+                       const SupervisorOptions& options, const Deliver& deliver) {
+  if (orders.empty()) return true;
+  return Supervisor(plan, std::move(orders), options, deliver).Run(setup);
 }
+
+std::string ThisProgram() { return std::filesystem::read_symlink("/proc/self/exe").string(); }
 
 }  // namespace etude

@@ -6,37 +6,31 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/setup.h"
+#include "bench/run/cell_runner.h"
+#include "bench/run/plan.h"
 
 namespace etude {
 
-/// One unit of work: a trial of a scenario under one of its conditions.
-struct World {
-  int scenario = 0;
-  int condition = 0;
-  int trial = 0;
-};
-
-/// What came back for one world.
-struct WorldAnswer {
-  std::size_t world = 0;  ///< its index in the list handed to the supervisor
-  std::vector<Row> rows;  ///< one per method
-  double wall_s = 0;
-  double cpu_s = 0;
-};
-
 struct SupervisorOptions {
-  std::string program;  ///< what to start as `PROGRAM worker`
+  std::string program;       ///< what to start as `PROGRAM worker`
+  std::string error_folder;  ///< where methods outside leave what they say on standard error; "" = nowhere
   int jobs = 1;
   const std::atomic<bool>* stop = nullptr;  ///< set (by Ctrl-C) to end early
 };
 
-/// Hands worlds to worker processes and collects their rows. A worker that dies takes only its own world
-/// with it: that world's rows become `crashed`, with the reason, and a new worker takes over. One that dies
-/// in its set-up has no world to lose. `deliver` is called in order of completion. False when stopped early;
-/// fails when no worker can start, or when several in a row die in their set-up.
-Result<bool> RunWorlds(const SuiteSetup& setup, std::span<const PreparedScenario> scenarios,
-                       std::span<const World> worlds, const SupervisorOptions& options,
-                       const std::function<Result<void>(WorldAnswer)>& deliver);
+/// Called with the number of a cell and what came of it, in order of completion.
+using Deliver = std::function<Result<void>(std::size_t cell, FinishedCell finished)>;
+
+/// Hands worlds to worker processes and collects their cells. A worker that dies, takes longer or holds more
+/// than the scenario's limits allow is ended and takes only the cell in progress with it: that cell's row becomes
+/// `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs the world's other methods.
+/// When it ends while it builds the world, all methods share that fate. A worker that dies in its set-up
+/// has no world to lose. False when stopped early; fails when no worker can start, or when several in a row die in
+/// their set-up.
+Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
+                       const SupervisorOptions& options, const Deliver& deliver);
+
+/// The program that is running, to be started again as a worker.
+std::string ThisProgram();
 
 }  // namespace etude

@@ -1,13 +1,14 @@
 #include "bench/run/worker.h"
 
 #include <Eigen/Core>
-#include <chrono>
-#include <ctime>
 #include <iostream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <vector>
 
-#include "bench/results/row_json.h"
-#include "bench/run/setup.h"
+#include "bench/run/cell_json.h"
+#include "bench/run/cell_runner.h"
 
 namespace etude {
 namespace {
@@ -16,21 +17,25 @@ namespace {
 /// choice keeps the bytes the same on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
-double CpuSeconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+int Misunderstood(const Error& error) {
+  std::cerr << ToString(error) << '\n';
+  return 2;
 }
 
-Json Answer(const PreparedScenario& scenario, const Json& world) {
-  const auto start = std::chrono::steady_clock::now();
-  const double cpu_start = CpuSeconds();
-  Json cells = Json::array();
-  for (Row& row : scenario.RunWorld(world.at(1).get<int>(), world.at(2).get<int>())) {
-    cells.push_back(EncodeCell(std::move(row)));
+/// Runs one order, answering as it goes.
+Result<void> Obey(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
+  const Json& world = order.at("world");
+  const auto scenario = world.at(0).get<std::size_t>();
+  if (scenario >= runners.size()) return Fail({}, "there is no scenario {}", scenario);
+  CellRunner& runner = *runners[scenario];
+  runner.Open(world.at(1).get<int>(), world.at(2).get<int>());
+  out << kWorldBuilt << '\n' << std::flush;
+  for (const Json& method : order.at("methods")) {
+    const auto line = WriteJson(EncodeFinishedCell(runner.Run(method.get<std::size_t>())));
+    if (!line) return tl::unexpected(line.error());
+    out << *line << '\n' << std::flush;
   }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  return {{"world", world}, {"cells", std::move(cells)}, {"wall_s", wall.count()}, {"cpu_s", CpuSeconds() - cpu_start}};
+  return {};
 }
 
 }  // namespace
@@ -39,28 +44,26 @@ int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
   std::string line;
   if (!std::getline(in, line)) return 0;
-  const auto json = ReadJson(line, "a worker's set-up", 1);
-  const auto setup = json ? DecodeSetup(*json, {"a worker's set-up", 1, 0}) : tl::unexpected(json.error());
-  if (!setup) {
-    std::cerr << ToString(setup.error()) << '\n';
-    return 2;
-  }
-  std::vector<PreparedScenario> scenarios;
-  for (const ScenarioSetup& scenario : setup->scenarios) {
-    auto prepared = Prepare(scenario);
-    if (!prepared) {
-      std::cerr << ToString(prepared.error()) << '\n';
-      return 2;
+  const Place place{"a worker's set-up", 1, 0};
+  const auto json = ReadJson(line, place.file, place.line);
+  if (!json) return Misunderstood(json.error());
+  try {
+    const auto setup = DecodeSetup(json->at("setup"), place);
+    if (!setup) return Misunderstood(setup.error());
+    const auto scenarios = PrepareAll(*setup);
+    if (!scenarios) return Misunderstood(scenarios.error());
+    std::vector<std::unique_ptr<CellRunner>> runners;
+    for (const PreparedScenario& scenario : *scenarios) {
+      runners.push_back(std::make_unique<CellRunner>(scenario, json->at("error_folder").get<std::string>()));
     }
-    scenarios.push_back(std::move(*prepared));
-  }
-  out << kWorkerReady << '\n' << std::flush;
-  while (std::getline(in, line)) {
-    const auto world = ReadJson(line, "a worker's orders");
-    if (!world) return 2;
-    const auto answer = WriteJson(Answer(scenarios.at(world->at(0).get<std::size_t>()), *world));
-    if (!answer) return 2;
-    out << *answer << '\n' << std::flush;
+    out << kWorkerReady << '\n' << std::flush;
+    while (std::getline(in, line)) {
+      const auto order = ReadJson(line, "a worker's orders");
+      if (!order) return Misunderstood(order.error());
+      if (auto done = Obey(*order, runners, out); !done) return Misunderstood(done.error());
+    }
+  } catch (const Json::exception& error) {
+    return Misunderstood({place, error.what()});
   }
   return 0;
 }

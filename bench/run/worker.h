@@ -6,11 +6,14 @@ namespace etude {
 
 /// What a worker says once its set-up is done, and before it is given a world.
 constexpr const char* kWorkerReady = "ready";
+/// What it says when an ordered world is built, before the cells of it.
+constexpr const char* kWorldBuilt = "built";
 
-/// The whole life of a worker process (`etude worker`): one line of set-up, answered by kWorkerReady, then
-/// one line per world, `[scenario, condition, trial]`, each answered by one line
-/// `{"world": […], "cells": […], "wall_s": …, "cpu_s": …}`. Ends when `in` does. Returns the exit code;
-/// 2 when it is told something that it cannot understand.
+/// The whole life of a worker process (`etude worker`): one line of set-up,
+/// `{"setup": …, "error_folder": "…"}`, answered by kWorkerReady; then one line per order,
+/// `{"world": [scenario, condition, trial], "methods": [0, 2]}`, answered by kWorldBuilt and one line per
+/// method, in order: a cell as EncodeFinishedCell writes it. Ends when `in` does. Returns the exit code; 2 when it is
+/// told something that it cannot understand.
 int RunWorker(std::istream& in, std::ostream& out);
 
 }  // namespace etude

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bench/results/run_data.h"
+#include "bench/tasks/base/task.h"
 #include "engine/document/node.h"
 
 namespace etude {
@@ -16,6 +19,7 @@ struct Expectation {
   std::string below, above;                 ///< the method it is compared with on the same worlds; at most one is set
   std::optional<double> at_most, at_least;  ///< or the bound its statistic must keep
   std::string statistic = "median";         ///< median, mean or p95; for bounds
+  double confidence = 0.95;                 ///< of a comparison: its interval, and 1 − the level of its test
   std::vector<Setting> where;               ///< judged in these conditions only; empty = in all of them
   Place place;
 };
@@ -32,11 +36,40 @@ struct RecordingWish {
   std::vector<int> trials;
 };
 
+/// One of the methods compared.
+struct MethodEntry {
+  std::string name;
+  std::string against;            ///< the method it is compared with; the first is its own
+  Node node;                      ///< the mapping that its task reads; unused for a method outside
+  std::vector<std::string> exec;  ///< a method outside: program and arguments; empty = built in
+  std::string options_json;       ///< a method outside: what its key `options` holds, told to it as it is
+  std::optional<double> time_s;   ///< a method outside: its own limit per problem, instead of Limits::time_s
+};
+
+/// What one cell, or the building of one world, may take before it is ended.
+struct Limits {
+  double time_s = 300;
+  double memory_mb = 4096;  ///< resident, of the worker and of the methods outside that it has started, each
+};
+
+/// A ratio of processor times measured in the same run, the only way in which times are judged.
+struct TimeRatio {
+  std::string of, over;  ///< methods
+  double at_most = 1;    ///< of the median of paired ratios
+  Place place;
+};
+
+/// What `etude gate` holds against a baseline, for this scenario.
+struct GateRules {
+  std::vector<std::string> metrics;  ///< the headline metrics when the file names none
+  bool exact = false;                ///< every difference is a regression; else only one that matters (threshold)
+  std::vector<TimeRatio> time_ratios;
+};
+
 /// A question put to several methods on the same worlds (design.md §5), as its file says it. The keys
 /// of its task are read by the task itself, from each condition's mapping.
 struct Scenario {
   std::string file;
-  std::string text;  ///< the whole file: a run must be repeatable from its manifest
   std::string name;
   std::string question;
   std::string task;
@@ -44,19 +77,27 @@ struct Scenario {
   int trials = 1;
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;  ///< at least one
-  std::vector<std::string> method_names;
-  std::vector<std::string> baselines;  ///< of each method: the one it is compared with; the first has itself
-  std::vector<Node> methods;           ///< the mappings behind the names, as their task reads them
-  std::vector<std::string> metrics;    ///< headline metrics; the task's own when the file names none
+  std::vector<MethodEntry> methods;   ///< at least one
+  std::vector<std::string> metrics;   ///< headline metrics; the task's own when the file names none
   std::vector<Expectation> expectations;
   RecordingWish recordings;
+  Limits limits;
+  GateRules gate;
 };
 
-/// Reads one scenario file. Everything but the task's own keys is checked here; unknown keys are left
-/// for `bench/run` to refuse once the task has read its own.
-Result<Scenario> ParseScenario(std::string text, const std::string& file);
+std::vector<std::string> MethodNames(const Scenario& scenario);
 
-/// The keys that ParseScenario reads: known in every scenario, whatever its task.
-const std::vector<std::string>& CommonScenarioKeys();
+/// The texts of scenario files and of all that they include, by path: what a manifest keeps of them.
+using SourceTexts = std::map<std::string, std::string>;
+
+/// Reads a scenario file and the files it includes into `texts`.
+Result<void> ReadSources(const std::string& file, SourceTexts& texts);
+
+/// All scenarios of one file, in order. Everything is checked here but the values of the tasks' own keys, which the
+/// tasks read (`bench/run`). A key that is not documented (bench/scenario/keys.h) is refused.
+Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts);
+
+/// The keys that ParseScenarios reads: known in every scenario, whatever its task.
+std::span<const KeyInfo> CommonScenarioKeys();
 
 }  // namespace etude

@@ -2,32 +2,101 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
+#include "bench/statistics/distributions.h"
 #include "sim/random/stream.h"
 
 namespace etude {
 namespace {
 
-constexpr int kResamples = 2000;
-constexpr double kTail = 0.025;
+/// One less than a round number, so that the 2.5 % and 97.5 % points are replicates.
+constexpr int kResamples = 1999;
 
-/// Quantile of values that may be reordered: two selections instead of a whole sort.
-double QuantileInPlace(std::vector<double>& values, double q) {
-  const double position = q * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  std::nth_element(values.begin(), values.begin() + below, values.end());
-  const double low = values[below];
-  if (below + 1 == values.size()) return low;
-  const double high = *std::min_element(values.begin() + below + 1, values.end());
-  return low + (position - static_cast<double>(below)) * (high - low);
+/// Median of sorted values, of which the one at `without` is left out.
+double MedianWithout(std::span<const double> sorted, std::size_t without) {
+  const auto at = [&](std::size_t i) { return sorted[i < without ? i : i + 1]; };
+  const std::size_t count = sorted.size() - 1;
+  return 0.5 * (at((count - 1) / 2) + at(count / 2));
+}
+
+std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregate) {
+  std::vector<double> values(sorted.size());
+  const double n = static_cast<double>(sorted.size()), mean = Mean(sorted);
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    values[i] = aggregate == Aggregate::kMedian ? MedianWithout(sorted, i) : mean + (mean - sorted[i]) / (n - 1);
+  }
+  return values;
+}
+
+/// Indices below `count`, two of each 64 random bits; no index is favoured by more than count / 2³².
+template <typename Use>
+void DrawIndices(RandomStream& dice, std::size_t count, const Use& use) {
+  for (std::size_t i = 0; i < count; i += 2) {
+    const std::uint64_t bits = dice.Bits();
+    use(((bits & 0xffffffffu) * count) >> 32);
+    if (i + 1 < count) use(((bits >> 32) * count) >> 32);
+  }
+}
+
+double ResampledMean(std::span<const double> sorted, RandomStream& dice) {
+  double sum = 0;
+  DrawIndices(dice, sorted.size(), [&](std::size_t index) { sum += sorted[index]; });
+  return sum / static_cast<double>(sorted.size());
+}
+
+/// Counts how often each value is drawn and walks to the middle, which saves sorting the resample.
+double ResampledMedian(std::span<const double> sorted, RandomStream& dice, std::vector<int>& counts) {
+  counts.assign(sorted.size(), 0);
+  DrawIndices(dice, sorted.size(), [&](std::size_t index) { ++counts[index]; });
+  const std::size_t low = (sorted.size() - 1) / 2, high = sorted.size() / 2;
+  std::size_t index = 0, passed = counts[0];
+  while (passed <= low) passed += counts[++index];
+  const double lower = sorted[index];
+  while (passed <= high) passed += counts[++index];
+  return 0.5 * (lower + sorted[index]);
+}
+
+/// The correction of one end's level; nothing where it is undefined.
+std::optional<double> BcaLevel(double level, double bias, double acceleration) {
+  const double z = bias + NormalQuantile(level);
+  const double stretch = 1 - acceleration * z;
+  if (stretch <= 0) return std::nullopt;
+  return NormalCdf(bias + z / stretch);
+}
+
+/// Sixth of the jackknife's skewness (Efron 1987, equation 7.3 with the jackknife's influence values).
+std::optional<double> Acceleration(std::span<const double> jackknife) {
+  const double mean = Mean(jackknife);
+  double squares = 0, cubes = 0, largest = 0;
+  for (double value : jackknife) {
+    const double pull = mean - value;
+    squares += pull * pull;
+    cubes += pull * pull * pull;
+    largest = std::max(largest, std::abs(value));
+  }
+  // A constant sample's jackknife differs by rounding alone.
+  const double noise = 1e-12 * largest;
+  if (squares <= noise * noise * static_cast<double>(jackknife.size())) return std::nullopt;
+  return cubes / (6 * squares * std::sqrt(squares));
+}
+
+/// The replicate at a level, one of the sorted: the rank is whole, so no last bit of `level` shows.
+double AtLevel(std::span<const double> sorted, double level) {
+  const double rank = std::round(level * static_cast<double>(sorted.size() + 1));
+  return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
 }
 
 }  // namespace
 
 double Quantile(std::span<const double> values, double q) {
   std::vector<double> copy(values.begin(), values.end());
-  return QuantileInPlace(copy, q);
+  const double position = q * static_cast<double>(copy.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  std::nth_element(copy.begin(), copy.begin() + below, copy.end());
+  const double low = copy[below];
+  if (below + 1 == copy.size()) return low;
+  const double high = *std::min_element(copy.begin() + below + 1, copy.end());
+  return low + (position - static_cast<double>(below)) * (high - low);
 }
 
 double Mean(std::span<const double> values) {
@@ -40,17 +109,36 @@ double AggregateOf(std::span<const double> values, Aggregate aggregate) {
   return aggregate == Aggregate::kMedian ? Quantile(values, 0.5) : Mean(values);
 }
 
+Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
+                     double confidence) {
+  std::sort(replicates.begin(), replicates.end());
+  const auto [first, last] = std::equal_range(replicates.begin(), replicates.end(), estimate);
+  const double below = static_cast<double>(first - replicates.begin()) + 0.5 * static_cast<double>(last - first);
+  const double share_below = below / static_cast<double>(replicates.size());
+  const double tail = (1 - confidence) / 2;
+  const Interval percentile{AtLevel(replicates, tail), AtLevel(replicates, 1 - tail), IntervalKind::kPercentile};
+  if (share_below <= 0 || share_below >= 1) return percentile;
+  const double bias = NormalQuantile(share_below);
+  const auto acceleration = Acceleration(jackknife);
+  if (!acceleration) return percentile;
+  const auto low = BcaLevel(tail, bias, *acceleration), high = BcaLevel(1 - tail, bias, *acceleration);
+  if (!low || !high) return percentile;
+  return {AtLevel(replicates, *low), AtLevel(replicates, *high), IntervalKind::kBca};
+}
+
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
-                                          const std::string& purpose) {
+                                          const std::string& purpose, double confidence) {
   if (static_cast<int>(values.size()) < kSmallestSample) return std::nullopt;
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
   RandomStream dice({.suite_seed = seed, .scenario = "bootstrap", .trial = 0}, purpose);
-  std::vector<double> aggregates(kResamples);
-  std::vector<double> resample(values.size());
-  for (double& value : aggregates) {
-    for (double& drawn : resample) drawn = values[dice.IndexBelow(values.size())];
-    value = aggregate == Aggregate::kMedian ? QuantileInPlace(resample, 0.5) : Mean(resample);
+  std::vector<double> replicates(kResamples);
+  std::vector<int> counts;
+  for (double& replicate : replicates) {
+    replicate = aggregate == Aggregate::kMedian ? ResampledMedian(sorted, dice, counts) : ResampledMean(sorted, dice);
   }
-  return Interval{QuantileInPlace(aggregates, kTail), QuantileInPlace(aggregates, 1 - kTail)};
+  return BcaInterval(replicates, AggregateOf(sorted, aggregate), Jackknife(sorted, aggregate), confidence);
 }
 
 }  // namespace etude

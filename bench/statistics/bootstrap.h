@@ -3,8 +3,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bench/metrics/catalogue.h"
+#include "bench/statistics/interval.h"
 
 namespace etude {
 
@@ -16,17 +18,20 @@ double Mean(std::span<const double> values);
 /// Median or mean, as the metric is aggregated.
 double AggregateOf(std::span<const double> values, Aggregate aggregate);
 
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
-
-/// A sample smaller than this has no interval: a percentile bootstrap of five values can't reach 95 %.
+/// A sample smaller than this has no interval: the sign test of five values can't reach 95 %.
 constexpr int kSmallestSample = 6;
 
-/// The 95 % percentile-bootstrap interval of the aggregate (Efron 1979), from 2,000 resamples of a
-/// stream keyed by `seed` and `purpose`. Nothing for fewer than kSmallestSample values.
+/// The bias-corrected and accelerated bootstrap interval (Efron 1987, section 3) of any statistic, from its
+/// bootstrap replicates, which get sorted, its estimate, and its values with one observation left out each.
+/// Replicates equal to the estimate count half on either side. Its ends are replicates. Where the correction is
+/// undefined — all replicates on one side of the estimate, or a jackknife without spread — it is the percentile
+/// interval (Efron 1979), and its kind says so.
+Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
+                     double confidence = kConfidence);
+
+/// The BCa interval of the values' aggregate, from 1,999 resamples of a stream keyed by `seed` and `purpose`. It
+/// depends on the values, not on their order. Nothing for fewer than kSmallestSample values.
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
-                                          const std::string& purpose);
+                                          const std::string& purpose, double confidence = kConfidence);
 
 }  // namespace etude

@@ -1,45 +1,94 @@
 #include "bench/statistics/compare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "bench/statistics/bootstrap.h"
+#include "bench/statistics/distributions.h"
+#include "bench/statistics/paired_tests.h"
+#include "bench/statistics/proportion.h"
 
 namespace etude {
 namespace {
 
-Verdict Judge(double difference, const Interval& interval, const MetricInfo& metric) {
-  const bool beyond_zero = interval.low > 0 || interval.high < 0;
-  const bool negligible = interval.low >= -metric.practical && interval.high <= metric.practical;
-  if (negligible || (beyond_zero && std::abs(difference) < metric.practical)) return Verdict::kNoDifference;
-  if (!beyond_zero || metric.direction == Direction::kNeither) return Verdict::kInconclusive;
-  const bool lower = difference < 0;
-  return lower == (metric.direction == Direction::kLowerIsBetter) ? Verdict::kBetter : Verdict::kWorse;
+bool AreShares(std::span<const Pair> pairs) {
+  const auto is_share = [](double value) { return value == 0 || value == 1; };
+  return std::all_of(pairs.begin(), pairs.end(),
+                     [&](const Pair& pair) { return is_share(pair.baseline) && is_share(pair.method); });
+}
+
+/// Without rounding: what differs in the last bits alone is a tie, of ranks as of values.
+double DifferenceOf(const Pair& pair, const MetricInfo& metric) {
+  const double difference = pair.method - pair.baseline;
+  return std::abs(difference) <= 1e-9 * metric.practical ? 0 : KeepThirtyBits(difference);
+}
+
+Interval ShareInterval(std::span<const double> differences, double confidence) {
+  const auto gained = std::count(differences.begin(), differences.end(), 1.0);
+  const auto lost = std::count(differences.begin(), differences.end(), -1.0);
+  return PairedShareInterval(static_cast<int>(gained), static_cast<int>(lost), static_cast<int>(differences.size()),
+                             confidence);
+}
+
+/// Share of the pairs in which the method has the better value; ties count half.
+double ShareBetter(std::span<const double> differences, double sign) {
+  double better = 0;
+  for (double difference : differences) better += difference == 0 ? 0.5 : (sign * difference > 0 ? 1.0 : 0.0);
+  return better / static_cast<double>(differences.size());
 }
 
 }  // namespace
 
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,
-                         const std::string& purpose) {
-  Comparison comparison;
-  comparison.metric = metric.id;
-  comparison.pairs = static_cast<int>(pairs.size());
-  if (pairs.empty()) return comparison;
+                         const std::string& purpose, double confidence) {
+  Comparison result;
+  result.metric = metric.id;
+  result.pairs = static_cast<int>(pairs.size());
+  if (pairs.empty()) return result;
   std::vector<double> differences;
-  const double sign = metric.direction == Direction::kHigherIsBetter ? 1 : -1;
   for (const Pair& pair : pairs) {
-    const double difference = pair.method - pair.baseline;
-    differences.push_back(difference);
-    comparison.share_better += difference == 0 ? 0.5 : (sign * difference > 0 ? 1.0 : 0.0);
+    differences.push_back(DifferenceOf(pair, metric));
+    result.differing += differences.back() != 0;
   }
-  comparison.share_better /= static_cast<double>(pairs.size());
-  comparison.difference = AggregateOf(differences, metric.aggregate);
-  if (const auto interval = BootstrapInterval(differences, metric.aggregate, seed, purpose)) {
-    comparison.ci_low = interval->low;
-    comparison.ci_high = interval->high;
-    comparison.verdict = Judge(*comparison.difference, *interval, metric);
+  result.difference = AggregateOf(differences, metric.aggregate);
+  result.mean = Mean(differences);
+  const bool by_mean = metric.aggregate == Aggregate::kMean;
+  if (result.pairs >= kSmallestSample) {
+    const Interval mean = by_mean && AreShares(pairs)
+                              ? ShareInterval(differences, confidence)
+                              : *BootstrapInterval(differences, Aggregate::kMean, seed, purpose, confidence);
+    const Interval own = by_mean ? mean : *BootstrapInterval(differences, metric.aggregate, seed, purpose, confidence);
+    result.mean_low = mean.low;
+    result.mean_high = mean.high;
+    result.ci_low = own.low;
+    result.ci_high = own.high;
+    result.interval = own.kind;
   }
-  return comparison;
+  result.signed_rank = SignedRankTest(differences);
+  result.sign_flip = SignFlipTest(differences, metric.aggregate, seed, purpose);
+  // Without a direction, what is larger counts as better here.
+  const double sign = metric.direction == Direction::kLowerIsBetter ? -1 : 1;
+  result.share_better = ShareBetter(differences, sign);
+  result.effect_size = RankBiserial(differences) * sign + 0.0;
+  result.p_holm = DecidingP(result, metric);
+  result.verdict = VerdictOf(result, metric, confidence);
+  return result;
+}
+
+std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric) {
+  return metric.aggregate == Aggregate::kMedian ? comparison.signed_rank.p : comparison.sign_flip.p;
+}
+
+Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
+  if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
+  const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
+  if (low >= -metric.practical && high <= metric.practical) return Verdict::kNoDifference;
+  const bool beyond_zero = low > 0 || high < 0;
+  const bool significant = *comparison.p_holm <= 1 - confidence;
+  if (!beyond_zero || !significant || std::abs(difference) < metric.practical) return Verdict::kInconclusive;
+  if (metric.direction == Direction::kNeither) return Verdict::kInconclusive;
+  return (difference < 0) == (metric.direction == Direction::kLowerIsBetter) ? Verdict::kBetter : Verdict::kWorse;
 }
 
 }  // namespace etude

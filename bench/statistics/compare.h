@@ -5,6 +5,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/results/run_data.h"
+#include "bench/statistics/interval.h"
 
 namespace etude {
 
@@ -14,13 +15,22 @@ struct Pair {
   double method = 0;
 };
 
-/// Compares two methods on the worlds in which both have a value. The verdict goes by the 95 % interval
-/// of the paired difference and by the metric's practical threshold:
-///   better / worse   the interval lies wholly on one side of zero, and its aggregate beyond the threshold
-///   no difference    the interval lies wholly within ± threshold, or beyond zero by less than it
-///   inconclusive     anything else, or fewer than kSmallestSample pairs
-/// `seed` and `purpose` key the bootstrap. The names in the result are left for the caller.
+/// Compares two methods on the worlds in which both have a value: the paired differences' aggregate with its BCa
+/// interval (of shares, whose values are all 0 or 1: PairedShareInterval), their mean with its own, both tests, the
+/// effect size, and the verdict if this were the only comparison. Differences below a billionth of the practical
+/// threshold are zeros. `seed` and `purpose` key the dice. The names, the
+/// worlds without a pair and the notes are left for the caller.
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,
-                         const std::string& purpose);
+                         const std::string& purpose, double confidence = kConfidence);
+
+/// The p of the test that decides, fixed by the metric and never by the result: of Wilcoxon's where the aggregate is
+/// the median, of the sign flips where it is the mean.
+std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric);
+
+/// What the interval, `p_holm` and the metric's practical threshold say, alpha = 1 − confidence:
+///   no difference    the interval lies within ± threshold (equivalence; at 95 % stricter than two one-sided 5 % tests)
+///   better / worse   p_holm ≤ alpha, the interval lies on one side of zero, the difference is at least the threshold
+///   inconclusive     anything else; always with fewer than kSmallestSample pairs
+Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
 
 }  // namespace etude

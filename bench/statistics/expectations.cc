@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/statistics/bootstrap.h"
+#include "bench/statistics/paired_tests.h"
 #include "bench/statistics/select.h"
 
 namespace etude {
@@ -40,14 +41,24 @@ Finding JudgeComparison(const Expectation& expectation, std::span<const Row* con
                         bool wants_lower, std::uint64_t seed, const std::string& purpose) {
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
-  const auto pairs = PairsOf(rows, other, expectation.of, expectation.metric);
-  const Comparison found = ComparePaired(pairs, metric, seed, purpose);
-  if (!found.ci_low) return {Outcome::kUndecided, fmt::format("only {} worlds have both values", found.pairs)};
+  const PairedWorlds worlds = PairsOf(rows, other, expectation.of, expectation.metric);
+  const Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose, expectation.confidence);
+  const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
+  const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
+  if (!found.ci_low)
+    return {Outcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
   const Outcome outcome = found.verdict == Verdict::kBetter         ? Outcome::kMet
                           : found.verdict == Verdict::kInconclusive ? Outcome::kUndecided
                                                                     : Outcome::kUnmet;
-  return {outcome, fmt::format("difference {:.4g} (95 % interval {:.4g} to {:.4g}) on {} worlds", *found.difference,
-                               *found.ci_low, *found.ci_high, found.pairs)};
+  std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
+                                   *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
+                                   *found.p_holm, found.pairs, missing);
+  const double alpha = 1 - expectation.confidence;
+  if (outcome == Outcome::kUndecided && SmallestP(found.differing) > alpha) {
+    detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
+                          100 * expectation.confidence, PairsNeeded(1, alpha));
+  }
+  return {outcome, detail};
 }
 
 Finding JudgeBound(const Expectation& expectation, std::span<const Row* const> rows) {

@@ -28,21 +28,33 @@ std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string
   return values;
 }
 
-std::vector<Pair> PairsOf(std::span<const Row* const> rows, const std::string& baseline, const std::string& method,
-                          const std::string& metric) {
-  std::map<int, double> baseline_values;
+PairedWorlds PairsOf(std::span<const Row* const> rows, const std::string& baseline, const std::string& method,
+                     const std::string& metric) {
+  struct World {
+    const Row* baseline = nullptr;
+    const Row* method = nullptr;
+  };
+  std::map<int, World> worlds;
   for (const Row* row : rows) {
-    if (row->method != baseline) continue;
-    if (const auto value = ValueOf(*row, metric)) baseline_values[row->trial] = *value;
+    if (row->method == baseline) worlds[row->trial].baseline = row;
+    if (row->method == method) worlds[row->trial].method = row;
   }
-  std::vector<Pair> pairs;
-  for (const Row* row : rows) {
-    if (row->method != method) continue;
-    const auto partner = baseline_values.find(row->trial);
-    const auto value = ValueOf(*row, metric);
-    if (value && partner != baseline_values.end()) pairs.push_back({partner->second, *value});
+  const auto value_in = [&](const Row* row) { return row == nullptr ? std::nullopt : ValueOf(*row, metric); };
+  const auto skipped = [](const Row* row) { return row == nullptr || row->result.status == Status::kSkipped; };
+  PairedWorlds paired;
+  for (const auto& [trial, world] : worlds) {
+    const auto of_baseline = value_in(world.baseline), of_method = value_in(world.method);
+    if (of_baseline && of_method) {
+      paired.pairs.push_back({*of_baseline, *of_method});
+    } else if (of_baseline) {
+      ++paired.only_baseline;
+    } else if (of_method) {
+      ++paired.only_method;
+    } else if (!skipped(world.baseline) || !skipped(world.method)) {
+      ++paired.neither;
+    }
   }
-  return pairs;
+  return paired;
 }
 
 std::string PurposeOf(const std::string& scenario, const std::vector<Setting>& condition, const std::string& metric,

@@ -16,9 +16,15 @@ std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Sett
 std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string& method, const std::string& metric,
                              int& missing);
 
-/// The worlds in which both methods have a value. Rows of one world share their trial.
-std::vector<Pair> PairsOf(std::span<const Row* const> rows, const std::string& baseline, const std::string& method,
-                          const std::string& metric);
+/// One metric of two methods in the worlds of a condition; a world that was skipped for both is in none of these.
+struct PairedWorlds {
+  std::vector<Pair> pairs;  ///< both have a value
+  int only_baseline = 0, only_method = 0, neither = 0;
+};
+
+/// Rows of one world share their trial.
+PairedWorlds PairsOf(std::span<const Row* const> rows, const std::string& baseline, const std::string& method,
+                     const std::string& metric);
 
 /// What keys the dice of a comparison: stable under adding methods, metrics or conditions.
 std::string PurposeOf(const std::string& scenario, const std::vector<Setting>& condition, const std::string& metric,

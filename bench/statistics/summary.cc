@@ -4,6 +4,8 @@
 
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/expectations.h"
+#include "bench/statistics/family.h"
+#include "bench/statistics/proportion.h"
 #include "bench/statistics/select.h"
 
 namespace etude {
@@ -22,6 +24,16 @@ std::vector<const MetricInfo*> MetricsIn(std::span<const Row* const> rows) {
   return present;
 }
 
+/// A share of worlds has its own interval: a bootstrap of none in sixty sees no chance of one.
+std::optional<Interval> IntervalOf(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
+                                   const std::string& purpose) {
+  const bool is_share =
+      std::all_of(values.begin(), values.end(), [](double value) { return value == 0 || value == 1; });
+  if (aggregate == Aggregate::kMedian || !is_share) return BootstrapInterval(values, aggregate, seed, purpose);
+  const auto count = std::count(values.begin(), values.end(), 1.0);
+  return WilsonInterval(static_cast<int>(count), static_cast<int>(values.size()));
+}
+
 MetricSummary SummariseMetric(const MetricInfo& metric, std::span<const Row* const> rows, const std::string& method,
                               std::uint64_t seed, const std::string& purpose) {
   MetricSummary summary;
@@ -31,9 +43,10 @@ MetricSummary SummariseMetric(const MetricInfo& metric, std::span<const Row* con
   if (values.empty()) return summary;
   summary.median = Quantile(values, 0.5);
   summary.mean = Mean(values);
-  if (const auto interval = BootstrapInterval(values, metric.aggregate, seed, purpose)) {
+  if (const auto interval = IntervalOf(values, metric.aggregate, seed, purpose)) {
     summary.ci_low = interval->low;
     summary.ci_high = interval->high;
+    summary.interval = interval->kind;
   }
   return summary;
 }
@@ -41,13 +54,21 @@ MetricSummary SummariseMetric(const MetricInfo& metric, std::span<const Row* con
 MethodSummary SummariseMethod(const std::string& method, std::span<const Row* const> rows,
                               std::span<const MetricInfo* const> metrics, const Scenario& scenario,
                               const Condition& condition, std::uint64_t seed) {
-  MethodSummary summary{method, {}, {}};
+  MethodSummary summary;
+  summary.method = method;
   for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
     const auto status = static_cast<Status>(i);
     const auto count = std::count_if(rows.begin(), rows.end(), [&](const Row* row) {
       return row->method == method && row->result.status == status;
     });
     if (count > 0) summary.statuses.emplace_back(status, static_cast<int>(count));
+    if (status == Status::kOk) summary.ok = static_cast<int>(count);
+    if (status != Status::kSkipped) summary.attempted += static_cast<int>(count);
+  }
+  if (summary.attempted > 0) {
+    const Interval interval = WilsonInterval(summary.ok, summary.attempted);
+    summary.ok_low = interval.low;
+    summary.ok_high = interval.high;
   }
   for (const MetricInfo* metric : metrics) {
     const std::string purpose = PurposeOf(scenario.name, condition.settings, metric->id, "", method);
@@ -56,30 +77,49 @@ MethodSummary SummariseMethod(const std::string& method, std::span<const Row* co
   return summary;
 }
 
+/// All comparisons of one condition, verdicts left open: they depend on the other conditions too.
+std::vector<Comparison> CompareAll(const Scenario& scenario, const Condition& condition,
+                                   std::span<const Row* const> rows, std::uint64_t seed) {
+  std::vector<Comparison> comparisons;
+  for (const MethodEntry& entry : scenario.methods) {
+    if (entry.name == entry.against) continue;
+    for (const std::string& id : scenario.metrics) {
+      const PairedWorlds worlds = PairsOf(rows, entry.against, entry.name, id);
+      Comparison comparison =
+          ComparePaired(worlds.pairs, *FindMetric(id), seed,
+                        PurposeOf(scenario.name, condition.settings, id, entry.against, entry.name));
+      comparison.baseline = entry.against;
+      comparison.method = entry.name;
+      comparison.only_baseline = worlds.only_baseline;
+      comparison.only_method = worlds.only_method;
+      comparison.neither = worlds.neither;
+      comparisons.push_back(std::move(comparison));
+    }
+  }
+  return comparisons;
+}
+
 }  // namespace
 
 ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed) {
   ScenarioSummary summary{
-      scenario.name, scenario.task, scenario.question, scenario.method_names, scenario.metrics, {}, {}};
+      scenario.name, scenario.task, scenario.question, MethodNames(scenario), scenario.metrics, {}, {}};
   for (const Condition& condition : scenario.conditions) {
     const std::vector<const Row*> selected = RowsIn(rows, condition.settings);
     const std::vector<const MetricInfo*> metrics = MetricsIn(selected);
     ConditionSummary& part = summary.conditions.emplace_back();
     part.condition = condition.settings;
-    for (std::size_t m = 0; m < scenario.method_names.size(); ++m) {
-      const std::string& method = scenario.method_names[m];
-      const std::string& baseline = scenario.baselines[m];
-      part.methods.push_back(SummariseMethod(method, selected, metrics, scenario, condition, seed));
-      if (method == baseline) continue;
-      for (const std::string& id : scenario.metrics) {
-        Comparison comparison = ComparePaired(PairsOf(selected, baseline, method, id), *FindMetric(id), seed,
-                                              PurposeOf(scenario.name, condition.settings, id, baseline, method));
-        comparison.baseline = baseline;
-        comparison.method = method;
-        part.comparisons.push_back(std::move(comparison));
-      }
+    for (const MethodEntry& entry : scenario.methods) {
+      part.methods.push_back(SummariseMethod(entry.name, selected, metrics, scenario, condition, seed));
     }
+    part.comparisons = CompareAll(scenario, condition, selected, seed);
   }
+  std::vector<Comparison*> family;
+  for (ConditionSummary& part : summary.conditions) {
+    for (Comparison& comparison : part.comparisons) family.push_back(&comparison);
+  }
+  JudgeFamily(family);
+  summary.family = static_cast<int>(family.size());
   for (const Expectation& expectation : scenario.expectations) {
     summary.expectations.push_back(JudgeExpectation(expectation, scenario, rows, seed));
   }

@@ -9,9 +9,9 @@
 namespace etude {
 
 /// Sums up one scenario's rows: per condition and method the aggregate of every metric with its
-/// interval, every method against its baseline on the headline metrics, and the verdict on each
-/// expectation. `rows` are the scenario's own, in canonical order. Seeded, so the same rows give the
-/// same bytes.
+/// interval and its share of cells that are ok, every method against its baseline on the headline metrics, judged
+/// as one family, and the verdict on each expectation. `rows` are the scenario's own, in canonical order. Seeded, so
+/// the same rows give the same bytes.
 ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed);
 
 }  // namespace etude

@@ -49,7 +49,9 @@ std::string NearestName(std::string_view name, std::span<const std::string> know
 std::string UnknownName(std::string_view kind, std::string_view name, std::span<const std::string> known) {
   const std::string nearest = NearestName(name, known);
   const std::string hint = nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
-  return fmt::format("unknown {} '{}'{} Allowed: {}", kind, name, nearest.empty() ? "." : hint, Join(known));
+  constexpr std::size_t kLongestShown = 60;
+  return fmt::format("unknown {} '{}'{} Allowed: {}", kind, name.substr(0, kLongestShown), nearest.empty() ? "." : hint,
+                     Join(known));
 }
 
 std::string Join(std::span<const std::string> items, std::string_view separator) {

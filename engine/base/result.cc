@@ -1,6 +1,17 @@
 #include "engine/base/result.h"
 
 namespace etude {
+namespace {
+
+/// In one line, and harmless to a terminal, whatever a file made us quote.
+std::string WithoutControls(std::string text) {
+  for (char& c : text) {
+    if ((c >= 0 && c < ' ') || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
 
 std::string ToString(const Place& place) {
   if (place.line == 0) return place.file;
@@ -10,7 +21,7 @@ std::string ToString(const Place& place) {
 
 std::string ToString(const Error& error) {
   const std::string where = ToString(error.place);
-  return where.empty() ? error.message : where + ": " + error.message;
+  return WithoutControls(where.empty() ? error.message : where + ": " + error.message);
 }
 
 }  // namespace etude

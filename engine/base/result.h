@@ -21,7 +21,7 @@ struct Error {
   std::string message;
 };
 
-/// "file:line:column: message", leaving out what is not known.
+/// "file:line:column: message", leaving out what is not known; one line, control characters made spaces.
 std::string ToString(const Error& error);
 std::string ToString(const Place& place);
 

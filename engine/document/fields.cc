@@ -1,5 +1,6 @@
 #include "engine/document/fields.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -55,7 +56,7 @@ Fields::Fields(const Node& node, std::string what) : node_(node), what_(std::mov
 }
 
 const Node* Fields::Raw(std::string_view key) {
-  known_.emplace_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   return node_.Find(key);
 }
 
@@ -113,11 +114,16 @@ std::string Fields::Text(std::string_view key, std::string_view fallback) {
 
 std::string Fields::RequiredText(std::string_view key) {
   const Node* value = Scalar(key, "text");
-  if (value == nullptr || value->scalar.empty()) {
-    Complain(node_.place, fmt::format("{} needs '{}'", what_, key));
-    return "";
+  if (value != nullptr && !value->scalar.empty()) return value->scalar;
+  std::vector<std::string> found;
+  for (const Node::Entry& entry : node_.entries) found.push_back(entry.key);
+  const std::string nearest = value == nullptr ? NearestName(key, found) : "";
+  for (const Node::Entry& entry : node_.entries) {
+    if (entry.key == nearest)
+      Complain(entry.place, fmt::format("{} needs '{}'; is '{}' meant to be it?", what_, key, nearest));
   }
-  return value->scalar;
+  Complain(value == nullptr ? node_.place : value->place, fmt::format("{} needs '{}'", what_, key));
+  return "";
 }
 
 std::string Fields::Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view fallback) {
@@ -161,9 +167,8 @@ std::vector<double> Fields::Numbers(std::string_view key, Range range) {
 Result<void> Fields::Finish() {
   if (error_) return tl::unexpected(*error_);
   for (const Node::Entry& entry : node_.entries) {
-    bool known = false;
-    for (const std::string& name : known_) known = known || name == entry.key;
-    if (!known) return Fail(entry.place, "{}", UnknownName("key of " + what_, entry.key, known_));
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    return Fail(entry.place, "{}", UnknownName("key of " + what_, entry.key, known_));
   }
   return {};
 }

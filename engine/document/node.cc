@@ -69,6 +69,7 @@ class Builder {
           if (node.Find(key) != nullptr) return Fail(key_place, "the key '{}' stands here twice", key);
           auto value = Build(pair.second, depth + 1);
           if (!value) return value;
+          if (value->kind == Node::Kind::kNull) value->place = key_place;  // yaml-cpp's is of what follows
           node.entries.push_back({key, key_place, std::move(*value)});
         }
         break;
@@ -139,6 +140,13 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file) {
   } catch (const YAML::Exception& error) {
     return Fail(builder.At(error.mark), "not valid YAML: {}", error.msg);
   }
+}
+
+std::size_t CountValues(const Node& node) {
+  std::size_t count = 1;
+  for (const Node& item : node.items) count += CountValues(item);
+  for (const Node::Entry& entry : node.entries) count += CountValues(entry.value);
+  return count;
 }
 
 std::string Describe(const Node& node) {

@@ -34,6 +34,9 @@ struct Node::Entry {
 /// aliases, a second document, more than 1 MiB of text or 10,000 values, nesting deeper than 32 levels.
 Result<Node> ParseYaml(std::string_view text, const std::string& file);
 
+/// How many values a document or a part of it holds, itself among them.
+std::size_t CountValues(const Node& node);
+
 /// "a mapping", "a list", "the text 'abc'", "nothing": how complaints name what was found.
 std::string Describe(const Node& node);
 

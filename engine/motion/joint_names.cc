@@ -19,8 +19,9 @@ constexpr LimbNames kLegSchemes[] = {
     {{"upperleg", "lowerleg", "foot"}},
 };
 
-// CMU has both: its "Neck" (also "lowerneck") lies at the chest, its "Neck1" at the neck's base.
-constexpr std::string_view kNeckNames[] = {"neck1", "neck"};
+// CMU has both: its "Neck" (also "lowerneck") lies at the chest, its "Neck1" at the neck's base. Kinect, and our own
+// role, call that place the middle of the shoulders.
+constexpr std::string_view kNeckNames[] = {"neck1", "neck", "shouldercentre", "shouldercenter"};
 constexpr std::string_view kHeadNames[] = {"head"};
 
 /// Lower case, letters and digits only.

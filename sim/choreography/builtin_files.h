@@ -1,15 +1,10 @@
 #pragma once
 
 #include <span>
-#include <string_view>
+
+#include "engine/base/embedded_text.h"
 
 namespace etude {
-
-/// A text file compiled into the program.
-struct EmbeddedText {
-  std::string_view name;  ///< "clap.yaml"
-  std::string_view text;
-};
 
 /// scenarios/choreography/*.yaml, sorted by name (written by the build).
 std::span<const EmbeddedText> BuiltinMoveFiles();

@@ -151,6 +151,13 @@ Result<std::unique_ptr<Renderer>> Renderer::Create() {
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(std::move(*context), *programs)));
 }
 
+std::string RendererVersion() {
+  const auto context = GlContext::Create();
+  if (!context) return context.error().message;
+  const auto* version = (*context)->functions().GetString(GL_VERSION);
+  return version == nullptr ? "unknown version" : reinterpret_cast<const char*>(version);
+}
+
 View Renderer::Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/base/image.h"
@@ -75,5 +76,8 @@ class Renderer {
   explicit Renderer(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// What draws, and its version, on which pixels depend: "4.5 (Core Profile) Mesa 22.3.6"; else why nothing draws.
+std::string RendererVersion();
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <png.h>
@@ -96,8 +97,28 @@ std::uint8_t ToByte(half value) {
   return static_cast<std::uint8_t>(std::isnan(scaled) ? 0.0f : std::clamp(scaled + 0.5f, 0.0f, 255.0f));
 }
 
+// Where OpenEXR puts a file's bytes.
+class ByteStream : public Imf::OStream {
+ public:
+  ByteStream() : Imf::OStream("a picture in memory") {}
+
+  void write(const char* data, int count) override {
+    const std::size_t end = at_ + static_cast<std::size_t>(count);
+    if (bytes_.size() < end) bytes_.resize(end);
+    std::memcpy(bytes_.data() + at_, data, static_cast<std::size_t>(count));
+    at_ = end;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t position) override { at_ = position; }
+  std::string TakeBytes() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
 // Throws what OpenEXR throws.
-void WriteExr(const View& view, const std::string& path) {
+void WriteExr(const View& view, Imf::OStream& out) {
   const int width = std::max({view.colour.width, view.depth.width, view.labels.width});
   const int height = std::max({view.colour.height, view.depth.height, view.labels.height});
   Imf::Header header(width, height);
@@ -119,7 +140,7 @@ void WriteExr(const View& view, const std::string& path) {
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
   if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
 
-  Imf::OutputFile file(path.c_str(), header, 0);
+  Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);
 }
@@ -184,13 +205,20 @@ Result<Mask> LoadMaskPng(const std::string& path) {
   return mask;
 }
 
-Result<void> SaveExr(const View& view, const std::string& path) {
+Result<std::string> EncodeExr(const View& view) {
   try {
-    WriteExr(view, path);
-    return {};
+    ByteStream stream;
+    WriteExr(view, stream);
+    return stream.TakeBytes();
   } catch (const std::exception& error) {
-    return Fail({path}, "cannot be written as OpenEXR: {}", error.what());
+    return Fail({}, "cannot be written as OpenEXR: {}", error.what());
   }
+}
+
+Result<void> SaveExr(const View& view, const std::string& path) {
+  const auto bytes = EncodeExr(view);
+  if (!bytes) return Fail({path}, "{}", bytes.error().message);
+  return WriteBytes(*bytes, path);
 }
 
 Result<View> LoadExr(const std::string& path) {

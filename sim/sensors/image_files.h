@@ -25,9 +25,10 @@ Result<ColourImage> LoadColourPng(const std::string& path);
 /// Reads any PNG as a mask: 1 where the grey value is at least 128.
 Result<Mask> LoadMaskPng(const std::string& path);
 
-/// Writes one OpenEXR file (ZIP, lossless) with the channels R, G, B (half; the 8-bit values / 255, not
+/// The bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; the 8-bit values / 255, not
 /// linearised), Z (float, metres along the viewing axis) and label (uint). Empty pictures of `view` are
-/// left out; the others have one size.
+/// left out; the others have one size. The same for the same view.
+Result<std::string> EncodeExr(const View& view);
 Result<void> SaveExr(const View& view, const std::string& path);
 /// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty.
 Result<View> LoadExr(const std::string& path);

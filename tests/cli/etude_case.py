@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 ETUDE = os.environ["ETUDE"]
@@ -17,6 +18,18 @@ methods:
   - {name: fixed, solver: ccd, weights: fixed}
   - {name: least-squares, solver: damped-least-squares}
 """
+
+
+# What a run promises to be the same bytes, however it came about.
+SHARED = ["manifest.json", "cells.jsonl", "summary.json", "series", "recordings"]
+
+
+def cells_in_journal(folder):
+    """How many cells a run has flushed so far."""
+    try:
+        return max(0, (folder / "journal.jsonl").read_bytes().count(b"\n") - 1)  # the first line is its head
+    except FileNotFoundError:
+        return 0
 
 
 class EtudeCase(unittest.TestCase):
@@ -40,3 +53,22 @@ class EtudeCase(unittest.TestCase):
         result = self.etude("run", *arguments, "-o", out)
         self.assertEqual(result.returncode, 0, result.stderr)
         return [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
+
+    def wait_for_cells(self, folder, count=1, limit_s=60):
+        deadline = time.monotonic() + limit_s
+        while cells_in_journal(folder) < count:
+            self.assertLess(time.monotonic(), deadline, f"no {count} cells in {limit_s} s")
+            time.sleep(0.005)
+
+    def assert_same_results(self, folder, other):
+        """Same bytes in every file that two runs promise to share; says how many were compared."""
+        compared = 0
+        for part in SHARED:
+            files = [path.relative_to(root) for root in (folder, other)
+                     for path in ([root / part] if (root / part).is_file() else (root / part).rglob("*"))
+                     if path.is_file()]
+            for name in sorted(set(files)):
+                self.assertEqual((folder / name).read_bytes(), (other / name).read_bytes(), name)
+                compared += 1
+        self.assertGreater(compared, 2)
+        return compared

@@ -1,14 +1,10 @@
 """Runs as users start them: every cell has its row, and workers change nothing but the time."""
-import filecmp
 import os
 import signal
 import subprocess
-import time
 import unittest
 
-from etude_case import ETUDE, IK, EtudeCase
-
-SHARED = ["manifest.json", "cells.jsonl", "summary.json", "series/ik.jsonl"]
+from etude_case import ETUDE, IK, EtudeCase, cells_in_journal
 
 
 def children_of(pid):
@@ -30,9 +26,7 @@ class Runs(EtudeCase):
         folders = [self.folder / f"jobs-{jobs}" for jobs in (1, 3)]
         for jobs, folder in zip((1, 3), folders):
             self.run_suite(path, "--jobs", jobs, out=folder)
-        same, differing, missing = filecmp.cmpfiles(*folders, SHARED, shallow=False)
-        self.assertEqual((differing, missing), ([], []))
-        self.assertEqual(len(same), len(SHARED))
+        self.assert_same_results(*folders)
 
     def test_another_seed_gives_other_worlds_and_the_control_differs(self):
         path = self.write("ik.yaml", IK)
@@ -46,27 +40,23 @@ class Runs(EtudeCase):
         kept = [row for row in after if row["joint_noise_deg"] != 3]
         self.assertEqual(before, kept)
 
-    def test_a_worker_that_dies_takes_only_its_world_with_it(self):
+    def test_a_worker_that_dies_takes_only_its_cell_with_it(self):
         path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 100"))
         run = subprocess.Popen([ETUDE, "run", path, "--jobs", "2", "-o", self.out], stderr=subprocess.DEVNULL,
                                stdout=subprocess.DEVNULL)
-        journal = self.out / "journal.jsonl"
-        while not (journal.exists() and journal.stat().st_size > 0):
-            time.sleep(0.01)
+        self.wait_for_cells(self.out)
         os.kill(children_of(run.pid)[0], signal.SIGABRT)  # as a failed assertion would
         self.assertEqual(run.wait(timeout=120), 0)
         rows = [row for row in (self.out / "cells.jsonl").read_text().splitlines()]
         self.assertEqual(len(rows), 100 * 2 * 2)
         crashed = [row for row in rows if '"crashed"' in row]
-        self.assertEqual(len(crashed), 2)
+        self.assertIn(len(crashed), (1, 2))  # the cell it was at; both, while it built their world
         self.assertIn("signal 6 (Aborted)", crashed[0])
 
     def test_two_runs_never_share_a_folder(self):
         path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 100000"))
         first = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)
-        journal = self.out / "journal.jsonl"
-        while not (journal.exists() and journal.stat().st_size > 0):
-            time.sleep(0.01)
+        self.wait_for_cells(self.out)
         second = self.etude("run", path, "-o", self.out, "--overwrite")
         first.send_signal(signal.SIGTERM)
         self.assertEqual(first.wait(timeout=20), 130)
@@ -98,12 +88,10 @@ class Runs(EtudeCase):
     def test_ctrl_c_keeps_the_journal(self):
         path = self.write("ik.yaml", IK.replace("trials: 4", "trials: 100000"))
         run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)
-        journal = self.out / "journal.jsonl"
-        while not (journal.exists() and journal.stat().st_size > 0):
-            time.sleep(0.01)
+        self.wait_for_cells(self.out)
         run.send_signal(signal.SIGINT)
         self.assertEqual(run.wait(timeout=20), 130)
-        self.assertGreater(journal.stat().st_size, 0)
+        self.assertGreater(cells_in_journal(self.out), 0)
         self.assertFalse((self.out / "cells.jsonl").exists())
 
     def test_a_run_is_not_overwritten_unasked(self):

@@ -11,6 +11,18 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+Comparison Figures(int pairs, std::optional<double> difference, std::optional<double> low, std::optional<double> high,
+                   double share_better, Verdict verdict) {
+  Comparison comparison;
+  comparison.pairs = pairs;
+  comparison.difference = difference;
+  comparison.ci_low = low;
+  comparison.ci_high = high;
+  comparison.share_better = share_better;
+  comparison.verdict = verdict;
+  return comparison;
+}
+
 /// One condition, "adaptive" against "fixed".
 ScenarioSummary OneComparison(Comparison comparison, std::vector<std::string> methods = {"fixed", "adaptive"}) {
   comparison.metric = "orientation_error_deg";
@@ -30,33 +42,48 @@ std::string AnswerTo(const Comparison& comparison) {
 
 TEST(Answer, SaysHowMuchBetterOnHowManyWorlds) {
   EXPECT_EQ(
-      AnswerTo({"", "", "", 60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter}),
+      AnswerTo(Figures(60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter)),
       "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) compared with “fixed”, on 58 of "
       "60 worlds — better.");
 }
 
 TEST(Answer, CountsTheWorldsLostWhenWorse) {
   EXPECT_THAT(
-      AnswerTo({"", "", "", 20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse}),
+      AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
       HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) compared with “fixed”, on 18 of "
                 "20 worlds — worse."));
 }
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
-  const std::string open = AnswerTo({"", "", "", 20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive});
+  const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive));
   EXPECT_THAT(open, HasSubstr("do not settle"));
   EXPECT_THAT(open, Not(HasSubstr("lowers")));
-  const std::string same = AnswerTo({"", "", "", 20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference});
+  const std::string same = AnswerTo(Figures(20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference));
   EXPECT_THAT(same, HasSubstr("makes no difference that matters"));
 }
 
+TEST(Answer, SaysWhyItIsOpen) {
+  Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kInconclusive);
+  open.why_open = "too few worlds";
+  EXPECT_THAT(AnswerTo(open), HasSubstr("on 8 worlds — inconclusive: too few worlds."));
+}
+
+TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
+  Comparison lossy = Figures(40, -4.7, -6.0, -1.1, 0.9, Verdict::kBetter);
+  EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("Not counted")));
+  lossy.only_baseline = 13;
+  lossy.only_method = 1;
+  EXPECT_THAT(AnswerTo(lossy), HasSubstr("Not counted, since one of the two has no value there: only “fixed” in 13 "
+                                         "worlds, only “adaptive” in 1 world."));
+}
+
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {
-  EXPECT_THAT(AnswerTo({"", "", "", 0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kInconclusive}),
+  EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kInconclusive)),
               HasSubstr("no world gave both a value"));
 }
 
 TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {
-  ScenarioSummary scenario = OneComparison({"", "", "", 9, -2.0, -3.0, -1.0, 1, Verdict::kBetter});
+  ScenarioSummary scenario = OneComparison(Figures(9, -2.0, -3.0, -1.0, 1, Verdict::kBetter));
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[0].condition = {{"noise", "5"}};
   scenario.conditions[1].condition = {{"noise", "20"}};

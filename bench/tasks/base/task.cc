@@ -14,12 +14,24 @@ std::string_view StatusName(Status status) {
       return "timeout";
     case Status::kCrashed:
       return "crashed";
+    case Status::kOutOfMemory:
+      return "out_of_memory";
     case Status::kBadOutput:
       return "bad_output";
     case Status::kSkipped:
       return "skipped";
   }
   return "failed";
+}
+
+std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion) {
+  const std::unique_ptr<TaskWorld> world = task.MakeWorld(key, keeps_motion);
+  const std::optional<std::string> why_skipped = world->WhySkipped();
+  std::vector<CellResult> cells;
+  for (std::size_t method = 0; method < methods; ++method) {
+    cells.push_back(why_skipped ? CellResult::Ended(Status::kSkipped, *why_skipped) : world->Run(method));
+  }
+  return cells;
 }
 
 }  // namespace etude

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/files/json.h"
 #include "bench/tasks/base/clip_library.h"
 #include "engine/document/fields.h"
 #include "sim/random/stream.h"
@@ -14,7 +15,7 @@
 namespace etude {
 
 /// How a cell (world × method) ended. Every cell becomes a row with one of these.
-enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kBadOutput, kSkipped };
+enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
 
 std::string_view StatusName(Status status);
 
@@ -66,25 +67,76 @@ struct CellResult {
   void Missing(std::string id, std::string why) { metrics.push_back({std::move(id), std::nullopt, std::move(why)}); }
 };
 
+/// A file that goes with a problem or its truth, such as a picture.
+struct Attachment {
+  std::string name;  ///< as the JSON beside it names it: a plain file name
+  std::string bytes;
+};
+
+/// What a method outside the program is given of a world, or what is true about it (docs/outside-methods.md).
+struct Exhibit {
+  std::unique_ptr<Json> json;  ///< never null
+  std::vector<Attachment> files;
+};
+
+/// One world, built once, in which methods run one after the other. What a method answers depends on the
+/// world and on the method, never on which others ran before; stages that methods share are computed once.
+class TaskWorld {
+ public:
+  virtual ~TaskWorld() = default;
+
+  /// Why no method can run here ("clip x has no labelled moves"), else nothing: then every cell is skipped.
+  virtual std::optional<std::string> WhySkipped() const { return std::nullopt; }
+
+  /// Runs a built-in method: its index in TaskInput::methods.
+  virtual CellResult Run(std::size_t method) = 0;
+
+  /// What a method outside is asked here, beside Task::Setting.
+  virtual Result<Exhibit> MakeProblem() = 0;
+  /// What `etude export` writes apart from the problem.
+  virtual Result<Exhibit> MakeTruth() = 0;
+  /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is
+  /// an Error that names where in the answer (e.g. "angles[3]"), what was found, and what is allowed.
+  virtual Result<CellResult> Judge(const Json& answer) = 0;
+};
+
 /// One scenario under one condition (one value of each swept parameter), ready to run any trial.
 class Task {
  public:
   virtual ~Task() = default;
 
-  /// Builds the world of `key` once and runs every method in it: one result per method, in order.
-  /// A pure function of its arguments.
-  virtual std::vector<CellResult> RunWorld(const WorldKey& key) const = 0;
+  /// Builds the world of `key`, a pure function of its arguments. `keeps_motion`: cells fill CellResult::recording.
+  /// The task must outlive its worlds.
+  virtual std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const = 0;
 
   /// The name of the clip that this trial uses, or "" for tasks without clips.
   virtual std::string ClipOf(const WorldKey& key) const = 0;
+
+  /// What all problems of this condition share (the body's tree, the library of clips, …): told to methods
+  /// outside once, before their first problem.
+  virtual Result<Exhibit> Setting() const = 0;
+
+  /// What a method that gave no answer is credited with, where failing has a value: 0 for a solved share, twice
+  /// the limit for a penalised cost (PAR-2). Nothing for every other metric: its value is missing.
+  virtual std::optional<double> ValueOfFailure(std::string_view /*metric*/) const { return std::nullopt; }
 };
+
+/// Every method of a world, in order; those of a world to be skipped are.
+std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion = false);
 
 /// What a scenario gives a task to make itself from.
 struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  bool wants_recordings = false;  ///< fill CellResult::recording
+};
+
+/// A key of a scenario file, for the reference page and for complaints.
+struct KeyInfo {
+  std::string key;
+  std::string allowed;   ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
+  std::string fallback;  ///< what an absent key means, as one would write it; "" = it must be there
+  std::string meaning;   ///< one sentence
 };
 
 /// A kind of question that can be asked: one entry per folder of bench/tasks.
@@ -92,9 +144,12 @@ struct TaskKind {
   std::string name;
   std::string question;                      ///< one line, for `etude list`
   std::vector<std::string> default_metrics;  ///< the headline metrics of a report, most important first
+  std::vector<std::string> metrics;          ///< all that its cells report, value or reason
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
-  /// The keys of its methods beside `name`, each with what it may say, for `etude list methods`.
-  std::vector<std::pair<std::string, std::string>> method_keys = {};
+  std::vector<KeyInfo> condition_keys;  ///< its keys of a scenario
+  std::vector<KeyInfo> method_keys;     ///< its keys of a method, beside `name`
+  /// What its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
+  std::string (*platform)() = nullptr;
 };
 
 }  // namespace etude

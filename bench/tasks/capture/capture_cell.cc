@@ -3,17 +3,17 @@
 #include <algorithm>
 
 #include "bench/metrics/pose_error.h"
+#include "bench/metrics/share.h"
 #include "bench/tasks/capture/measure.h"
 #include "bench/tasks/capture/recording_extras.h"
 #include "bench/tasks/capture/recover.h"
 #include "engine/base/digest.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "engine/motion/bvh.h"
+#include "engine/motion/from_body.h"
 
 namespace etude {
 namespace {
-
-constexpr int kLongestGap = 15;  // frames: half a second may pass before a mark is out of date
 
 struct Mean {
   double sum = 0;
@@ -24,11 +24,6 @@ struct Mean {
     ++count;
   }
 };
-
-void MeasureMean(const char* id, const Mean& mean, const char* why_missing, CellResult& cell) {
-  if (mean.count == 0) return cell.Missing(id, why_missing);
-  cell.Measure(id, mean.sum / mean.count);
-}
 
 void MeasureOptional(const char* id, const std::optional<double>& value, const char* why_missing, CellResult& cell) {
   if (value) return cell.Measure(id, *value);
@@ -43,67 +38,29 @@ void ReportMasks(const MaskScore& score, CellResult& cell) {
   MeasureOptional("shadow_error", score.shadow_error, "no picture shows a shadow", cell);
 }
 
-// Calibrates every camera; the cell fails with the reason when one cannot be.
-std::optional<std::vector<ProjectionMatrix>> CalibrateCameras(const CaptureWorld& world, const CaptureMethod& method,
-                                                              CellResult& cell) {
-  std::vector<ProjectionMatrix> matrices;
-  Digest digest;
-  double rms_px = 0;
-  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    if (method.oracle.calibration) {
-      matrices.push_back(MatrixOf(world.cameras[i]));
-    } else {
-      const auto matrix = Calibrate(world.calibration_pairs[i], method.calibration);
-      if (!matrix) {
-        cell = CellResult::Ended(Status::kFailed, fmt::format("camera {}: {}", i + 1, matrix.error().message));
-        return std::nullopt;
-      }
-      matrices.push_back(*matrix);
-    }
-    for (const auto& row : matrices.back().h) digest.Add(std::span<const double>(row));
-    rms_px += ReprojectionRms(matrices.back(), world.calibration_pairs[i]) / static_cast<double>(world.cameras.size());
-  }
-  cell.digests.emplace_back("calibration", digest.Hex());
-  cell.Measure("reprojection_rms_px", rms_px);
-  return matrices;
-}
-
-void Add(const std::optional<glm::dvec3>& v, Digest& digest) {
-  digest.Add(static_cast<std::int64_t>(v.has_value()));
-  if (v) digest.Add(v->x).Add(v->y).Add(v->z);
-}
-
 void Add(const BodyPose& pose, Digest& digest) {
   for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
 }
 
-// Measures every frame, and what the measurements are worth.
-std::vector<FrameMeasurement> MeasureFrames(const CaptureWorld& world, const Observation& observation,
-                                            const std::vector<ProjectionMatrix>& matrices, const Oracle& oracle,
-                                            const std::vector<bool>& marked, CellResult& cell) {
-  std::vector<FrameMeasurement> frames;
-  Digest directions, points;
-  Mean direction_error_deg, point_error_mm;
-  for (std::size_t k = 0; k < world.truth.size(); ++k) {
-    const FrameMeasurement truth = TrueMeasurement(world.truth[k]);
-    FrameMeasurement frame = MeasureFrame(observation.marks[0][k], matrices[0], observation.marks[1][k], matrices[1]);
-    if (oracle.directions && marked[k]) frame.directions = truth.directions;
-    if (oracle.points && marked[k]) frame.ends = truth.ends;
-    for (std::size_t i = 0; i < kRoleCount; ++i) {
-      Add(frame.directions[i], directions);
-      Add(frame.ends[i], points);
-      if (frame.directions[i] && truth.directions[i]) {
-        direction_error_deg.Add(Degrees(AngleBetween(*frame.directions[i], *truth.directions[i])));
-      }
-      if (frame.ends[i]) point_error_mm.Add(1000 * glm::distance(*frame.ends[i], *truth.ends[i]));
-    }
-    frames.push_back(frame);
-  }
-  cell.digests.emplace_back("directions", directions.Hex());
-  cell.digests.emplace_back("points", points.Hex());
-  MeasureMean("limb_direction_error_deg", direction_error_deg, "no limb was marked in both pictures", cell);
-  MeasureMean("triangulation_error_mm", point_error_mm, "no end effector was marked in both pictures", cell);
-  return frames;
+const Observation& ObservationBy(const Take& take, const PersonSource& source) {
+  return *std::find_if(take.observations.begin(), take.observations.end(),
+                       [&](const Observation& observation) { return observation.source == source; });
+}
+
+void ReportStages(const CalibratedCameras& cameras, const Take& take, const Observation& observation,
+                  const MeasuredTake& measured, CellResult& cell) {
+  cell.digests = {{"calibration", cameras.digest},
+                  {"pictures", take.pictures_digest},
+                  {"masks", observation.masks_digest},
+                  {"marks", observation.marks_digest},
+                  {"directions", measured.directions_digest},
+                  {"points", measured.points_digest}};
+  cell.Measure("reprojection_rms_px", cameras.reprojection_rms_px);
+  ReportMasks(observation.score, cell);
+  MeasureOptional("limb_direction_error_deg", measured.directions.mean, "no limb was marked in both pictures", cell);
+  MeasureOptional("limb_direction_coverage", measured.directions.coverage, "no limb has a direction", cell);
+  MeasureOptional("triangulation_error_mm", measured.points.mean, "no end effector was marked in both pictures", cell);
+  MeasureOptional("triangulation_coverage", measured.points.coverage, "there are no end effectors", cell);
 }
 
 // "the left hand was never marked in both pictures", for the first thing that is never measured.
@@ -126,8 +83,37 @@ std::string ReasonForNoSkeleton(std::span<const FrameMeasurement> frames) {
   return "no skeleton: no frame has all its marks within half a second, or its limbs fit no body";
 }
 
+constexpr const char* kNoStages = "only a built-in method's stages tell";
+
+constexpr std::array kStageMetrics = {"reprojection_rms_px",
+                                      "iou",
+                                      "mask_precision",
+                                      "mask_recall",
+                                      "mask_f1",
+                                      "shadow_error",
+                                      "limb_direction_error_deg",
+                                      "limb_direction_coverage",
+                                      "triangulation_error_mm",
+                                      "triangulation_coverage"};
+
 constexpr std::array kPoseMetrics = {"mpjpe_mm",  "mpjpe_before_ik_mm",   "pa_mpjpe_mm",      "pck_50mm",
                                      "auc_200mm", "bone_length_error_cm", "position_error_cm"};
+
+/// The errors of final poses; those before inverse kinematics only where there were such.
+void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellResult& cell) {
+  cell.Measure("mpjpe_mm", after.mpjpe_mm);
+  if (before != nullptr) {
+    cell.Measure("mpjpe_before_ik_mm", before->mpjpe_mm);
+  } else {
+    cell.Missing("mpjpe_before_ik_mm", kNoStages);
+  }
+  cell.Measure("pa_mpjpe_mm", after.pa_mpjpe_mm);
+  cell.Measure("pck_50mm", after.pck_50mm);
+  cell.Measure("auc_200mm", after.auc_200mm);
+  cell.Measure("bone_length_error_cm", after.bone_length_error_cm);
+  cell.series.push_back({"mpjpe_mm", "frame", after.frame_mpjpe_mm});
+  if (before != nullptr) cell.series.push_back({"mpjpe_before_ik_mm", "frame", before->frame_mpjpe_mm});
+}
 
 void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& frames, CellResult& cell) {
   std::vector<BodyPose> fixed, poses;
@@ -140,18 +126,20 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
     Add(frame.pose, pose_digest);
     if (frame.effector_error_cm) effector_error_cm.Add(*frame.effector_error_cm);
   }
-  const PoseErrors before = ComparePoses(fixed, world.truth), after = ComparePoses(poses, world.truth);
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
-  cell.Measure("mpjpe_mm", after.mpjpe_mm);
-  cell.Measure("mpjpe_before_ik_mm", before.mpjpe_mm);
-  cell.Measure("pa_mpjpe_mm", after.pa_mpjpe_mm);
-  cell.Measure("pck_50mm", after.pck_50mm);
-  cell.Measure("auc_200mm", after.auc_200mm);
-  cell.Measure("bone_length_error_cm", after.bone_length_error_cm);
+  const PoseErrors before = ComparePoses(fixed, world.truth);
+  ReportJointErrors(ComparePoses(poses, world.truth), &before, cell);
   cell.Measure("position_error_cm", effector_error_cm.sum / effector_error_cm.count);
-  cell.series.push_back({"mpjpe_mm", "frame", after.frame_mpjpe_mm});
-  cell.series.push_back({"mpjpe_before_ik_mm", "frame", before.frame_mpjpe_mm});
+}
+
+RecordingExtras DescribeStage(const CaptureWorld& world) {
+  RecordingExtras extras;
+  extras.texture_seed = world.room.texture_seed;
+  extras.casts_shadows = world.room.casts_shadows;
+  extras.colours = world.colours;
+  extras.brightness = world.brightness;
+  return extras;
 }
 
 Recording MakeRecording(const CaptureWorld& world, const Observation& observation, const KinematicTree& body,
@@ -162,11 +150,7 @@ Recording MakeRecording(const CaptureWorld& world, const Observation& observatio
     recovered.motion.poses.push_back(frame.pose);
     states.push_back(frame.state);
   }
-  RecordingExtras extras;
-  extras.texture_seed = world.room.texture_seed;
-  extras.casts_shadows = world.room.casts_shadows;
-  extras.colours = world.colours;
-  extras.brightness = world.brightness;
+  RecordingExtras extras = DescribeStage(world);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
     extras.views.push_back({world.cameras[i], observation.masks[i]});
   }
@@ -174,41 +158,75 @@ Recording MakeRecording(const CaptureWorld& world, const Observation& observatio
   return {{std::move(truth), std::move(recovered)}, WriteRecordingExtras(extras)};
 }
 
-}  // namespace
-
-PersonSource PersonSourceOf(const CaptureMethod& method) {
-  if (method.oracle.segmentation) return {.segmenter = Segmenter::kHue, .is_truth = true};
-  return {.segmenter = method.segmenter, .is_truth = false};
+/// What an answer alone can show: nothing was cut out.
+Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
+  const BodyMotion found{kJudgedRateHz, poses};
+  RecordingExtras extras = DescribeStage(world);
+  for (const Camera& camera : world.cameras) {
+    const Mask nothing(camera.intrinsics.width / 2, camera.intrinsics.height / 2);
+    extras.views.push_back({camera, std::vector<Mask>(poses.size(), nothing)});
+  }
+  extras.bvh = WriteBvh(ToClip(found, "recovered"));
+  return {{{"truth", {kJudgedRateHz, world.truth}}, {"recovered", found}}, WriteRecordingExtras(extras)};
 }
 
-CellResult RunCaptureCell(const CaptureWorld& world, const Take& take, const Observation& observation,
-                          const StudioOptions& options, const CaptureMethod& method, bool wants_recording) {
-  CellResult cell;
-  const auto matrices = CalibrateCameras(world, method, cell);
-  if (!matrices) return cell;
-  cell.digests.emplace_back("pictures", take.pictures_digest);
-  cell.digests.emplace_back("masks", observation.masks_digest);
-  cell.digests.emplace_back("marks", observation.marks_digest);
-  ReportMasks(observation.score, cell);
+/// As HoldFrames: where there is no pose, the last one before it, or the first.
+std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
+  std::vector<BodyPose> held;
+  const auto first = std::find_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });
+  for (const auto& pose : answer) held.push_back(pose ? *pose : held.empty() ? **first : held.back());
+  return held;
+}
 
-  std::vector<bool> marked(world.truth.size());
-  for (std::size_t k = 0; k < marked.size(); ++k) marked[k] = k % static_cast<std::size_t>(options.mark_every) == 0;
-  const auto measured = MeasureFrames(world, observation, *matrices, method.oracle, marked, cell);
-  const auto seen = BridgeGaps(measured, std::max(kLongestGap, options.mark_every));
+}  // namespace
+
+CellResult RunCaptureCell(CaptureStages& stages, const CaptureMethod& method, bool keeps_motion) {
+  const CaptureWorld& world = stages.world();
+  const auto cameras = stages.GetCameras(method);
+  if (!cameras) return CellResult::Ended(Status::kFailed, cameras.error().message);
+  const auto take = stages.GetTake();
+  if (!take) return CellResult::Ended(Status::kFailed, take.error().message);
+  const Observation& observation = ObservationBy(**take, PersonSourceOf(method));
+  const MeasuredTake& measured = stages.GetMeasured(method, **cameras, observation);
+  CellResult cell;
+  ReportStages(**cameras, **take, observation, measured, cell);
 
   const KinematicTree body = MakeBodyTree(world.lengths);
-  const auto recovered = RecoverFrames(body, world.lengths, seen, marked, *method.solver, method.ik);
+  const auto recovered = RecoverFrames(body, world.lengths, measured.seen, stages.marked(), *method.solver, method.ik);
   const auto count = std::count_if(recovered.begin(), recovered.end(), [](const auto& f) { return f.has_value(); });
-  cell.Measure("frames_recovered", static_cast<double>(count) / static_cast<double>(recovered.size()));
+  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(recovered.size())));
   if (count == 0) {
     cell.status = Status::kFailed;
-    cell.reason = ReasonForNoSkeleton(measured);
+    cell.reason = ReasonForNoSkeleton(measured.frames);
     for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
     return cell;
   }
   const std::vector<RecoveredFrame> frames = HoldFrames(recovered);
   ReportPoses(world, frames, cell);
-  if (wants_recording) cell.recording = MakeRecording(world, observation, body, frames, method.name);
+  if (keeps_motion) cell.recording = MakeRecording(world, observation, body, frames, method.name);
+  cell.status = Status::kOk;
+  cell.reason.clear();
+  return cell;
+}
+
+CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion) {
+  CellResult cell;
+  for (const char* id : kStageMetrics) cell.Missing(id, kNoStages);
+  const auto count = std::count_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });
+  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(answer.size())));
+  if (count == 0) {
+    cell.status = Status::kFailed;
+    cell.reason = "no frame has a pose";
+    for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
+    return cell;
+  }
+  const std::vector<BodyPose> poses = HoldPoses(answer);
+  Digest digest;
+  for (const BodyPose& pose : poses) Add(pose, digest);
+  cell.digests = {{"pose", digest.Hex()}};
+  ReportJointErrors(ComparePoses(poses, world.truth), nullptr, cell);
+  cell.Missing("position_error_cm", kNoStages);
+  if (keeps_motion) cell.recording = MakeRecording(world, poses);
   cell.status = Status::kOk;
   cell.reason.clear();
   return cell;

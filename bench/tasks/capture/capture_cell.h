@@ -1,21 +1,16 @@
 #pragma once
 
-#include <vector>
-
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_world.h"
-#include "bench/tasks/capture/film.h"
-#include "engine/kinematics/tree.h"
+#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/exchange.h"
 
 namespace etude {
 
-/// Runs one method on what was filmed and measures it. `observation` is the take's for this method's way
-/// of cutting out the person.
-CellResult RunCaptureCell(const CaptureWorld& world, const Take& take, const Observation& observation,
-                          const StudioOptions& options, const CaptureMethod& method, bool wants_recording);
+/// Runs one method in one world and measures it. `keeps_motion`: with a recording (recording_extras.h).
+CellResult RunCaptureCell(CaptureStages& stages, const CaptureMethod& method, bool keeps_motion);
 
-/// How the method cuts out the person.
-PersonSource PersonSourceOf(const CaptureMethod& method);
+/// Scores an answer of a method outside likewise; its recording shows no masks, its BVH file no turning joints.
+CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
 
 }  // namespace etude

@@ -83,15 +83,32 @@ Result<std::vector<CaptureMethod>> ReadCaptureMethods(std::span<const Node> meth
   return read;
 }
 
-std::vector<std::pair<std::string, std::string>> CaptureMethodKeys() {
-  return {{"segmenter", Join(SegmenterNames())},
-          {"calibration", Join(CalibrationNames())},
-          {"solver", Join(IkSolverNames())},
-          {"weights", Join(WeightRuleNames())},
-          {"refresh", Join(WeightRefreshNames())},
-          {"tolerance_deg", "how far an angle may leave the one seen in the images; absent: as far as it likes"},
-          {"max_sweeps", "the solver's steps per frame, at most; default 100"},
-          {"oracle", "stages replaced by the truth, a list of " + Join(kOracles)}};
+std::vector<KeyInfo> CaptureConditionKeys() {
+  return {{"duration_s", "0.1…60", "2", "Length of the filmed window."},
+          {"camera_angles_deg", "two of −180…180", "[-40, 40]",
+           "Where the cameras stand about the performer: 0 = in front, positive = to the performer's left."},
+          {"camera_heights_m", "two of 0.2…5", "[1.0, 2.2]", "How high the cameras stand."},
+          {"camera_distance_m", "2…10", "3.8", "From the middle of the stage."},
+          {"clothes", "studio, everyday", "studio",
+           "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."},
+          {"light_drift", "0…0.5", "0.06", "Largest relative change of the lamp's brightness."},
+          {"camera_noise", "0…20", "1", "Multiplies the camera's usual noise."},
+          {"calibration_pairs", "6…1000", "24", "Measured points per camera."},
+          {"calibration_noise_px", "0…20", "0.5", "Standard deviation of a calibration point's pixel, in u and in v."},
+          {"annotation_error_px", "0…50", "2", "Standard deviation of the human's marks, in u and in v."},
+          {"mark_every", "1…300", "1", "The human marks every n-th frame; what lies between is interpolated."}};
+}
+
+std::vector<KeyInfo> CaptureMethodKeys() {
+  return {
+      {"segmenter", Join(SegmenterNames()), "hue", "How the person is cut out of the pictures."},
+      {"calibration", Join(CalibrationNames()), "dlt", "How a camera is computed from its calibration points."},
+      {"solver", Join(IkSolverNames()), "ccd", "How inverse kinematics finds the angles."},
+      {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes."},
+      {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them."},
+      {"tolerance_deg", "0…360", "(no bound)", "How far an angle may leave the one seen in the images."},
+      {"max_sweeps", "1…100000", "100", "The solver's steps per frame, at most."},
+      {"oracle", "a list of " + Join(kOracles), "[]", "Stages replaced by the truth."}};
 }
 
 }  // namespace etude

@@ -2,9 +2,9 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "bench/tasks/base/task.h"
 #include "engine/cameras/dlt.h"
 #include "engine/document/fields.h"
 #include "engine/kinematics/solvers.h"
@@ -61,7 +61,8 @@ StudioOptions ReadStudioOptions(Fields& condition);
 /// `max_sweeps`, `oracle`.
 Result<std::vector<CaptureMethod>> ReadCaptureMethods(std::span<const Node> methods);
 
-/// The keys of a method with what they may say.
-std::vector<std::pair<std::string, std::string>> CaptureMethodKeys();
+/// What the two functions above read, for the reference page.
+std::vector<KeyInfo> CaptureConditionKeys();
+std::vector<KeyInfo> CaptureMethodKeys();
 
 }  // namespace etude

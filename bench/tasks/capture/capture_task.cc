@@ -1,76 +1,108 @@
 #include "bench/tasks/capture/capture_task.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "bench/tasks/capture/capture_cell.h"
 #include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_world.h"
-#include "bench/tasks/capture/film.h"
+#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/exchange.h"
 
 namespace etude {
 namespace {
 
+/// Everything that the worlds of one condition have in common.
+struct CaptureStudy {
+  StudioOptions options;
+  std::vector<CaptureMethod> methods;
+  std::vector<PersonSource> sources;  ///< of all methods, each once: those that cut out alike see the same marks
+  ClipLibrary clips;
+};
+
+class CaptureTaskWorld : public TaskWorld {
+ public:
+  CaptureTaskWorld(const CaptureStudy& study, const LibraryClip& clip, const WorldKey& key, bool keeps_motion)
+      : study_(study),
+        key_(key),
+        stages_(study.options, clip, key, study.sources, keeps_motion),
+        keeps_motion_(keeps_motion) {}
+
+  CellResult Run(std::size_t method) override { return RunCaptureCell(stages_, study_.methods[method], keeps_motion_); }
+
+  Result<Exhibit> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
+  Result<Exhibit> MakeTruth() override { return MakeCaptureTruth(stages_); }
+
+  Result<CellResult> Judge(const Json& json) override {
+    const auto answer = ReadCaptureAnswer(json, stages_.world().truth.size());
+    if (!answer) return tl::unexpected(answer.error());
+    return ScoreCaptureAnswer(stages_.world(), *answer, keeps_motion_);
+  }
+
+ private:
+  const CaptureStudy& study_;
+  const WorldKey key_;
+  CaptureStages stages_;
+  const bool keeps_motion_;
+};
+
 class CaptureTask : public Task {
  public:
-  CaptureTask(StudioOptions options, std::vector<CaptureMethod> methods, ClipLibrary clips, bool wants_recordings)
-      : options_(std::move(options)),
-        methods_(std::move(methods)),
-        clips_(std::move(clips)),
-        wants_recordings_(wants_recordings) {}
+  explicit CaptureTask(CaptureStudy study) : study_(std::move(study)) {}
 
-  std::vector<CellResult> RunWorld(const WorldKey& key) const override {
-    auto renderer = Renderer::Create();
-    if (!renderer) {
-      return std::vector<CellResult>(methods_.size(), CellResult::Ended(Status::kFailed, renderer.error().message));
-    }
-    const CaptureWorld world = MakeCaptureWorld(options_, ClipFor(key), key);
-    // Methods that cut out the person alike see the very same marks.
-    std::vector<PersonSource> sources;
-    for (const CaptureMethod& method : methods_) {
-      const PersonSource source = PersonSourceOf(method);
-      if (std::find(sources.begin(), sources.end(), source) == sources.end()) sources.push_back(source);
-    }
-    const Take take = Film(world, options_, key, sources, wants_recordings_, **renderer);
-    std::vector<CellResult> cells;
-    for (const CaptureMethod& method : methods_) {
-      const auto source = std::find(sources.begin(), sources.end(), PersonSourceOf(method));
-      const Observation& observation = take.observations[static_cast<std::size_t>(source - sources.begin())];
-      cells.push_back(RunCaptureCell(world, take, observation, options_, method, wants_recordings_));
-    }
-    return cells;
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
+    return std::make_unique<CaptureTaskWorld>(study_, ClipFor(key), key, keeps_motion);
   }
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
- private:
-  const LibraryClip& ClipFor(const WorldKey& key) const {
-    return clips_.clips[static_cast<std::size_t>(key.trial) % clips_.clips.size()];
+  Result<Exhibit> Setting() const override { return Exhibit{std::make_unique<Json>(DescribeStudio()), {}}; }
+
+  std::optional<double> ValueOfFailure(std::string_view metric) const override {
+    if (metric == "frames_recovered") return 0;
+    return std::nullopt;
   }
 
-  const StudioOptions options_;
-  const std::vector<CaptureMethod> methods_;
-  const ClipLibrary clips_;
-  const bool wants_recordings_;
+ private:
+  const LibraryClip& ClipFor(const WorldKey& key) const {
+    return study_.clips.clips[static_cast<std::size_t>(key.trial) % study_.clips.clips.size()];
+  }
+
+  const CaptureStudy study_;
 };
 
 Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
-  StudioOptions options = ReadStudioOptions(input.condition);
+  CaptureStudy study;
+  study.options = ReadStudioOptions(input.condition);
   auto methods = ReadCaptureMethods(input.methods);
   if (!methods) return tl::unexpected(methods.error());
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
-  return std::make_unique<CaptureTask>(std::move(options), *std::move(methods), input.clips, input.wants_recordings);
+  study.methods = *std::move(methods);
+  for (const CaptureMethod& method : study.methods) {
+    const PersonSource source = PersonSourceOf(method);
+    const bool known = std::find(study.sources.begin(), study.sources.end(), source) != study.sources.end();
+    if (!known) study.sources.push_back(source);
+  }
+  study.clips = input.clips;
+  return std::make_unique<CaptureTask>(std::move(study));
 }
 
 }  // namespace
 
 TaskKind MakeCaptureTaskKind() {
-  return {"capture",
-          "How close does the skeleton that two cameras see come to the true one?",
-          {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm", "frames_recovered"},
-          MakeCaptureTask,
-          CaptureMethodKeys()};
+  return {.name = "capture",
+          .question = "How close does the skeleton that two cameras see come to the true one?",
+          .default_metrics = {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm",
+                              "frames_recovered"},
+          .metrics = {"reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
+                      "limb_direction_error_deg", "limb_direction_coverage", "triangulation_error_mm",
+                      "triangulation_coverage", "frames_recovered", "mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm",
+                      "pck_50mm", "auc_200mm", "bone_length_error_cm", "position_error_cm"},
+          .make = MakeCaptureTask,
+          .condition_keys = CaptureConditionKeys(),
+          .method_keys = CaptureMethodKeys(),
+          .platform = RendererVersion};
 }
 
 }  // namespace etude

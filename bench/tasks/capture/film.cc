@@ -54,10 +54,7 @@ class Crew {
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    Room room = world_.room;
-    room.brightness *= world_.brightness[frame];
-    const Figure performer{BodyCapsules(world_.truth[frame]), world_.colours};
-    const View view = renderer_.Render(room, {performer}, world_.cameras[camera], Targets::kAll);
+    const View view = RenderFrame(world_, camera, frame, renderer_);
     return {
         WithNoise(view.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)),
         MaskWhere(view.labels, [](std::uint32_t label) { return label >= kFirstBodyPart; }),
@@ -97,11 +94,24 @@ class Crew {
 
 }  // namespace
 
+View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer) {
+  Room room = world.room;
+  room.brightness *= world.brightness[frame];
+  const Figure performer{BodyCapsules(world.truth[frame]), world.colours};
+  return renderer.Render(room, {performer}, world.cameras[camera], Targets::kAll);
+}
+
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
-          std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer) {
+          std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink) {
   Crew crew(world, options, key, renderer);
   Digest pictures;
-  for (const ColourImage& background : crew.backgrounds()) AddPicture(background, pictures);
+  const auto show = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
+    AddPicture(picture, pictures);
+    if (sink) sink(camera, frame, picture);
+  };
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    show(camera, std::nullopt, crew.backgrounds()[camera]);
+  }
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
@@ -115,7 +125,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const Crew::Picture picture = crew.Shoot(camera, frame);
-      AddPicture(picture.colour, pictures);
+      show(camera, frame, picture.colour);
       for (std::size_t i = 0; i < sources.size(); ++i) {
         Observation& observation = take.observations[i];
         const Mask person = crew.CutOut(picture, camera, sources[i]);

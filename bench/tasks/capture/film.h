@@ -1,5 +1,8 @@
 #pragma once
 
+#include <compare>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,7 +18,7 @@ namespace etude {
 struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   bool is_truth = false;
-  friend bool operator==(const PersonSource&, const PersonSource&) = default;
+  auto operator<=>(const PersonSource&) const = default;
 };
 
 /// What one way of cutting out the person makes of a take. Indices: [camera][frame].
@@ -33,9 +36,15 @@ struct Take {
   std::vector<Observation> observations;  ///< one per source asked for, in that order
 };
 
+/// Takes each picture as it is shot, because there are too many to keep. `frame` is empty for the background.
+using PictureSink = std::function<void(std::size_t camera, std::optional<std::size_t> frame, const ColourImage&)>;
+
 /// Films the world and shows the pictures to the human: every picture is rendered once, cut out by each of
 /// `sources`, and marked on each cut-out with the same dice.
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
-          std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer);
+          std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink = {});
+
+/// What a camera without noise would see in a frame, with labels and depth.
+View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer);
 
 }  // namespace etude

@@ -2,43 +2,59 @@
 
 #include <fmt/format.h>
 
-#include "bench/tasks/detection/judge.h"
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/task_world.h"
 #include "bench/tasks/detection/world.h"
 
 namespace etude {
 namespace {
 
+/// A trial whose turn falls on a clip that nobody labelled.
+class UnlabelledWorld final : public TaskWorld {
+ public:
+  explicit UnlabelledWorld(const std::string& clip)
+      : reason_(fmt::format("clip {} has no labelled moves: detection needs to know what was danced", clip)) {}
+
+  std::optional<std::string> WhySkipped() const override { return reason_; }
+  CellResult Run(std::size_t) override { return CellResult::Ended(Status::kSkipped, reason_); }
+  Result<Exhibit> MakeProblem() override { return Fail({}, "{}", reason_); }
+  Result<Exhibit> MakeTruth() override { return Fail({}, "{}", reason_); }
+  Result<CellResult> Judge(const Json&) override { return Fail({}, "{}", reason_); }
+
+ private:
+  std::string reason_;
+};
+
 class DetectionTask final : public Task {
  public:
-  DetectionTask(const DetectionOptions& options, std::vector<DetectionMethod> methods, const ClipLibrary& clips,
-                bool wants_recordings)
-      : options_(options),
-        methods_(std::move(methods)),
-        repertoire_(RepertoireOf(clips)),
-        wants_recordings_(wants_recordings) {
+  DetectionTask(const DetectionOptions& options, std::vector<DetectionMethod> methods, const ClipLibrary& clips)
+      : options_(options), methods_(std::move(methods)), repertoire_(RepertoireOf(clips)) {
     for (const LibraryClip& clip : clips.clips) clips_.push_back({clip.name, clip.move.has_value()});
   }
 
-  std::vector<CellResult> RunWorld(const WorldKey& key) const override {
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
     const TrialClip& clip = ClipAt(key);
-    if (!clip.is_labelled) {
-      const std::string reason =
-          fmt::format("clip {} has no labelled moves: detection needs to know what was danced", clip.name);
-      return std::vector<CellResult>(methods_.size(), Skip(reason));
-    }
-    const DetectionWorld world = MakeDetectionWorld(repertoire_, options_, key);
-    const StageDigests world_digests = WorldDigests(world);
-    std::vector<CellResult> results;
-    for (const DetectionMethod& method : methods_) results.push_back(RunMethod(world, world_digests, method));
-    return results;
+    if (!clip.is_labelled) return std::make_unique<UnlabelledWorld>(clip.name);
+    return std::make_unique<DetectionTaskWorld>(methods_, repertoire_, MakeDetectionWorld(repertoire_, options_, key),
+                                                keeps_motion);
   }
 
   /// A session mixes all labelled clips, so only a clip that has to be left out is named.
   std::string ClipOf(const WorldKey& key) const override {
     const TrialClip& clip = ClipAt(key);
     return clip.is_labelled ? "" : clip.name;
+  }
+
+  Result<Exhibit> Setting() const override { return ExhibitMoves(repertoire_); }
+
+  std::optional<double> ValueOfFailure(std::string_view metric) const override {
+    const SessionOptions& session = options_.session;  // PlanSession rounds the share to whole events
+    return DetectionFailureValue(metric, std::lround(session.fault_share * session.events) < session.events);
   }
 
  private:
@@ -51,29 +67,10 @@ class DetectionTask final : public Task {
     return clips_[static_cast<std::size_t>(key.trial) % clips_.size()];
   }
 
-  CellResult RunMethod(const DetectionWorld& world, const StageDigests& world_digests,
-                       const DetectionMethod& method) const {
-    const SessionVerdict verdict = JudgeSession(world, repertoire_, method);
-    CellResult result = CellResult::Ended(Status::kOk, "");
-    ScoreSession(world, verdict, result);
-    result.digests = world_digests;
-    for (auto& stage : VerdictDigests(verdict)) result.digests.push_back(std::move(stage));
-    result.series.push_back(ScoreSeries(world, verdict));
-    if (wants_recordings_) result.recording = RecordSession(world, verdict);
-    return result;
-  }
-
-  static CellResult Skip(const std::string& reason) {
-    CellResult result = CellResult::Ended(Status::kSkipped, reason);
-    MissAllDetectionMetrics(reason, result);
-    return result;
-  }
-
   const DetectionOptions options_;
   const std::vector<DetectionMethod> methods_;
   const Repertoire repertoire_;
   std::vector<TrialClip> clips_;
-  const bool wants_recordings_;
 };
 
 Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
@@ -84,16 +81,19 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*']");
   }
-  return std::make_unique<DetectionTask>(options, *std::move(methods), input.clips, input.wants_recordings);
+  return std::make_unique<DetectionTask>(options, *std::move(methods), input.clips);
 }
 
 }  // namespace
 
 TaskKind MakeDetectionTaskKind() {
+  const std::vector<std::string> metrics = DetectionMetrics();
   return {.name = "detection",
           .question = "Does the coach notice which moves were danced right, and how soon?",
-          .default_metrics = {"f1", "precision", "recall", "roc_auc", "latency_s", "false_alarms_per_min"},
+          .default_metrics = metrics,
+          .metrics = metrics,
           .make = MakeDetectionTask,
+          .condition_keys = DetectionConditionKeys(),
           .method_keys = DetectionMethodKeys()};
 }
 

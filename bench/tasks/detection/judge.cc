@@ -3,14 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/metrics/detection.h"
+
 namespace etude {
 namespace {
 
-bool IsPerformance(const std::string& move, int frame, const DetectionWorld& world) {
-  return std::any_of(world.session.events.begin(), world.session.events.end(), [&](const SessionEvent& event) {
-    const Window window = WindowOf(event, world.stream);
-    return (event.move == move || event.danced == move) && frame >= window.begin && frame < window.end;
-  });
+/// A sensor without errors.
+SkeletonStream TrueStream(const BodyMotion& motion) {
+  SkeletonStream stream{.rate_hz = motion.rate_hz, .frames = {}};
+  for (const BodyPose& pose : motion.poses) {
+    SensedFrame& frame = stream.frames.emplace_back();
+    frame.body_seen = true;
+    for (std::size_t i = 0; i < kRoleCount; ++i) frame.joints[i] = {pose.joints[i], TrackingState::kTracked};
+  }
+  return stream;
 }
 
 }  // namespace
@@ -22,12 +28,27 @@ Window WindowOf(const SessionEvent& event, const SkeletonStream& stream) {
   return {begin, end};
 }
 
-SessionVerdict JudgeSession(const DetectionWorld& world, const Repertoire& repertoire, const DetectionMethod& method) {
-  SessionVerdict verdict;
-  verdict.filtered = Smooth(world.stream, method.filter);
-  const std::vector<FeatureFrame> frames = SeeFeatures(verdict.filtered, EstimateStandingHipHeight(verdict.filtered));
-  const std::span<const FeatureFrame> all(frames);
+bool IsPerformance(const std::string& move, int frame, const DetectionWorld& world) {
+  std::vector<MoveWindow> windows;
+  for (const SessionEvent& event : world.session.events) {
+    const Window window = WindowOf(event, world.stream);
+    windows.push_back({event.move, event.danced, window.begin, window.end});
+  }
+  return !IsFalseAlarm(move, frame, windows);
+}
 
+SeenSession SeeSession(const DetectionWorld& world, const DetectionMethod& method) {
+  SeenSession seen;
+  seen.filtered = Smooth(method.sees_truth ? TrueStream(world.session.motion) : world.stream, method.filter);
+  seen.frames = SeeFeatures(seen.filtered, EstimateStandingHipHeight(seen.filtered));
+  return seen;
+}
+
+SessionVerdict JudgeSession(const DetectionWorld& world, const SeenSession& seen, const Repertoire& repertoire,
+                            const DetectionMethod& method) {
+  SessionVerdict verdict;
+  verdict.filtered = seen.filtered;
+  const std::span<const FeatureFrame> all(seen.frames);
   for (const SessionEvent& event : world.session.events) {
     const Window window = WindowOf(event, world.stream);
     verdict.events.push_back(JudgeWindow(all.subspan(window.begin, window.end - window.begin),

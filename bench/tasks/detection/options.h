@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench/tasks/base/task.h"
@@ -31,6 +30,7 @@ struct DetectionOptions {
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
+  bool sees_truth = false;  ///< `oracle: [stream]`
   KeyPoseOptions recogniser;
 };
 
@@ -41,7 +41,8 @@ DetectionOptions ReadDetectionOptions(Fields& condition);
 /// makes these two sweepable.
 Result<std::vector<DetectionMethod>> ReadDetectionMethods(Fields& condition, std::span<const Node> methods);
 
-/// The keys of a method with what they may say.
-std::vector<std::pair<std::string, std::string>> DetectionMethodKeys();
+/// The keys of a scenario and of a method, for the reference page.
+std::vector<KeyInfo> DetectionConditionKeys();
+std::vector<KeyInfo> DetectionMethodKeys();
 
 }  // namespace etude

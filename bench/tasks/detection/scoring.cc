@@ -1,6 +1,5 @@
 #include "bench/tasks/detection/scoring.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/detection.h"
@@ -8,8 +7,6 @@
 
 namespace etude {
 namespace {
-
-constexpr std::array kMetricIds = {"f1", "precision", "recall", "roc_auc", "latency_s", "false_alarms_per_min"};
 
 void MeasureOr(CellResult& result, const char* id, std::optional<double> value, const char* reason) {
   if (value) {
@@ -36,8 +33,8 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
     if (!event.first_right_s) continue;
     const Window window = WindowOf(event, world.stream);
     const std::optional<int>& right_at = verdict.events[i].right_at;
-    const int frame = right_at ? window.begin + *right_at : window.end;
-    waits.push_back({frame / world.stream.rate_hz - *event.first_right_s, right_at.has_value()});
+    const std::optional<int> called = right_at ? std::optional(window.begin + *right_at) : std::nullopt;
+    waits.push_back(WaitForPraise(*event.first_right_s, called, window.end, world.stream.rate_hz));
   }
   return waits;
 }
@@ -75,15 +72,6 @@ std::string EventsDigest(const SessionVerdict& verdict) {
   return digest.Hex();
 }
 
-std::string StateLetters(const SensedFrame& frame) {
-  std::string letters;
-  for (const SensedJoint& joint : frame.joints) {
-    const bool tracked = joint.state == TrackingState::kTracked, inferred = joint.state == TrackingState::kInferred;
-    letters += tracked ? 't' : inferred ? 'i' : 'n';
-  }
-  return letters;
-}
-
 }  // namespace
 
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result) {
@@ -96,12 +84,17 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, Ce
   MeasureOr(result, "roc_auc", RocAuc(events), "all performances were right, or all were wrong");
   MeasureOr(result, "latency_s", KaplanMeierMedian(waits),
             waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
-  const double minutes = world.session.motion.DurationSeconds() / 60.0;
-  result.Measure("false_alarms_per_min", static_cast<double>(verdict.alarms.size()) / minutes);
+  result.Measure("false_alarms_per_min",
+                 FalseAlarmsPerMinute(verdict.alarms.size(), world.session.motion.DurationSeconds()));
 }
 
-void MissAllDetectionMetrics(const std::string& reason, CellResult& result) {
-  for (const char* id : kMetricIds) result.Missing(id, reason);
+std::vector<std::string> DetectionMetrics() {
+  return {"f1", "precision", "recall", "roc_auc", "latency_s", "false_alarms_per_min"};
+}
+
+std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right) {
+  const bool counts_misses = metric == "recall" || metric == "f1";
+  return counts_misses && some_are_right ? std::optional(0.0) : std::nullopt;
 }
 
 StageDigests WorldDigests(const DetectionWorld& world) {
@@ -110,6 +103,15 @@ StageDigests WorldDigests(const DetectionWorld& world) {
 
 StageDigests VerdictDigests(const SessionVerdict& verdict) {
   return {{"filtered", StreamDigest(verdict.filtered)}, {"events", EventsDigest(verdict)}};
+}
+
+std::string StateLetters(const SensedFrame& frame) {
+  std::string letters;
+  for (const SensedJoint& joint : frame.joints) {
+    const bool tracked = joint.state == TrackingState::kTracked, inferred = joint.state == TrackingState::kInferred;
+    letters += tracked ? 't' : inferred ? 'i' : 'n';
+  }
+  return letters;
 }
 
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {

@@ -1,5 +1,11 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/detection/judge.h"
 
@@ -8,8 +14,14 @@ namespace etude {
 /// The metrics of a session (metrics.md, "detection").
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result);
 
-/// Every metric missing, for one reason.
-void MissAllDetectionMetrics(const std::string& reason, CellResult& result);
+/// The ids of all of them, in the order in which they are measured.
+std::vector<std::string> DetectionMetrics();
+
+/// What a method without an answer is credited with (Task::ValueOfFailure): a coach that says nothing praises nobody,
+/// so every right performance is missed: `recall` and `f1` are 0, if some were right. The rest is missing: nothing was
+/// called right (precision), nothing was ranked (roc_auc), no praise came (latency), and no false alarm either, which
+/// is no merit.
+std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right);
 
 using StageDigests = std::vector<std::pair<std::string, std::string>>;
 
@@ -17,6 +29,9 @@ using StageDigests = std::vector<std::pair<std::string, std::string>>;
 StageDigests WorldDigests(const DetectionWorld& world);
 /// Fingerprints of the filtered stream and of the verdicts.
 StageDigests VerdictDigests(const SessionVerdict& verdict);
+
+/// One letter per joint: tracked, inferred, not tracked.
+std::string StateLetters(const SensedFrame& frame);
 
 /// Per frame, how well the move asked for was seen to be danced so far in its window; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);

@@ -21,18 +21,6 @@ double ReadPoseRange(Fields& condition) {
   return share;
 }
 
-// What all methods of a condition share.
-IkOptions ReadCommonOptions(Fields& condition) {
-  IkOptions options;
-  options.max_iterations = condition.Integer("max_sweeps", 200, {1, kMostSweeps});
-  options.trace = true;
-  if (condition.Choice("stop_at", {"practical", "tight"}, "practical") == "tight") {
-    options.position_goal = 1e-5;
-    options.axis_goal = Radians(1e-3);
-  }
-  return options;
-}
-
 Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkTrialOptions& trial) {
   Fields fields(node, "a method of task ik");
   IkMethod method;
@@ -61,9 +49,19 @@ IkTrialOptions ReadIkTrialOptions(Fields& condition) {
   return options;
 }
 
-Result<std::vector<IkMethod>> ReadIkMethods(Fields& condition, std::span<const Node> methods,
+IkOptions ReadIkCommonOptions(Fields& condition) {
+  IkOptions options;
+  options.max_iterations = condition.Integer("max_sweeps", 200, {1, kMostSweeps});
+  options.trace = true;
+  if (condition.Choice("stop_at", {"practical", "tight"}, "practical") == "tight") {
+    options.position_goal = 1e-5;
+    options.axis_goal = Radians(1e-3);
+  }
+  return options;
+}
+
+Result<std::vector<IkMethod>> ReadIkMethods(std::span<const Node> methods, const IkOptions& common,
                                             const IkTrialOptions& trial) {
-  const IkOptions common = ReadCommonOptions(condition);
   std::vector<IkMethod> read;
   for (const Node& node : methods) {
     auto method = ReadMethod(node, common, trial);
@@ -73,13 +71,26 @@ Result<std::vector<IkMethod>> ReadIkMethods(Fields& condition, std::span<const N
   return read;
 }
 
-std::vector<std::pair<std::string, std::string>> IkMethodKeys() {
-  return {{"solver", Join(IkSolverNames())},
-          {"weights", Join(WeightRuleNames())},
-          {"refresh", Join(WeightRefreshNames())},
-          {"limits", "true, false"},
-          {"tolerance_deg", "how far an angle may leave its start; absent: as far as it likes"},
-          {"tolerance_times_noise", "the same, in multiples of joint_noise_deg; paper B's reading: 1.2"}};
+std::vector<KeyInfo> IkConditionKeys() {
+  return {{"poses", "{uniform: 0…1}, or 0…1 alone", "{uniform: 0.5}",
+           "The true pose is drawn from this share of every joint's range, about its middle."},
+          {"joint_noise_deg", "0…180 (degrees)", "15", "How far every angle of the start is from the truth."},
+          {"noise", "gaussian, uniform", "gaussian",
+           "`joint_noise_deg` is the standard deviation, or the largest deviation to either side."},
+          {"max_sweeps", "1…100000", "200", "The limit of a solver's steps."},
+          {"stop_at", "practical, tight", "practical",
+           "Solvers stop when every effector is within 0.1 cm and 0.1°, or within 10⁻³ cm and 10⁻³°."}};
+}
+
+std::vector<KeyInfo> IkMethodKeys() {
+  return {
+      {"solver", Join(IkSolverNames()), "ccd", "How the angles are found."},
+      {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes."},
+      {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them."},
+      {"limits", "true, false", "true", "Whether joint limits are kept."},
+      {"tolerance_deg", "0…360", "(no bound)", "How far an angle may leave its start."},
+      {"tolerance_times_noise", "0…100", "(no bound)",
+       "The same in multiples of joint_noise_deg; paper B's reading: 1.2."}};
 }
 
 }  // namespace etude

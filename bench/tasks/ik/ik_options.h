@@ -31,12 +31,16 @@ struct IkMethod {
 /// Reads the keys `poses`, `joint_noise_deg`, `noise` of a condition; complaints stay in `condition`.
 IkTrialOptions ReadIkTrialOptions(Fields& condition);
 
-/// Reads the methods of a condition: `solver`, `weights`, `refresh`, `limits`, `tolerance_deg`,
-/// `tolerance_times_noise`, and what the condition says for all of them: `max_sweeps`, `stop_at`.
-Result<std::vector<IkMethod>> ReadIkMethods(Fields& condition, std::span<const Node> methods,
+/// Reads what all methods of a condition share: `max_sweeps`, `stop_at`; complaints stay in `condition`.
+IkOptions ReadIkCommonOptions(Fields& condition);
+
+/// Reads the methods: `solver`, `weights`, `refresh`, `limits`, `tolerance_deg`, `tolerance_times_noise`, on top of
+/// what they share.
+Result<std::vector<IkMethod>> ReadIkMethods(std::span<const Node> methods, const IkOptions& common,
                                             const IkTrialOptions& trial);
 
-/// The keys of a method with what they may say.
-std::vector<std::pair<std::string, std::string>> IkMethodKeys();
+/// What the functions above read, for the reference page.
+std::vector<KeyInfo> IkConditionKeys();
+std::vector<KeyInfo> IkMethodKeys();
 
 }  // namespace etude

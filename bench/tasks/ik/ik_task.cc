@@ -1,5 +1,8 @@
 #include "bench/tasks/ik/ik_task.h"
 
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/ik/exchange.h"
 #include "bench/tasks/ik/ik_cell.h"
 #include "bench/tasks/ik/ik_options.h"
 #include "bench/tasks/ik/ik_world.h"
@@ -7,43 +10,88 @@
 namespace etude {
 namespace {
 
+/// Everything that the worlds of one condition have in common.
+struct IkStudy {
+  KinematicTree tree = MakeBodyTree({});
+  IkTrialOptions trial;
+  IkOptions common;
+  std::vector<IkMethod> methods;
+};
+
+Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+
+class IkTaskWorld : public TaskWorld {
+ public:
+  IkTaskWorld(const IkStudy& study, const WorldKey& key, bool keeps_motion)
+      : study_(study), world_(MakeIkWorld(study.tree, study.trial, key)), keeps_motion_(keeps_motion) {}
+
+  CellResult Run(std::size_t method) override {
+    return RunIkCell(study_.tree, world_, study_.methods[method], keeps_motion_);
+  }
+
+  Result<Exhibit> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
+  Result<Exhibit> MakeTruth() override { return Show(DescribeTruth(world_)); }
+
+  Result<CellResult> Judge(const Json& json) override {
+    const auto answer = ReadIkAnswer(json, study_.tree);
+    if (!answer) return tl::unexpected(answer.error());
+    return ScoreIkAnswer(study_.tree, world_, *answer, study_.common.max_iterations, keeps_motion_);
+  }
+
+ private:
+  const IkStudy& study_;
+  const IkWorld world_;
+  const bool keeps_motion_;
+};
+
 class IkTask : public Task {
  public:
-  IkTask(const IkTrialOptions& trial, std::vector<IkMethod> methods, bool wants_recordings)
-      : trial_(trial), methods_(std::move(methods)), wants_recordings_(wants_recordings) {}
+  explicit IkTask(IkStudy study) : study_(std::move(study)) {}
 
-  std::vector<CellResult> RunWorld(const WorldKey& key) const override {
-    const IkWorld world = MakeIkWorld(tree_, trial_, key);
-    std::vector<CellResult> cells;
-    for (const IkMethod& method : methods_) cells.push_back(RunIkCell(tree_, world, method, wants_recordings_));
-    return cells;
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
+    return std::make_unique<IkTaskWorld>(study_, key, keeps_motion);
   }
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
+  Result<Exhibit> Setting() const override {
+    const IkOptions& common = study_.common;
+    return Show(DescribeTree(study_.tree, common.max_iterations, common.position_goal, common.axis_goal));
+  }
+
+  std::optional<double> ValueOfFailure(std::string_view metric) const override {
+    return IkValueOfFailure(metric, study_.common.max_iterations);
+  }
+
  private:
-  const KinematicTree tree_ = MakeBodyTree({});
-  const IkTrialOptions trial_;
-  const std::vector<IkMethod> methods_;
-  const bool wants_recordings_;
+  const IkStudy study_;
 };
 
 Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
-  const IkTrialOptions trial = ReadIkTrialOptions(input.condition);
-  auto methods = ReadIkMethods(input.condition, input.methods, trial);
+  IkStudy study;
+  study.trial = ReadIkTrialOptions(input.condition);
+  study.common = ReadIkCommonOptions(input.condition);
+  auto methods = ReadIkMethods(input.methods, study.common, study.trial);
   if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
   if (!methods) return tl::unexpected(methods.error());
-  return std::make_unique<IkTask>(trial, *std::move(methods), input.wants_recordings);
+  study.methods = *std::move(methods);
+  return std::make_unique<IkTask>(std::move(study));
 }
 
 }  // namespace
 
 TaskKind MakeIkTaskKind() {
-  return {"ik",
-          "How near do the end effectors come to their targets, and how far do the hidden angles stray?",
-          {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg", "solved_practical", "iterations"},
-          MakeIkTask,
-          IkMethodKeys()};
+  return {
+      .name = "ik",
+      .question = "How near do the end effectors come to their targets, and how far do the hidden angles stray?",
+      .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg", "solved_practical",
+                          "iterations"},
+      .metrics = {"position_error_cm", "position_error_max_cm", "orientation_error_deg", "orientation_error_max_deg",
+                  "hidden_angle_error_deg", "hidden_angle_change_deg", "solved_practical", "solved_tight", "iterations",
+                  "iterations_par2", "fk_evaluations", "fk_evaluations_par2"},
+      .make = MakeIkTask,
+      .condition_keys = IkConditionKeys(),
+      .method_keys = IkMethodKeys()};
 }
 
 }  // namespace etude

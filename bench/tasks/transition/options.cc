@@ -15,13 +15,17 @@ std::vector<std::string> NamesOf(const std::array<std::pair<const char*, T>, N>&
 }
 
 template <typename T, std::size_t N>
-T ReadChoice(Fields& fields, std::string_view key, const std::array<std::pair<const char*, T>, N>& known) {
-  const std::vector<std::string> names = NamesOf(known);
-  const std::string chosen = fields.Choice(key, names, names.front());
+T ValueNamed(std::string_view chosen, const std::array<std::pair<const char*, T>, N>& known) {
   for (const auto& [name, value] : known) {
     if (chosen == name) return value;
   }
-  return known.front().second;  // the complaint is kept in `fields`
+  return known.front().second;
+}
+
+template <typename T, std::size_t N>
+T ReadChoice(Fields& fields, std::string_view key, const std::array<std::pair<const char*, T>, N>& known) {
+  const std::vector<std::string> names = NamesOf(known);
+  return ValueNamed(fields.Choice(key, names, names.front()), known);  // a complaint is kept in `fields`
 }
 
 template <typename T, std::size_t N>
@@ -61,22 +65,39 @@ Result<TransitionMethod> ReadMethod(const Node& node, const SwitchRules& default
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> TransitionMethodKeys() {
-  return {{"choice", ListOf(kChoices)},
-          {"join", ListOf(kJoins)},
-          {"weights", ListOf(kWeights)},
-          {"pick", ListOf(kPicks)},
-          {"within_class", "true, false"},
-          {"threshold", "the distance below which two bridge frames match"},
-          {"wait_s", "how long after the request a switch may come"}};
+std::vector<std::string> JoinNames() { return NamesOf(kJoins); }
+
+Join JoinOf(std::string_view name) { return ValueNamed(name, kJoins); }
+
+std::vector<KeyInfo> TransitionConditionKeys() {
+  return {
+      {"threshold", "0…6", "0.4", "Two bridge frames match when their fuzzy distance is below it; for all methods."},
+      {"wait_s", "0…60 (seconds)", "1", "How long after the request a switch may come; for all methods."}};
 }
 
-Result<std::vector<TransitionMethod>> ReadTransitionMethods(Fields& condition, std::span<const Node> methods) {
-  SwitchRules defaults;
-  ReadLimits(condition, defaults);
+std::vector<KeyInfo> TransitionMethodKeys() {
+  return {{"choice", ListOf(kChoices), kChoices.front().first,
+           "Which frames are switched: paper A's matching bridge frames, at once, or after the clip's last frame."},
+          {"join", ListOf(kJoins), kJoins.front().first,
+           "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."},
+          {"weights", ListOf(kWeights), kWeights.front().first,
+           "How much each fuzzy feature counts: as paper A says, or as learnt on all clips but the two judged."},
+          {"pick", ListOf(kPicks), kPicks.front().first, "Which of several matching pairs is taken."},
+          {"within_class", "true, false", "false", "Whether only frames with the same ten tags are compared."},
+          {"threshold", "0…6", "(the scenario's)", "The distance below which two bridge frames match."},
+          {"wait_s", "0…60 (seconds)", "(the scenario's)", "How long after the request a switch may come."}};
+}
+
+SwitchRules ReadCommonRules(Fields& condition) {
+  SwitchRules common;
+  ReadLimits(condition, common);
+  return common;
+}
+
+Result<std::vector<TransitionMethod>> ReadTransitionMethods(const SwitchRules& common, std::span<const Node> methods) {
   std::vector<TransitionMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node, defaults);
+    auto method = ReadMethod(node, common);
     if (!method) return tl::unexpected(method.error());
     read.push_back(*std::move(method));
   }

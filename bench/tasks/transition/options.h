@@ -2,14 +2,20 @@
 
 #include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
+#include "bench/tasks/base/task.h"
 #include "engine/bridging/splice.h"
 #include "engine/bridging/transition.h"
 #include "engine/document/fields.h"
 
 namespace etude {
+
+/// "cut", "inertialised".
+std::vector<std::string> JoinNames();
+/// `name` must be one of JoinNames().
+Join JoinOf(std::string_view name);
 
 /// One way to switch: a choice of frames and a join.
 ///
@@ -22,11 +28,14 @@ struct TransitionMethod {
   SwitchRules rules;  ///< its weights are paper A's; adaptive ones depend on the world
 };
 
-/// The keys of a method with what they may say.
-std::vector<std::pair<std::string, std::string>> TransitionMethodKeys();
+/// The keys of a scenario and of a method, for the reference page.
+std::vector<KeyInfo> TransitionConditionKeys();
+std::vector<KeyInfo> TransitionMethodKeys();
 
-/// Reads the methods. `condition` may give `threshold` and `wait_s` for all of them, which is what
-/// makes those two sweepable.
-Result<std::vector<TransitionMethod>> ReadTransitionMethods(Fields& condition, std::span<const Node> methods);
+/// What a condition says for all methods: `threshold` and `wait_s`, which is what makes those two sweepable.
+/// Complaints stay in `condition`.
+SwitchRules ReadCommonRules(Fields& condition);
+
+Result<std::vector<TransitionMethod>> ReadTransitionMethods(const SwitchRules& common, std::span<const Node> methods);
 
 }  // namespace etude

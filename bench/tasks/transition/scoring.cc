@@ -29,12 +29,16 @@ const Switch& WorstSwitch(const Transition& plan) {
                            [](const Switch& a, const Switch& b) { return a.distance.value < b.distance.value; });
 }
 
-/// Of the two clips asked for; an in-between's own clip sets no standard.
-double NaturalLimitOf(const Transition& plan, const Stage& stage) {
-  std::vector<double> jumps = stage.natural_jumps_cm[plan.switches.front().from_clip];
-  const std::vector<double>& others = stage.natural_jumps_cm[plan.switches.back().to_clip];
-  jumps.insert(jumps.end(), others.begin(), others.end());
-  return NaturalLimitCm(std::move(jumps));
+/// What played from the request on, until the wanted clip did.
+std::vector<Stay> StaysOf(const SwitchOutcome& outcome) {
+  std::vector<Stay> stays;
+  int entered = outcome.plan.request_frame;
+  for (const Switch& change : outcome.plan.switches) {
+    stays.push_back({entered, change.from_frame});
+    entered = change.to_frame;
+  }
+  if (outcome.between_frames > 0) stays.push_back({0, outcome.between_frames});
+  return stays;
 }
 
 std::vector<int> SeamFrames(const Splice& splice) {
@@ -69,7 +73,9 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   result.Measure("mean_joint_jump_cm", smoothness.mean_joint_jump_cm);
   result.Measure("rotation_step_change_deg", smoothness.rotation_step_change_deg);
   result.Measure("jerk_peak_mps3", smoothness.jerk_peak_mps3);
-  result.Measure("natural_share", smoothness.jump_cm < NaturalLimitOf(outcome.plan, stage) ? 1 : 0);
+  const std::vector<Switch>& switches = outcome.plan.switches;
+  std::vector<double> nature = NaturalJumpsOf(stage, switches.front().from_clip, switches.back().to_clip);
+  result.Measure("natural_share", IsNatural(smoothness.jump_cm, std::move(nature)) ? 1 : 0);
 
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
   for (const Seam& seam : splice.seams) {
@@ -80,8 +86,8 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   }
   result.Measure("pose_gap_cm", pose_gap);
   result.Measure("velocity_gap_cmps", velocity_gap);
-  if (outcome.method->choice == Choice::kFuzzyBridge) {
-    result.Measure("false_smooth", pose_gap > kFalseSmoothGapCm ? 1 : 0);
+  if (outcome.matched) {
+    result.Measure("false_smooth", IsFalselySmooth(pose_gap) ? 1 : 0);
   } else {
     result.Missing("false_smooth", "this choice matches no frames");
   }
@@ -89,12 +95,21 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   const Cut second = Around(splice, 1);
   const auto arc = SpectralArcLength(MeanJointSpeed(splice.motion, second.first, second.last), splice.motion.rate_hz);
   arc ? result.Measure("sparc", *arc) : result.Missing("sparc", "nothing moves around the seam");
-  result.Measure("wait_s", outcome.plan.wait_s);
+  result.Measure("wait_s", WaitSeconds(StaysOf(outcome), splice.motion.rate_hz));
   result.Measure("fuzzy_distance", WorstSwitch(outcome.plan).distance.value);
 }
 
-void MissAllMetrics(const std::string& reason, CellResult& result) {
-  for (const char* id : kMetricIds) result.Missing(id, reason);
+std::vector<std::string> TransitionMetrics() { return {kMetricIds.begin(), kMetricIds.end()}; }
+
+std::optional<double> SwitchFailureValue(std::string_view metric) {
+  return metric == "natural_share" ? std::optional(0.0) : std::nullopt;
+}
+
+void MeasureNoWay(CellResult& result) {
+  for (const char* id : kMetricIds) {
+    const std::optional<double> value = SwitchFailureValue(id);
+    value ? result.Measure(id, *value) : result.Missing(id, "no way was found");
+  }
 }
 
 Series SeamSeries(const SwitchOutcome& outcome) {

@@ -15,6 +15,12 @@ std::string MoveIdentity(const std::string& move) { return "builtin:" + move; }
 
 }  // namespace
 
+std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
+  std::vector<double> jumps = stage.natural_jumps_cm[from];
+  jumps.insert(jumps.end(), stage.natural_jumps_cm[to].begin(), stage.natural_jumps_cm[to].end());
+  return jumps;
+}
+
 Stage SetStage(const ClipLibrary& library) {
   Stage stage;
   stage.character = MakeCharacter(PoseOf(Controls{}), kJudgedHipHeight);

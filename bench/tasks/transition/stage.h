@@ -23,6 +23,10 @@ struct Stage {
 /// Shorter clips have no unbroken window of eleven frames to be judged by.
 constexpr int kShortestClip = 13;
 
+/// What a switch between these two clips is compared with, in centimetres (metrics.md): the clips asked for set the
+/// standard, not one played in between.
+std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
+
 Stage SetStage(const ClipLibrary& library);
 
 /// The clips that adaptive weights may learn from: every built-in move, and the library's other clips.

@@ -88,18 +88,66 @@ TEST(WriteJson, RefusesWhatJsonCannotHoldAndNamesItsPath) {
   EXPECT_EQ(text.error().message, "/a/1/b is not a finite number");
 }
 
+MethodSummary SampleMethod() {
+  MethodSummary method;
+  method.method = "a";
+  method.statuses = {{Status::kOk, 3}, {Status::kCrashed, 1}};
+  method.metrics = {{"position_error_cm", 3, 1, 2.0, 2.5, 1.0, 3.0, IntervalKind::kPercentile}};
+  method.ok = 3;
+  method.attempted = 4;
+  method.ok_low = 0.3;
+  method.ok_high = 0.95;
+  return method;
+}
+
+/// Every field another value, so that two that are swapped show.
+Comparison SampleComparison() {
+  Comparison comparison;
+  comparison.metric = "position_error_cm";
+  comparison.baseline = "a";
+  comparison.method = "b";
+  comparison.pairs = 9;
+  comparison.differing = 8;
+  comparison.only_baseline = 1;
+  comparison.only_method = 2;
+  comparison.neither = 3;
+  comparison.difference = -1.0;
+  comparison.ci_low = -2.0;
+  comparison.ci_high = -0.5;
+  comparison.interval = IntervalKind::kAdjustedWald;
+  comparison.mean = -1.1;
+  comparison.mean_low = -2.1;
+  comparison.mean_high = -0.6;
+  comparison.signed_rank = {0.01, "exact"};
+  comparison.sign_flip = {0.02, "9,999 draws"};
+  comparison.p_holm = 0.04;
+  comparison.share_better = 0.9;
+  comparison.effect_size = 0.8;
+  comparison.verdict = Verdict::kBetter;
+  comparison.why_open = "few";
+  comparison.notes = {"missing", "mean"};
+  return comparison;
+}
+
 TEST(Summary, SurvivesTheWayToAFileAndBack) {
-  ScenarioSummary scenario{"s", "ik", "q?", {"a", "b"}, {"position_error_cm"}, {}, {}};
-  scenario.conditions.push_back(
-      {{{"x", "1"}},
-       {{"a", {{Status::kOk, 3}, {Status::kCrashed, 1}}, {{"position_error_cm", 3, 1, 2.0, 2.5, 1.0, 3.0}}}},
-       {{"position_error_cm", "a", "b", 3, -1.0, -2.0, -0.5, 1, Verdict::kBetter}}});
+  ScenarioSummary scenario{"s", "ik", "q?", {"a", "b"}, {"position_error_cm"}, {}, {}, 12};
+  Comparison empty;
+  empty.metric = "position_error_cm";
+  scenario.conditions.push_back({{{"x", "1"}}, {SampleMethod()}, {SampleComparison(), empty}});
   scenario.expectations.push_back({"b below a", Outcome::kUndecided, "few"});
   const auto text = WriteJson(EncodeSummaries({scenario}));
   const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
   ASSERT_TRUE(back) << ToString(back.error());
   EXPECT_EQ(*WriteJson(EncodeSummaries(*back)), *text);
-  EXPECT_EQ((*back)[0].conditions[0].comparisons[0].verdict, Verdict::kBetter);
+  const Comparison& comparison = (*back)[0].conditions[0].comparisons[0];
+  EXPECT_EQ(comparison.verdict, Verdict::kBetter);
+  EXPECT_EQ(comparison.interval, IntervalKind::kAdjustedWald);
+  EXPECT_EQ(comparison.why_open, "few");
+  EXPECT_EQ(comparison.notes, SampleComparison().notes);
+  EXPECT_EQ(*comparison.p_holm, 0.04);
+  EXPECT_EQ((*back)[0].family, 12);
+  EXPECT_EQ((*back)[0].conditions[0].methods[0].attempted, 4);
+  EXPECT_FALSE((*back)[0].conditions[0].comparisons[1].difference);
 }
 
 TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
@@ -108,13 +156,15 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("no such folder"));
   ASSERT_TRUE(SaveResults(folder, {SampleRow()}, {}));
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("manifest.json: no such file"));
-  ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json", R"({"schema":1,"suite":"s","seed":1,"etude":"0"})"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json",
+                                  fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
   ASSERT_TRUE(WriteFileAtomically(folder / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
   ASSERT_TRUE(LoadRun(folder)) << ToString(LoadRun(folder).error());
   std::ofstream(folder / "cells.jsonl", std::ios::app) << R"({"cell":"x","scen)";
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("cells.jsonl:2: not valid JSON"));
   ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json", R"({"schema":99})"));
-  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("schema 99; this program reads 1"));
+  EXPECT_THAT(ToString(LoadRun(folder).error()),
+              HasSubstr(fmt::format("schema 99; this program reads {}", kResultSchema)));
 }
 
 TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {

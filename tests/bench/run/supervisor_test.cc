@@ -1,25 +1,119 @@
 #include "bench/run/supervisor.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <signal.h>
+
+#include <fstream>
+#include <map>
+
+#include "bench/files/temporary_folder.h"
+#include "tests/bench/run/prepared.h"
 
 namespace etude {
 namespace {
 
-TEST(Supervisor, EndsWhenWorkersKeepDyingInTheirSetupAndLosesNoWorld) {
-  ::signal(SIGPIPE, SIG_IGN);
-  const std::vector<World> worlds(1000);
-  int delivered = 0;
-  const auto count = [&](const WorldAnswer&) -> Result<void> {
-    ++delivered;
-    return {};
-  };
-  const auto whole = RunWorlds(SuiteSetup{}, {}, worlds, {.program = "/bin/false", .jobs = 2}, count);
+using testing::HasSubstr;
+
+/// Puts a worker of one's own in the place of the program: a shell script that is called with `worker`.
+class SupervisorTest : public testing::Test {
+ protected:
+  explicit SupervisorTest(const std::string& limits = "{time_s: 0.3, memory_mb: 4096}")
+      : suite_(SmallSuite(kSmallScenario + "limits: " + limits + "\n")) {}
+
+  void SetUp() override {
+    ::signal(SIGPIPE, SIG_IGN);
+    auto made = TemporaryFolder::Make("supervisor-test");
+    ASSERT_TRUE(made);
+    folder_.emplace(std::move(*made));
+  }
+
+  /// Runs all worlds with workers that behave as `script` says; fills rows_ by cell.
+  Result<bool> RunWith(const std::string& script, int jobs = 1) {
+    const std::string path = (folder_->path() / "worker").string();
+    std::ofstream(path) << "#!/bin/sh\nread -r setup\n" << script;
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return RunOrders(suite_, plan_, plan_.OrdersFor({}, std::vector<bool>(plan_.cell_count())),
+                     {.program = path, .error_folder = "", .jobs = jobs, .stop = nullptr},
+                     [&](std::size_t cell, FinishedCell finished) -> Result<void> {
+                       EXPECT_TRUE(rows_.emplace(cell, std::move(finished.row)).second) << cell << " came twice";
+                       return {};
+                     });
+  }
+
+  /// Every cell has its row, with this status and a reason that contains `why`.
+  void ExpectAll(Status status, const std::string& why) const {
+    ASSERT_EQ(rows_.size(), plan_.cell_count());
+    for (const auto& [cell, row] : rows_) {
+      EXPECT_EQ(row.Id(), plan_.IdentityOf(cell).Id());
+      EXPECT_EQ(StatusName(row.result.status), StatusName(status));
+      EXPECT_THAT(row.result.reason, HasSubstr(why));
+      EXPECT_FALSE(row.result.metrics.empty());  // named as missing, or with the value that failing has
+    }
+  }
+
+  const SuiteSetup suite_;
+  const std::vector<PreparedScenario> scenarios_ = Prepared(suite_);
+  const Plan plan_{scenarios_};
+  std::optional<TemporaryFolder> folder_;
+  std::map<std::size_t, Row> rows_;
+};
+
+class NarrowSupervisorTest : public SupervisorTest {
+ protected:
+  NarrowSupervisorTest() : SupervisorTest("{time_s: 60, memory_mb: 30}") {}
+};
+
+TEST_F(SupervisorTest, EndsWhenWorkersKeepDyingInTheirSetupAndLosesNoWorld) {
+  const auto whole = RunWith("exit 1", 2);
   ASSERT_FALSE(whole);
-  EXPECT_THAT(ToString(whole.error()), testing::HasSubstr("3 workers in a row ended in their set-up"));
-  EXPECT_THAT(ToString(whole.error()), testing::HasSubstr("exit code 1"));
-  EXPECT_EQ(delivered, 0);
+  EXPECT_THAT(ToString(whole.error()), HasSubstr("3 workers in a row failed in their set-up"));
+  EXPECT_THAT(ToString(whole.error()), HasSubstr("exit code 1"));
+  EXPECT_TRUE(rows_.empty());
+}
+
+TEST_F(SupervisorTest, AWorkerThatDiesInACellTakesOnlyThatCellWithIt) {
+  const auto whole = RunWith("echo ready\nread -r order\necho built\nkill -SEGV $$\n");
+  ASSERT_TRUE(whole && *whole);
+  ExpectAll(Status::kCrashed, "its worker ended with signal 11");
+}
+
+TEST_F(SupervisorTest, AWorldThatCannotBeBuiltTakesAllItsMethodsWithIt) {
+  const auto whole = RunWith("echo ready\nread -r order\nexit 3\n", 2);
+  ASSERT_TRUE(whole && *whole);
+  ExpectAll(Status::kCrashed, "ended with exit code 3 while its world was being built");
+}
+
+TEST_F(SupervisorTest, AWorkerThatHangsIsEndedInTime) {
+  const auto whole = RunWith("echo ready\nread -r order\necho built\nsleep 100\n", 4);
+  ASSERT_TRUE(whole && *whole);
+  ExpectAll(Status::kTimeout, "took longer than 0.3 s");
+}
+
+TEST_F(NarrowSupervisorTest, AWorkerThatGrowsIsEnded) {
+  // As a shell's variable grows, so does the shell; it is stopped long before it would hurt the machine.
+  const auto whole =
+      RunWith("echo ready\nread -r order\necho built\nx=0123456789abcdef\nwhile :; do x=$x$x; done\n", 2);
+  ASSERT_TRUE(whole && *whole);
+  ExpectAll(Status::kOutOfMemory, "held more than 30 MB of memory");
+}
+
+TEST_F(SupervisorTest, AWorkerThatTalksNonsenseGivesBadOutput) {
+  for (const char* nonsense : {"hello", "{}", R"({\"row\":{}})"}) {
+    rows_.clear();
+    const auto whole =
+        RunWith(std::string("echo ready\nread -r order\necho built\necho \"") + nonsense + "\"\nread -r more\n");
+    ASSERT_TRUE(whole && *whole);
+    ExpectAll(Status::kBadOutput, "its worker answered with something else");
+  }
+}
+
+TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {
+  const std::string row =
+      R"({"row":{"cell":"x","scenario":"small","task":"ik","condition":"-","trial":9,"clip":null,"method":"fixed",)"
+      R"("status":"ok","reason":null},"usage":{"wall_s":1,"cpu_s":1,"peak_mb":1}})";
+  const auto whole = RunWith("echo ready\nread -r order\necho built\ncat <<'END'\n" + row + "\nEND\nread -r more\n");
+  ASSERT_TRUE(whole && *whole);
+  ExpectAll(Status::kBadOutput, "its worker answered with something else");
 }
 
 }  // namespace

@@ -2,13 +2,46 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "sim/random/stream.h"
 
 namespace etude {
 namespace {
+
+/// Efron & Tibshirani (1993), An Introduction to the Bootstrap, table 14.1: the spatial test data, A.
+const std::vector<double> kSpatial = {48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6,
+                                      0,  33, 28, 34, 4,  32, 24, 47, 41, 24, 26, 30, 41};
+
+double PlugInVariance(std::span<const double> values) {
+  double squares = 0;
+  for (double value : values) squares += (value - Mean(values)) * (value - Mean(values));
+  return squares / static_cast<double>(values.size());
+}
+
+std::vector<double> Replicates(std::span<const double> values, int count,
+                               double (*statistic)(std::span<const double>)) {
+  RandomStream dice({.suite_seed = 1, .scenario = "t", .trial = 0}, "replicates");
+  std::vector<double> replicates, resample(values.size());
+  for (int i = 0; i < count; ++i) {
+    for (double& value : resample) value = values[dice.IndexBelow(values.size())];
+    replicates.push_back(statistic(resample));
+  }
+  return replicates;
+}
+
+std::vector<double> Jackknife(const std::vector<double>& values, double (*statistic)(std::span<const double>)) {
+  std::vector<double> left_out;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    std::vector<double> others = values;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    left_out.push_back(statistic(others));
+  }
+  return left_out;
+}
 
 TEST(Quantile, IsNumpysDefault) {
   // numpy.quantile([3, 1, 4, 1, 5, 9, 2, 6], q)
@@ -21,10 +54,88 @@ TEST(Quantile, IsNumpysDefault) {
   EXPECT_DOUBLE_EQ(Quantile(std::vector<double>{7}, 0.5), 7);
 }
 
+TEST(BcaInterval, IsThatOfEfronAndTibshiranisVariance) {
+  // Table 14.2: 90 % intervals of the variance, BCa (115.8, 259.6), percentile (100.8, 233.9).
+  auto replicates = Replicates(kSpatial, 19999, PlugInVariance);
+  const double estimate = PlugInVariance(kSpatial);
+  EXPECT_NEAR(estimate, 171.5, 0.05);
+  const Interval bca = BcaInterval(replicates, estimate, Jackknife(kSpatial, PlugInVariance), 0.9);
+  EXPECT_EQ(bca.kind, IntervalKind::kBca);
+  EXPECT_NEAR(bca.low, 115.8, 2);
+  EXPECT_NEAR(bca.high, 259.6, 3);
+  // A jackknife without spread leaves the percentile interval, which is another one.
+  const Interval percentile = BcaInterval(replicates, estimate, std::vector<double>(26, 3.0), 0.9);
+  EXPECT_EQ(percentile.kind, IntervalKind::kPercentile);
+  EXPECT_NEAR(percentile.low, 100.8, 4);  // from 2,000 replicates in the book
+  EXPECT_NEAR(percentile.high, 233.9, 3);
+}
+
+TEST(BcaInterval, FallsBackWhenAllReplicatesLieOnOneSide) {
+  std::vector<double> replicates(1999);
+  for (std::size_t i = 0; i < replicates.size(); ++i) replicates[i] = static_cast<double>(i);
+  const std::vector<double> jackknife = {1, 2, 3, 4, 5, 7};
+  EXPECT_EQ(BcaInterval(replicates, 999, jackknife).kind, IntervalKind::kBca);
+  EXPECT_EQ(BcaInterval(replicates, -1, jackknife).kind, IntervalKind::kPercentile);
+  const Interval above = BcaInterval(replicates, 5000, jackknife);
+  EXPECT_EQ(above.kind, IntervalKind::kPercentile);
+  EXPECT_EQ(above.low, 49);  // the 50th of 1,999
+  EXPECT_EQ(above.high, 1949);
+}
+
+TEST(BootstrapInterval, AgreesWithScipy) {
+  // scipy 1.10.1: stats.bootstrap((values,), numpy.mean, method='BCa', n_resamples=200000); its percentile
+  // interval is (1.580, 8.152).
+  const std::vector<double> skewed = {0.3011942119122021, 0.4965853037914096, 1.1051709180756477, 1.4918246976412703,
+                                      2.45960311115695,   3.6692966676192444, 6.0496474644129465, 13.463738035001692,
+                                      0.8187307530779818, 1.8221188003905089, 20.085536923187668, 1.3498588075760032};
+  const auto mean = BootstrapInterval(skewed, Aggregate::kMean, 1, "x");
+  EXPECT_NEAR(mean->low, 1.980, 0.12);
+  EXPECT_NEAR(mean->high, 9.425, 0.5);
+  const auto median = BootstrapInterval(kSpatial, Aggregate::kMedian, 1, "x");
+  EXPECT_EQ(median->low, 24);
+  EXPECT_EQ(median->high, 41);
+}
+
 TEST(BootstrapInterval, NeedsSixValues) {
   const std::vector<double> five = {1, 2, 3, 4, 5}, six = {1, 2, 3, 4, 5, 6};
   EXPECT_FALSE(BootstrapInterval(five, Aggregate::kMedian, 1, "x"));
   EXPECT_TRUE(BootstrapInterval(six, Aggregate::kMedian, 1, "x"));
+}
+
+TEST(BootstrapInterval, OfOneValueAllOverIsThatValueAndNoBca) {
+  for (Aggregate aggregate : {Aggregate::kMedian, Aggregate::kMean}) {
+    const auto interval = BootstrapInterval(std::vector<double>(20, 0.1), aggregate, 1, "x");
+    EXPECT_EQ(interval->low, 0.1);
+    EXPECT_EQ(interval->high, 0.1);
+    EXPECT_EQ(interval->kind, IntervalKind::kPercentile);
+  }
+}
+
+TEST(BootstrapInterval, SurvivesTies) {
+  const std::vector<double> ties = {0, 0, 0, 0, 0, 0, 0, 5};
+  const auto median = BootstrapInterval(ties, Aggregate::kMedian, 1, "x");
+  EXPECT_EQ(median->low, 0);
+  EXPECT_LE(median->high, 5);
+  const auto mean = BootstrapInterval(ties, Aggregate::kMean, 1, "x");
+  EXPECT_EQ(mean->kind, IntervalKind::kBca);
+  EXPECT_LE(mean->low, 0.625);
+  EXPECT_GT(mean->high, 0.625);
+}
+
+/// Every resample of the median by hand, instead of by counting.
+TEST(BootstrapInterval, DrawsTheMediansThatAPlainBootstrapDraws) {
+  for (int n : {11, 12, 130}) {
+    RandomStream dice({.suite_seed = 3, .scenario = "t", .trial = n}, "sample");
+    std::vector<double> values(n);
+    for (double& value : values) value = dice.Normal(10, 2);
+    const auto median = [](std::span<const double> sample) { return Quantile(sample, 0.5); };
+    auto replicates = Replicates(values, 1999, median);
+    const Interval plain = BcaInterval(replicates, median(values), Jackknife(values, median));
+    const auto ours = BootstrapInterval(values, Aggregate::kMedian, 1, "x");
+    const double spread = plain.high - plain.low;
+    EXPECT_NEAR(ours->low, plain.low, 0.15 * spread) << n;
+    EXPECT_NEAR(ours->high, plain.high, 0.15 * spread) << n;
+  }
 }
 
 TEST(BootstrapInterval, AgreesWithTheNormalTheoryOfTheMean) {
@@ -32,33 +143,44 @@ TEST(BootstrapInterval, AgreesWithTheNormalTheoryOfTheMean) {
   std::vector<double> values(400);
   for (double& value : values) value = dice.Normal(10, 2);
   const double mean = Mean(values);
-  double squares = 0;
-  for (double value : values) squares += (value - mean) * (value - mean);
-  const double standard_error = std::sqrt(squares / 399 / 400);
+  const double standard_error = std::sqrt(PlugInVariance(values) / 399);
   const auto interval = BootstrapInterval(values, Aggregate::kMean, 1, "x");
   EXPECT_NEAR(interval->low, mean - 1.96 * standard_error, 0.15 * standard_error);
   EXPECT_NEAR(interval->high, mean + 1.96 * standard_error, 0.15 * standard_error);
 }
 
-TEST(BootstrapInterval, CoversTheTrueMedianAboutNineteenTimesOfTwenty) {
+/// Share of samples whose interval holds the true value.
+double Coverage(Aggregate aggregate, int n, double truth, const std::function<double(RandomStream&)>& draw) {
   int covered = 0;
-  const int experiments = 300;
+  const int experiments = 400;
   for (int i = 0; i < experiments; ++i) {
     RandomStream dice({.suite_seed = 5, .scenario = "coverage", .trial = i}, "sample");
-    std::vector<double> values(40);
-    for (double& value : values) value = dice.Normal();
-    const auto interval = BootstrapInterval(values, Aggregate::kMedian, 9, "x");
-    if (interval->low <= 0 && 0 <= interval->high) ++covered;
+    std::vector<double> values(n);
+    for (double& value : values) value = draw(dice);
+    const auto interval = BootstrapInterval(values, aggregate, 9, "x");
+    covered += interval->low <= truth && truth <= interval->high;
   }
-  // The percentile interval of a median is slightly generous; binomial noise is 1.3 points.
-  EXPECT_GT(covered, 0.91 * experiments);
-  EXPECT_LT(covered, 0.99 * experiments);
+  return static_cast<double>(covered) / experiments;
 }
 
-TEST(BootstrapInterval, ThrowsDiceOfItsPurposeOnly) {
-  const std::vector<double> values = {1, 5, 2, 8, 3, 9, 4, 7};
+TEST(BootstrapInterval, CoversTheTruthAboutNineteenTimesOfTwenty) {
+  // Binomial noise of 400 experiments: 1.1 points.
+  const auto normal = [](RandomStream& dice) { return dice.Normal(); };
+  EXPECT_NEAR(Coverage(Aggregate::kMedian, 40, 0, normal), 0.95, 0.035);
+  EXPECT_NEAR(Coverage(Aggregate::kMean, 40, 0, normal), 0.95, 0.035);
+  const auto skewed = [](RandomStream& dice) { return -std::log(1 - dice.Uniform()); };
+  EXPECT_NEAR(Coverage(Aggregate::kMean, 40, 1, skewed), 0.935, 0.035);
+  // Few values say little of their tails: a dozen are known to cover less.
+  EXPECT_GT(Coverage(Aggregate::kMedian, 12, 0, normal), 0.90);
+  // The control: half a standard error off the truth.
+  EXPECT_LT(Coverage(Aggregate::kMean, 40, 0.5, normal), 0.5);
+}
+
+TEST(BootstrapInterval, ThrowsDiceOfItsPurposeOnlyWhateverTheOrder) {
+  const std::vector<double> values = {1.3, 5.2, 2.6, 8.1, 3.7, 9.4, 4.9, 7.5},
+                            shuffled = {9.4, 1.3, 7.5, 2.6, 8.1, 3.7, 5.2, 4.9};
   const auto a = BootstrapInterval(values, Aggregate::kMean, 1, "x");
-  const auto again = BootstrapInterval(values, Aggregate::kMean, 1, "x");
+  const auto again = BootstrapInterval(shuffled, Aggregate::kMean, 1, "x");
   EXPECT_EQ(a->low, again->low);
   EXPECT_EQ(a->high, again->high);
   const auto other = BootstrapInterval(values, Aggregate::kMean, 2, "x");

@@ -52,6 +52,46 @@ TEST(ComparePaired, IsInconclusiveWhenNoiseHidesTheEffectOrPairsAreFew) {
   EXPECT_FALSE(none.difference);
 }
 
+TEST(ComparePaired, TakesRoundingForATie) {
+  std::vector<Pair> pairs;
+  for (int i = 0; i < 12; ++i) pairs.push_back({0.1 * i + 0.3, 0.1 * (i + 3) + 1e-15});  // equal on paper
+  const Comparison equal = ComparePaired(pairs, Metric(Direction::kLowerIsBetter, 0.05), 1, "x");
+  EXPECT_EQ(equal.differing, 0);
+  EXPECT_EQ(*equal.difference, 0);
+  EXPECT_EQ(*equal.p_holm, 1);
+  // Ten steps of a tenth, up or down, are all of one size: their ranks are tied.
+  pairs.clear();
+  for (int i = 0; i < 10; ++i) pairs.push_back({0.1 * i, 0.1 * (i < 8 ? i + 1 : i - 1)});
+  const Comparison steps = ComparePaired(pairs, Metric(Direction::kLowerIsBetter, 0.05), 1, "x");
+  EXPECT_EQ(steps.differing, 10);
+  EXPECT_DOUBLE_EQ(*steps.signed_rank.p, 112.0 / 1024);  // the binomial's: 2 (1 + 10 + 45) of 2¹⁰
+  EXPECT_DOUBLE_EQ(*steps.effect_size, -0.6);
+}
+
+TEST(ComparePaired, GivesSharesAnIntervalThatDoubtsAFewEqualWorlds) {
+  MetricInfo share = Metric(Direction::kHigherIsBetter, 0.02);
+  share.aggregate = Aggregate::kMean;
+  const std::vector<Pair> few(12, Pair{1, 1}), many(400, Pair{1, 1});
+  EXPECT_EQ(VerdictOf(few, share), Verdict::kInconclusive);
+  EXPECT_EQ(VerdictOf(many, share), Verdict::kNoDifference);
+  EXPECT_EQ(ComparePaired(few, share, 1, "x").interval, IntervalKind::kAdjustedWald);
+}
+
+TEST(ComparePaired, NeverPrefersWithoutADirection) {
+  EXPECT_EQ(VerdictOf(PairsWithEffect(-1, 0.5, 40), Metric(Direction::kNeither, 0.1)), Verdict::kInconclusive);
+  EXPECT_EQ(VerdictOf(PairsWithEffect(-1, 0.5, 40), Metric(Direction::kNeither, 3)), Verdict::kNoDifference);
+}
+
+TEST(ComparePaired, TellsTheMeanBesideTheMedian) {
+  const Comparison found = ComparePaired(PairsWithEffect(-1, 0.5, 40), Metric(Direction::kLowerIsBetter, 0.1), 1, "x");
+  EXPECT_NEAR(*found.mean, -1, 0.25);
+  EXPECT_LT(*found.mean_low, *found.mean);
+  EXPECT_GT(*found.mean_high, *found.mean);
+  EXPECT_NEAR(*found.effect_size, 1, 0.1);
+  EXPECT_EQ(found.signed_rank.how, "exact");
+  EXPECT_EQ(found.sign_flip.how, "9,999 draws");
+}
+
 TEST(ComparePaired, CountsTiesHalf) {
   const std::vector<Pair> pairs = {{1, 0}, {1, 1}, {1, 2}, {1, 0}};
   EXPECT_DOUBLE_EQ(ComparePaired(pairs, Metric(Direction::kLowerIsBetter, 0), 1, "x").share_better, 2.5 / 4);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/statistics/expectations.h"
+#include "tests/bench/scenario/parse.h"
 
 namespace etude {
 namespace {
@@ -47,7 +48,7 @@ std::vector<Row> Rows(const Scenario& scenario) {
 
 class SummaryTest : public testing::Test {
  protected:
-  Scenario scenario = *ParseScenario(kYaml, "s.yaml");
+  Scenario scenario = ParseOne(kYaml);
   std::vector<Row> rows = Rows(scenario);
   ScenarioSummary summary = Summarise(scenario, rows, 1);
 };
@@ -61,6 +62,54 @@ TEST_F(SummaryTest, KeepsFailuresInTheCount) {
   EXPECT_EQ(b.metrics[0].missing, 1);
   EXPECT_DOUBLE_EQ(*b.metrics[0].median, 7);
   EXPECT_DOUBLE_EQ(*b.metrics[0].mean, 7);
+  EXPECT_EQ(b.ok, 9);
+  EXPECT_EQ(b.attempted, 10);
+  EXPECT_NEAR(*b.ok_low, 0.596, 1e-3);  // Wilson, 9 of 10
+  EXPECT_NEAR(*b.ok_high, 0.982, 1e-3);
+}
+
+TEST_F(SummaryTest, GivesAShareItsOwnInterval) {
+  // Ten of ten is no proof of always.
+  const MetricSummary& solved = summary.conditions[0].methods[0].metrics[1];
+  EXPECT_EQ(solved.id, "solved_practical");
+  EXPECT_EQ(solved.interval, IntervalKind::kWilson);
+  EXPECT_EQ(*solved.ci_low, 0);
+  EXPECT_GT(*solved.ci_high, 0.2);
+  EXPECT_EQ(summary.conditions[0].comparisons[1].interval, IntervalKind::kAdjustedWald);
+}
+
+TEST_F(SummaryTest, CorrectsOverAllConditionsAndMetrics) {
+  EXPECT_EQ(summary.family, 4);
+  const Comparison& comparison = summary.conditions[0].comparisons[0];
+  EXPECT_DOUBLE_EQ(*comparison.signed_rank.p, 2.0 / 512);
+  EXPECT_DOUBLE_EQ(*comparison.p_holm, 4 * 2.0 / 512);
+}
+
+TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
+  const Comparison& comparison = summary.conditions[0].comparisons[0];
+  EXPECT_EQ(comparison.only_baseline, 1);
+  EXPECT_EQ(comparison.only_method, 0);
+  EXPECT_EQ(comparison.neither, 0);
+  EXPECT_THAT(comparison.notes, testing::Contains(testing::HasSubstr("only “a” has a value in 1")));
+  // A world that was skipped for both is no loss of either.
+  for (Row& row : rows) {
+    if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
+  }
+  const ScenarioSummary skipped = Summarise(scenario, rows, 1);
+  EXPECT_EQ(skipped.conditions[0].comparisons[0].only_baseline, 0);
+  EXPECT_EQ(skipped.conditions[0].comparisons[0].neither, 0);
+  EXPECT_TRUE(skipped.conditions[0].comparisons[0].notes.empty());
+  EXPECT_EQ(skipped.conditions[0].methods[1].attempted, 9);
+}
+
+TEST_F(SummaryTest, DependsOnNoOtherMethodNorCondition) {
+  Scenario smaller = scenario;
+  smaller.conditions.pop_back();
+  const ScenarioSummary alone = Summarise(smaller, std::span(rows).first(20), 1);
+  const Comparison &a = alone.conditions[0].comparisons[0], &b = summary.conditions[0].comparisons[0];
+  EXPECT_EQ(a.ci_low, b.ci_low);
+  EXPECT_EQ(a.sign_flip.p, b.sign_flip.p);
+  EXPECT_NE(a.p_holm, b.p_holm);  // Holm's correction is what the others are for
 }
 
 TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
@@ -80,6 +129,15 @@ TEST_F(SummaryTest, JudgesExpectations) {
   EXPECT_EQ(summary.expectations[2].outcome, Outcome::kMet) << summary.expectations[2].detail;
   EXPECT_EQ(summary.expectations[3].outcome, Outcome::kUnmet) << summary.expectations[3].detail;
   EXPECT_EQ(summary.expectations[4].outcome, Outcome::kUndecided) << summary.expectations[4].detail;
+}
+
+TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
+  Expectation below = scenario.expectations[0];
+  below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
+  const ExpectationResult result = JudgeExpectation(below, scenario, rows, 1);
+  EXPECT_EQ(result.outcome, Outcome::kUndecided);
+  EXPECT_THAT(result.detail, testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
+  EXPECT_THAT(result.detail, testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
 }
 
 TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {

@@ -13,6 +13,7 @@ TEST(Error, IsToldAsFileLineColumnAndMessage) {
   EXPECT_EQ(ToString(Error{{"a.yaml", 3, 0}, "bad"}), "a.yaml:3: bad");
   EXPECT_EQ(ToString(Error{{"a.yaml", 0, 0}, "bad"}), "a.yaml: bad");
   EXPECT_EQ(ToString(Error{{}, "bad"}), "bad");
+  EXPECT_EQ(ToString(Error{{"a\n.yaml", 3, 7}, "found '\x1b[31m\t\x7f'"}), "a .yaml:3:7: found ' [31m  '");
 }
 
 TEST(NearestName, FindsTheTypingErrorAndNothingFarAway) {

@@ -46,6 +46,31 @@ TEST(Document, ComplainsWithPlaceValueAndWhatIsAllowed) {
   EXPECT_THAT(Complaint("sped: 1\n"), HasSubstr("t.yaml:1:1: unknown key of a test 'sped'; did you mean 'speed'?"));
 }
 
+TEST(Document, PointsAtTheKeyOfAnEmptyValue) {
+  EXPECT_EQ(Complaint("\nspeed:\ncount: 2\n"), "t.yaml:2:1: 'speed' must be a number, found nothing");
+}
+
+TEST(Document, AsksWhetherANearbyKeyWasMeantToBeTheMissingOne) {
+  const auto complaint = [](const std::string& yaml) {
+    const auto node = ParseYaml(yaml, "t.yaml");
+    Fields fields(*node, "a test");
+    fields.RequiredText("question");
+    return ToString(fields.Finish().error());
+  };
+  EXPECT_EQ(complaint("a: 1\nQestion: q\n"), "t.yaml:2:1: a test needs 'question'; is 'Qestion' meant to be it?");
+  EXPECT_EQ(complaint("a: 1\n"), "t.yaml:1:1: a test needs 'question'");
+  EXPECT_EQ(complaint("a: 1\nquestion:\n"), "t.yaml:2:1: 'question' must be text, found nothing");
+  EXPECT_EQ(complaint("question: ''\n"), "t.yaml:1:11: a test needs 'question'");
+}
+
+TEST(Document, NamesEveryAllowedKeyOnce) {
+  const auto node = ParseYaml("zz: 1\n", "t.yaml");
+  Fields fields(*node, "a test");
+  fields.Raw("a");
+  fields.Number("a", 1);
+  EXPECT_EQ(ToString(fields.Finish().error()), "t.yaml:1:1: unknown key of a test 'zz'. Allowed: a");
+}
+
 TEST(Document, RefusesInfinitiesAndNotANumber) {
   for (const char* text : {"speed: inf", "speed: nan", "speed: .inf", "speed: .nan", "speed: 1e999"}) {
     EXPECT_THAT(Complaint(text), HasSubstr("expected a number")) << text;

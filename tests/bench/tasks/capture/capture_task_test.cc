@@ -15,13 +15,13 @@ using testing::HasSubstr;
 
 const WorldKey kKey{.suite_seed = 3, .scenario = "capture-test", .trial = 0};
 
-Result<std::unique_ptr<Task>> Make(const std::string& yaml, bool wants_recordings = false) {
+Result<std::unique_ptr<Task>> Make(const std::string& yaml) {
   const auto node = ParseYaml(yaml, "test.yaml");
   if (!node) return tl::unexpected(node.error());
   const auto clips = LoadClips({"builtin:boxing"}, {});
   if (!clips) return tl::unexpected(clips.error());
   Fields condition(*node, "a test");
-  TaskInput input{condition, node->Find("methods")->items, *clips, wants_recordings};
+  TaskInput input{condition, node->Find("methods")->items, *clips};
   auto task = MakeCaptureTaskKind().make(input);
   if (task && !condition.ok()) return tl::unexpected(condition.Finish().error());
   return task;
@@ -48,7 +48,7 @@ TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
       Make("duration_s: 0.1\nmethods:\n- {name: fixed, weights: fixed}\n- {name: adaptive, weights: adaptive}\n");
   ASSERT_TRUE(task) << ToString(task.error());
   EXPECT_EQ((*task)->ClipOf(kKey), "builtin:boxing");
-  const auto cells = (*task)->RunWorld(kKey), again = (*task)->RunWorld(kKey);
+  const auto cells = RunWorld(**task, kKey, 2), again = RunWorld(**task, kKey, 2);
   ASSERT_EQ(cells.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(cells[i].status, Status::kOk) << cells[i].reason;
@@ -68,7 +68,7 @@ TEST(CaptureTask, ComesCloseToTheTruthWhenEveryStageIsOne) {
       "duration_s: 0.1\nmethods:\n- {name: seen}\n"
       "- {name: true, oracle: [calibration, segmentation, directions, points]}\n");
   ASSERT_TRUE(task) << ToString(task.error());
-  const auto cells = (*task)->RunWorld(kKey);
+  const auto cells = RunWorld(**task, kKey, 2);
   EXPECT_NEAR(*ValueOf(cells[1], "limb_direction_error_deg"), 0, 1e-6);
   EXPECT_NEAR(*ValueOf(cells[1], "triangulation_error_mm"), 0, 1e-9);
   EXPECT_EQ(*ValueOf(cells[1], "iou"), 1);
@@ -81,7 +81,7 @@ TEST(CaptureTask, FailsWithAReasonWhenTheMarksAreMissing) {
   // Hue alone does not see dark blue trousers on a bluish floor: the feet are never marked.
   const auto task = Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n");
   ASSERT_TRUE(task) << ToString(task.error());
-  const auto cells = (*task)->RunWorld(kKey);
+  const auto cells = RunWorld(**task, kKey, 1);
   EXPECT_EQ(cells[0].status, Status::kFailed);
   EXPECT_THAT(cells[0].reason, HasSubstr("never marked in both pictures"));
   EXPECT_FALSE(ValueOf(cells[0], "mpjpe_mm"));
@@ -89,9 +89,9 @@ TEST(CaptureTask, FailsWithAReasonWhenTheMarksAreMissing) {
 }
 
 TEST(CaptureTask, RecordsWhatAVideoAndABvhFileNeed) {
-  const auto task = Make("duration_s: 0.1\nmark_every: 2\nmethods:\n- {name: a}\n", true);
+  const auto task = Make("duration_s: 0.1\nmark_every: 2\nmethods:\n- {name: a}\n");
   ASSERT_TRUE(task) << ToString(task.error());
-  const auto cells = (*task)->RunWorld(kKey);
+  const auto cells = RunWorld(**task, kKey, 1, true);
   ASSERT_TRUE(cells[0].recording) << cells[0].reason;
   ASSERT_EQ(cells[0].recording->tracks.size(), 2u);
   EXPECT_EQ(cells[0].recording->tracks[0].name, "truth");

@@ -1,63 +1,18 @@
 #include "bench/tasks/detection/detection_task.h"
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
+
+#include "tests/bench/tasks/detection/detection_fixture.h"
 
 namespace etude {
 namespace {
 
-constexpr const char* kFourMethods = R"(
-methods:
-  - {name: fixed, weights: fixed, threshold: 1}
-  - {name: adaptive, weights: adaptive}
-  - {name: fixed-holt, filter: holt, threshold: 1}
-  - {name: adaptive-euro, filter: one-euro, weights: adaptive}
-)";
+class DetectionTask : public DetectionFixture {};
 
-/// A task made of a scenario's text; the text must live as long as the task is being made only.
-Result<std::unique_ptr<Task>> MakeTask(const std::string& yaml, const ClipLibrary& clips, bool recordings = false) {
-  auto node = ParseYaml(yaml, "test.yaml");
-  if (!node) return tl::unexpected(node.error());
-  Fields condition(*node, "a detection scenario");
-  TaskInput input{condition, node->Find("methods")->items, clips, recordings};
-  return MakeDetectionTaskKind().make(input);
-}
-
-ClipLibrary FourMoves() {
-  return *LoadClips({"builtin:clap", "builtin:boxing", "builtin:sway", "builtin:side_kick"}, {});
-}
-
-/// A clip as a user's file gives it: no move is known.
-LibraryClip Unlabelled() {
-  LibraryClip clip;
-  clip.name = "walk";
-  clip.motion = FourMoves().clips.front().motion;
-  return clip;
-}
-
-WorldKey World(int trial) { return {.suite_seed = 1, .scenario = "detection-test", .trial = trial}; }
-
-std::optional<double> Metric(const CellResult& cell, std::string_view id) {
-  for (const MetricValue& metric : cell.metrics) {
-    if (metric.id == id) return metric.value;
-  }
-  ADD_FAILURE() << "no metric " << id;
-  return std::nullopt;
-}
-
-std::string DigestOf(const CellResult& cell, std::string_view stage) {
-  for (const auto& [name, digest] : cell.digests) {
-    if (name == stage) return digest;
-  }
-  ADD_FAILURE() << "no digest of " << stage;
-  return "";
-}
-
-TEST(DetectionTask, TellsRightFromWrongWithoutErrorWhenTheSensorHasNone) {
+TEST_F(DetectionTask, TellsRightFromWrongWithoutErrorWhenTheSensorHasNone) {
   const auto task = *MakeTask(std::string("noise: 0\nevents: 8\n") + kFourMethods, FourMoves());
   for (int trial = 0; trial < 3; ++trial) {
-    const CellResult fixed = task->RunWorld(World(trial)).front();
+    const CellResult fixed = CellsOf(*task, trial).front();
     ASSERT_EQ(fixed.status, Status::kOk) << fixed.reason;
     EXPECT_EQ(Metric(fixed, "f1"), 1.0);
     EXPECT_EQ(Metric(fixed, "roc_auc"), 1.0);
@@ -66,16 +21,16 @@ TEST(DetectionTask, TellsRightFromWrongWithoutErrorWhenTheSensorHasNone) {
   }
 }
 
-TEST(DetectionTask, FailsToTellThemApartWhenTheSensorIsHopeless) {
+TEST_F(DetectionTask, FailsToTellThemApartWhenTheSensorIsHopeless) {
   const auto task = *MakeTask(std::string("noise: 10\nevents: 8\n") + kFourMethods, FourMoves());
   double recall = 0;
-  for (int trial = 0; trial < 3; ++trial) recall += *Metric(task->RunWorld(World(trial)).front(), "recall") / 3;
+  for (int trial = 0; trial < 3; ++trial) recall += *Metric(CellsOf(*task, trial).front(), "recall") / 3;
   EXPECT_LT(recall, 0.5);
 }
 
-TEST(DetectionTask, RepeatsItselfAndShowsEveryMethodTheSameWorld) {
+TEST_F(DetectionTask, RepeatsItselfAndShowsEveryMethodTheSameWorld) {
   const auto task = *MakeTask(std::string("events: 4\n") + kFourMethods, FourMoves());
-  const auto once = task->RunWorld(World(0)), again = task->RunWorld(World(0)), other = task->RunWorld(World(1));
+  const auto once = CellsOf(*task, 0), again = CellsOf(*task, 0), other = CellsOf(*task, 1);
   ASSERT_EQ(once.size(), 4u);
   for (std::size_t m = 0; m < once.size(); ++m) {
     EXPECT_EQ(once[m].digests, again[m].digests);
@@ -86,9 +41,9 @@ TEST(DetectionTask, RepeatsItselfAndShowsEveryMethodTheSameWorld) {
   EXPECT_NE(DigestOf(once[0], "session"), DigestOf(other[0], "session"));
 }
 
-TEST(DetectionTask, ChangesTheStreamButNotTheDanceWhenNoiseOrTurnIsSwept) {
+TEST_F(DetectionTask, ChangesTheStreamButNotTheDanceWhenNoiseOrTurnIsSwept) {
   const auto run = [](const char* condition) {
-    return (*MakeTask(std::string(condition) + "events: 3\n" + kFourMethods, FourMoves()))->RunWorld(World(0)).front();
+    return CellsOf(**MakeTask(std::string(condition) + "events: 3\n" + kFourMethods, FourMoves()), 0).front();
   };
   const CellResult calm = run("noise: 0.5\n"), noisy = run("noise: 2\n"), turned = run("noise: 2\nturn_deg: 60\n");
   EXPECT_EQ(DigestOf(calm, "session"), DigestOf(noisy, "session"));
@@ -97,23 +52,21 @@ TEST(DetectionTask, ChangesTheStreamButNotTheDanceWhenNoiseOrTurnIsSwept) {
   EXPECT_NE(DigestOf(noisy, "stream"), DigestOf(turned, "stream"));
 }
 
-TEST(DetectionTask, SkipsClipsThatNobodyLabelledAndNamesThem) {
+TEST_F(DetectionTask, SkipsClipsThatNobodyLabelledAndNamesThem) {
   ClipLibrary clips = FourMoves();
   clips.clips.insert(clips.clips.begin(), Unlabelled());
   const auto task = *MakeTask(std::string("events: 2\n") + kFourMethods, clips);
   EXPECT_EQ(task->ClipOf(World(0)), "walk");
-  for (const CellResult& cell : task->RunWorld(World(0))) {
+  for (const CellResult& cell : CellsOf(*task, 0)) {
     EXPECT_EQ(cell.status, Status::kSkipped);
     EXPECT_EQ(cell.reason, "clip walk has no labelled moves: detection needs to know what was danced");
-    EXPECT_EQ(cell.metrics.size(), 6u);
-    for (const MetricValue& metric : cell.metrics) EXPECT_FALSE(metric.value);
   }
-  EXPECT_EQ(task->RunWorld(World(1)).front().status, Status::kOk);
+  EXPECT_EQ(CellsOf(*task, 1).front().status, Status::kOk);
 }
 
-TEST(DetectionTask, RecordsWhatHappened) {
-  const auto task = *MakeTask(std::string("events: 3\n") + kFourMethods, FourMoves(), true);
-  const CellResult cell = task->RunWorld(World(0)).front();
+TEST_F(DetectionTask, RecordsWhatHappened) {
+  const auto task = *MakeTask(std::string("events: 3\n") + kFourMethods, FourMoves());
+  const CellResult cell = CellsOf(*task, 0, true).front();
   ASSERT_TRUE(cell.recording);
   ASSERT_EQ(cell.recording->tracks.size(), 2u);
   EXPECT_EQ(cell.recording->tracks[0].name, "truth");
@@ -130,18 +83,41 @@ TEST(DetectionTask, RecordsWhatHappened) {
   EXPECT_EQ(extras["events"][0].contains("called_frame"), extras["events"][0]["called_right"].get<bool>());
 }
 
+TEST_F(DetectionTask, ShowsAnOracleTheTruthWhateverTheSensorDoes) {
+  const char* yaml = "noise: 10\nturn_deg: 60\nevents: 8\nmethods: [{name: seen}, {name: oracle, oracle: [stream]}]\n";
+  const auto task = *MakeTask(yaml, FourMoves());
+  for (int trial = 0; trial < 2; ++trial) {
+    const auto cells = RunWorld(*task, World(trial), 2);
+    EXPECT_EQ(Metric(cells[1], "f1"), 1.0);
+    EXPECT_LT(Metric(cells[0], "f1").value_or(0), 1.0);
+    EXPECT_EQ(DigestOf(cells[0], "stream"), DigestOf(cells[1], "stream")) << "the same world";
+    EXPECT_NE(DigestOf(cells[1], "filtered"), DigestOf(cells[1], "stream"));
+  }
+}
+
+TEST_F(DetectionTask, CreditsAMethodWithoutAnswerWithTheMissesItMade) {
+  const auto task = *MakeTask(std::string("events: 2\n") + kFourMethods, FourMoves());
+  for (const std::string& metric : MakeDetectionTaskKind().metrics) {
+    const bool counts_misses = metric == "f1" || metric == "recall";
+    EXPECT_EQ(task->ValueOfFailure(metric), counts_misses ? std::optional(0.0) : std::nullopt) << metric;
+  }
+  const auto all_wrong = *MakeTask(std::string("fault_share: 1\n") + kFourMethods, FourMoves());
+  EXPECT_EQ(all_wrong->ValueOfFailure("recall"), std::nullopt) << "nothing could be missed";
+}
+
 struct BadScenario {
   const char* yaml;
   const char* complaint;
 };
 
-TEST(DetectionTask, RefusesWhatItDoesNotKnowAndSaysWhatIsAllowed) {
+TEST_F(DetectionTask, RefusesWhatItDoesNotKnowAndSaysWhatIsAllowed) {
   const std::vector<BadScenario> cases = {
       {"methods:\n  - {name: a, filter: hold}\n", "'holt'"},
       {"methods:\n  - {name: a, recogniser: dtw}\n", "key-pose"},
       {"methods:\n  - {name: a, weights: adaptiv}\n", "'adaptive'"},
       {"methods:\n  - {name: a, treshold: 0.5}\n", "threshold"},
       {"methods:\n  - {name: a, weights: fixed, inferred_weight: 0.5}\n", "inferred_weight"},
+      {"methods:\n  - {name: a, oracle: [steam]}\n", "'stream'"},
       {"noise: -1\nmethods:\n  - {name: a}\n", "-1"},
       {"turn_deg: east\nmethods:\n  - {name: a}\n", "east"},
   };

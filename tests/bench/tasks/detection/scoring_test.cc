@@ -97,7 +97,8 @@ TEST(JudgeSession, CountsAnAlarmOnlyWhereTheMoveWasNeitherAskedForNorDanced) {
   const auto alarms = [&](const std::vector<SessionEvent>& events) {
     DetectionWorld world = ArmRaised();
     world.session.events = events;
-    return JudgeSession(world, repertoire, DetectionMethod{}).alarms.size();
+    const DetectionMethod method;
+    return JudgeSession(world, SeeSession(world, method), repertoire, method).alarms.size();
   };
   SessionEvent asked = Event(Fault::kNone, 0.5, 1.0), danced = Event(Fault::kWrongMove, 0.5, std::nullopt);
   asked.move = asked.danced = "raise";

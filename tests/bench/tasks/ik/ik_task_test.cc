@@ -17,13 +17,12 @@ constexpr char kMethods[] = R"(
 - {name: today, solver: damped-least-squares}
 )";
 
-Result<std::unique_ptr<Task>> Make(const std::string& condition, const std::string& methods = kMethods,
-                                   bool wants_recordings = false) {
+Result<std::unique_ptr<Task>> Make(const std::string& condition, const std::string& methods = kMethods) {
   const Node condition_node = *ParseYaml(condition, "test.yaml");
   const Node method_node = *ParseYaml(methods, "methods.yaml");
   Fields fields(condition_node, "an ik scenario");
   const ClipLibrary no_clips;
-  TaskInput input{fields, method_node.items, no_clips, wants_recordings};
+  TaskInput input{fields, method_node.items, no_clips};
   return MakeIkTaskKind().make(input);
 }
 
@@ -42,13 +41,16 @@ double Metric(const CellResult& cell, const std::string& id) {
 
 const WorldKey kWorld{.suite_seed = 1, .scenario = "test", .trial = 0};
 
+/// The cells of three methods in one world.
+std::vector<CellResult> CellsOf(const Task& task) { return RunWorld(task, kWorld, 3); }
+
 TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
   const auto task = Make("{joint_noise_deg: 15, max_sweeps: 300}");
   ASSERT_TRUE(task) << ToString(task.error());
-  const std::vector<CellResult> cells = (*task)->RunWorld(kWorld);
+  const std::vector<CellResult> cells = CellsOf(**task);
   ASSERT_EQ(cells.size(), 3u);
   for (const CellResult& cell : cells) {
-    EXPECT_EQ(cell.metrics.size(), 10u);
+    EXPECT_EQ(cell.metrics.size(), 12u);
     for (const MetricValue& metric : cell.metrics) EXPECT_NE(FindMetric(metric.id), nullptr) << metric.id;
     EXPECT_FALSE(cell.recording);
     ASSERT_EQ(cell.series.size(), 2u);
@@ -62,7 +64,7 @@ TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
 
 TEST(IkTask, CallsACellUnsolvedWithItsErrorsWhenAnEffectorIsNotHome) {
   const auto task = Make("{joint_noise_deg: 15, max_sweeps: 300}");
-  const std::vector<CellResult> cells = (*task)->RunWorld(kWorld);
+  const std::vector<CellResult> cells = CellsOf(**task);
   const CellResult& fixed = cells[0];
   EXPECT_EQ(fixed.status, Status::kUnsolved);
   EXPECT_THAT(fixed.reason, HasSubstr("worst effector"));
@@ -79,7 +81,7 @@ TEST(IkTask, CallsACellUnsolvedWithItsErrorsWhenAnEffectorIsNotHome) {
 TEST(IkTask, RepeatsItselfToTheLastBit) {
   const auto digests = [](const WorldKey& key) {
     std::vector<std::pair<std::string, std::string>> all;
-    for (const CellResult& cell : (*Make("{max_sweeps: 20}"))->RunWorld(key)) {
+    for (const CellResult& cell : RunWorld(**Make("{max_sweeps: 20}"), key, 3)) {
       all.insert(all.end(), cell.digests.begin(), cell.digests.end());
     }
     return all;
@@ -92,8 +94,8 @@ TEST(IkTask, MeasuresTightSolutionsWhenAskedToGoOn) {
   // A method that creeps up to its goal, so that where it stops is seen.
   const std::string one_method = "[{name: slow, solver: ccd-hinges, weights: adaptive-power}]";
   const std::string near = "joint_noise_deg: 2, max_sweeps: 3000";
-  const CellResult practical = (*Make("{stop_at: practical, " + near + "}", one_method))->RunWorld(kWorld)[0];
-  const CellResult tight = (*Make("{stop_at: tight, " + near + "}", one_method))->RunWorld(kWorld)[0];
+  const CellResult practical = RunWorld(**Make("{stop_at: practical, " + near + "}", one_method), kWorld, 1)[0];
+  const CellResult tight = RunWorld(**Make("{stop_at: tight, " + near + "}", one_method), kWorld, 1)[0];
   EXPECT_EQ(Metric(practical, "solved_tight"), 0);
   EXPECT_EQ(Metric(tight, "solved_tight"), 1);
   EXPECT_GT(Metric(tight, "iterations"), Metric(practical, "iterations"));
@@ -105,15 +107,15 @@ TEST(IkTask, KeepsHiddenAnglesWithinTheToleranceOfAMethod) {
 - {name: bound, weights: adaptive, tolerance_deg: 2}
 - {name: same-bound, weights: adaptive, tolerance_times_noise: 0.2}
 )";
-  const auto cells = (*Make("{joint_noise_deg: 10, max_sweeps: 50}", methods))->RunWorld(kWorld);
+  const auto cells = CellsOf(**Make("{joint_noise_deg: 10, max_sweeps: 50}", methods));
   EXPECT_LE(Metric(cells[1], "hidden_angle_change_deg"), 2);
   EXPECT_GT(Metric(cells[0], "hidden_angle_change_deg"), 2);
   EXPECT_EQ(Metric(cells[1], "hidden_angle_change_deg"), Metric(cells[2], "hidden_angle_change_deg"));
 }
 
 TEST(IkTask, RecordsTruthStartAndEveryIteration) {
-  const auto task = Make("{max_sweeps: 5}", "[{name: fixed, weights: fixed}]", true);
-  const CellResult cell = (*task)->RunWorld(kWorld)[0];
+  const auto task = Make("{max_sweeps: 5}", "[{name: fixed, weights: fixed}]");
+  const CellResult cell = (*task)->MakeWorld(kWorld, true)->Run(0);
   ASSERT_TRUE(cell.recording);
   ASSERT_EQ(cell.recording->tracks.size(), 3u);
   for (const Track& track : cell.recording->tracks) EXPECT_EQ(track.motion.poses.size(), 6u) << track.name;

@@ -3,56 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "bench/tasks/transition/adaptive_weights.h"
-#include "engine/document/node.h"
-#include "sim/choreography/move.h"
+#include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
 
-LibraryClip Builtin(const std::string& name) {
-  auto move = LoadBuiltinMove(name);
-  EXPECT_TRUE(move) << ToString(move.error());
-  return {"builtin:" + name, "builtin:" + name, move->motion, *move, ""};
-}
-
-ClipLibrary SmallLibrary() { return {{Builtin("sway"), Builtin("clap"), Builtin("boxing")}}; }
-
-constexpr const char* kMethods = R"(
-methods:
-  - {name: now, choice: now}
-  - {name: fuzzy}
-  - {name: smallest, pick: smallest}
-  - {name: smooth, join: inertialised}
-  - {name: end, choice: wait-for-end}
-  - {name: never, threshold: 0}
-)";
-
-class TransitionTaskTest : public ::testing::Test {
- protected:
-  Result<std::unique_ptr<Task>> Make(const std::string& yaml, const ClipLibrary& library, bool recordings = false) {
-    auto node = ParseYaml(yaml, "scenario.yaml");
-    EXPECT_TRUE(node);
-    Fields condition(*node, "a scenario");
-    TaskInput input{condition, node->Find("methods")->items, library, recordings};
-    return MakeTransitionTaskKind().make(input);
-  }
-
-  static WorldKey Trial(int trial) { return {.suite_seed = 1, .scenario = "test", .trial = trial}; }
-
-  static double ValueOf(const CellResult& cell, std::string_view id) {
-    for (const MetricValue& metric : cell.metrics) {
-      if (metric.id == id && metric.value) return *metric.value;
-    }
-    ADD_FAILURE() << "no value of " << id;
-    return NAN;
-  }
-};
+class TransitionTaskTest : public TransitionFixture {};
+class LearntWeights : public TransitionFixture {};
 
 TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
   const ClipLibrary library = SmallLibrary();
@@ -61,7 +23,7 @@ TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
   int smoother = 0;
   for (int trial = 0; trial < 6; ++trial) {
     EXPECT_EQ((*task)->ClipOf(Trial(trial)), library.clips[trial % 3].name);
-    const std::vector<CellResult> cells = (*task)->RunWorld(Trial(trial));
+    const std::vector<CellResult> cells = CellsOf(**task, trial);
     ASSERT_EQ(cells.size(), 6u);
     EXPECT_EQ(cells[0].status, Status::kOk);
     EXPECT_EQ(ValueOf(cells[0], "wait_s"), 0);
@@ -78,42 +40,62 @@ TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
 
 TEST_F(TransitionTaskTest, SaysWhyNoWayWasFound) {
   const ClipLibrary library = SmallLibrary();
-  const CellResult never = (*Make(kMethods, library))->RunWorld(Trial(0))[5];
+  const CellResult never = CellsOf(**Make(kMethods, library), 0)[5];
   EXPECT_EQ(never.status, Status::kUnsolved);
   EXPECT_THAT(never.reason, HasSubstr("matches one of"));
-  ASSERT_FALSE(never.metrics.empty());
+  ASSERT_EQ(never.metrics.size(), MakeTransitionTaskKind().metrics.size());
   for (const MetricValue& metric : never.metrics) {
+    if (metric.id == "natural_share") continue;
     EXPECT_FALSE(metric.value) << metric.id;
     EXPECT_FALSE(metric.null_reason.empty()) << metric.id;
+  }
+  EXPECT_EQ(ValueOf(never, "natural_share"), 0) << "a switch that never came was not natural";
+}
+
+TEST_F(TransitionTaskTest, CreditsAMethodWithoutAnswerLikeOneThatFoundNoWay) {
+  const ClipLibrary library = SmallLibrary();
+  const auto task = Make(kMethods, library);
+  const CellResult never = CellsOf(**task, 0)[5];
+  for (const MetricValue& metric : never.metrics) {
+    EXPECT_EQ((*task)->ValueOfFailure(metric.id), metric.value) << metric.id;
+  }
+}
+
+TEST_F(TransitionTaskTest, ReportsTheMetricsThatItsKindNames) {
+  const ClipLibrary library = SmallLibrary();
+  for (const CellResult& cell : CellsOf(**Make(kMethods, library), 1)) {
+    std::vector<std::string> ids;
+    for (const MetricValue& metric : cell.metrics) ids.push_back(metric.id);
+    EXPECT_EQ(ids, MakeTransitionTaskKind().metrics);
   }
 }
 
 TEST_F(TransitionTaskTest, IsAFunctionOfTheWorldAlone) {
   const ClipLibrary library = SmallLibrary();
   const auto task = Make(kMethods, library), again = Make(kMethods, library);
-  (*again)->RunWorld(Trial(5));  // what was run before must not matter
-  const auto first = (*task)->RunWorld(Trial(2)), second = (*again)->RunWorld(Trial(2));
+  CellsOf(**again, 5);  // what was run before must not matter
+  const auto first = CellsOf(**task, 2), second = CellsOf(**again, 2);
   for (std::size_t m = 0; m < first.size(); ++m) EXPECT_EQ(first[m].digests, second[m].digests);
-  const auto other = (*task)->RunWorld(Trial(3));
+  const auto other = CellsOf(**task, 3);
   EXPECT_NE(first[0].digests, other[0].digests) << "the control: another world";
 }
 
 TEST_F(TransitionTaskTest, SkipsALibraryThatHoldsNothingToSwitchTo) {
   const ClipLibrary single{{Builtin("clap")}};
-  const CellResult cell = (*Make(kMethods, single))->RunWorld(Trial(0))[0];
+  const CellResult cell = CellsOf(**Make(kMethods, single), 0)[0];
   EXPECT_EQ(cell.status, Status::kSkipped);
   EXPECT_THAT(cell.reason, HasSubstr("two clips"));
 
   ClipLibrary with_short{{Builtin("clap"), Builtin("sway")}};
   with_short.clips[1].motion.poses.resize(5);
   const auto task = Make(kMethods, with_short);
-  EXPECT_THAT((*task)->RunWorld(Trial(0))[0].reason, HasSubstr("no other clip"));
-  EXPECT_THAT((*task)->RunWorld(Trial(1))[0].reason, HasSubstr("has 5 frames"));
+  EXPECT_THAT(CellsOf(**task, 0)[0].reason, HasSubstr("no other clip"));
+  EXPECT_THAT(CellsOf(**task, 1)[0].reason, HasSubstr("has 5 frames"));
 }
 
 TEST_F(TransitionTaskTest, RecordsTheSwitchWithItsFacts) {
   const ClipLibrary library = SmallLibrary();
-  const auto cells = (*Make(kMethods, library, true))->RunWorld(Trial(0));
+  const auto cells = CellsOf(**Make(kMethods, library), 0, true);
   ASSERT_TRUE(cells[0].recording);
   const Recording& recording = *cells[0].recording;
   ASSERT_EQ(recording.tracks.size(), 1u);
@@ -122,7 +104,7 @@ TEST_F(TransitionTaskTest, RecordsTheSwitchWithItsFacts) {
   EXPECT_THAT(recording.extras_json, HasSubstr(R"("seam_frame":)"));
   EXPECT_THAT(recording.extras_json, HasSubstr(R"("from":"builtin:sway")"));
   EXPECT_THAT(recording.extras_json, HasSubstr(R"("branch":"now")"));
-  EXPECT_FALSE((*Make(kMethods, library))->RunWorld(Trial(0))[0].recording);
+  EXPECT_FALSE(CellsOf(**Make(kMethods, library), 0)[0].recording);
 }
 
 TEST_F(TransitionTaskTest, ComplainsAboutUnknownNames) {
@@ -139,12 +121,12 @@ TEST_F(TransitionTaskTest, WeighsFeaturesAsLearntWhenAskedTo) {
   const ClipLibrary library = SmallLibrary();
   const auto task =
       Make("methods: [{name: fixed, choice: now}, {name: adaptive, choice: now, weights: adaptive}]", library);
-  const auto cells = (*task)->RunWorld(Trial(0));
+  const auto cells = RunWorld(**task, Trial(0), 2);
   EXPECT_EQ(ValueOf(cells[0], "jump_cm"), ValueOf(cells[1], "jump_cm"));
   EXPECT_NE(ValueOf(cells[0], "fuzzy_distance"), ValueOf(cells[1], "fuzzy_distance"));
 }
 
-TEST(AdaptiveWeights, AreLearntWithoutTheJudgedClips) {
+TEST_F(LearntWeights, NeverSawTheJudgedClips) {
   const Stage stage = SetStage(SmallLibrary());
   const auto training = SetTrainingStage(stage);
   ASSERT_TRUE(training);

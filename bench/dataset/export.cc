@@ -1,0 +1,182 @@
+#include "bench/dataset/export.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/dataset/layout.h"
+#include "bench/files/files.h"
+#include "bench/run/finish.h"
+#include "bench/run/manifest.h"
+#include "bench/run/plan.h"
+#include "bench/run/suite.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReadme =
+    R"(# A data set of Etude
+
+- `inputs/` is what a method may see: give this folder away.
+- `truth/` is what its answers are judged by: keep it. (`manifest.json`, too: whoever has Etude can make the truth of it.)
+
+`inputs/index.csv` lists the problems. A problem is `SCENARIO/CONDITION/TRIAL/problem.json` with its files beside it; what
+the problems of a condition share is `SCENARIO/CONDITION/setting.json`. What they hold, and what an answer looks like,
+stands in Etude's `docs/outside-methods.md`, task by task. A method's predictions are a folder of answers, one JSON
+object per problem, under the same names: `SCENARIO/CONDITION/TRIAL.json`. Judge them with
+
+    etude score THIS_FOLDER PREDICTIONS -o RESULT --name METHOD
+)";
+
+/// A folder that is being filled under another name, and gets its own when it is whole; else it goes away again.
+class NewFolder {
+ public:
+  static Result<NewFolder> Begin(const fs::path& path) {
+    const Place place{path.string(), 0, 0};
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_directory(status)) return Fail(place, "is no folder");
+    if (fs::is_directory(status) && !fs::is_empty(path, error)) {
+      return Fail(place, "is not empty; choose another folder with -o");
+    }
+    NewFolder folder(path);
+    fs::remove_all(folder.partial_, error);  // of an export that was killed
+    if (auto made = MakeFolder(folder.partial_); !made) return tl::unexpected(made.error());
+    return folder;
+  }
+  NewFolder(NewFolder&& other) noexcept : path_(std::move(other.path_)), partial_(std::move(other.partial_)) {
+    other.partial_.clear();
+  }
+  NewFolder& operator=(NewFolder&&) = delete;
+  ~NewFolder() {
+    std::error_code ignored;
+    if (!partial_.empty()) fs::remove_all(partial_, ignored);
+  }
+
+  const fs::path& partial() const { return partial_; }
+
+  Result<void> Finish() {
+    std::error_code error;
+    fs::rename(partial_, path_, error);
+    if (error) return Fail({path_.string(), 0, 0}, "cannot be written: {}", error.message());
+    partial_.clear();
+    return {};
+  }
+
+ private:
+  explicit NewFolder(const fs::path& path)
+      : path_(fs::absolute(path).lexically_normal()), partial_(path_.string() + ".partial") {}
+
+  fs::path path_, partial_;
+};
+
+Result<void> SaveExhibit(const Exhibit& exhibit, const fs::path& folder, const char* name) {
+  if (auto saved = SaveJson(folder / name, *exhibit.json); !saved) return saved;
+  for (const Attachment& file : exhibit.files) {
+    if (auto saved = WriteFileAtomically(folder / file.name, file.bytes); !saved) return saved;
+  }
+  return {};
+}
+
+/// A field of a CSV file: quoted where it must be.
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+class Exporter {
+ public:
+  Exporter(const PreparedScenario& scenario, fs::path folder) : scenario_(scenario), folder_(std::move(folder)) {}
+
+  Result<void> SaveSetting(int condition, const std::string& place) {
+    const auto setting = scenario_.task(condition).Setting();
+    if (!setting) return About(place, setting.error());
+    return SaveExhibit(*setting, folder_ / "inputs" / place, "setting.json");
+  }
+
+  /// Adds the world's line to `index`.
+  Result<void> SaveWorld(int condition, int trial, const std::string& place, ExportOutcome& outcome,
+                         std::string& index) {
+    const auto world = scenario_.task(condition).MakeWorld(scenario_.KeyOf(trial), /*keeps_motion=*/false);
+    const std::string path = place + "/" + TrialName(trial);
+    const Row row = scenario_.IdentityOf(condition, trial, 0);
+    const auto why_skipped = world->WhySkipped();
+    index += fmt::format("{},{},{},{},{},{},{},{}\n", row.scenario, row.task, Quoted(ConditionLabel(row.condition)),
+                         trial, Quoted(row.clip), why_skipped ? "" : Quoted(path + "/problem.json"),
+                         why_skipped ? "" : Quoted(path + ".json"), Quoted(why_skipped.value_or("")));
+    if (why_skipped) {
+      ++outcome.skipped;
+      return {};
+    }
+    ++outcome.problems;
+    // One after the other: a world's pictures need much memory.
+    {
+      const auto problem = world->MakeProblem();
+      if (!problem) return About(path, problem.error());
+      if (auto saved = SaveExhibit(*problem, folder_ / "inputs" / path, "problem.json"); !saved) return saved;
+    }
+    const auto truth = world->MakeTruth();
+    if (!truth) return About(path, truth.error());
+    return SaveExhibit(*truth, folder_ / "truth" / path, "truth.json");
+  }
+
+ private:
+  Result<void> About(const std::string& place, const Error& error) const {
+    return Fail({scenario_.setup().file, 0, 0}, "{}: {}", place, ToString(error));
+  }
+
+  const PreparedScenario& scenario_;
+  const fs::path folder_;
+};
+
+}  // namespace
+
+Result<ExportOutcome> ExportSuite(const ExportOptions& options,
+                                  const std::function<void(std::size_t, std::size_t)>& on_progress) {
+  RunOptions run;
+  run.scenarios = options.scenarios;
+  run.seed = options.seed;
+  run.trials = options.trials;
+  run.clips = options.clips;
+  const auto suite = ReadSuite(run);
+  if (!suite) return tl::unexpected(suite.error());
+  const auto scenarios = PrepareAll(*suite);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  auto folder = NewFolder::Begin(options.output);
+  if (!folder) return tl::unexpected(folder.error());
+
+  const Plan plan(*scenarios);
+  ExportOutcome outcome;
+  std::string index = "scenario,task,condition,trial,clip,problem,prediction,skipped\n";
+  on_progress(0, plan.world_count());
+  for (std::size_t w = 0; w < plan.world_count(); ++w) {
+    if (options.stop != nullptr && *options.stop) {
+      outcome.stopped = true;
+      return outcome;
+    }
+    const World& world = plan.world(w);
+    const PreparedScenario& scenario = plan.scenario_of(w);
+    const std::string place =
+        ScenarioFolder(scenario.scenario()) + "/" + ConditionFolders(scenario.scenario())[world.condition];
+    Exporter exporter(scenario, folder->partial());
+    if (world.trial == 0) {
+      if (auto saved = exporter.SaveSetting(world.condition, place); !saved) return tl::unexpected(saved.error());
+    }
+    auto saved = exporter.SaveWorld(world.condition, world.trial, place, outcome, index);
+    if (!saved) return tl::unexpected(saved.error());
+    on_progress(w + 1, plan.world_count());
+  }
+  const auto save = [&](const char* name, const std::string& text) {
+    return WriteFileAtomically(folder->partial() / name, text);
+  };
+  if (auto saved = save("inputs/index.csv", index); !saved) return tl::unexpected(saved.error());
+  if (auto saved = save("README.md", kReadme); !saved) return tl::unexpected(saved.error());
+  auto saved = SaveJson(folder->partial() / "manifest.json", MakeManifest(*suite, *scenarios, options.program_version));
+  if (!saved) return tl::unexpected(saved.error());
+  if (auto done = folder->Finish(); !done) return tl::unexpected(done.error());
+  return outcome;
+}
+
+}  // namespace etude

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+struct ExportOptions {
+  std::vector<std::string> scenarios;  ///< files, or folders of *.yaml
+  std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
+  std::optional<int> trials;           ///< else each scenario's own
+  std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
+  std::string output;
+  std::string program_version;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct ExportOutcome {
+  std::size_t problems = 0;
+  std::size_t skipped = 0;  ///< worlds in which no method can run; listed with the reason
+  bool stopped = false;     ///< nothing was written
+};
+
+/// Writes the problems of all worlds, and apart from them what is true about them (docs/datasets.md):
+///
+///     manifest.json                                what makes the same worlds again: as of a run
+///     README.md
+///     inputs/index.csv                             a line per world
+///     inputs/SCENARIO/CONDITION/setting.json       what the problems of a condition share
+///     inputs/SCENARIO/CONDITION/TRIAL/problem.json, with its files beside
+///     truth/SCENARIO/CONDITION/TRIAL/truth.json, with its files beside
+///
+/// Whole or not at all. Refused, before anything is written: a folder that holds something. The process is to be in
+/// the pinned environment, which makes the pictures the same on every machine.
+Result<ExportOutcome> ExportSuite(const ExportOptions& options,
+                                  const std::function<void(std::size_t done, std::size_t worlds)>& on_progress);
+
+}  // namespace etude

@@ -1,0 +1,74 @@
+#include "bench/dataset/predictions.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "bench/dataset/layout.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The trial that a file name stands for: "7.json", "007.json" and "007.JSON" are trial 7.
+std::optional<int> TrialOf(const fs::path& name) {
+  std::string extension = name.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string stem = name.stem().string();
+  int trial = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), trial);
+  const bool is_number = error == std::errc() && end == stem.data() + stem.size() && trial >= 0;
+  if (extension != ".json" || !is_number) return std::nullopt;
+  return trial;
+}
+
+/// All files below `folder`, in order of their names, relative to it.
+Result<std::vector<fs::path>> FilesBelow(const fs::path& folder) {
+  const Place place{folder.string(), 0, 0};
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return Fail(place, "no such folder of predictions");
+  std::vector<fs::path> files;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const bool is_folder = entry->is_directory(error);
+    if (entry->path().filename().string().starts_with('.')) {
+      if (is_folder) entry.disable_recursion_pending();
+    } else if (!is_folder) {
+      files.push_back(entry->path().lexically_relative(folder));
+    }
+  }
+  if (error) return Fail(place, "cannot be read: {}", error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
+  const auto files = FilesBelow(folder);
+  if (!files) return tl::unexpected(files.error());
+  // By "SCENARIO/CONDITION" and trial.
+  std::map<std::pair<std::string, int>, std::size_t> worlds;
+  for (std::size_t w = 0; w < plan.world_count(); ++w) {
+    const Scenario& scenario = plan.scenario_of(w).scenario();
+    const World& world = plan.world(w);
+    worlds[{ScenarioFolder(scenario) + "/" + ConditionFolders(scenario)[world.condition], world.trial}] = w;
+  }
+  PredictionFiles found(plan.world_count());
+  for (const fs::path& file : *files) {
+    const std::optional<int> trial = TrialOf(file.filename());
+    const auto world = trial ? worlds.find({file.parent_path().generic_string(), *trial}) : worlds.end();
+    if (world == worlds.end()) {
+      faults.extra.push_back(file.generic_string());
+    } else if (auto& place = found[world->second]) {
+      faults.duplicate.push_back(
+          fmt::format("{} (as {})", file.generic_string(), place->lexically_relative(folder).generic_string()));
+    } else {
+      place = folder / file;
+    }
+  }
+  return found;
+}
+
+}  // namespace etude

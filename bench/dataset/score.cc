@@ -1,0 +1,208 @@
+#include "bench/dataset/score.h"
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/dataset/layout.h"
+#include "bench/files/files.h"
+#include "bench/run/finish.h"
+#include "bench/run/manifest.h"
+#include "bench/run/run_folder.h"
+#include "bench/run/suite.h"
+#include "bench/run/supervisor.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
+  std::error_code error;
+  const fs::path manifest = fs::path(options.target) / "manifest.json";
+  if (!fs::exists(manifest, error)) {
+    RunOptions run;
+    run.scenarios = {options.target};
+    run.seed = options.seed;
+    run.trials = options.trials;
+    run.clips = options.clips;
+    return ReadSuite(run);
+  }
+  if (options.seed || options.trials || !options.clips.empty()) {
+    return Fail({manifest.string(), 0, 0}, "tells seed, trials and clips itself; leave out --seed, --trials, --clips");
+  }
+  return ReadManifest(manifest);
+}
+
+Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, const ScoreOptions& options) {
+  auto scenarios = PrepareAll(suite);
+  if (!scenarios) return scenarios;
+  std::error_code error;
+  const fs::path manifest = fs::path(options.target) / "manifest.json";
+  if (fs::exists(manifest, error)) {
+    if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
+  }
+  for (PreparedScenario& scenario : *scenarios) {
+    if (auto added = scenario.AddMethod(options.name, options.alone); !added) return tl::unexpected(added.error());
+  }
+  return scenarios;
+}
+
+/// "ik/joint_noise_deg=5/007"
+std::string NameOf(const Plan& plan, std::size_t w) {
+  const Scenario& scenario = plan.scenario_of(w).scenario();
+  const World& world = plan.world(w);
+  return fmt::format("{}/{}/{}", ScenarioFolder(scenario), ConditionFolders(scenario)[world.condition],
+                     TrialName(world.trial));
+}
+
+constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // as a program's; 60 s of poses take 3 MB
+
+Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (!error && size > kLargestAnswer) {
+    return Fail({file.string(), 0, 0}, "{} bytes; an answer has at most {}", size, kLargestAnswer);
+  }
+  const auto text = ReadWholeFile(file);
+  if (!text) return tl::unexpected(text.error());
+  const auto answer = ReadJson(*text, file.string());
+  if (!answer) return tl::unexpected(answer.error());
+  auto judged = world.Judge(*answer);
+  if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));
+  judged->digests.emplace_back("answer", Digest().Add(std::string_view(answer->dump())).Hex());
+  return judged;
+}
+
+/// The row of the answer in `file` to world `w`; what is wrong with it goes into `faults`.
+Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& file, PredictionFaults& faults) {
+  const PreparedScenario& scenario = plan.scenario_of(w);
+  const World& world = plan.world(w);
+  const std::size_t method = plan.MethodCount(w) - 1;
+  const auto ended = [&](Status status, const std::string& reason) {
+    return scenario.EndedRow(world.condition, world.trial, method, status, reason);
+  };
+  const std::vector<int>& filmed = scenario.scenario().recordings.trials;
+  const bool is_filmed = std::find(filmed.begin(), filmed.end(), world.trial) != filmed.end();
+  const auto built = scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.trial), is_filmed);
+  if (const auto why = built->WhySkipped()) {
+    if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
+    return ended(Status::kSkipped, *why);
+  }
+  if (!file) {
+    faults.missing.push_back(NameOf(plan, w) + ".json");
+    return ended(Status::kFailed, fmt::format("no prediction: {}.json is missing", NameOf(plan, w)));
+  }
+  auto judged = JudgeFile(*built, *file);
+  if (!judged) {
+    faults.broken.push_back(ToString(judged.error()));
+    return ended(Status::kBadOutput, judged.error().message);
+  }
+  Row row = scenario.IdentityOf(world.condition, world.trial, method);
+  row.result = *std::move(judged);
+  scenario.CompleteMetrics(world.condition, row);
+  return row;
+}
+
+/// How far scoring has come.
+class Meter {
+ public:
+  Meter(std::size_t cells, const std::function<void(const Progress&)>& on_progress) : on_progress_(on_progress) {
+    progress_.cells = cells;
+    on_progress_(progress_);
+  }
+  void Count(const Row& row) {
+    ++progress_.cells_done;
+    progress_.cells_ok += row.result.status == Status::kOk ? 1 : 0;
+    progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    on_progress_(progress_);
+  }
+  const Progress& progress() const { return progress_; }
+
+ private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const std::function<void(const Progress&)>& on_progress_;
+  Progress progress_;
+};
+
+/// Puts a row per answer into `cells`. False when stopped.
+Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, PredictionFaults& faults,
+                      Meter& meter) {
+  const auto files = FindPredictions(options.predictions, plan, faults);
+  if (!files) return tl::unexpected(files.error());
+  for (std::size_t w = 0; w < plan.world_count(); ++w) {
+    if (options.stop != nullptr && *options.stop) return false;
+    Row row = JudgeWorld(plan, w, (*files)[w], faults);
+    meter.Count(row);
+    cells[plan.CellAt(w, plan.MethodCount(w) - 1)] = FinishedCell{std::move(row), {}};
+  }
+  return true;
+}
+
+/// What beside the manifest of a run repeats this one: the answers, by their fingerprint.
+Json DescribePredictions(const ScoreOptions& options, const Plan& plan, const CellTable& cells) {
+  Digest digest;
+  std::size_t answers = 0;
+  for (std::size_t w = 0; w < plan.world_count(); ++w) {
+    for (const auto& [stage, value] : cells[plan.CellAt(w, plan.MethodCount(w) - 1)]->row.result.digests) {
+      if (stage != "answer") continue;
+      digest.Add(NameOf(plan, w)).Add(value);
+      ++answers;
+    }
+  }
+  return {{"method", options.name}, {"answers", answers}, {"digest", digest.Hex()}};
+}
+
+}  // namespace
+
+Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
+                                      const std::function<void(const Progress&)>& on_progress) {
+  const auto suite = ReadTarget(options);
+  if (!suite) return tl::unexpected(suite.error());
+  const auto state = LookAtFolder(options.output);
+  if (!state) return tl::unexpected(state.error());
+  if (*state != FolderState::kFree) {
+    return Fail({options.output, 0, 0}, "already holds a run; choose another folder with -o");
+  }
+  const auto scenarios = PrepareTarget(*suite, options);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+
+  const Plan plan(*scenarios);
+  CellTable cells(plan.cell_count());
+  Meter meter(plan.cell_count(), on_progress);
+  ScoreOutcome outcome{.run = {.folder = options.output}, .faults = {}};
+  const auto judged = JudgeAll(plan, options, cells, outcome.faults, meter);
+  if (!judged) return tl::unexpected(judged.error());
+  if (options.allow_missing) outcome.faults.missing.clear();
+  outcome.run.stopped = !*judged;
+  if (outcome.run.stopped || !outcome.faults.empty()) return outcome;
+
+  auto claimed = RunFolder::Claim(options.output, /*keep_contents=*/false);
+  if (!claimed) return tl::unexpected(claimed.error());
+  Json manifest = MakeManifest(*suite, *scenarios, options.program_version);
+  manifest["predictions"] = DescribePredictions(options, plan, cells);
+  const fs::path folder = options.output;
+  if (auto saved = SaveJson(folder / "manifest.json", manifest); !saved) return tl::unexpected(saved.error());
+  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  const auto whole = RunOrders(*suite, plan, plan.OrdersFor({}, DoneCells(cells)),
+                               {.program = ThisProgram(), .error_folder = "", .jobs = jobs, .stop = options.stop},
+                               [&](std::size_t cell, FinishedCell finished) -> Result<void> {
+                                 meter.Count(finished.row);
+                                 cells[cell] = std::move(finished);
+                                 return {};
+                               });
+  if (!whole) return tl::unexpected(whole.error());
+  outcome.run.stopped = !*whole;
+  outcome.run.cells = meter.progress().cells_done;
+  outcome.run.cells_ok = meter.progress().cells_ok;
+  outcome.run.seconds = meter.progress().seconds;
+  if (outcome.run.stopped) return outcome;
+  const Json host = DescribeHost(options.command_line, jobs, outcome.run.seconds);
+  if (auto done = FinishRun(folder, plan, std::move(cells), host); !done) return tl::unexpected(done.error());
+  claimed->Keep();
+  return outcome;
+}
+
+}  // namespace etude

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/dataset/predictions.h"
+#include "bench/run/run.h"
+
+namespace etude {
+
+struct ScoreOptions {
+  /// An exported data set (or any folder with the manifest of a run), a scenario file, or a folder of *.yaml.
+  std::string target;
+  std::string predictions;            ///< the folder of answers
+  std::string output;                 ///< the result folder
+  std::string name = "predictions";   ///< what the method is called that gave them
+  bool alone = false;                 ///< do not run the scenarios' own methods beside
+  bool allow_missing = false;         ///< a world without an answer is a failed cell instead of a complaint
+  int jobs = 0;                       ///< worker processes for the scenarios' own methods; 0 = one per processor
+  std::optional<std::uint64_t> seed;  ///< of scenario files; a manifest has its own
+  std::optional<int> trials;
+  std::vector<std::string> clips;
+  std::string command_line;
+  std::string program_version;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct ScoreOutcome {
+  RunOutcome run;
+  PredictionFaults faults;  ///< when there are any, nothing was written
+};
+
+/// Scores answers from files and writes an ordinary result folder, in which they are one more method of each scenario,
+/// compared with its first; those are run beside by workers, as in a run. With `alone` they are not, and nothing is
+/// compared or expected. The process is to be in the pinned environment, because it judges the answers itself.
+Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
+                                      const std::function<void(const Progress&)>& on_progress);
+
+}  // namespace etude

@@ -1,0 +1,157 @@
+#include "bench/gate/comparison.h"
+
+#include <algorithm>
+
+namespace etude {
+namespace {
+
+std::string NameOf(const std::string& scenario, const SnapshotCells& cells) {
+  return fmt::format("{}, {}, {}", scenario, cells.condition, cells.method);
+}
+
+template <typename Items, typename Matches>
+auto FindIn(Items& items, Matches matches) -> decltype(&*items.begin()) {
+  const auto found = std::find_if(items.begin(), items.end(), matches);
+  return found == items.end() ? nullptr : &*found;
+}
+
+const SnapshotScenario* FindScenario(const Snapshot& snapshot, const std::string& name) {
+  return FindIn(snapshot.scenarios, [&](const SnapshotScenario& scenario) { return scenario.name == name; });
+}
+
+const SnapshotCells* FindCells(const SnapshotScenario& scenario, const SnapshotCells& like) {
+  return FindIn(scenario.cells, [&](const SnapshotCells& cells) {
+    return cells.condition == like.condition && cells.method == like.method;
+  });
+}
+
+const SnapshotValues* FindValues(const SnapshotCells& cells, const std::string& metric) {
+  return FindIn(cells.metrics, [&](const SnapshotValues& values) { return values.metric == metric; });
+}
+
+/// What `one` holds and `other` does not, told once at the level at which it is missing.
+std::vector<std::string> OnlyIn(const Snapshot& one, const Snapshot& other) {
+  std::vector<std::string> only;
+  for (const SnapshotScenario& scenario : one.scenarios) {
+    const SnapshotScenario* partner = FindScenario(other, scenario.name);
+    if (partner == nullptr) {
+      only.push_back(scenario.name);
+      continue;
+    }
+    for (const SnapshotCells& cells : scenario.cells) {
+      const SnapshotCells* same = FindCells(*partner, cells);
+      if (same == nullptr) only.push_back(NameOf(scenario.name, cells));
+      for (const SnapshotValues& values : cells.metrics) {
+        if (same == nullptr || FindValues(*same, values.metric) != nullptr) continue;
+        only.push_back(NameOf(scenario.name, cells) + ", " + values.metric);
+      }
+    }
+  }
+  return only;
+}
+
+const std::string* FindDigest(const NamedDigests& digests, const std::string& name) {
+  const auto* found = FindIn(digests, [&](const auto& pair) { return pair.first == name; });
+  return found == nullptr ? nullptr : &found->second;
+}
+
+std::vector<bool> WorldsToCompare(const SnapshotCells& before, const SnapshotCells& after) {
+  std::vector<bool> compared(std::min(before.statuses.size(), after.statuses.size()));
+  for (std::size_t t = 0; t < compared.size(); ++t) {
+    compared[t] = !DependsOnMachine(before.statuses[t]) && !DependsOnMachine(after.statuses[t]);
+  }
+  return compared;
+}
+
+int CountDiffering(const SnapshotCells& before, const SnapshotCells& after, const std::vector<bool>& compared) {
+  int differing = 0;
+  for (std::size_t t = 0; t < compared.size(); ++t) {
+    differing += compared[t] && before.statuses[t] != after.statuses[t];
+  }
+  return differing;
+}
+
+std::vector<std::optional<double>> OkIn(const std::string& statuses) {
+  std::vector<std::optional<double>> ok;
+  for (char letter : statuses) ok.emplace_back(letter == 'o' ? 1.0 : 0.0);
+  return ok;
+}
+
+std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const SnapshotScenario& after) {
+  std::vector<std::string> reasons;
+  const auto differ = [&](std::string_view what, auto a, auto b) {
+    if (a != b) reasons.push_back(fmt::format("{}: {} {} and {}", before.name, what, a, b));
+  };
+  differ("seed", before.seed, after.seed);
+  differ("trials", before.trials, after.trials);
+  for (const auto& [condition, digest] : before.worlds) {
+    const std::string* other = FindDigest(after.worlds, condition);
+    if (other == nullptr || *other == digest) continue;
+    reasons.push_back(
+        fmt::format("{}: the worlds of condition {} are made from other parameters or clips", before.name, condition));
+  }
+  for (const auto& [id, version] : before.metrics) {
+    const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == id; });
+    if (other != nullptr) differ(id + " in versions", version, other->second);
+  }
+  return reasons;
+}
+
+}  // namespace
+
+std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot& after) {
+  std::vector<std::string> reasons;
+  for (const SnapshotScenario& scenario : before.scenarios) {
+    const SnapshotScenario* partner = FindScenario(after, scenario.name);
+    if (partner == nullptr) continue;
+    for (std::string& reason : WhyNotComparable(scenario, *partner)) reasons.push_back(std::move(reason));
+  }
+  return reasons;
+}
+
+std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after) {
+  const std::vector<std::string> reasons = WhyNotComparable(before, after);
+  std::set<std::string> dropped;
+  for (const SnapshotScenario& scenario : before.scenarios) {
+    const SnapshotScenario* partner = FindScenario(after, scenario.name);
+    if (partner != nullptr && !WhyNotComparable(scenario, *partner).empty()) dropped.insert(scenario.name);
+  }
+  for (Snapshot* snapshot : {&before, &after}) {
+    std::erase_if(snapshot->scenarios, [&](const SnapshotScenario& one) { return dropped.contains(one.name); });
+  }
+  return reasons;
+}
+
+SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact) {
+  SnapshotComparison comparison;
+  comparison.only_before = OnlyIn(before, after);
+  comparison.only_after = OnlyIn(after, before);
+  for (const SnapshotScenario& scenario : before.scenarios) {
+    const SnapshotScenario* partner = FindScenario(after, scenario.name);
+    if (partner == nullptr) continue;
+    for (const auto& [method, digest] : scenario.methods) {
+      const std::string* other = FindDigest(partner->methods, method);
+      if (other != nullptr && *other != digest) comparison.settings_changed.push_back(scenario.name + ", " + method);
+    }
+    for (const SnapshotCells& cells : scenario.cells) {
+      const SnapshotCells* others = FindCells(*partner, cells);
+      if (others == nullptr) continue;
+      const std::vector<bool> compared = WorldsToCompare(cells, *others);
+      const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
+        comparison.moves.push_back(MeasureMove({scenario.name, cells.condition, cells.method, metric},
+                                               {values, other_values, compared}, scenario.seed));
+      };
+      add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
+      // To the letter, `unsolved` for `failed` is a difference too.
+      if (exact.contains(scenario.name)) comparison.moves.back().differing = CountDiffering(cells, *others, compared);
+      for (const SnapshotValues& values : cells.metrics) {
+        const SnapshotValues* other = FindValues(*others, values.metric);
+        if (other != nullptr) add(values.metric, values.values, other->values);
+      }
+    }
+  }
+  JudgeMoves(comparison.moves, exact);
+  return comparison;
+}
+
+}  // namespace etude

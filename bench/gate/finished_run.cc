@@ -1,0 +1,130 @@
+#include "bench/gate/finished_run.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "bench/files/files.h"
+#include "bench/results/folder.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The scenarios of manifest.json, read from the texts that it keeps.
+Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
+  const auto text = ReadWholeFile(path);
+  if (!text) return tl::unexpected(text.error());
+  const auto manifest = ReadJson(*text, path.string());
+  if (!manifest) return tl::unexpected(manifest.error());
+  const Place place{path.string(), 0, 0};
+  auto suite = DecodeSetup(*manifest, place);
+  if (!suite) return tl::unexpected(suite.error());
+  std::vector<FinishedScenario> finished;
+  for (std::size_t s = 0; s < suite->scenarios.size(); ++s) {
+    FinishedScenario& one = finished.emplace_back();
+    one.setup = suite->scenarios[s];
+    auto parsed = ParseScenarios(one.setup.file, suite->sources);
+    if (!parsed) return tl::unexpected(parsed.error());
+    const auto named = std::find_if(parsed->begin(), parsed->end(),
+                                    [&](const Scenario& scenario) { return scenario.name == one.setup.name; });
+    if (named == parsed->end()) return Fail(place, "'{}' holds no scenario '{}'", one.setup.file, one.setup.name);
+    one.scenario = std::move(*named);
+    one.scenario.trials = one.setup.trials;
+    try {
+      for (const Json& clip : manifest->at("scenarios").at(s).at("loaded_clips")) {
+        one.clip_digests.push_back(clip.at("digest").get<std::string>());
+      }
+    } catch (const Json::exception& error) {
+      return Fail(place, "not a manifest: {}", error.what());
+    }
+  }
+  return finished;
+}
+
+Result<std::map<std::string, double>> LoadTimes(const fs::path& path) {
+  const auto text = ReadWholeFile(path);
+  if (!text) return tl::unexpected(text.error());
+  std::map<std::string, double> seconds;
+  std::istringstream lines(*text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto json = ReadJson(line, path.string(), number);
+    if (!json) return tl::unexpected(json.error());
+    try {
+      seconds[json->at("cell").get<std::string>()] = json->at("cpu_s").get<double>();
+    } catch (const Json::exception& error) {
+      return Fail({path.string(), number, 0}, "not a line of times: {}", error.what());
+    }
+  }
+  return seconds;
+}
+
+/// The identities of all cells that a scenario asks for, in canonical order.
+std::vector<std::string> CellsOf(const Scenario& scenario) {
+  std::vector<std::string> ids;
+  Row row;
+  row.scenario = scenario.name;
+  for (const Condition& condition : scenario.conditions) {
+    row.condition = condition.settings;
+    for (row.trial = 0; row.trial < scenario.trials; ++row.trial) {
+      for (const MethodEntry& method : scenario.methods) {
+        row.method = method.name;
+        ids.push_back(row.Id());
+      }
+    }
+  }
+  return ids;
+}
+
+bool WantsTimes(const FinishedScenario& scenario) { return !scenario.scenario.gate.time_ratios.empty(); }
+
+}  // namespace
+
+Result<void> CheckRows(FinishedRun& run, const Place& place) {
+  std::set<std::string> rows;
+  for (const Row& row : run.data.rows) {
+    if (!rows.insert(row.Id()).second) return Fail(place, "holds the cell {} twice", row.Id());
+  }
+  for (const FinishedScenario& one : run.scenarios) {
+    const std::vector<std::string> wanted = CellsOf(one.scenario);
+    std::vector<std::string> missing;
+    for (const std::string& id : wanted) {
+      if (rows.erase(id) == 0) missing.push_back(id);
+    }
+    if (missing.empty()) continue;
+    run.incomplete.push_back(fmt::format("{}: {} of {} rows are missing, the first is {}", one.scenario.name,
+                                         missing.size(), wanted.size(), missing.front()));
+  }
+  if (!rows.empty()) return Fail(place, "holds the cell {}, which no scenario of the manifest asks for", *rows.begin());
+  return {};
+}
+
+Result<FinishedRun> LoadFinishedRun(const fs::path& folder) {
+  FinishedRun run;
+  std::error_code none;
+  if (fs::exists(folder / kJournalFile, none)) {
+    run.incomplete.push_back(
+        fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
+    return run;
+  }
+  auto data = LoadRun(folder);
+  if (!data) return tl::unexpected(data.error());
+  run.data = std::move(*data);
+  auto scenarios = LoadScenarios(folder / "manifest.json");
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  run.scenarios = std::move(*scenarios);
+  if (auto checked = CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  if (std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
+    auto seconds = LoadTimes(folder / "timings.jsonl");
+    if (!seconds) return tl::unexpected(seconds.error());
+    run.cpu_seconds = std::move(*seconds);
+  }
+  return run;
+}
+
+}  // namespace etude

@@ -1,0 +1,86 @@
+#include "bench/gate/gate.h"
+
+#include <algorithm>
+#include <map>
+
+namespace etude {
+namespace {
+
+Result<void> RequireComparable(const Snapshot& baseline, const Snapshot& now, const std::string& file) {
+  const std::vector<std::string> reasons = WhyNotComparable(baseline, now);
+  if (reasons.empty()) return {};
+  constexpr std::size_t kTold = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kTold, reasons.size()); ++i) text += (i == 0 ? "" : "; ") + reasons[i];
+  if (reasons.size() > kTold) text += fmt::format("; and {} more", reasons.size() - kTold);
+  return Fail({file, 0, 0}, "its worlds are not those of the run: {}; --update makes a new one", text);
+}
+
+}  // namespace
+
+std::set<std::string> ExactScenarios(const FinishedRun& run) {
+  std::set<std::string> exact;
+  for (const FinishedScenario& one : run.scenarios) {
+    if (one.scenario.gate.exact) exact.insert(one.scenario.name);
+  }
+  return exact;
+}
+
+std::vector<std::string> DescribeMachineEnds(const FinishedRun& run) {
+  struct Ends {
+    int cells = 0;
+    std::string first;
+  };
+  std::map<std::pair<std::string, std::string>, Ends> ends;  // by scenario and status
+  for (const Row& row : run.data.rows) {
+    if (!DependsOnMachine(StatusLetter(row.result.status))) continue;
+    Ends& found = ends[{row.scenario, std::string(StatusName(row.result.status))}];
+    if (found.cells++ == 0) found.first = fmt::format("{}: {}", row.Id(), row.result.reason);
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [key, found] : ends) {
+    sentences.push_back(fmt::format("{}: {} × {}, which depends on the machine; the first is {}", key.first,
+                                    found.cells, key.second, found.first));
+  }
+  return sentences;
+}
+
+Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file) {
+  GateReport report;
+  report.suite = run.data.suite;
+  report.program_version = run.data.program_version;
+  report.baseline_file = baseline_file;
+  report.incomplete = run.incomplete;
+  for (const ScenarioSummary& scenario : run.data.scenarios) {
+    for (const ExpectationResult& result : scenario.expectations)
+      report.expectations.push_back({scenario.name, result});
+  }
+  if (!report.incomplete.empty()) return report;
+  report.incomplete = DescribeMachineEnds(run);
+  report.ratios = JudgeTimeRatios(run);
+  if (baseline == nullptr) return report;
+  report.baseline_version = baseline->program_version;
+  const Snapshot now = TakeSnapshot(run);
+  if (auto same = RequireComparable(*baseline, now, baseline_file); !same) return tl::unexpected(same.error());
+  report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run));
+  for (const std::string& name : report.comparison.only_before) {
+    report.incomplete.push_back("the baseline holds what the run does not: " + name);
+  }
+  return report;
+}
+
+bool IsRegression(const MetricMove& move) {
+  return move.movement == Movement::kWorse || move.movement == Movement::kChanged;
+}
+
+GateVerdict GateVerdictOf(const GateReport& report) {
+  if (!report.incomplete.empty()) return GateVerdict::kNotWhole;
+  const auto unmet = [](const auto& judged) { return judged.outcome == Outcome::kUnmet; };
+  const bool fails = std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
+                     std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||
+                     std::any_of(report.expectations.begin(), report.expectations.end(),
+                                 [&](const GateExpectation& expectation) { return unmet(expectation.result); });
+  return fails ? GateVerdict::kRegressed : GateVerdict::kPassed;
+}
+
+}  // namespace etude

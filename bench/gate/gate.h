@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/gate/comparison.h"
+#include "bench/gate/finished_run.h"
+#include "bench/gate/time_ratios.h"
+
+namespace etude {
+
+enum class GateVerdict { kPassed, kRegressed, kNotWhole };
+
+struct GateExpectation {
+  std::string scenario;
+  ExpectationResult result;
+};
+
+/// All that a gate has looked at, and what it found.
+struct GateReport {
+  std::string suite;
+  std::string baseline_file;     ///< "" = no baseline: only what the scenarios themselves expect was judged
+  std::string baseline_version;  ///< of the program that made it
+  std::string program_version;   ///< of the program that made the run
+  std::vector<GateExpectation> expectations;
+  std::vector<RatioResult> ratios;
+  SnapshotComparison comparison;
+  std::vector<std::string> incomplete;  ///< why there can be no verdict on the whole
+};
+
+/// Judges a finished run by what its scenarios expect, by their time rules, and, when there is one, against a
+/// baseline. Fails when the baseline's worlds are not the run's (WhyNotComparable).
+Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file);
+
+/// What the scenarios of a run want compared digit by digit.
+std::set<std::string> ExactScenarios(const FinishedRun& run);
+
+/// One sentence per scenario and status that depends on the machine (timeout, crashed, out of memory).
+std::vector<std::string> DescribeMachineEnds(const FinishedRun& run);
+
+/// Whether a move makes the gate fail.
+bool IsRegression(const MetricMove& move);
+
+/// Incomplete goes before regression: a run without all its cells is not judged, however bad the rest looks. What
+/// moved is in the report all the same. What cannot be decided (an expectation, a time rule, a difference that is
+/// unclear) is told, and passes.
+GateVerdict GateVerdictOf(const GateReport& report);
+
+}  // namespace etude

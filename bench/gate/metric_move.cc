@@ -1,0 +1,150 @@
+#include "bench/gate/metric_move.h"
+
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/compare.h"
+#include "bench/statistics/holm.h"
+
+namespace etude {
+namespace {
+
+std::optional<double> AggregateOfPresent(std::span<const std::optional<double>> values, Aggregate aggregate) {
+  std::vector<double> present;
+  for (const auto& value : values) {
+    if (value) present.push_back(*value);
+  }
+  if (present.empty()) return std::nullopt;
+  return AggregateOf(present, aggregate);
+}
+
+Movement MovementOf(const Comparison& comparison, const MetricInfo& metric) {
+  switch (VerdictOf(comparison, metric)) {
+    case Verdict::kBetter:
+      return Movement::kBetter;
+    case Verdict::kWorse:
+      return Movement::kWorse;
+    case Verdict::kNoDifference:
+      return Movement::kNoMatter;
+    case Verdict::kInconclusive:
+      break;
+  }
+  return Movement::kUnclear;
+}
+
+/// Of two answers about the same metric, the one that has to be told.
+Movement MoreTelling(Movement a, Movement b) {
+  for (Movement movement : {Movement::kWorse, Movement::kBetter, Movement::kUnclear}) {
+    if (a == movement || b == movement) return movement;
+  }
+  return Movement::kNoMatter;
+}
+
+Comparison AskedOfTheMean(Comparison comparison) {
+  comparison.difference = comparison.mean;
+  comparison.ci_low = comparison.mean_low;
+  comparison.ci_high = comparison.mean_high;
+  return comparison;
+}
+
+Movement JudgeByThreshold(const MetricMove& move) {
+  const MetricInfo& metric = *FindGateMetric(move.identity.metric);
+  Movement movement = Movement::kNoMatter;
+  if (move.comparison.differing > 0) {
+    movement = MoreTelling(MovementOf(move.comparison, metric), MovementOf(AskedOfTheMean(move.comparison), metric));
+  }
+  if (!move.presence) return movement;
+  return MoreTelling(movement, MovementOf(*move.presence, *FindGateMetric(kOkShare)));
+}
+
+/// Holm's correction over all comparisons in which anything differs.
+void CorrectTogether(std::span<MetricMove> moves) {
+  std::vector<Comparison*> family;
+  std::vector<std::optional<double>> p_values;
+  const auto add = [&](Comparison& comparison, const MetricInfo& metric) {
+    family.push_back(&comparison);
+    p_values.push_back(DecidingP(comparison, metric));
+  };
+  for (MetricMove& move : moves) {
+    if (move.comparison.differing > 0) add(move.comparison, *FindGateMetric(move.identity.metric));
+    if (move.presence) add(*move.presence, *FindGateMetric(kOkShare));
+  }
+  const auto corrected = HolmCorrected(p_values);
+  for (std::size_t i = 0; i < family.size(); ++i) family[i]->p_holm = corrected[i];
+}
+
+}  // namespace
+
+const MetricInfo* FindGateMetric(std::string_view id) {
+  static const MetricInfo ok = [] {
+    MetricInfo metric;
+    metric.id = kOkShare;
+    metric.label = "cells that ended ok";
+    metric.direction = Direction::kHigherIsBetter;
+    metric.aggregate = Aggregate::kMean;
+    metric.practical = 0.02;  // as of the catalogue's solved shares
+    return metric;
+  }();
+  return id == kOkShare ? &ok : FindMetric(id);
+}
+
+std::string_view MovementWords(Movement movement) {
+  switch (movement) {
+    case Movement::kSame:
+      return "same";
+    case Movement::kBetter:
+      return "better";
+    case Movement::kWorse:
+      return "worse";
+    case Movement::kNoMatter:
+      return "too small to matter";
+    case Movement::kUnclear:
+      return "unclear";
+    case Movement::kChanged:
+      break;
+  }
+  return "changed";
+}
+
+MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed) {
+  MetricMove move;
+  move.identity = std::move(identity);
+  std::vector<Pair> values, presence;
+  std::vector<std::optional<double>> all_before, all_after;
+  for (std::size_t t = 0; t < columns.compared.size(); ++t) {
+    if (!columns.compared[t]) continue;
+    const auto &before = columns.before[t], &after = columns.after[t];
+    all_before.push_back(before);
+    all_after.push_back(after);
+    move.differing += before != after;
+    move.lost += before && !after;
+    move.gained += !before && after;
+    presence.push_back({before ? 1.0 : 0.0, after ? 1.0 : 0.0});
+    if (before && after) values.push_back({*before, *after});
+  }
+  const MetricInfo& metric = *FindGateMetric(move.identity.metric);
+  move.worlds = static_cast<int>(presence.size());
+  move.before = AggregateOfPresent(all_before, metric.aggregate);
+  move.after = AggregateOfPresent(all_after, metric.aggregate);
+  const std::string purpose = fmt::format("gate/{}/{}/{}/{}", move.identity.scenario, move.identity.condition,
+                                          move.identity.metric, move.identity.method);
+  if (move.differing == 0) return move;  // nothing to test, and most of a gate's comparisons are like this
+  move.comparison = ComparePaired(values, metric, seed, purpose);
+  if (move.lost + move.gained > 0) {
+    move.presence = ComparePaired(presence, *FindGateMetric(kOkShare), seed, purpose + "/presence");
+  }
+  return move;
+}
+
+void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact) {
+  CorrectTogether(moves);
+  for (MetricMove& move : moves) {
+    if (move.differing == 0) {
+      move.movement = Movement::kSame;
+    } else if (exact.contains(move.identity.scenario)) {
+      move.movement = Movement::kChanged;
+    } else {
+      move.movement = JudgeByThreshold(move);
+    }
+  }
+}
+
+}  // namespace etude

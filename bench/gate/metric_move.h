@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/metrics/catalogue.h"
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// What stands for "did the cell end ok?" among the metrics of a comparison: 1 or 0 in every world.
+constexpr const char* kOkShare = "ok_share";
+
+/// The catalogue's entry of a metric, or ours of kOkShare. Null when there is no such metric.
+const MetricInfo* FindGateMetric(std::string_view id);
+
+/// How a metric moved from one snapshot to another.
+enum class Movement {
+  kSame,      ///< not a digit
+  kBetter,    ///< clearly, and by as much as matters
+  kWorse,     ///< clearly, and by as much as matters
+  kNoMatter,  ///< clearly by less than matters
+  kUnclear,   ///< it differs, and the worlds do not settle what that means; or the metric has no direction
+  kChanged,   ///< it differs, under the rule that nothing may
+};
+/// "same", "better", "worse", "too small to matter", "unclear", "changed"
+std::string_view MovementWords(Movement movement);
+
+/// Whose numbers a move is about.
+struct MoveIdentity {
+  std::string scenario, condition, method, metric;
+};
+
+/// One metric of one method under one condition, in two snapshots.
+struct MetricMove {
+  MoveIdentity identity;
+  Movement movement = Movement::kSame;
+  int worlds = 0;                       ///< in which both cells ended for reasons of their own
+  int differing = 0;                    ///< of these, where the two are not the same, lost and gained values included
+  int lost = 0;                         ///< values that became null
+  int gained = 0;                       ///< nulls that became values
+  std::optional<double> before, after;  ///< the metric's aggregate over the values there are
+  Comparison comparison;                ///< where both have a value; later − earlier
+  std::optional<Comparison> presence;   ///< where values were lost or gained: of "has a value", 1 or 0
+};
+
+/// The same trials before and after; `compared` says which of them count. All of one length.
+struct MoveColumns {
+  std::vector<std::optional<double>> before, after;
+  std::vector<bool> compared;
+};
+
+/// Compares world by world; the verdict is left to JudgeMoves. `seed` keys the dice.
+MetricMove MeasureMove(MoveIdentity identity, const MoveColumns& columns, std::uint64_t seed);
+
+/// Says of each move what it means. In a scenario of `exact` any difference is kChanged. Else it takes the test's p
+/// after Holm's correction over all comparisons of `moves` that differ at all, and three questions: the metric's own
+/// aggregate; the mean, because a median does not see what happens in fewer than half of the worlds, and a change of
+/// code often touches no more; and the share of worlds that have a value. Worse in one of them is worse.
+///
+/// Leaving out what does not differ costs no validity: the tests flip the signs of the differences that there are,
+/// and whether there are any does not depend on signs.
+void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact);
+
+}  // namespace etude

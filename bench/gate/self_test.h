@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/gate/finished_run.h"
+#include "bench/gate/snapshot.h"
+
+namespace etude {
+
+/// How often something happened, with its 95 % Wilson interval.
+struct Rate {
+  int count = 0;
+  int of = 0;
+  double low = 0, high = 1;
+};
+
+/// How often a gate found a change that was made.
+struct PowerResult {
+  std::string change;
+  Rate found;
+};
+
+/// What a gate that tests itself has measured.
+struct SelfTestReport {
+  int comparisons = 0;                ///< of one gate
+  Rate rerun_alarms;                  ///< gates by the rule `exact` between two runs of one seed: must be none
+  Rate false_alarms;                  ///< gates between runs of two seeds that cry regression
+  Rate false_alarm_comparisons;       ///< of all comparisons of these gates
+  std::vector<PowerResult> injected;  ///< changes of known size, put into one metric of one method
+  std::vector<PowerResult> real;      ///< the first method replaced by each other one
+
+  /// Whether the gate keeps its promise: reruns never alarm, and false alarms are not clearly above kFalseAlarmLimit.
+  bool Holds() const;
+};
+
+/// The share of gates that may cry regression although nothing changed: alpha of the comparisons' Holm correction.
+constexpr double kFalseAlarmLimit = 0.05;
+
+/// Makes a whole run of one and the same scenario under a seed.
+using RunUnderSeed = std::function<Result<FinishedRun>(std::uint64_t seed)>;
+
+/// Measures the gate on `repetitions` pairs of seeds (2i − 1, 2i):
+///  - false alarms: trial t of the one seed against trial t of the other. Both are drawn alike, so the sign of every
+///    difference is a coin's throw: whatever the gate cries is false. The worlds differ, which makes the differences
+///    far larger than those of a real gate, but nothing else about the test.
+///  - reruns: the first seed against itself, run again.
+///  - injected: the first seed against itself, with a difference added to the values of the first method, first
+///    condition, in the first gated metric that is a median and has a direction: k times its practical threshold for
+///    the worse, in every world another one (normal, standard deviation of three thresholds).
+///  - real: the first seed's worlds, in which another method takes the first one's place.
+/// Fails when a run does, or when the scenario has no metric to inject into.
+Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions);
+
+}  // namespace etude

@@ -1,0 +1,60 @@
+#include "bench/gate/time_ratios.h"
+
+#include <map>
+#include <utility>
+
+#include "bench/gate/snapshot.h"
+#include "bench/statistics/bootstrap.h"
+
+namespace etude {
+namespace {
+
+/// By world (condition, trial): the times of one method. Cells that ended because of the machine, or sooner than
+/// the clock ticks, have none.
+std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
+                                                        const std::string& method) {
+  std::map<std::pair<std::string, int>, double> seconds;
+  for (const Row& row : run.data.rows) {
+    if (row.scenario != scenario || row.method != method) continue;
+    const auto measured = run.cpu_seconds.find(row.Id());
+    if (measured == run.cpu_seconds.end() || measured->second <= 0) continue;
+    if (DependsOnMachine(StatusLetter(row.result.status))) continue;
+    seconds[{CompactLabel(row.condition), row.trial}] = measured->second;
+  }
+  return seconds;
+}
+
+RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, const TimeRatio& rule) {
+  RatioResult result{scenario.scenario.name, rule, 0, {}, {}, {}, Outcome::kUndecided};
+  const auto over = SecondsOf(run, result.scenario, rule.over);
+  std::vector<double> ratios;
+  for (const auto& [world, seconds] : SecondsOf(run, result.scenario, rule.of)) {
+    if (const auto other = over.find(world); other != over.end()) ratios.push_back(seconds / other->second);
+  }
+  result.pairs = static_cast<int>(ratios.size());
+  if (ratios.empty()) return result;
+  result.median = Quantile(ratios, 0.5);
+  const auto interval = BootstrapInterval(ratios, Aggregate::kMedian, scenario.setup.seed,
+                                          fmt::format("time/{}/{}/{}", result.scenario, rule.of, rule.over));
+  if (!interval) return result;
+  result.ci_low = interval->low;
+  result.ci_high = interval->high;
+  if (*result.median <= rule.at_most) {
+    result.outcome = Outcome::kMet;
+  } else if (interval->low > rule.at_most) {
+    result.outcome = Outcome::kUnmet;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<RatioResult> JudgeTimeRatios(const FinishedRun& run) {
+  std::vector<RatioResult> results;
+  for (const FinishedScenario& scenario : run.scenarios) {
+    for (const TimeRatio& rule : scenario.scenario.gate.time_ratios) results.push_back(Judge(run, scenario, rule));
+  }
+  return results;
+}
+
+}  // namespace etude

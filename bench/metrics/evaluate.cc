@@ -1,0 +1,278 @@
+#include "bench/metrics/evaluate.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/detection.h"
+#include "bench/metrics/ik_cost.h"
+#include "bench/metrics/ik_error.h"
+#include "bench/metrics/measurement.h"
+#include "bench/metrics/pose_error.h"
+#include "bench/metrics/seam.h"
+#include "bench/metrics/segmentation.h"
+#include "bench/metrics/share.h"
+#include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/vector_input.h"
+#include "engine/base/angles.h"
+#include "engine/fuzzy/distance.h"
+
+namespace etude {
+namespace {
+
+using Value = std::optional<double>;
+
+// Inverse kinematics.
+
+IkErrorSummary IkErrors(const Json& in) {
+  std::vector<EffectorError> errors;
+  for (const Json& effector : in.at("effectors")) {
+    EffectorTarget target;
+    target.position = ReadPoint(effector.at("target_m"));
+    target.axes = ReadAxes(effector.at("target_axes"));
+    errors.push_back(ErrorOf({ReadPoint(effector.at("position_m")), ReadAxes(effector.at("axes"))}, target));
+  }
+  return SummariseIkErrors(errors);
+}
+
+double AngleDifferenceDeg(const Json& in, const char* other_key) {
+  const auto radians = [&](const char* key) {
+    auto angles = in.at(key).get<std::vector<double>>();
+    for (double& angle : angles) angle = Radians(angle);
+    return angles;
+  };
+  return HiddenAngleDifferenceDeg(radians("found_deg"), radians(other_key));
+}
+
+double PenalisedCostOf(const Json& in, const char* spent, const char* limit) {
+  return PenalisedCost(in.at(spent).get<double>(), in.at(limit).get<double>(), in.at("solved").get<bool>());
+}
+
+// Camera capture.
+
+PoseErrors PoseErrorsOf(const Json& in, const char* found) {
+  return ComparePoses(ReadMotion(in.at(found)).poses, ReadMotion(in.at("truth")).poses);
+}
+
+std::vector<Sighted> SightedThings(const Json& list) {
+  std::vector<Sighted> things;
+  for (const Json& thing : list) {
+    things.push_back({ReadOptionalPoint(thing.at("found")), ReadOptionalPoint(thing.at("truth"))});
+  }
+  return things;
+}
+
+double ReprojectionOf(const Json& in) {
+  std::vector<std::vector<PointPair>> pairs;
+  std::vector<CameraFit> fits;
+  for (const Json& camera : in.at("cameras")) {
+    std::vector<PointPair>& list = pairs.emplace_back();
+    for (std::size_t i = 0; i < camera.at("points_m").size(); ++i) {
+      const Json& pixel = camera.at("pixels").at(i);
+      list.push_back({ReadPoint(camera.at("points_m").at(i)), {pixel.at(0).get<double>(), pixel.at(1).get<double>()}});
+    }
+    fits.push_back({{camera.at("matrix").get<std::array<std::array<double, 4>, 3>>()}, list});
+  }
+  return MeanReprojectionRmsPx(fits);
+}
+
+Value ShareOfFrames(const Json& in) {
+  const auto recovered = in.at("recovered").get<std::vector<int>>();
+  return Share(std::count(recovered.begin(), recovered.end(), 1), static_cast<std::int64_t>(recovered.size()));
+}
+
+MaskScore MasksOf(const Json& in) {
+  std::vector<MaskScore> scores;
+  for (const Json& image : in.at("images")) {
+    scores.push_back(ScoreMask(ReadMask(image.at("found")), ReadMask(image.at("truth")), ReadMask(image.at("shadow"))));
+  }
+  return MeanScore(scores);
+}
+
+// Transitions.
+
+std::vector<int> SeamsOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
+
+SeamSmoothness SmoothnessOf(const Json& in) { return MeasureSeams(ReadMotion(in.at("motion")), SeamsOf(in)); }
+
+bool IsNaturalJump(const Json& in) {
+  std::vector<double> jumps;
+  for (const Json& clip : in.at("clips")) {
+    const std::vector<double> own = NaturalJumpsCm(ReadMotion(clip));
+    jumps.insert(jumps.end(), own.begin(), own.end());
+  }
+  return IsNatural(in.at("jump_cm").get<double>(), std::move(jumps));
+}
+
+double WorstFootSlide(const Json& in) {
+  const BodyMotion motion = ReadMotion(in.at("motion"));
+  double worst = 0;
+  for (int seam : SeamsOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
+  return worst;
+}
+
+double WorstPoseGap(const Json& in) {
+  double worst = 0;
+  for (const Json& meeting : in.at("meetings")) {
+    worst = std::max(worst, PoseGapCm(ReadPose(meeting.at("leaving")), ReadPose(meeting.at("arriving"))));
+  }
+  return worst;
+}
+
+double WorstVelocityGap(const Json& in) {
+  double worst = 0;
+  for (const Json& meeting : in.at("meetings")) {
+    const auto pose = [&](const char* key) { return ReadPose(meeting.at(key)); };
+    worst = std::max(worst, VelocityGapCmps(pose("leaving_before"), pose("leaving"), pose("arriving"),
+                                            pose("arriving_after"), in.at("rate_hz").get<double>()));
+  }
+  return worst;
+}
+
+Value FalseSmooth(const Json& in) {
+  if (!in.at("matched").get<bool>()) return std::nullopt;
+  return IsFalselySmooth(in.at("pose_gap_cm").get<double>()) ? 1 : 0;
+}
+
+double Waited(const Json& in) {
+  std::vector<Stay> stays;
+  for (const Json& stay : in.at("stays")) {
+    stays.push_back({stay.at("from_frame").get<int>(), stay.at("until_frame").get<int>()});
+  }
+  return WaitSeconds(stays, in.at("rate_hz").get<double>());
+}
+
+double WorstFuzzyDistance(const Json& in) {
+  const auto weights = in.at("weights").get<FeatureWeights>();
+  double worst = 0;
+  for (const Json& change : in.at("switches")) {
+    const PoseFeatures from{change.at("from_features").get<PerFeature>()};
+    const PoseFeatures to{change.at("to_features").get<PerFeature>()};
+    worst = std::max(worst, ComputeDistance(Fuzzify(from), Fuzzify(to), weights).value);
+  }
+  return worst;
+}
+
+Value SparcOf(const Json& in) {
+  if (in.contains("speed_mps")) {
+    return SpectralArcLength(in.at("speed_mps").get<std::vector<double>>(), in.at("rate_hz").get<double>());
+  }
+  const BodyMotion motion = ReadMotion(in.at("motion"));
+  const std::vector<int> seams = SeamsOf(in);
+  const int second = static_cast<int>(motion.rate_hz);
+  return SpectralArcLength(MeanJointSpeed(motion, seams.at(0) - second, seams.back() + second), motion.rate_hz);
+}
+
+// Move detection.
+
+std::vector<JudgedEvent> EventsOf(const Json& in) {
+  std::vector<JudgedEvent> events;
+  for (const Json& event : in.at("events")) {
+    events.push_back({event.at("right").get<bool>(), event.at("called").get<bool>(), event.at("score").get<double>()});
+  }
+  return events;
+}
+
+Confusion ConfusionOf(const Json& in) { return CountConfusion(EventsOf(in)); }
+
+Value Latency(const Json& in) {
+  std::vector<Wait> waits;
+  for (const Json& event : in.at("performances")) {
+    const Json& called = event.at("called_frame");
+    waits.push_back(WaitForPraise(event.at("first_right_s").get<double>(),
+                                  called.is_null() ? std::nullopt : std::optional(called.get<int>()),
+                                  event.at("window_end_frame").get<int>(), in.at("rate_hz").get<double>()));
+  }
+  return KaplanMeierMedian(waits);
+}
+
+double FalseAlarms(const Json& in) {
+  std::vector<MoveWindow> windows;
+  for (const Json& window : in.at("windows")) {
+    windows.push_back({window.at("asked").get<std::string>(), window.at("danced").get<std::string>(),
+                       window.at("begin_frame").get<int>(), window.at("end_frame").get<int>()});
+  }
+  std::size_t alarms = 0;
+  for (const Json& call : in.at("calls")) {
+    alarms += IsFalseAlarm(call.at("move").get<std::string>(), call.at("frame").get<int>(), windows);
+  }
+  return FalseAlarmsPerMinute(alarms, in.at("frames").get<double>() / in.at("rate_hz").get<double>());
+}
+
+struct Evaluator {
+  std::string_view metric;
+  Value (*value)(const Json& in);
+};
+
+constexpr Evaluator kEvaluators[] = {
+    {"position_error_cm", [](const Json& in) -> Value { return IkErrors(in).position_cm; }},
+    {"position_error_max_cm", [](const Json& in) -> Value { return IkErrors(in).position_max_cm; }},
+    {"orientation_error_deg", [](const Json& in) -> Value { return IkErrors(in).orientation_deg; }},
+    {"orientation_error_max_deg", [](const Json& in) -> Value { return IkErrors(in).orientation_max_deg; }},
+    {"hidden_angle_error_deg", [](const Json& in) -> Value { return AngleDifferenceDeg(in, "true_deg"); }},
+    {"hidden_angle_change_deg", [](const Json& in) -> Value { return AngleDifferenceDeg(in, "start_deg"); }},
+    {"solved_practical", [](const Json& in) -> Value { return IsSolvedPractically(IkErrors(in)) ? 1 : 0; }},
+    {"solved_tight", [](const Json& in) -> Value { return IsSolvedTightly(IkErrors(in)) ? 1 : 0; }},
+    {"iterations", [](const Json& in) -> Value { return in.at("iterations").get<double>(); }},
+    {"fk_evaluations", [](const Json& in) -> Value { return in.at("fk_evaluations").get<double>(); }},
+    {"iterations_par2", [](const Json& in) -> Value { return PenalisedCostOf(in, "iterations", "max_iterations"); }},
+    {"fk_evaluations_par2",
+     [](const Json& in) -> Value { return PenalisedCostOf(in, "fk_evaluations", "max_fk_evaluations"); }},
+
+    {"mpjpe_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").mpjpe_mm; }},
+    {"mpjpe_before_ik_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "before_ik").mpjpe_mm; }},
+    {"pa_mpjpe_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").pa_mpjpe_mm; }},
+    {"pck_50mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").pck_50mm; }},
+    {"auc_200mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").auc_200mm; }},
+    {"bone_length_error_cm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").bone_length_error_cm; }},
+    {"limb_direction_error_deg",
+     [](const Json& in) -> Value { return LimbDirectionErrorDeg(SightedThings(in.at("limbs"))).mean; }},
+    {"limb_direction_coverage",
+     [](const Json& in) -> Value { return LimbDirectionErrorDeg(SightedThings(in.at("limbs"))).coverage; }},
+    {"triangulation_error_mm",
+     [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).mean; }},
+    {"triangulation_coverage",
+     [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).coverage; }},
+    {"reprojection_rms_px", [](const Json& in) -> Value { return ReprojectionOf(in); }},
+    {"frames_recovered", ShareOfFrames},
+    {"iou", [](const Json& in) -> Value { return MasksOf(in).iou; }},
+    {"mask_precision", [](const Json& in) -> Value { return MasksOf(in).precision; }},
+    {"mask_recall", [](const Json& in) -> Value { return MasksOf(in).recall; }},
+    {"mask_f1", [](const Json& in) -> Value { return MasksOf(in).f1; }},
+    {"shadow_error", [](const Json& in) -> Value { return MasksOf(in).shadow_error; }},
+
+    {"jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).jump_cm; }},
+    {"mean_joint_jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).mean_joint_jump_cm; }},
+    {"rotation_step_change_deg", [](const Json& in) -> Value { return SmoothnessOf(in).rotation_step_change_deg; }},
+    {"jerk_peak_mps3", [](const Json& in) -> Value { return SmoothnessOf(in).jerk_peak_mps3; }},
+    {"foot_slide_cmps", [](const Json& in) -> Value { return WorstFootSlide(in); }},
+    {"pose_gap_cm", [](const Json& in) -> Value { return WorstPoseGap(in); }},
+    {"velocity_gap_cmps", [](const Json& in) -> Value { return WorstVelocityGap(in); }},
+    {"false_smooth", FalseSmooth},
+    {"natural_share", [](const Json& in) -> Value { return IsNaturalJump(in) ? 1 : 0; }},
+    {"wait_s", [](const Json& in) -> Value { return Waited(in); }},
+    {"fuzzy_distance", [](const Json& in) -> Value { return WorstFuzzyDistance(in); }},
+    {"sparc", SparcOf},
+
+    {"precision", [](const Json& in) -> Value { return Precision(ConfusionOf(in)); }},
+    {"recall", [](const Json& in) -> Value { return Recall(ConfusionOf(in)); }},
+    {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
+    {"roc_auc", [](const Json& in) -> Value { return RocAuc(EventsOf(in)); }},
+    {"latency_s", Latency},
+    {"false_alarms_per_min", [](const Json& in) -> Value { return FalseAlarms(in); }},
+};
+
+}  // namespace
+
+Result<std::optional<double>> EvaluateMetric(std::string_view metric, const std::string& input_json) {
+  const auto* evaluator = std::find_if(std::begin(kEvaluators), std::end(kEvaluators),
+                                       [&](const Evaluator& entry) { return entry.metric == metric; });
+  if (evaluator == std::end(kEvaluators)) return Fail({}, "no function evaluates the metric '{}'", metric);
+  try {
+    return evaluator->value(Json::parse(input_json));
+  } catch (const Json::exception& error) {
+    return Fail({}, "not an input of {}: {}", metric, error.what());
+  }
+}
+
+}  // namespace etude

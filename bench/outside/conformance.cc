@@ -1,0 +1,165 @@
+#include "bench/outside/conformance.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bench/outside/messages.h"
+#include "bench/outside/specimens.h"
+
+namespace etude {
+namespace {
+
+constexpr int kEndingMs = 2000;
+
+/// What a method made of a problem, in a form that can be compared: its answer, or why it gave none.
+struct Attempt {
+  Status status = Status::kFailed;
+  std::string said;
+  std::string fault;    ///< why it must not be like that; "" = it may
+  bool was_put = true;  ///< else the program could not be started
+};
+
+class Examination {
+ public:
+  Examination(const OutsideOptions& options, const std::vector<Specimen>& specimens,
+              const std::function<void(const ConformanceCheck&)>& report)
+      : method_(options), time_s_(options.time_s), specimens_(specimens), report_(report) {}
+
+  /// Whether all checks were passed.
+  Result<bool> Run() {
+    if (auto answers = CheckAnswers(); !answers) return tl::unexpected(answers.error());
+    if (!all_passed_) return false;
+    CheckOneProblemTwice();
+    CheckOrder();
+    CheckSettings();
+    CheckLongLines();
+    const std::string end = method_.End(kEndingMs);
+    Report("ends when its input ends", end == "exit code 0",
+           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kEndingMs / 1000) : end);
+    return all_passed_;
+  }
+
+ private:
+  void Report(const std::string& name, bool passed, const std::string& found) {
+    all_passed_ = all_passed_ && passed;
+    report_({name, passed, found});
+  }
+
+  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem) {
+    return Ask(specimen, problem, problem.id, problem.problem);
+  }
+
+  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Exhibit& shown) {
+    const auto start = std::chrono::steady_clock::now();
+    const OutsideReply reply = method_.Ask(specimen.setting_id, specimen.setting, id, shown);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    slowest_s_ = std::max(slowest_s_, took.count());
+    peak_mb_ = std::max(peak_mb_, reply.peak_mb);
+    Attempt attempt{reply.status, reply.reason, "", reply.status != Status::kFailed};
+    if (reply.status == Status::kOk) {
+      attempt.said = reply.answer->dump();
+      const auto judged = problem.world->Judge(*reply.answer);
+      attempt.status = judged ? judged->status : Status::kBadOutput;
+      if (!judged) attempt.fault = "its answer cannot be scored: " + judged.error().message;
+    } else if (reply.status != Status::kUnsolved) {
+      attempt.fault = fmt::format("{}: {}", StatusName(reply.status), reply.reason);
+    }
+    return attempt;
+  }
+
+  Result<void> CheckAnswers() {
+    int solved = 0;
+    for (const SpecimenProblem& problem : specimens_[0].problems) {
+      first_.push_back(Ask(specimens_[0], problem));
+      const Attempt& attempt = first_.back();
+      if (first_.size() == 1) {
+        if (!attempt.was_put) return Fail({}, "{}", attempt.said);
+        const std::string name = method_.CalledItself();
+        Report("starts and greets", !name.empty(), name.empty() ? attempt.fault : Printable(name));
+        if (name.empty()) return {};
+      }
+      if (!attempt.fault.empty()) {
+        Report("gives answers that can be scored", false, attempt.fault);
+        return {};
+      }
+      solved += attempt.status == Status::kOk ? 1 : 0;
+    }
+    Report("gives answers that can be scored", true,
+           fmt::format("{} of {} scored as solved; at most {:.3g} s (allowed: {:g} s) and {:.0f} MB", solved,
+                       first_.size(), slowest_s_, time_s_, peak_mb_));
+    return {};
+  }
+
+  /// What is wrong with a second attempt at problem `i` of the first setting; "" = nothing.
+  std::string Compare(const Attempt& again, std::size_t i) const {
+    if (!again.fault.empty()) return again.fault;
+    if (again.said == first_[i].said) return "";
+    std::size_t at = 0;
+    while (at < again.said.size() && at < first_[i].said.size() && again.said[at] == first_[i].said[at]) ++at;
+    at = at > 20 ? at - 20 : 0;
+    return fmt::format("first {}, then {}",
+                       Printable(std::string_view(first_[i].said).substr(std::min(at, first_[i].said.size())), 40),
+                       Printable(std::string_view(again.said).substr(std::min(at, again.said.size())), 40));
+  }
+
+  void ReportDifference(const std::string& name, const std::string& difference) {
+    Report(name, difference.empty(), difference.empty() ? "the same answers" : difference);
+  }
+
+  void CheckOneProblemTwice() {
+    const std::size_t last = first_.size() - 1;
+    ReportDifference("answers a problem put twice alike",
+                     Compare(Ask(specimens_[0], specimens_[0].problems[last]), last));
+  }
+
+  /// In a new program, from the last problem to the first.
+  void CheckOrder() {
+    method_.End(kEndingMs);
+    std::string difference;
+    for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
+      difference = Compare(Ask(specimens_[0], specimens_[0].problems[i]), i);
+    }
+    ReportDifference("answers alike when started anew and asked in another order", difference);
+  }
+
+  void CheckSettings() {
+    std::string fault;
+    for (const SpecimenProblem& problem : specimens_[1].problems) {
+      if (fault.empty()) fault = Ask(specimens_[1], problem).fault;
+    }
+    Report("answers under another setting", fault.empty(), fault.empty() ? "answers that can be scored" : fault);
+    if (fault.empty()) {
+      ReportDifference("answers alike when it is told the first setting again",
+                       Compare(Ask(specimens_[0], specimens_[0].problems[0]), 0));
+    }
+  }
+
+  void CheckLongLines() {
+    const SpecimenProblem& problem = specimens_[0].problems[0];
+    Exhibit shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
+    (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
+    const std::string id = "a \"long\" one, größer";
+    ReportDifference("takes long lines, keys it does not know, and ids of any text",
+                     Compare(Ask(specimens_[0], problem, id, shown), 0));
+  }
+
+  OutsideMethod method_;
+  const double time_s_;
+  const std::vector<Specimen>& specimens_;
+  const std::function<void(const ConformanceCheck&)>& report_;
+  std::vector<Attempt> first_;  ///< at the problems of the first setting
+  double slowest_s_ = 0, peak_mb_ = 0;
+  bool all_passed_ = true;
+};
+
+}  // namespace
+
+Result<bool> CheckConformance(const OutsideOptions& options,
+                              const std::function<void(const ConformanceCheck&)>& report) {
+  const auto specimens = MakeSpecimens(options.task);
+  if (!specimens) return tl::unexpected(specimens.error());
+  return Examination(options, *specimens, report).Run();
+}
+
+}  // namespace etude

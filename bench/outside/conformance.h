@@ -1,0 +1,25 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "bench/outside/outside_method.h"
+
+namespace etude {
+
+/// One thing that a method outside must do, and how it did it.
+struct ConformanceCheck {
+  std::string name;  ///< a sentence about a method that passes
+  bool passed = false;
+  std::string found;  ///< what was seen, either way
+};
+
+/// Puts small worlds of the method's task to it and reports every check as it is done: that it greets, that its
+/// answers can be scored, that they depend on the problem alone (not on what was asked before, nor on the setting
+/// before), that it takes long lines, and that it ends with its input. Ends early when no problem is answered.
+/// Whether all were passed; fails when the task does not exist, its worlds cannot be made, or the program cannot be
+/// found.
+Result<bool> CheckConformance(const OutsideOptions& options,
+                              const std::function<void(const ConformanceCheck&)>& report);
+
+}  // namespace etude

@@ -1,0 +1,63 @@
+#include "bench/outside/error_log.h"
+
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace etude {
+
+ErrorLog::ErrorLog(std::string file) : file_(std::move(file)) {
+  if (!file_.empty()) memory_ = ::memfd_create("standard error", MFD_CLOEXEC);
+}
+
+ErrorLog::~ErrorLog() {
+  Save();
+  if (memory_ >= 0) ::close(memory_);
+}
+
+// Where there is no memory file, the program writes to the real one at once.
+std::string ErrorLog::path() const { return memory_ < 0 ? file_ : fmt::format("/proc/{}/fd/{}", ::getpid(), memory_); }
+
+long ErrorLog::Size() const {
+  struct stat status {};
+  return memory_ >= 0 && ::fstat(memory_, &status) == 0 ? static_cast<long>(status.st_size) : 0;
+}
+
+// The program appends, so what it says next follows where this ends.
+void ErrorLog::Trim() {
+  if (Size() > kLargest && ::ftruncate(memory_, kLargest) != 0) return;
+}
+
+std::string ErrorLog::Read(long start, long size) const {
+  std::string text(static_cast<std::size_t>(size), '\0');
+  const ssize_t count = ::pread(memory_, text.data(), text.size(), start);
+  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return text;
+}
+
+std::string ErrorLog::LastLine() const {
+  constexpr long kTail = 4096;
+  const long size = Size();
+  std::string tail = Read(std::max(size - kTail, 0L), std::min(size, kTail));
+  const std::size_t last = tail.find_last_not_of(" \t\r\n");
+  if (last == std::string::npos) return "";
+  tail.resize(last + 1);
+  return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
+}
+
+void ErrorLog::Save() {
+  const long size = Size();
+  if (size == 0) return;
+  std::error_code absent;
+  const auto saved = std::filesystem::file_size(file_, absent);
+  const long room = absent ? kLargest : kLargest - static_cast<long>(std::min<std::uintmax_t>(saved, kLargest));
+  std::ofstream(file_, std::ios::binary | std::ios::app) << Read(0, std::min(size, room));
+  if (::ftruncate(memory_, 0) != 0) return;
+}
+
+}  // namespace etude

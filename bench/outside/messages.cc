@@ -1,0 +1,136 @@
+#include "bench/outside/messages.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/outside/outside_method.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLongestName = 200;
+
+/// How deep brackets nest, whether or not the rest is JSON.
+int Depth(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
+/// An object with a text `type`.
+Result<Json> ReadMessage(const std::string& line) {
+  if (Depth(line) > kDeepestReply) {
+    return Fail({}, "said something nested more than {} deep: {}", kDeepestReply, Printable(line));
+  }
+  Json message;
+  try {
+    message = Json::parse(line);
+  } catch (const Json::parse_error& error) {
+    const std::size_t start = error.byte > 40 ? error.byte - 40 : 0;
+    const std::string where = start == 0 ? "" : fmt::format(" near byte {}", error.byte);
+    return Fail({}, "said something that is not JSON{}: {}", where,
+                Printable(std::string_view(line).substr(std::min(start, line.size()))));
+  } catch (const Json::out_of_range&) {
+    return Fail({}, "said a number that is too large: {}", Printable(line));
+  }
+  if (!message.is_object() || !message.contains("type") || !message["type"].is_string()) {
+    return Fail({}, "said something that is no message with a \"type\": {}", Printable(line));
+  }
+  return message;
+}
+
+/// A text that must be there.
+Result<std::string> TextOf(const Json& message, const char* key, const std::string& line) {
+  if (message.contains(key) && message[key].is_string()) return message[key].get<std::string>();
+  return Fail({}, "its '{}' has no text \"{}\": {}", message["type"].get<std::string>(), key, Printable(line));
+}
+
+Result<Json> ReadMessageOfType(const std::string& line, std::string_view type) {
+  auto message = ReadMessage(line);
+  if (message && (*message)["type"] != type) return Fail({}, "said no '{}': {}", type, Printable(line));
+  return message;
+}
+
+Result<std::string> ExhibitLine(const char* type, const std::string& id, const Json& content,
+                                const std::string& files) {
+  Json message{{"type", type}, {"id", id}, {type, content}};
+  if (!files.empty()) message["files"] = files;
+  return WriteJson(message);
+}
+
+}  // namespace
+
+Result<std::string> HelloLine(const std::string& task, const Json& options) {
+  return WriteJson({{"type", "hello"}, {"protocol", kProtocolVersion}, {"task", task}, {"options", options}});
+}
+
+Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files) {
+  return ExhibitLine("setting", id, content, files);
+}
+
+Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files) {
+  return ExhibitLine("problem", id, content, files);
+}
+
+Result<HelloReply> ReadHello(const std::string& line) {
+  const auto message = ReadMessageOfType(line, "hello");
+  if (!message) return tl::unexpected(message.error());
+  if (!message->contains("protocol") || (*message)["protocol"] != kProtocolVersion) {
+    return Fail({}, "does not speak protocol {}: {}", kProtocolVersion, Printable(line));
+  }
+  const auto name = TextOf(*message, "name", line), version = TextOf(*message, "version", line);
+  if (!name) return tl::unexpected(name.error());
+  if (!version) return tl::unexpected(version.error());
+  return HelloReply{name->substr(0, kLongestName), version->substr(0, kLongestName)};
+}
+
+Result<void> ReadReady(const std::string& line) {
+  const auto message = ReadMessageOfType(line, "ready");
+  if (!message) return tl::unexpected(message.error());
+  return {};
+}
+
+Result<Json> ReadAnswer(const std::string& line, const std::string& id) {
+  auto message = ReadMessage(line);
+  if (!message) return message;
+  const bool is_answer = (*message)["type"] == "answer";
+  if (!is_answer && (*message)["type"] != "no_answer") {
+    return Fail({}, "said no 'answer' and no 'no_answer': {}", Printable(line));
+  }
+  const auto said_id = TextOf(*message, "id", line);
+  if (!said_id) return tl::unexpected(said_id.error());
+  if (*said_id != id) return Fail({}, "answered {} when asked {}", Printable(*said_id), Printable(id));
+  if (!is_answer) {
+    if (const auto reason = TextOf(*message, "reason", line); !reason) return tl::unexpected(reason.error());
+  } else if (!message->contains("answer") || !(*message)["answer"].is_object()) {
+    return Fail({}, "its 'answer' has no object \"answer\": {}", Printable(line));
+  }
+  return message;
+}
+
+std::string Printable(std::string_view text, std::size_t longest) {
+  std::string result = "'";
+  for (const char c : text.substr(0, longest)) {
+    if (c >= ' ' && c <= '~') {
+      result += c;
+    } else {
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
+  }
+  return result + (text.size() > longest ? "…'" : "'");
+}
+
+}  // namespace etude

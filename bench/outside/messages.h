@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "bench/files/json.h"
+
+namespace etude {
+
+/// Longer lines are refused while they are read, deeper JSON before it is parsed.
+constexpr std::size_t kLongestReply = std::size_t{16} << 20;
+constexpr int kDeepestReply = 32;
+
+/// The lines that Etude says. `options` and `content` are objects; `files` is the folder of the attachments, "" when
+/// there are none. Fail when `content` holds a number that is not finite.
+Result<std::string> HelloLine(const std::string& task, const Json& options);
+Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files);
+Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files);
+
+/// The lines that a program may say in reply. Each fails on anything else, with what was found: a line that is not
+/// JSON, of another type, about another problem, without a field or with one of the wrong type. Fields that are not
+/// known are ignored.
+struct HelloReply {
+  std::string name;
+  std::string version;
+};
+Result<HelloReply> ReadHello(const std::string& line);
+Result<void> ReadReady(const std::string& line);
+/// Gives the whole line: of type "answer", with an object `answer`, or of type "no_answer", with a text `reason`.
+Result<Json> ReadAnswer(const std::string& line, const std::string& id);
+
+/// The first `longest` bytes, what is no printable ASCII written as \xNN, in single quotes.
+std::string Printable(std::string_view text, std::size_t longest = 80);
+
+}  // namespace etude

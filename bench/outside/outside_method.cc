@@ -1,0 +1,264 @@
+#include "bench/outside/outside_method.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "bench/outside/attachment_folder.h"
+#include "bench/outside/error_log.h"
+#include "bench/outside/messages.h"
+#include "bench/process/child_process.h"
+
+namespace etude {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
+constexpr int kMostSetbacks = 3;
+constexpr int kDyingMs = 1000;     // from closing its output to its end
+constexpr int kEndingMs = 500;     // from the end of its input to its own
+constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
+
+/// Why there is no answer.
+struct Failure {
+  Status status = Status::kFailed;
+  std::string reason;
+};
+template <typename T>
+using Outcome = tl::expected<T, Failure>;
+
+tl::unexpected<Failure> Failed(Status status, std::string reason) {
+  return tl::unexpected<Failure>({status, std::move(reason)});
+}
+
+/// What a program said is its fault; what cannot be said to it is not.
+tl::unexpected<Failure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
+tl::unexpected<Failure> Unspeakable(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
+
+}  // namespace
+
+struct OutsideMethod::State {
+  explicit State(OutsideOptions told) : options(std::move(told)), errors(options.error_file) {}
+
+  Outcome<Json> Converse(const std::string& setting_id, const Exhibit& setting, const std::string& problem_id,
+                         const Exhibit& problem);
+  Outcome<void> Start();
+  Outcome<void> TellSetting(const std::string& id, const Exhibit& setting);
+  template <typename Step>
+  Outcome<void> Attempt(const std::string& what, Step step);
+
+  Outcome<std::string> Exchange(const std::string& line, double seconds);
+  Outcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
+  Outcome<void> Look();
+  Failure HowItEnded();
+  std::string Stop(int patience_ms);
+
+  double StartSeconds() const { return std::max(options.start_s, options.time_s); }
+
+  const OutsideOptions options;
+  ErrorLog errors;
+  std::optional<ChildProcess> child;
+  std::string called_itself;
+  std::optional<std::string> setting_in_force;
+  AttachmentFolder setting_files;
+  double cpu_s = 0;          ///< of the running program, as last seen
+  double cpu_charged_s = 0;  ///< of that, told in earlier replies
+  double peak_mb = 0;        ///< since the problem was put
+
+  struct Setback {
+    int times = 0;  ///< in a row
+    Failure last;
+  };
+  std::map<std::string, Setback> setbacks;  ///< by what was attempted
+};
+
+/// Tries a step that is the same for many problems, unless it has failed too often in a row.
+template <typename Step>
+Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Step step) {
+  Setback& setback = setbacks[what];
+  if (setback.times == kMostSetbacks) return tl::unexpected(setback.last);
+  const Outcome<void> done = step();
+  if (done) {
+    setback.times = 0;
+    return done;
+  }
+  ++setback.times;
+  setback.last = {done.error().status, fmt::format("{}: {}", what, done.error().reason)};
+  return tl::unexpected(setback.last);
+}
+
+Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Exhibit& setting,
+                                             const std::string& problem_id, const Exhibit& problem) {
+  if (!child) {
+    if (auto started = Attempt("in its start", [&] { return Start(); }); !started)
+      return tl::unexpected(started.error());
+  }
+  if (setting_in_force != setting_id) {
+    auto told = Attempt("at setting " + Printable(setting_id), [&] { return TellSetting(setting_id, setting); });
+    if (!told) return tl::unexpected(told.error());
+  }
+  const auto files = AttachmentFolder::Write(problem.files);
+  if (!files) return Unspeakable(files.error());
+  const auto line = ProblemLine(problem_id, *problem.json, files->path());
+  if (!line) return Unspeakable(line.error());
+  const auto said = Exchange(*line, options.time_s);
+  if (!said) return tl::unexpected(said.error());
+  auto answer = ReadAnswer(*said, problem_id);
+  if (!answer) return BadOutput(answer.error());
+  return std::move(*answer);
+}
+
+Outcome<void> OutsideMethod::State::Start() {
+  if (options.command.empty()) return Failed(Status::kFailed, "no program is named");
+  const auto told = options.options_json.empty() ? Json::object() : ReadJson(options.options_json, "its options");
+  if (!told) return Unspeakable(told.error());
+  const auto hello = HelloLine(options.task, *told);
+  if (!hello) return Unspeakable(hello.error());
+  auto started = ChildProcess::Start({.program = options.command.front(),
+                                      .arguments = {options.command.begin() + 1, options.command.end()},
+                                      .error_file = errors.path()});
+  if (!started) return Unspeakable(started.error());
+  child = std::move(*started);
+  cpu_s = cpu_charged_s = 0;
+  const auto said = Exchange(*hello, StartSeconds());
+  if (!said) return tl::unexpected(said.error());
+  const auto reply = ReadHello(*said);
+  if (!reply) return BadOutput(reply.error());
+  called_itself = reply->name + " " + reply->version;
+  return {};
+}
+
+Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Exhibit& setting) {
+  auto files = AttachmentFolder::Write(setting.files);
+  if (!files) return Unspeakable(files.error());
+  setting_files = std::move(*files);
+  const auto line = SettingLine(id, *setting.json, setting_files.path());
+  if (!line) return Unspeakable(line.error());
+  const auto said = Exchange(*line, StartSeconds());
+  if (!said) return tl::unexpected(said.error());
+  if (const auto ready = ReadReady(*said); !ready) return BadOutput(ready.error());
+  setting_in_force = id;
+  return {};
+}
+
+/// Says a line and gives the one that is said in reply.
+Outcome<std::string> OutsideMethod::State::Exchange(const std::string& line, double seconds) {
+  child->Send(line);  // one that no longer listens is noticed by its silence
+  const auto limit = std::chrono::duration<double>(std::min(seconds, kLongestS));
+  auto said = WaitForLine(Clock::now() + std::chrono::duration_cast<Clock::duration>(limit), seconds);
+  if (!said) return said;
+  const auto more = child->NextLine();
+  if (more || !child->PartOfLine().empty()) {
+    return Failed(Status::kBadOutput,
+                  "said more than one line: " + Printable(more.value_or(std::string(child->PartOfLine()))));
+  }
+  if (const auto fits = Look(); !fits) return tl::unexpected(fits.error());
+  return said;
+}
+
+Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadline, double seconds) {
+  Clock::time_point next_look = Clock::now() + kLookEvery;
+  while (true) {
+    const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, deadline) - Clock::now());
+    std::array<pollfd, 2> watched{
+        {{child->output(), POLLIN, 0}, {child->HasUnsent() ? child->input() : -1, POLLOUT, 0}}};
+    ::poll(watched.data(), watched.size(), std::max(0, static_cast<int>(patience.count())));
+    bool over = false;
+    const bool looks = Clock::now() >= next_look;
+    if (looks) {
+      if (const auto fits = Look(); !fits) return tl::unexpected(fits.error());
+      next_look = Clock::now() + kLookEvery;
+      over = child->HasEnded();  // what it has started may keep its output open
+    }
+    if (over || watched[0].revents != 0 || watched[1].revents != 0) {
+      over = !child->Receive(kLongestReply) || over;
+    }
+    if (auto line = child->NextLine()) return std::move(*line);
+    if (over) return tl::unexpected(HowItEnded());
+    if (Clock::now() >= deadline) return Failed(Status::kTimeout, fmt::format("took longer than {:g} s", seconds));
+  }
+}
+
+/// Notes what it uses; fails when that is too much.
+Outcome<void> OutsideMethod::State::Look() {
+  errors.Trim();
+  const ProcessUsage usage = child->Measure();
+  cpu_s = std::max(cpu_s, usage.cpu_s);  // it may have vanished meanwhile
+  peak_mb = std::max(peak_mb, usage.resident_mb);
+  if (usage.resident_mb <= options.memory_mb) return {};
+  return Failed(Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", options.memory_mb));
+}
+
+/// Of a program from which no whole line will come any more.
+Failure OutsideMethod::State::HowItEnded() {
+  const std::string part(child->PartOfLine().substr(0, 100));
+  if (child->PartOfLine().size() > kLongestReply) {
+    return {Status::kBadOutput,
+            fmt::format("said a line of more than {} MiB: {}", kLongestReply >> 20, Printable(part))};
+  }
+  for (int i = 0; i < kDyingMs && !child->HasEnded(); ++i) ::usleep(1000);
+  if (!child->HasEnded()) return {Status::kBadOutput, "closed its output, but went on running"};
+  std::string reason = "ended with " + child->Finish(0);
+  if (!part.empty()) reason += ", amid the line " + Printable(part);
+  if (const std::string words = errors.LastLine(); !words.empty())
+    reason += "; its last words: " + Printable(words, 200);
+  return {Status::kCrashed, std::move(reason)};
+}
+
+std::string OutsideMethod::State::Stop(int patience_ms) {
+  setting_files = {};  // first: whoever waits for us may lose patience while the program takes its time to end
+  setting_in_force.reset();
+  const std::string end = child ? child->Finish(patience_ms) : "not running";
+  child.reset();
+  return end;
+}
+
+double LongestAskSeconds(double time_s) {
+  return 2 * std::max(OutsideOptions{}.start_s, time_s) + time_s + 2 * 1e-3 * kDyingMs;
+}
+
+OutsideMethod::OutsideMethod(OutsideOptions options) : state_(std::make_unique<State>(std::move(options))) {}
+OutsideMethod::OutsideMethod(OutsideMethod&&) noexcept = default;
+
+OutsideMethod::~OutsideMethod() {
+  if (state_ != nullptr) state_->Stop(kEndingMs);
+}
+
+OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Exhibit& setting, const std::string& problem_id,
+                                const Exhibit& problem) {
+  State& state = *state_;
+  state.peak_mb = 0;
+  auto said = state.Converse(setting_id, setting, problem_id, problem);
+  if (!said) state.Stop(0);
+  OutsideReply reply;
+  reply.cpu_s = state.cpu_s - state.cpu_charged_s;
+  reply.peak_mb = state.peak_mb;
+  state.cpu_charged_s = state.cpu_s;
+  state.errors.Save();
+  if (!said) {
+    reply.status = said.error().status;
+    reply.reason = said.error().reason;
+  } else if ((*said)["type"] == "no_answer") {
+    reply.status = Status::kUnsolved;
+    const std::string why = (*said)["reason"].get<std::string>();
+    reply.reason = "gave no answer: " + Printable(why, 200);
+  } else {
+    reply.status = Status::kOk;
+    reply.answer = std::make_unique<Json>(std::move((*said)["answer"]));
+  }
+  return reply;
+}
+
+std::string OutsideMethod::CalledItself() const { return state_->called_itself; }
+
+std::string OutsideMethod::End(int patience_ms) { return state_->Stop(patience_ms); }
+
+}  // namespace etude

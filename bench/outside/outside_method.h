@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/files/json.h"
+#include "bench/tasks/base/task.h"
+
+namespace etude {
+
+/// The version of the protocol spoken with methods outside (docs/outside-methods.md).
+constexpr int kProtocolVersion = 1;
+
+struct OutsideOptions {
+  std::vector<std::string> command;  ///< program and arguments
+  std::string task;                  ///< the kind of task, told in the handshake
+  std::string options_json = {};     ///< an object told in the handshake; "" = {}
+  double time_s = 300;               ///< per problem
+  double memory_mb = 4096;           ///< resident, with all that the program has started
+  std::string error_file = {};       ///< its standard error is kept here, up to 1 MiB; "" = it shares ours
+  /// Handshake and setting may take this long each, where time_s is less: programs load libraries and models then.
+  double start_s = 30;
+};
+
+/// How long Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.
+double LongestAskSeconds(double time_s);
+
+/// What came of one problem.
+struct OutsideReply {
+  Status status = Status::kFailed;  ///< kOk: `answer` is what it said; else it gave none, and why
+  std::string reason;
+  std::unique_ptr<Json> answer;  ///< an object, whose numbers are finite
+  double cpu_s = 0;              ///< of the program since its last reply; zero when it ended before it was looked at
+  double peak_mb = 0;  ///< the largest resident size seen while it worked on this; looked at 50 times a second
+};
+
+/// A program that answers problems over its standard input and output. Started at its first problem, kept for
+/// the next ones, and started anew after it has failed. What goes wrong in its start or in a setting three times
+/// in a row is not tried again: the reply is the same as that of the third time.
+class OutsideMethod {
+ public:
+  explicit OutsideMethod(OutsideOptions options);
+  OutsideMethod(OutsideMethod&&) noexcept;
+  ~OutsideMethod();
+
+  /// Puts one problem. `setting_id` names the setting that the problem belongs to; the program is told
+  /// `setting` first when another one is in force. Attachments lie in a folder while it works.
+  OutsideReply Ask(const std::string& setting_id, const Exhibit& setting, const std::string& problem_id,
+                   const Exhibit& problem);
+
+  /// What the program calls itself: "name version"; "" before its first handshake.
+  std::string CalledItself() const;
+  /// Ends its input, waits, and says how it ended: "exit code 0", "signal 9 (Killed)" when it had to be killed, "not
+  /// running". The next problem starts it anew.
+  std::string End(int patience_ms);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace etude

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+
+namespace etude {
+
+/// A small world of a task, made to be put to a method outside.
+struct SpecimenProblem {
+  std::string id;
+  std::unique_ptr<TaskWorld> world;
+  Exhibit problem;
+};
+
+/// Problems that share a setting.
+struct Specimen {
+  std::string setting_id;
+  std::unique_ptr<ClipLibrary> clips;  ///< outlive the task
+  std::unique_ptr<Task> task;
+  Exhibit setting;
+  std::vector<SpecimenProblem> problems;
+};
+
+/// Two settings of a task with three problems each; the same every time. Fails when there is no such task, or its
+/// worlds cannot be made here (no renderer).
+Result<std::vector<Specimen>> MakeSpecimens(const std::string& task);
+
+}  // namespace etude

@@ -1,0 +1,280 @@
+#include "bench/process/child_process.h"
+
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+namespace etude {
+namespace {
+
+constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
+
+/// Our environment with the pinned settings in place of its own.
+std::vector<std::string> PinnedCopyOfEnvironment() {
+  std::vector<std::string> result = PinnedEnvironment();
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view setting = *entry;
+    const std::string_view name = setting.substr(0, setting.find('='));
+    const bool pinned = std::any_of(PinnedEnvironment().begin(), PinnedEnvironment().end(), [&](const auto& other) {
+      return std::string_view(other).substr(0, other.find('=')) == name;
+    });
+    if (!pinned) result.emplace_back(setting);
+  }
+  return result;
+}
+
+std::vector<char*> Pointers(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  for (std::string& text : texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+bool IsProgram(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
+}
+
+/// The path of a program, the way a shell finds it.
+Result<std::string> FindProgram(const std::string& name) {
+  if (name.find('/') != std::string::npos) {
+    if (::access(name.c_str(), F_OK) != 0) return Fail({name, 0, 0}, "no such program: {}", std::strerror(errno));
+    if (!IsProgram(name)) return Fail({name, 0, 0}, "is no program that may be executed");
+    return name;
+  }
+  const char* variable = ::getenv("PATH");
+  const std::string folders = variable != nullptr ? variable : "/usr/bin:/bin";
+  for (std::size_t start = 0; start <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', start), folders.size());
+    const std::string folder = end == start ? "." : folders.substr(start, end - start);
+    if (std::string path = folder + "/" + name; !name.empty() && IsProgram(path)) return path;
+    start = end + 1;
+  }
+  return Fail({}, "no program '{}' in PATH ({})", name, folders);
+}
+
+/// A file descriptor that is closed at the end of its scope.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor() { Close(); }
+  int number() const { return number_; }
+  int Release() { return std::exchange(number_, -1); }
+  void Close() {
+    if (number_ >= 0) ::close(std::exchange(number_, -1));
+  }
+
+ private:
+  int number_;
+};
+
+struct Pipe {
+  Descriptor read, write;
+};
+
+Result<Pipe> MakePipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Fail({}, "no pipe can be made: {}", std::strerror(errno));
+  return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+/// What a forked child does to become the program. Only system calls are safe here.
+[[noreturn]] void BecomeProgram(const char* path, char* const* argv, char* const* envp, int input, int output,
+                                int errors, int report, pid_t parent) {
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(0);  // we died before the line above
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD}) ::signal(number, SIG_DFL);
+  ::dup2(input, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  if (errors >= 0) ::dup2(errors, STDERR_FILENO);
+  ::close_range(STDERR_FILENO + 1, ~0U, CLOSE_RANGE_CLOEXEC);
+  ::execve(path, argv, envp);
+  const int reason = errno;
+  if (::write(report, &reason, sizeof reason) < 0) ::_exit(126);
+  ::_exit(127);
+}
+
+/// Takes hold of a process and its descendants, so that killing them later cannot hit another process that has
+/// been given one of their numbers.
+std::vector<Descriptor> HoldTree(pid_t root) {
+  std::vector<pid_t> processes = ProcessTree(root);
+  for (int i = 0; i < 10 && processes.size() > 1; ++i) {  // an orphan that moves up to `root` meanwhile is missed
+    if (std::exchange(processes, ProcessTree(root)) == processes) break;
+  }
+  std::vector<Descriptor> held;
+  for (const pid_t process : processes) held.emplace_back(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
+  return held;
+}
+
+void KillAll(const std::vector<Descriptor>& held) {
+  for (const Descriptor& process : held) ::syscall(SYS_pidfd_send_signal, process.number(), SIGKILL, nullptr, 0);
+}
+
+}  // namespace
+
+const std::vector<std::string>& PinnedEnvironment() {
+  static const std::vector<std::string> settings = {
+      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4",  // its sin, exp, … have FMA variants with other last bits
+      "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",                  // llvmpipe compiles shaders for the CPU it meets
+      "MESA_SHADER_CACHE_DISABLE=true",                    // the cache forgets for which CPU a shader was compiled
+      "LP_NUM_THREADS=0",                                  // one process per core is faster than threads
+  };
+  return settings;
+}
+
+Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
+  const auto path = FindProgram(options.program);
+  if (!path) return tl::unexpected(path.error());
+  auto input = MakePipe(), output = MakePipe(), report = MakePipe();
+  for (const auto* pipe : {&input, &output, &report}) {
+    if (!*pipe) return tl::unexpected(pipe->error());
+  }
+  Descriptor errors;
+  if (!options.error_file.empty()) {
+    errors = Descriptor(::open(options.error_file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+    if (errors.number() < 0) return Fail({options.error_file, 0, 0}, "cannot write: {}", std::strerror(errno));
+  }
+  // Everything that allocates happens before fork: between fork and exec only system calls are safe.
+  std::vector<std::string> argument_texts = {options.program};
+  argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
+  std::vector<std::string> environment_texts = PinnedCopyOfEnvironment();
+  const std::vector<char*> argv = Pointers(argument_texts);
+  const std::vector<char*> envp = Pointers(environment_texts);
+  ::signal(SIGPIPE, SIG_IGN);
+  const pid_t parent = ::getpid();
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    BecomeProgram(path->c_str(), argv.data(), envp.data(), input->read.number(), output->write.number(),
+                  errors.number(), report->write.number(), parent);
+  }
+  if (pid < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
+  report->write.Close();
+  int reason = 0;
+  ssize_t count = 0;
+  while ((count = ::read(report->read.number(), &reason, sizeof reason)) < 0 && errno == EINTR) {
+  }
+  if (count > 0) {
+    ::waitpid(pid, nullptr, 0);
+    return Fail({*path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
+  }
+  ::fcntl(input->write.number(), F_SETFL, O_NONBLOCK);
+  ::fcntl(output->read.number(), F_SETFL, O_NONBLOCK);
+  return ChildProcess(pid, input->write.Release(), output->read.Release());
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept { *this = std::move(other); }
+
+ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
+  if (this != &other) {
+    Finish();
+    pid_ = std::exchange(other.pid_, -1);
+    input_ = std::exchange(other.input_, -1);
+    output_ = std::exchange(other.output_, -1);
+    unsent_ = std::move(other.unsent_);
+    sent_ = std::exchange(other.sent_, 0);
+    buffer_ = std::move(other.buffer_);
+    line_start_ = std::exchange(other.line_start_, 0);
+    scanned_ = std::exchange(other.scanned_, 0);
+  }
+  return *this;
+}
+
+ChildProcess::~ChildProcess() { Finish(); }
+
+bool ChildProcess::Send(const std::string& line) {
+  unsent_.erase(0, sent_);
+  sent_ = 0;
+  unsent_ += line;
+  unsent_ += '\n';
+  return SendOn();
+}
+
+bool ChildProcess::SendOn() {
+  while (HasUnsent()) {
+    const ssize_t count = ::write(input_, unsent_.data() + sent_, unsent_.size() - sent_);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return true;
+    if (count < 0) break;  // nobody will ever take the rest
+    sent_ += static_cast<std::size_t>(count);
+  }
+  const bool all_sent = !HasUnsent();
+  unsent_.clear();
+  sent_ = 0;
+  return all_sent;
+}
+
+bool ChildProcess::Receive(std::size_t longest_line) {
+  SendOn();  // a child that no longer listens may still have something to say
+  buffer_.erase(0, line_start_);
+  scanned_ -= line_start_;
+  line_start_ = 0;
+  std::array<char, 1 << 16> chunk;
+  for (int chunks = 0; chunks < kChunksPerReceive;) {
+    const ssize_t count = ::read(output_, chunk.data(), chunk.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) break;
+    if (count <= 0) return false;
+    buffer_.append(chunk.data(), static_cast<std::size_t>(count));
+    ++chunks;
+  }
+  return buffer_.size() <= longest_line || buffer_.find('\n', scanned_) != std::string::npos;
+}
+
+std::optional<std::string> ChildProcess::NextLine() {
+  const std::size_t end = buffer_.find('\n', scanned_);
+  if (end == std::string::npos) {
+    scanned_ = buffer_.size();
+    return std::nullopt;
+  }
+  std::string line = buffer_.substr(line_start_, end - line_start_);
+  line_start_ = scanned_ = end + 1;
+  return line;
+}
+
+ProcessUsage ChildProcess::Measure() const { return pid_ < 0 ? ProcessUsage{} : MeasureTree(pid_); }
+
+ProcessUsage ChildProcess::MeasureAlone() const { return pid_ < 0 ? ProcessUsage{} : MeasureProcess(pid_); }
+
+bool ChildProcess::HasEnded() const {
+  siginfo_t info{};
+  if (pid_ < 0 || ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0) return true;
+  return info.si_pid == pid_;
+}
+
+std::string ChildProcess::Finish(int patience_ms) {
+  if (pid_ < 0) return "not running";
+  const std::vector<Descriptor> tree = HoldTree(pid_);  // orphans of a child that ended could not be found any more
+  ::close(input_);
+  for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
+  ::close(output_);
+  KillAll(HoldTree(pid_));
+  KillAll(tree);
+  ::kill(-pid_, SIGKILL);  // before it is reaped: until then its number, and so its group's, is nobody else's
+  int status = 0;
+  while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  pid_ = input_ = output_ = -1;
+  if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
+  return fmt::format("exit code {}", WEXITSTATUS(status));
+}
+
+}  // namespace etude

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "bench/replay/replay.h"
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// Compares a row with the one that came when the cell was run again: stage by stage, then status, then metrics.
+CellCheck CompareRows(const Row& then, const Row& now);
+
+}  // namespace etude

@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
+#include "bench/replay/compare_rows.h"
+#include "bench/replay/replay.h"
+#include "bench/results/folder.h"
+#include "bench/results/row_json.h"
+#include "bench/run/manifest.h"
+#include "bench/run/supervisor.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kPackVersion = 1;
+
+/// The clips of a scenario, in order: built-in ones by name, files with their bytes.
+Result<Json> PackClips(const ClipLibrary& library) {
+  Json clips = Json::array();
+  for (const LibraryClip& clip : library.clips) {
+    Json entry{{"source", clip.source}};
+    if (!clip.source.starts_with("builtin:")) {
+      auto bytes = ReadWholeFile(clip.source);
+      if (!bytes) return tl::unexpected(bytes.error());
+      entry["bytes"] = Json::binary({bytes->begin(), bytes->end()});
+    }
+    clips.push_back(std::move(entry));
+  }
+  return clips;
+}
+
+/// Puts the packed files into a folder each, so that they keep their names; gives the references to load them by.
+Result<std::vector<std::string>> UnpackClips(const Json& clips, const fs::path& folder) {
+  std::vector<std::string> references;
+  for (const Json& clip : clips) {
+    const std::string source = clip.at("source").get<std::string>();
+    if (!clip.contains("bytes")) {
+      references.push_back(source);
+      continue;
+    }
+    const fs::path path = folder / std::to_string(references.size()) / fs::path(source).filename();
+    const auto& bytes = clip.at("bytes").get_binary();
+    auto written = WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    if (!written) return tl::unexpected(written.error());
+    references.push_back(path.string());
+  }
+  return references;
+}
+
+struct Pack {
+  SuiteSetup suite;  ///< of one scenario
+  Row row;
+  Json clips;
+};
+
+Result<Pack> ReadPack(const std::string& file) {
+  const Place place{file, 0, 0};
+  const auto bytes = ReadWholeFile(file);
+  if (!bytes) return tl::unexpected(bytes.error());
+  try {
+    const Json json = Json::from_cbor(*bytes);
+    if (json.at("etude_pack") != kPackVersion) {
+      return Fail(place, "a pack of version {}; this program reads {}", json.at("etude_pack").dump(), kPackVersion);
+    }
+    auto suite = DecodeSetup(json.at("setup"), place);
+    if (!suite) return tl::unexpected(suite.error());
+    if (suite->scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite->scenarios.size());
+    auto row = DecodeRow(json.at("row"), place);
+    if (!row) return tl::unexpected(row.error());
+    return Pack{std::move(*suite), std::move(*row), json.at("clips")};
+  } catch (const Json::exception& error) {
+    return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", error.what());
+  }
+}
+
+}  // namespace
+
+Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file) {
+  const auto run = LoadRun(folder);
+  if (!run) return tl::unexpected(run.error());
+  const auto row = std::find_if(run->rows.begin(), run->rows.end(), [&](const Row& r) { return r.Id() == cell; });
+  if (row == run->rows.end()) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
+  const fs::path manifest = fs::path(folder) / "manifest.json";
+  auto suite = ReadManifest(manifest);
+  if (!suite) return tl::unexpected(suite.error());
+  const auto scenarios = PrepareAll(*suite);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  if (auto same = CheckClips(manifest, *scenarios); !same) return same;
+  const auto prepared = std::find_if(scenarios->begin(), scenarios->end(), [&](const PreparedScenario& scenario) {
+    return scenario.scenario().name == row->scenario;
+  });
+  if (prepared == scenarios->end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
+  auto clips = PackClips(prepared->clips());
+  if (!clips) return tl::unexpected(clips.error());
+  suite->scenarios = {prepared->setup()};
+  const Json pack{{"etude_pack", kPackVersion},
+                  {"etude", run->program_version},
+                  {"setup", EncodeSetup(*suite)},
+                  {"row", EncodeRow(*row)},
+                  {"clips", std::move(*clips)}};
+  const std::vector<std::uint8_t> bytes = Json::to_cbor(pack);
+  return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+Result<CellCheck> ReplayPack(const std::string& file) {
+  auto pack = ReadPack(file);
+  if (!pack) return tl::unexpected(pack.error());
+  const auto folder = TemporaryFolder::Make("replay");
+  if (!folder) return tl::unexpected(folder.error());
+  try {
+    auto clips = UnpackClips(pack->clips, folder->path());
+    if (!clips) return tl::unexpected(clips.error());
+    pack->suite.scenarios.front().clips = std::move(*clips);
+  } catch (const Json::exception& error) {
+    return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
+  }
+  const auto scenarios = PrepareAll(pack->suite);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  const Plan plan(*scenarios);
+  std::size_t cell = 0;
+  while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack->row.Id()) ++cell;
+  if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack->row.Id());
+  const std::size_t world = plan.WorldOf(cell);
+  std::optional<CellCheck> check;
+  const auto whole = RunOrders(pack->suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
+                               {.program = ThisProgram(), .error_folder = "", .jobs = 1, .stop = nullptr},
+                               [&](std::size_t, FinishedCell finished) -> Result<void> {
+                                 check = CompareRows(pack->row, finished.row);
+                                 return {};
+                               });
+  if (!whole) return tl::unexpected(whole.error());
+  return *check;
+}
+
+}  // namespace etude

@@ -1,0 +1,83 @@
+#include "bench/replay/replay.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <thread>
+
+#include "bench/replay/compare_rows.h"
+#include "bench/results/folder.h"
+#include "bench/run/manifest.h"
+#include "bench/run/supervisor.h"
+#include "engine/base/names.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The numbers of the wanted cells, ascending.
+Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const RunData& run) {
+  std::set<std::size_t> chosen;
+  for (const std::string& wanted : options.cells) {
+    const auto row = std::find_if(run.rows.begin(), run.rows.end(), [&](const Row& r) { return r.Id() == wanted; });
+    if (row == run.rows.end()) {
+      std::vector<std::string> known;
+      for (const Row& other : run.rows) known.push_back(other.Id());
+      const std::string nearest = NearestName(wanted, known);
+      return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted,
+                  nearest.empty() ? ", such as '" + known.front() + "'" : "; did you mean '" + nearest + "'?");
+    }
+    chosen.insert(static_cast<std::size_t>(row - run.rows.begin()));
+  }
+  if (!options.cells.empty()) return chosen;
+  // Selection sampling (Knuth, volume 2, algorithm S): every set of `count` rows is as likely.
+  const std::size_t count = options.sample == 0 ? run.rows.size() : std::min(options.sample, run.rows.size());
+  RandomStream dice({.suite_seed = run.seed, .scenario = "replay", .trial = 0}, "sample");
+  for (std::size_t cell = 0; chosen.size() < count; ++cell) {
+    if (dice.IndexBelow(run.rows.size() - cell) < count - chosen.size()) chosen.insert(cell);
+  }
+  return chosen;
+}
+
+std::vector<Order> OrdersOf(const Plan& plan, const std::set<std::size_t>& cells) {
+  std::vector<bool> done(plan.cell_count(), true);
+  for (std::size_t cell : cells) done[cell] = false;
+  return plan.OrdersFor(Shard{}, done);
+}
+
+}  // namespace
+
+Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
+  const auto run = LoadRun(options.folder);
+  if (!run) return tl::unexpected(run.error());
+  const fs::path manifest = fs::path(options.folder) / "manifest.json";
+  const auto suite = ReadManifest(manifest);
+  if (!suite) return tl::unexpected(suite.error());
+  const auto scenarios = PrepareAll(*suite);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
+  const Plan plan(*scenarios);
+  if (run->rows.size() != plan.cell_count()) {
+    return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", run->rows.size(), plan.cell_count());
+  }
+  const auto chosen = ChooseCells(options, *run);
+  if (!chosen) return tl::unexpected(chosen.error());
+  std::map<std::size_t, CellCheck> checks;
+  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  const auto whole = RunOrders(*suite, plan, OrdersOf(plan, *chosen),
+                               {.program = ThisProgram(), .error_folder = "", .jobs = jobs, .stop = options.stop},
+                               [&](std::size_t cell, FinishedCell finished) -> Result<void> {
+                                 checks.emplace(cell, CompareRows(run->rows[cell], finished.row));
+                                 return {};
+                               });
+  if (!whole) return tl::unexpected(whole.error());
+  std::vector<CellCheck> list;
+  for (auto& [cell, check] : checks) list.push_back(std::move(check));
+  return list;
+}
+
+}  // namespace etude

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// A cell that was run again.
+struct CellCheck {
+  std::string cell;
+  bool same = false;
+  /// Where it went another way: the first stage whose digest differs, else "status" or a metric; "" when the same.
+  std::string stage;
+  std::string then, now;  ///< what stood there, what came now
+};
+
+struct ReplayOptions {
+  std::string folder;
+  std::vector<std::string> cells;  ///< identities as in cells.jsonl; empty = a sample
+  std::size_t sample = 0;          ///< how many cells, drawn by the suite's seed; 0 = all
+  int jobs = 0;                    ///< 0 = one per processor
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Runs cells of a finished run again, as its manifest describes them, and compares every stage. In canonical order.
+/// Stopped early, it gives those that were done.
+Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options);
+
+/// Writes all that is needed to repeat one cell elsewhere into one file: the scenario, the clips, and what came of it.
+Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file);
+
+/// Runs the cell of such a file again.
+Result<CellCheck> ReplayPack(const std::string& file);
+
+}  // namespace etude

@@ -1,0 +1,137 @@
+#include "bench/run/cell_runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+double CpuSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+class Stopwatch {
+ public:
+  double WallSeconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double CpuSecondsUsed() const { return CpuSeconds() - cpu_start_; }
+
+ private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const double cpu_start_ = CpuSeconds();
+};
+
+/// The kernel's high-water mark of this process begins anew.
+void ForgetPeakMemory() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+double PeakMemoryMb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+  }
+  return 0;
+}
+
+/// Methods of one scenario differ in name, so their files do too.
+std::string ErrorFileOf(const std::string& folder, const PreparedScenario& scenario, const MethodEntry& method) {
+  return folder.empty() ? "" : folder + "/" + scenario.scenario().name + "~" + method.name + ".txt";
+}
+
+}  // namespace
+
+CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folder)
+    : scenario_(scenario), error_folder_(std::move(error_folder)) {
+  const Scenario& told = scenario.scenario();
+  for (std::size_t m = 0; m < told.methods.size(); ++m) {
+    const MethodEntry& method = told.methods[m];
+    if (method.exec.empty()) continue;
+    outside_.emplace(m, OutsideMethod({.command = method.exec,
+                                       .task = told.task,
+                                       .options_json = method.options_json,
+                                       .time_s = method.time_s.value_or(told.limits.time_s),
+                                       .memory_mb = told.limits.memory_mb,
+                                       .error_file = ErrorFileOf(error_folder_, scenario, method)}));
+  }
+}
+
+CellRunner::~CellRunner() = default;
+
+void CellRunner::Open(int condition, int trial) {
+  condition_ = condition;
+  trial_ = trial;
+  problem_.reset();
+  why_no_world_.clear();
+  const Stopwatch watch;
+  const WorldKey key = scenario_.KeyOf(trial);
+  const std::vector<int>& filmed = scenario_.scenario().recordings.trials;
+  try {
+    world_ = scenario_.task(condition).MakeWorld(key, std::find(filmed.begin(), filmed.end(), trial) != filmed.end());
+  } catch (const std::exception& error) {
+    world_.reset();
+    why_no_world_ = std::string("the world cannot be built: ") + error.what();
+  }
+  world_usage_ = {.world_wall_s = watch.WallSeconds(), .world_cpu_s = watch.CpuSecondsUsed()};
+}
+
+FinishedCell CellRunner::Run(std::size_t method) {
+  FinishedCell cell{scenario_.IdentityOf(condition_, trial_, method), std::exchange(world_usage_, {})};
+  ForgetPeakMemory();
+  const Stopwatch watch;
+  try {
+    cell.row.result = RunMethod(method, cell.usage);
+  } catch (const std::exception& error) {
+    cell.row.result = CellResult::Ended(Status::kFailed, std::string("the method threw: ") + error.what());
+  }
+  cell.usage.wall_s = watch.WallSeconds();
+  cell.usage.cpu_s += watch.CpuSecondsUsed();
+  cell.usage.peak_mb = std::max(cell.usage.peak_mb, PeakMemoryMb());
+  const std::vector<std::string>& filmed = scenario_.scenario().recordings.methods;
+  if (std::find(filmed.begin(), filmed.end(), cell.row.method) == filmed.end()) cell.row.result.recording.reset();
+  scenario_.CompleteMetrics(condition_, cell.row);
+  return cell;
+}
+
+CellResult CellRunner::RunMethod(std::size_t method, CellUsage& usage) {
+  if (!world_) return CellResult::Ended(Status::kFailed, why_no_world_);
+  if (const auto why = world_->WhySkipped()) return CellResult::Ended(Status::kSkipped, *why);
+  if (outside_.contains(method)) return AskOutside(method, usage);
+  const auto& methods = scenario_.scenario().methods;
+  return world_->Run(static_cast<std::size_t>(std::count_if(
+      methods.begin(), methods.begin() + method, [](const MethodEntry& other) { return other.exec.empty(); })));
+}
+
+CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
+  if (setting_ == nullptr || condition_of_setting_ != condition_) {
+    auto setting = scenario_.task(condition_).Setting();
+    if (!setting) return CellResult::Ended(Status::kFailed, ToString(setting.error()));
+    setting_ = std::make_unique<Exhibit>(std::move(*setting));
+    condition_of_setting_ = condition_;
+  }
+  if (problem_ == nullptr) {
+    auto problem = world_->MakeProblem();
+    if (!problem) return CellResult::Ended(Status::kFailed, ToString(problem.error()));
+    problem_ = std::make_unique<Exhibit>(std::move(*problem));
+  }
+  const std::string setting_id =
+      scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].settings);
+  const std::string problem_id = fmt::format("{}/{}", setting_id, trial_);
+  const OutsideReply reply = outside_.at(method).Ask(setting_id, *setting_, problem_id, *problem_);
+  usage.cpu_s += reply.cpu_s;
+  usage.peak_mb = reply.peak_mb;
+  if (reply.status != Status::kOk) return CellResult::Ended(reply.status, reply.reason);
+  auto judged = world_->Judge(*reply.answer);
+  if (!judged) return CellResult::Ended(Status::kBadOutput, ToString(judged.error()));
+  judged->digests.emplace_back("answer", Digest().Add(std::string_view(reply.answer->dump())).Hex());
+  return std::move(*judged);
+}
+
+}  // namespace etude

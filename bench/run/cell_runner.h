@@ -1,0 +1,54 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bench/outside/outside_method.h"
+#include "bench/run/setup.h"
+
+namespace etude {
+
+/// What one cell took, on this machine.
+struct CellUsage {
+  double wall_s = 0;
+  double cpu_s = 0;    ///< of the worker and of the method outside
+  double peak_mb = 0;  ///< the largest resident size of either while the cell was run
+  /// The building of the world, in the row of the first cell that was run in it.
+  double world_wall_s = 0, world_cpu_s = 0;
+};
+
+struct FinishedCell {
+  Row row;
+  CellUsage usage;
+};
+
+/// Runs the cells of one world after the other, as a worker does: the world is built once, methods outside
+/// stay alive from world to world.
+class CellRunner {
+ public:
+  /// Standard error of methods outside goes to files in `error_folder`; "" = to our own.
+  CellRunner(const PreparedScenario& scenario, std::string error_folder);
+  ~CellRunner();
+
+  /// Builds the world. Whatever goes wrong in it is told by every cell.
+  void Open(int condition, int trial);
+  /// Runs a method in the open world. A task that throws gives a failed row.
+  FinishedCell Run(std::size_t method);
+
+ private:
+  CellResult RunMethod(std::size_t method, CellUsage& usage);
+  CellResult AskOutside(std::size_t method, CellUsage& usage);
+
+  const PreparedScenario& scenario_;
+  const std::string error_folder_;
+  std::map<std::size_t, OutsideMethod> outside_;  ///< by method
+  int condition_ = 0, trial_ = 0;
+  std::unique_ptr<TaskWorld> world_;
+  std::string why_no_world_;
+  CellUsage world_usage_;
+  std::unique_ptr<Exhibit> setting_, problem_;  ///< of the open world, once asked for
+  int condition_of_setting_ = -1;
+};
+
+}  // namespace etude

@@ -1,0 +1,47 @@
+#include "bench/run/finish.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/files/files.h"
+#include "bench/results/folder.h"
+#include "bench/run/cell_json.h"
+#include "bench/statistics/summary.h"
+
+namespace etude {
+
+namespace fs = std::filesystem;
+
+Result<void> SaveJson(const fs::path& path, const Json& json) {
+  const auto text = WriteJson(json);
+  if (!text) return tl::unexpected(text.error());
+  return WriteFileAtomically(path, *text + "\n");
+}
+
+Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable cells, const Json& host) {
+  std::vector<Row> rows;
+  std::string timings;
+  for (std::optional<FinishedCell>& cell : cells) {
+    const auto line = WriteJson(EncodeUsage(cell->row.Id(), cell->usage));
+    if (!line) return tl::unexpected(line.error());
+    timings += *line + "\n";
+    rows.push_back(std::move(cell->row));
+  }
+  std::vector<ScenarioSummary> summaries;
+  std::size_t at = 0;
+  for (const PreparedScenario& prepared : plan.scenarios()) {
+    const Scenario& scenario = prepared.scenario();
+    const std::size_t count =
+        scenario.conditions.size() * static_cast<std::size_t>(scenario.trials) * scenario.methods.size();
+    summaries.push_back(Summarise(scenario, std::span(rows).subspan(at, count), prepared.setup().seed));
+    at += count;
+  }
+  if (auto saved = SaveResults(folder, rows, summaries); !saved) return saved;
+  if (auto saved = WriteFileAtomically(folder / "timings.jsonl", timings); !saved) return saved;
+  if (auto saved = SaveJson(folder / "host.json", host); !saved) return saved;
+  std::error_code error;
+  fs::remove(folder / kJournalFile, error);
+  if (error) return Fail({(folder / kJournalFile).string(), 0, 0}, "cannot be removed: {}", error.message());
+  return {};
+}
+
+}  // namespace etude

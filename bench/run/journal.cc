@@ -1,0 +1,146 @@
+#include "bench/run/journal.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "bench/results/folder.h"
+#include "bench/run/cell_json.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kJournalVersion = 1;
+
+Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
+  const auto json = ReadJson(line, place.file, place.line);
+  if (!json) return tl::unexpected(json.error());
+  JournalHead head;
+  try {
+    const int version = json->at("journal").get<int>();
+    if (version != kJournalVersion) {
+      return Fail(place, "a journal of version {}; this program reads {}", version, kJournalVersion);
+    }
+    head.manifest = json->at("manifest").get<std::string>();
+    head.build = json->at("build").get<std::string>();
+    const auto shard = ParseShard(json->at("shard").get<std::string>());
+    if (!shard) return Fail(place, "{}", shard.error().message);
+    head.shard = *shard;
+  } catch (const Json::exception& error) {
+    return Fail(place, "not the head of a journal: {}", error.what());
+  }
+  return head;
+}
+
+Result<void> AddCell(const std::string& line, const Place& place, const Plan& plan, const Shard& shard,
+                     CellTable& cells) {
+  const auto json = ReadJson(line, place.file, place.line);
+  if (!json) return tl::unexpected(json.error());
+  auto finished = DecodeFinishedCell(*json, place);
+  if (!finished) return tl::unexpected(finished.error());
+  const auto number = json->find("cell");
+  if (number == json->end() || !number->is_number_unsigned()) return Fail(place, "a line without its cell's number");
+  const std::size_t cell = number->get<std::size_t>();
+  if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell)) ||
+      plan.IdentityOf(cell).Id() != finished->row.Id()) {
+    return Fail(place, "cell {} ({}) is none of this run's shard {}", cell, finished->row.Id(), ToString(shard));
+  }
+  if (cells[cell]) return Fail(place, "cell {} ({}) stands in two places", cell, finished->row.Id());
+  cells[cell] = std::move(*finished);
+  return {};
+}
+
+}  // namespace
+
+Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head) {
+  Journal journal(folder / kJournalFile,
+                  ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644));
+  const auto line = WriteJson({{"journal", kJournalVersion},
+                               {"manifest", head.manifest},
+                               {"build", head.build},
+                               {"shard", ToString(head.shard)}});
+  if (!line) return tl::unexpected(line.error());
+  if (auto written = journal.Write(*line + "\n"); !written) return tl::unexpected(written.error());
+  return journal;
+}
+
+Result<Journal> Journal::Continue(const fs::path& folder) {
+  const fs::path path = folder / kJournalFile;
+  Journal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC));
+  off_t end = ::lseek(journal.file_, 0, SEEK_END);
+  for (char last = 0; end > 0; --end) {
+    if (::pread(journal.file_, &last, 1, end - 1) != 1 || last == '\n') break;
+  }
+  if (end < 0 || ::ftruncate(journal.file_, end) != 0) {
+    return Fail({path.string(), 0, 0}, "cannot be continued: {}", std::strerror(errno));
+  }
+  return journal;
+}
+
+Journal::Journal(Journal&& other) noexcept : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+
+Journal::~Journal() {
+  if (file_ >= 0) ::close(file_);
+}
+
+Result<void> Journal::Append(std::size_t cell, FinishedCell finished) {
+  Json json{{"cell", cell}};
+  json.update(EncodeFinishedCell(std::move(finished)));
+  const auto line = WriteJson(json);
+  if (!line) return tl::unexpected(line.error());
+  return Write(*line + "\n");
+}
+
+Result<void> Journal::Write(const std::string& line) {
+  for (std::size_t written = 0; written < line.size();) {
+    const ssize_t count = ::write(file_, line.data() + written, line.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return Fail({path_.string(), 0, 0}, "cannot be written: {}", std::strerror(errno));
+    written += static_cast<std::size_t>(count);
+  }
+  return {};
+}
+
+Result<JournalHead> ReadJournalHead(const fs::path& folder) {
+  const fs::path path = folder / kJournalFile;
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  if (!std::getline(in, line)) return Fail({path.string(), 0, 0}, "cannot be read, or is empty");
+  return DecodeHead(line, {path.string(), 1, 0});
+}
+
+Result<JournalHead> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells) {
+  const fs::path path = folder / kJournalFile;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return Fail({path.string(), 0, 0}, "cannot be read");
+  std::optional<JournalHead> head;
+  int number = 1;
+  for (std::string line; std::getline(in, line); ++number) {
+    if (in.eof()) break;  // it does not end in a line end: torn
+    const Place place{path.string(), number, 0};
+    if (!head) {
+      auto decoded = DecodeHead(line, place);
+      if (!decoded) return decoded;
+      head = std::move(*decoded);
+    } else if (auto added = AddCell(line, place, plan, head->shard, cells); !added) {
+      return tl::unexpected(added.error());
+    }
+  }
+  if (!head) return Fail({path.string(), 0, 0}, "is empty");
+  return *std::move(head);
+}
+
+std::vector<bool> DoneCells(const CellTable& cells) {
+  std::vector<bool> done;
+  for (const auto& cell : cells) done.push_back(cell.has_value());
+  return done;
+}
+
+}  // namespace etude

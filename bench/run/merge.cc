@@ -1,0 +1,139 @@
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/files.h"
+#include "bench/results/folder.h"
+#include "bench/run/finish.h"
+#include "bench/run/journal.h"
+#include "bench/run/manifest.h"
+#include "bench/run/run.h"
+#include "bench/run/run_folder.h"
+#include "engine/base/digest.h"
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The parts of one run that were found, by index.
+struct Shards {
+  int count = 0;
+  std::map<int, fs::path> folders;
+  std::string manifest;              ///< the text that all of them have
+  std::vector<std::string> missing;  ///< in words: shards that no folder holds, folders that hold none
+};
+
+Result<void> AddShard(const fs::path& folder, const std::string& build, Shards& shards) {
+  const Place place{folder.string(), 0, 0};
+  const auto head = ReadJournalHead(folder);
+  if (!head) return tl::unexpected(head.error());
+  if (head->build != build) return Fail(place, "was run by another build of etude than this one");
+  if (shards.folders.empty()) {
+    auto manifest = ReadWholeFile(folder / "manifest.json");
+    if (!manifest) return tl::unexpected(manifest.error());
+    shards.manifest = std::move(*manifest);
+    shards.count = head->shard.count;
+  }
+  if (head->manifest != Digest().Add(std::string_view(shards.manifest)).Hex()) {
+    return Fail(place, "is a shard of another run than the ones before: scenarios, seed, clips or version differ");
+  }
+  if (head->shard.count != shards.count) {
+    return Fail(place, "is shard {}, but the ones before are of {}", ToString(head->shard), shards.count);
+  }
+  const auto [other, is_new] = shards.folders.emplace(head->shard.index, folder);
+  if (!is_new) return Fail(place, "is shard {}, and so is {}", ToString(head->shard), other->second.string());
+  return {};
+}
+
+/// Which shards the folders hold, after checking that they are parts of one run, each there once.
+Result<Shards> FindShards(const std::vector<std::string>& folders) {
+  const auto build = BuildDigest();
+  if (!build) return tl::unexpected(build.error());
+  Shards shards;
+  for (const std::string& folder : folders) {
+    const auto state = LookAtFolder(folder);
+    if (!state) return tl::unexpected(state.error());
+    if (*state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, no shard");
+    if (*state == FolderState::kFree) {
+      shards.missing.push_back(folder + " holds no shard");
+    } else if (auto added = AddShard(folder, *build, shards); !added) {
+      return tl::unexpected(added.error());
+    }
+  }
+  for (int index = 1; index <= shards.count; ++index) {
+    if (!shards.folders.contains(index)) shards.missing.push_back(ToString(Shard{index, shards.count}) + " is missing");
+  }
+  return shards;
+}
+
+/// What a shard lacks: "2/4 in DIR lacks 3 of 40 cells, the first ik/…", or "".
+std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& folder, const CellTable& cells) {
+  std::size_t wanted = 0, lacking = 0;
+  std::string first;
+  for (std::size_t cell = 0; cell < plan.cell_count(); ++cell) {
+    if (!plan.IsIn(shard, plan.WorldOf(cell))) continue;
+    ++wanted;
+    if (cells[cell]) continue;
+    if (++lacking == 1) first = plan.IdentityOf(cell).Id();
+  }
+  if (lacking == 0) return "";
+  return fmt::format("{} in {} lacks {} of {} cells, the first {}", ToString(shard), folder.string(), lacking, wanted,
+                     first);
+}
+
+Result<Json> ReadHost(const fs::path& folder) {
+  const fs::path path = folder / "host.json";
+  const auto text = ReadWholeFile(path);
+  if (!text) return tl::unexpected(text.error());
+  return ReadJson(*text, path.string());
+}
+
+}  // namespace
+
+Result<RunOutcome> Merge(const MergeOptions& options) {
+  auto shards = FindShards(options.folders);
+  if (!shards) return tl::unexpected(shards.error());
+  if (shards->folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards->missing, "; "));
+  const fs::path manifest = shards->folders.begin()->second / "manifest.json";
+  const auto suite = ReadManifest(manifest);
+  if (!suite) return tl::unexpected(suite.error());
+  const auto scenarios = PrepareAll(*suite);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
+  const Plan plan(*scenarios);
+  CellTable cells(plan.cell_count());
+  Json hosts = Json::array();
+  for (const auto& [index, folder] : shards->folders) {
+    const auto head = ReadJournal(folder, plan, cells);
+    if (!head) return tl::unexpected(head.error());
+    const std::string what = WhatLacks(plan, head->shard, folder, cells);
+    if (!what.empty()) shards->missing.push_back(what);
+    const auto host = what.empty() ? ReadHost(folder) : Json();
+    if (!host) return tl::unexpected(host.error());
+    hosts.push_back(*host);
+  }
+  if (!shards->missing.empty()) {
+    return Fail({}, "not all {} shards are there and finished (etude run --shard i/{} --resume goes on): {}",
+                shards->count, shards->count, Join(shards->missing, "; "));
+  }
+  const auto state = LookAtFolder(options.output);
+  if (!state) return tl::unexpected(state.error());
+  if (*state != FolderState::kFree && !options.overwrite) {
+    return Fail({options.output, 0, 0}, "already holds a run; --overwrite replaces it, -o chooses another folder");
+  }
+  auto claimed = RunFolder::Claim(options.output, false);
+  if (!claimed) return tl::unexpected(claimed.error());
+  auto saved = WriteFileAtomically(fs::path(options.output) / "manifest.json", shards->manifest);
+  if (!saved) return tl::unexpected(saved.error());
+  RunOutcome outcome{.folder = options.output, .cells = cells.size()};
+  for (const auto& cell : cells) outcome.cells_ok += cell->row.result.status == Status::kOk ? 1 : 0;
+  Json host = DescribeHost(options.command_line, 0, 0);
+  host["shards"] = std::move(hosts);
+  if (auto done = FinishRun(options.output, plan, std::move(cells), host); !done) return tl::unexpected(done.error());
+  claimed->Keep();
+  return outcome;
+}
+
+}  // namespace etude

@@ -1,0 +1,59 @@
+#include "bench/run/plan.h"
+
+#include <algorithm>
+#include <charconv>
+
+namespace etude {
+
+Result<Shard> ParseShard(const std::string& text) {
+  constexpr int kMostShards = 100'000;
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto index = std::from_chars(text.data(), end, shard.index);
+  const bool has_slash = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
+  const auto count = has_slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+  if (!has_slash || count.ec != std::errc() || count.ptr != end || shard.index < 1 || shard.count < shard.index ||
+      shard.count > kMostShards) {
+    return Fail({}, "'{}' is no shard; allowed: i/n with 1 ≤ i ≤ n ≤ {}, such as 2/8", text, kMostShards);
+  }
+  return shard;
+}
+
+std::string ToString(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
+
+Plan::Plan(std::span<const PreparedScenario> scenarios) : scenarios_(scenarios), first_cells_{0} {
+  for (std::size_t s = 0; s < scenarios.size(); ++s) {
+    const int conditions = static_cast<int>(scenarios[s].scenario().conditions.size());
+    for (int c = 0; c < conditions; ++c) {
+      for (int t = 0; t < scenarios[s].setup().trials; ++t) {
+        worlds_.push_back({static_cast<int>(s), c, t});
+        first_cells_.push_back(first_cells_.back() + scenarios[s].scenario().methods.size());
+      }
+    }
+  }
+}
+
+std::size_t Plan::WorldOf(std::size_t cell) const {
+  const auto after = std::upper_bound(first_cells_.begin(), first_cells_.end(), cell);
+  return static_cast<std::size_t>(after - first_cells_.begin()) - 1;
+}
+
+Row Plan::IdentityOf(std::size_t cell) const {
+  const std::size_t at = WorldOf(cell);
+  return scenario_of(at).IdentityOf(worlds_[at].condition, worlds_[at].trial, cell - CellAt(at, 0));
+}
+
+std::vector<Order> Plan::OrdersFor(const Shard& shard, const std::vector<bool>& done) const {
+  std::vector<Order> orders;
+  for (std::size_t world = 0; world < worlds_.size(); ++world) {
+    if (!IsIn(shard, world)) continue;
+    Order order{world, {}};
+    for (std::size_t method = 0; method < MethodCount(world); ++method) {
+      if (!done[CellAt(world, method)]) order.methods.push_back(method);
+    }
+    if (!order.methods.empty()) orders.push_back(std::move(order));
+  }
+  return orders;
+}
+
+}  // namespace etude

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+
+namespace etude {
+
+/// The keys of one kind of mapping in a scenario file.
+struct KeyGroup {
+  std::string path;   ///< where such a mapping stands: "expect[]", an item of the list under `expect`; "" = the top
+  std::string title;  ///< "An expectation"
+  std::vector<KeyInfo> keys;
+};
+
+/// Every key that a scenario file can hold: those of all scenarios, then those of each task and of its methods.
+std::vector<KeyGroup> AllKeyGroups();
+
+/// AllKeyGroups as the reference page docs/keys.md.
+std::string KeysAsMarkdown();
+
+}  // namespace etude

@@ -1,0 +1,166 @@
+#include "bench/scenario/sources.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/files/files.h"
+#include "bench/scenario/scenario.h"
+#include "bench/scenario/sweep.h"
+#include "engine/document/fields.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kDeepestInclude = 8;
+constexpr int kMostInclusions = 100;
+constexpr std::size_t kMostScenarios = 1000;
+
+using Entries = std::vector<Node::Entry>;
+
+std::size_t CountAll(const Entries& entries) {
+  std::size_t count = 0;
+  for (const Node::Entry& entry : entries) count += CountValues(entry.value);
+  return count;
+}
+
+/// Adds a key, or replaces the value that it has.
+void Put(const Node::Entry& entry, Entries& entries) {
+  const auto known =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& other) { return other.key == entry.key; });
+  if (known == entries.end()) {
+    entries.push_back(entry);
+  } else {
+    *known = entry;
+  }
+}
+
+bool IsKeyOfFiles(const std::string& key) { return key == "include" || key == "defaults" || key == "scenarios"; }
+
+class Collector {
+ public:
+  explicit Collector(const TextOf& text_of) : text_of_(text_of) {}
+
+  Result<std::vector<Node>> Scenarios(const std::string& file) {
+    const auto top = Open(file, {file, 0, 0});
+    if (!top) return tl::unexpected(top.error());
+    const Node* list = top->Find("scenarios");
+    if (list == nullptr && top->Find("defaults") != nullptr) {
+      return Fail(top->place,
+                  "no scenario, only 'defaults': files that others include stand in a folder of their own, "
+                  "such as shared/, which a run of this one leaves out");
+    }
+    auto defaults = DefaultsOf(*top, file);
+    if (!defaults) return tl::unexpected(defaults.error());
+    if (list == nullptr) {
+      Node scenario = *top;
+      std::erase_if(scenario.entries, [](const auto& entry) { return entry.key == "include"; });
+      return std::vector<Node>{WithDefaults(std::move(scenario), *defaults)};
+    }
+    Fields fields(*top, "a file of several scenarios");
+    for (const char* key : {"include", "defaults", "scenarios"}) fields.Raw(key);
+    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+    if (list->kind != Node::Kind::kSequence || list->items.empty()) {
+      return Fail(list->place, "'scenarios' must be a list of at least one scenario, found {}", Describe(*list));
+    }
+    if (list->items.size() > kMostScenarios) {
+      return Fail(list->place, "{} scenarios; at most {} in a file", list->items.size(), kMostScenarios);
+    }
+    if (list->items.size() * CountAll(*defaults) > kMostValues) {
+      return Fail(list->place, "{} scenarios with defaults of {} values; at most {} values in all", list->items.size(),
+                  CountAll(*defaults), kMostValues);
+    }
+    std::vector<Node> scenarios;
+    for (const Node& item : list->items) {
+      for (const Node::Entry& entry : item.entries) {
+        if (!IsKeyOfFiles(entry.key)) continue;
+        return Fail(entry.place, "'{}' stands at the top of a file, not in one of its scenarios", entry.key);
+      }
+      scenarios.push_back(WithDefaults(item, *defaults));
+    }
+    return scenarios;
+  }
+
+ private:
+  static Node WithDefaults(Node scenario, const Entries& defaults) {
+    if (scenario.kind != Node::Kind::kMapping) return scenario;  // refused by who reads it
+    for (const Node::Entry& entry : defaults) {
+      if (scenario.Find(entry.key) == nullptr) scenario.entries.push_back(entry);
+    }
+    return scenario;
+  }
+
+  Result<Node> Open(const std::string& file, const Place& asked_at) {
+    auto text = text_of_(file, asked_at);
+    if (!text) return tl::unexpected(text.error());
+    chain_.push_back(file);
+    return ParseYaml(*text, file);
+  }
+
+  /// What `include` and `defaults` of a file give to its scenarios.
+  Result<Entries> DefaultsOf(const Node& top, const std::string& file) {
+    Entries found;
+    if (const Node* list = top.Find("include")) {
+      const auto names = AsTexts(*list);
+      if (!names) return Fail(names.error().place, "'include': {}", names.error().message);
+      for (std::size_t i = 0; i < names->size(); ++i) {
+        if ((*names)[i].empty()) return Fail(list->items[i].place, "an empty name where a file is named");
+        const auto path = std::filesystem::path(file).parent_path() / (*names)[i];
+        const auto included = Included(path.lexically_normal().string(), list->items[i].place);
+        if (!included) return included;
+        for (const Node::Entry& entry : *included) Put(entry, found);
+      }
+    }
+    const Node* own = top.Find("defaults");
+    if (own == nullptr) return found;
+    if (own->kind != Node::Kind::kMapping) {
+      return Fail(own->place, "'defaults' must be a mapping (key: value), found {}", Describe(*own));
+    }
+    for (const Node::Entry& entry : own->entries) {
+      if (entry.key == "scenario" || IsKeyOfFiles(entry.key)) {
+        return Fail(entry.place, "'{}' cannot be a default", entry.key);
+      }
+      Put(entry, found);
+    }
+    return found;
+  }
+
+  Result<Entries> Included(const std::string& file, const Place& asked_at) {
+    if (std::find(chain_.begin(), chain_.end(), file) != chain_.end()) {
+      return Fail(asked_at, "'{}' includes itself", file);
+    }
+    if (chain_.size() > kDeepestInclude) return Fail(asked_at, "included more than {} files deep", kDeepestInclude);
+    if (++inclusions_ > kMostInclusions) return Fail(asked_at, "more than {} inclusions", kMostInclusions);
+    const auto top = Open(file, asked_at);
+    if (!top) return tl::unexpected(top.error());
+    Fields fields(*top, "an included file");
+    for (const char* key : {"include", "defaults"}) fields.Raw(key);
+    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+    auto defaults = DefaultsOf(*top, file);
+    chain_.pop_back();
+    return defaults;
+  }
+
+  const TextOf& text_of_;
+  std::vector<std::string> chain_;  ///< from the scenario file to the file being read
+  int inclusions_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<Node>> CollectScenarios(const std::string& file, const TextOf& text_of) {
+  return Collector(text_of).Scenarios(file);
+}
+
+Result<void> ReadSources(const std::string& file, SourceTexts& texts) {
+  const auto from_disk = [&](const std::string& path, const Place& asked_at) -> Result<std::string> {
+    auto text = ReadWholeFile(path);
+    if (text) return texts[path] = *std::move(text);
+    if (asked_at.line == 0) return text;
+    return Fail(asked_at, "{}", ToString(text.error()));
+  };
+  const auto scenarios = CollectScenarios(file, from_disk);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  return {};
+}
+
+}  // namespace etude

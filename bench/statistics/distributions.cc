@@ -1,0 +1,30 @@
+#include "bench/statistics/distributions.h"
+
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+const double kRootTwo = std::sqrt(2.0);
+
+}  // namespace
+
+double NormalCdf(double x) { return 0.5 * boost::math::erfc(-x / kRootTwo); }
+
+double NormalQuantile(double p) { return -kRootTwo * boost::math::erfc_inv(2 * p); }
+
+double FairCoinUpperTail(int successes, int trials) {
+  if (successes == 0) return 1;
+  // The regularized incomplete beta function is the binomial's tail (Abramowitz & Stegun 26.5.24).
+  return boost::math::ibeta(successes, trials - successes + 1, 0.5);
+}
+
+double KeepThirtyBits(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, 30)), exponent - 30);
+}
+
+}  // namespace etude

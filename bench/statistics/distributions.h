@@ -1,0 +1,17 @@
+#pragma once
+
+namespace etude {
+
+/// Φ(x) of the standard normal.
+double NormalCdf(double x);
+/// Φ⁻¹(p), 0 < p < 1.
+double NormalQuantile(double p);
+
+/// P(B ≥ successes) of B ~ Binomial(trials, ½), 0 ≤ successes ≤ trials.
+double FairCoinUpperTail(int successes, int trials);
+
+/// The value with 30 bits of mantissa. What stands in a summary must not depend on the last bit of the
+/// machine's exp and log.
+double KeepThirtyBits(double value);
+
+}  // namespace etude

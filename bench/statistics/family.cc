@@ -1,0 +1,92 @@
+#include "bench/statistics/family.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/compare.h"
+#include "bench/statistics/holm.h"
+#include "bench/statistics/paired_tests.h"
+
+namespace etude {
+namespace {
+
+constexpr double kAlpha = 1 - kConfidence;
+
+/// Whoever gives up on hard worlds is compared on the easy ones alone.
+std::string NoteOnMissing(const Comparison& c) {
+  const int without = c.only_baseline + c.only_method + c.neither;
+  if (without == 0) return "";
+  std::string who;
+  const auto add = [&](const std::string& name, int worlds) {
+    if (worlds > 0) who += fmt::format("{}{} in {}", who.empty() ? "" : ", ", name, worlds);
+  };
+  add(fmt::format("only “{}” has a value", c.baseline), c.only_baseline);
+  add(fmt::format("only “{}” has a value", c.method), c.only_method);
+  add("neither has one", c.neither);
+  return fmt::format("{} of {} worlds are not in the difference: {}{}", without, c.pairs + without, who,
+                     c.only_baseline + c.only_method > 0 ? " (survivorship)" : "");
+}
+
+/// Why the verdict is open, in the order in which one would ask.
+std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
+  if (c.verdict != Verdict::kInconclusive) return "";
+  if (c.pairs == 0) return "no world gave both a value";
+  const int needed = PairsNeeded(comparisons, kAlpha);
+  if (c.differing<needed&& * c.p_holm> kAlpha) {
+    return fmt::format("too few worlds: {} of {} pairs differ, so p ≥ {:.2g}; {} needs at least {}", c.differing,
+                       c.pairs, SmallestP(c.differing),
+                       comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
+                       needed);
+  }
+  if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kSmallestSample);
+  const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
+  if (!beyond_zero) return "the interval holds zero, and differences that matter";
+  const double p = *DecidingP(c, metric);
+  if (*c.p_holm > kAlpha) {
+    if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
+    return fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", p, comparisons);
+  }
+  if (std::abs(*c.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
+  return "it differs, but neither way is better";
+}
+
+/// A median is blind to what happens in fewer than half of the worlds.
+std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
+  if (metric.aggregate != Aggregate::kMedian || !c.mean_low) return "";
+  const bool up = *c.mean_low > metric.practical, down = *c.mean_high < -metric.practical;
+  if (!up && !down) return "";
+  const bool agrees = up ? *c.difference > metric.practical : *c.difference < -metric.practical;
+  if (agrees) return "";
+  const auto amount = [&](double value) {
+    const std::string text = fmt::format("{:.3g}", value);
+    return text.starts_with('-') ? "−" + text.substr(1) : text;
+  };
+  const std::string unit = metric.unit.empty() ? "" : " " + metric.unit;
+  return fmt::format("the mean differs by {}{} (95 % CI {} to {}), which the median does not show", amount(*c.mean),
+                     unit, amount(*c.mean_low), amount(*c.mean_high));
+}
+
+}  // namespace
+
+void JudgeFamily(std::span<Comparison* const> family) {
+  std::vector<std::optional<double>> p_values;
+  for (const Comparison* comparison : family) {
+    p_values.push_back(DecidingP(*comparison, *FindMetric(comparison->metric)));
+  }
+  const auto corrected = HolmCorrected(p_values);
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    Comparison& comparison = *family[i];
+    const MetricInfo& metric = *FindMetric(comparison.metric);
+    comparison.p_holm = corrected[i];
+    comparison.verdict = VerdictOf(comparison, metric);
+    comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
+    for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
+      if (!note.empty()) comparison.notes.push_back(note);
+    }
+  }
+}
+
+}  // namespace etude

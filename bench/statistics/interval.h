@@ -1,0 +1,16 @@
+#pragma once
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+constexpr double kConfidence = 0.95;
+
+/// A confidence interval, and how it was computed.
+struct Interval {
+  double low = 0;
+  double high = 0;
+  IntervalKind kind = IntervalKind::kBca;
+};
+
+}  // namespace etude

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "bench/statistics/distributions.h"
+#include "bench/statistics/paired_tests.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostEnumerated = 16;
+constexpr int kDraws = 9999;
+
+/// Signs of the sizes, one bit each: 1 = negative.
+using Signs = std::vector<std::uint64_t>;
+
+/// The index of the n-th 1 (or 0, with `flip` all ones) of the signs.
+std::size_t IndexOfNth(const Signs& signs, std::size_t n, std::uint64_t flip) {
+  for (std::size_t word = 0;; ++word) {
+    std::uint64_t bits = signs[word] ^ flip;
+    const auto count = static_cast<std::size_t>(std::popcount(bits));
+    if (n >= count) {
+      n -= count;
+      continue;
+    }
+    for (; n > 0; --n) bits &= bits - 1;
+    return 64 * word + static_cast<std::size_t>(std::countr_zero(bits));
+  }
+}
+
+/// Sizes |d| in ascending order, zeros first, under whatever signs.
+class FlippedSample {
+ public:
+  FlippedSample(std::vector<double> sizes, Aggregate aggregate) : sizes_(std::move(sizes)), aggregate_(aggregate) {}
+
+  std::size_t words() const { return (sizes_.size() + 63) / 64; }
+
+  double AggregateUnder(const Signs& signs) const {
+    return aggregate_ == Aggregate::kMedian ? MedianUnder(signs) : MeanUnder(signs);
+  }
+
+ private:
+  double MeanUnder(const Signs& signs) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < sizes_.size(); ++i) {
+      sum += (signs[i / 64] >> (i % 64)) & 1 ? -sizes_[i] : sizes_[i];
+    }
+    return sum / static_cast<double>(sizes_.size());
+  }
+
+  /// In order, the flipped values are the negative ones from the largest size down, then the others upwards: the
+  /// middle one lies near the small end, so a short walk finds it.
+  double MedianUnder(const Signs& signs) const {
+    std::size_t negatives = 0;
+    for (std::uint64_t bits : signs) negatives += static_cast<std::size_t>(std::popcount(bits));
+    const auto at = [&](std::size_t i) {
+      return i < negatives ? -sizes_[IndexOfNth(signs, negatives - 1 - i, 0)]
+                           : sizes_[IndexOfNth(signs, i - negatives, ~std::uint64_t{0})];
+    };
+    return 0.5 * (at((sizes_.size() - 1) / 2) + at(sizes_.size() / 2));
+  }
+
+  std::vector<double> sizes_;
+  Aggregate aggregate_;
+};
+
+}  // namespace
+
+PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate, std::uint64_t seed,
+                        const std::string& purpose) {
+  if (differences.empty()) return {};
+  std::vector<double> ordered(differences.begin(), differences.end());
+  std::sort(ordered.begin(), ordered.end(),
+            [](double a, double b) { return std::abs(a) != std::abs(b) ? std::abs(a) < std::abs(b) : a < b; });
+  std::vector<double> sizes;
+  Signs observed((ordered.size() + 63) / 64);
+  std::size_t zeros = 0, negatives = 0;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    sizes.push_back(std::abs(ordered[i]));
+    zeros += ordered[i] == 0;
+    negatives += ordered[i] < 0;
+    if (ordered[i] < 0) observed[i / 64] |= std::uint64_t{1} << (i % 64);
+  }
+  const std::size_t differing = sizes.size() - zeros;
+  if (differing == 0) return {1.0, "exact"};
+  const double largest = sizes.back();
+  if (aggregate == Aggregate::kMean && sizes[zeros] == largest) {
+    const auto more = static_cast<int>(std::max(negatives, differing - negatives));
+    return {std::min(1.0, KeepThirtyBits(2 * FairCoinUpperTail(more, static_cast<int>(differing)))), "exact"};
+  }
+
+  const FlippedSample sample(std::move(sizes), aggregate);
+  // Sums that are equal on paper differ by rounding.
+  const double reached = std::abs(sample.AggregateUnder(observed)) - 1e-12 * largest;
+  Signs signs(sample.words());
+  if (differing <= kMostEnumerated) {
+    // A sample and its mirror image are equally far from zero: half of all signs will do.
+    const std::uint32_t all = std::uint32_t{1} << (differing - 1);
+    int extreme = 0;
+    for (std::uint32_t bits = 0; bits < all; ++bits) {
+      for (std::size_t i = 0; i < differing; ++i) {
+        const std::size_t at = zeros + i;
+        const std::uint64_t mask = std::uint64_t{1} << (at % 64);
+        signs[at / 64] = (bits >> i) & 1 ? signs[at / 64] | mask : signs[at / 64] & ~mask;
+      }
+      extreme += std::abs(sample.AggregateUnder(signs)) >= reached;
+    }
+    return {static_cast<double>(extreme) / all, "exact"};
+  }
+  RandomStream dice({.suite_seed = seed, .scenario = "sign-flip", .trial = 0}, purpose);
+  // Bits behind the last difference stay 0, or they would count as negative.
+  const std::uint64_t last =
+      ordered.size() % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << (ordered.size() % 64)) - 1;
+  int extreme = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    for (std::uint64_t& word : signs) word = dice.Bits();
+    signs.back() &= last;
+    extreme += std::abs(sample.AggregateUnder(signs)) >= reached;
+  }
+  return {(extreme + 1.0) / (kDraws + 1.0), "9,999 draws"};
+}
+
+double SmallestP(int differing) { return std::ldexp(1.0, std::min(1 - differing, 0)); }
+
+int PairsNeeded(int comparisons, double alpha) {
+  int pairs = 1;
+  while (SmallestP(pairs) * comparisons > alpha) ++pairs;
+  return pairs;
+}
+
+}  // namespace etude

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bench/files/json.h"
+#include "engine/base/result.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// A pose as it is told to and by methods outside the program: x, y, z of the twenty joints in the order of
+/// AllRoles, sixty numbers, metres, Y up. Every digit is kept, so they see what built-in methods see.
+Json EncodePose(const BodyPose& pose);
+/// One pose per frame.
+Json EncodePoses(std::span<const BodyPose> poses);
+
+/// What the sixty numbers are: {"joints": [twenty names], "parents": [null, "hip_centre", …]}.
+Json DescribeBody();
+
+/// Refused, naming `path` ("between[3]"): another count than sixty, and coordinates that are no finite numbers or
+/// farther than a kilometre away.
+Result<BodyPose> ReadPose(const Json& json, const std::string& path);
+
+}  // namespace etude

@@ -1,0 +1,172 @@
+#include "bench/tasks/capture/exchange.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/answer_fields.h"
+#include "bench/tasks/base/pose_json.h"
+#include "engine/cameras/opencv_file.h"
+#include "engine/motion/bvh.h"
+#include "engine/motion/from_body.h"
+#include "engine/motion/joint_csv.h"
+#include "engine/motion/trc.h"
+#include "engine/vision/strokes.h"
+#include "sim/sensors/image_files.h"
+
+namespace etude {
+namespace {
+
+Json ToJson(const glm::dvec2& v) { return {v.x, v.y}; }
+Json ToJson(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+Json ToJson(const LimbLengths& lengths) {
+  return {{"foot", lengths.foot},
+          {"shank", lengths.shank},
+          {"thigh", lengths.thigh},
+          {"hip_width", lengths.hip_width},
+          {"trunk", lengths.trunk},
+          {"neck", lengths.neck},
+          {"shoulder_width", lengths.shoulder_width},
+          {"upper_arm", lengths.upper_arm},
+          {"forearm", lengths.forearm},
+          {"hand", lengths.hand}};
+}
+
+Json ToJson(const std::vector<PointPair>& pairs) {
+  Json list = Json::array();
+  for (const PointPair& pair : pairs) list.push_back({{"world_m", ToJson(pair.world)}, {"pixel", ToJson(pair.pixel)}});
+  return list;
+}
+
+Json ToJson(const Marks& marks) {
+  Json strokes = Json::array(), discs = Json::array();
+  for (const auto& stroke : marks.strokes) {
+    strokes.push_back(stroke ? Json{stroke->a.x, stroke->a.y, stroke->b.x, stroke->b.y} : Json(nullptr));
+  }
+  for (const auto& disc : marks.effectors) discs.push_back(disc ? ToJson(*disc) : Json(nullptr));
+  return {{"strokes", std::move(strokes)}, {"discs", std::move(discs)}};
+}
+
+/// [camera][frame]
+Json ToJson(const Observation& observation, const std::vector<bool>& marked) {
+  Json cameras = Json::array();
+  for (const std::vector<Marks>& frames : observation.marks) {
+    Json& list = cameras.emplace_back(Json::array());
+    for (std::size_t k = 0; k < frames.size(); ++k) list.push_back(marked[k] ? ToJson(frames[k]) : Json(nullptr));
+  }
+  return cameras;
+}
+
+/// "camera-1-0042.png"; people count cameras from one.
+std::string PictureName(std::size_t camera, std::optional<std::size_t> frame, const char* extension) {
+  if (!frame) return fmt::format("camera-{}-background.{}", camera + 1, extension);
+  return fmt::format("camera-{}-{:04}.{}", camera + 1, *frame, extension);
+}
+
+/// A take's pictures are held in memory.
+Result<void> CheckSize(const CaptureWorld& world) {
+  const std::size_t pictures = world.cameras.size() * world.truth.size();
+  if (pictures <= kMostPictures) return {};
+  return Fail({}, "a take of {} pictures cannot be told to others; at most {} can, that is a duration_s of {:g}",
+              pictures, kMostPictures, static_cast<double>(kMostPictures / world.cameras.size()) / kJudgedRateHz);
+}
+
+Json PartNumbers() {
+  constexpr std::array kNames = {"background",     "shadow",       "trunk",       "head",
+                                 "left_upper_arm", "left_forearm", "left_hand",   "right_upper_arm",
+                                 "right_forearm",  "right_hand",   "left_thigh",  "left_shank",
+                                 "left_foot",      "right_thigh",  "right_shank", "right_foot"};
+  static_assert(kNames.size() == static_cast<std::size_t>(Part::kRightFoot) + 1);
+  Json numbers = Json::object();
+  for (std::size_t part = 0; part < kNames.size(); ++part) numbers[kNames[part]] = part;
+  return numbers;
+}
+
+}  // namespace
+
+Json DescribeStudio() {
+  const Intrinsics camera;
+  Json setting = {{"rate_hz", kJudgedRateHz}, {"image_width", camera.width}, {"image_height", camera.height}};
+  setting.update(DescribeBody());
+  for (const StrokeMark& mark : StrokeMarks()) {
+    setting["strokes"].push_back({{"from", RoleName(mark.from)}, {"to", RoleName(mark.to)}});
+  }
+  for (const EffectorMark& mark : EffectorMarks()) setting["discs"].push_back(RoleName(mark.role));
+  return setting;
+}
+
+Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
+  const CaptureWorld& world = stages.world();
+  if (auto small = CheckSize(world); !small) return tl::unexpected(small.error());
+  const auto renderer = stages.GetRenderer();
+  if (!renderer) return tl::unexpected(renderer.error());
+
+  std::vector<PersonSource> sources;
+  for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
+  Exhibit problem{std::make_unique<Json>(), {}};
+  Json cameras = Json::array();
+  for (const std::vector<PointPair>& pairs : world.calibration_pairs) {
+    cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
+  }
+  const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
+    const std::string& name = problem.files.emplace_back(PictureName(camera, frame, "png"), EncodePng(picture)).name;
+    if (frame) {
+      cameras[camera]["pictures"].push_back(name);
+    } else {
+      cameras[camera]["background"] = name;
+    }
+  };
+  const Take take = Film(world, options, key, sources, /*wants_masks=*/false, **renderer, keep);
+  Json marks = Json::object();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    marks[SegmenterNames()[i]] = ToJson(take.observations[i], stages.marked());
+  }
+  *problem.json = {{"frames", world.truth.size()},
+                   {"limb_lengths_m", ToJson(world.lengths)},
+                   {"cameras", std::move(cameras)},
+                   {"marks", std::move(marks)}};
+  return problem;
+}
+
+Result<Exhibit> MakeCaptureTruth(CaptureStages& stages) {
+  const CaptureWorld& world = stages.world();
+  if (auto small = CheckSize(world); !small) return tl::unexpected(small.error());
+  const auto renderer = stages.GetRenderer();
+  if (!renderer) return tl::unexpected(renderer.error());
+
+  Exhibit truth{std::make_unique<Json>(), {}};
+  *truth.json = {{"poses", EncodePoses(world.truth)}, {"labels", PartNumbers()}};
+  const BodyMotion motion{kJudgedRateHz, world.truth};
+  truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
+                 {"truth.trc", WriteTrc(motion, "truth")},
+                 {"truth.csv", WriteJointCsv(motion)}};
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
+    for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
+      View view = RenderFrame(world, camera, frame, **renderer);
+      view.colour = {};  // the problem has it
+      auto bytes = EncodeExr(view);
+      if (!bytes) return tl::unexpected(bytes.error());
+      truth.files.push_back({PictureName(camera, frame, "exr"), *std::move(bytes)});
+    }
+  }
+  return truth;
+}
+
+Result<CaptureAnswer> ReadCaptureAnswer(const Json& json, std::size_t frames) {
+  AnswerFields fields(json);
+  const Json& poses = fields.List("poses", frames, frames);
+  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  CaptureAnswer answer;
+  for (const Json& entry : poses) {
+    if (entry.is_null()) {
+      answer.emplace_back();
+      continue;
+    }
+    auto pose = ReadPose(entry, fields.PathOf("poses", answer.size()));
+    if (!pose) return tl::unexpected(pose.error());
+    answer.emplace_back(*std::move(pose));
+  }
+  return answer;
+}
+
+}  // namespace etude

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/capture/capture_stages.h"
+
+namespace etude {
+
+/// What methods outside the program are told about a take of two cameras, and what they answer. Metres, Y up,
+/// right-handed; a pose is sixty numbers (EncodePose). Pixels: u right, v down, (0, 0) is the top left corner of the
+/// picture, the centre of its first pixel is (0.5, 0.5).
+///
+/// Setting:
+///
+///     {"rate_hz": 30, "image_width": 640, "image_height": 480,
+///      "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
+///      "strokes": [{"from": "left_hip", "to": "left_knee"}, …], "discs": ["left_foot", …]}
+///
+/// `strokes` are the thirteen limbs that the human marks with a line, `discs` the five ends marked with a point.
+Json DescribeStudio();
+
+/// Problem: who is filmed, and per camera its calibration points (a place in the world and the pixel clicked on for
+/// it), the empty stage, and a picture per frame; pictures are files that lie beside.
+///
+///     {"frames": 150, "limb_lengths_m": {"foot": 0.18, "shank": 0.42, …},
+///      "cameras": [{"calibration": [{"world_m": [x, y, z], "pixel": [u, v]}, …],
+///                   "background": "camera-1-background.png",
+///                   "pictures": ["camera-1-0000.png", …]}, …],
+///      "marks": {"hue": [[{"strokes": [[u, v, u, v], null, …], "discs": [[u, v], null, …]}, …], […]], "hue-gated": …}}
+///
+/// `marks`, for methods that want no vision of their own: what a human drew on each camera's frames, as built-in
+/// methods see it. It is drawn on the person that a segmenter has cut out, so that what the segmenter lost is not
+/// marked; by the segmenter's name, then [camera][frame]; null is a frame that nobody looked at, a mark that is
+/// missing or could not be read. A stroke goes from its limb's `from` to its `to`.
+///
+/// Fails when there is no renderer, and for takes of more than kMostPictures pictures.
+Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
+constexpr std::size_t kMostPictures = 1200;
+
+/// Truth: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and `truth.csv` (the same for
+/// other programs), `camera-1.yaml`… (OpenCV's calibration file), and per frame `camera-1-0000.exr` with the channels
+/// `label` and `Z` (depth along the viewing axis, metres).
+///
+///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
+Result<Exhibit> MakeCaptureTruth(CaptureStages& stages);
+
+/// What a method outside answers, one entry per frame, null where it has no pose:
+///
+///     {"poses": [[sixty numbers], null, …]}
+///
+/// Scored like a built-in method: where there is no pose the last one is shown, so that it counts in every joint
+/// error; `frames_recovered` is the share of frames with a pose. What only a built-in method's stages can tell is
+/// missing.
+using CaptureAnswer = std::vector<std::optional<BodyPose>>;
+Result<CaptureAnswer> ReadCaptureAnswer(const Json& answer, std::size_t frames);
+
+}  // namespace etude

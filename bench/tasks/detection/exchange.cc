@@ -1,0 +1,127 @@
+#include "bench/tasks/detection/exchange.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/tasks/base/answer_fields.h"
+#include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/detection/scoring.h"
+#include "engine/motion/bvh.h"
+#include "engine/motion/from_body.h"
+#include "engine/motion/trc.h"
+
+namespace etude {
+namespace {
+
+constexpr Range kScores{-1e9, 1e9};
+
+Json DescribeKeyPose(const KeyPose& key_pose) {
+  Json targets = Json::array();
+  for (const KeyPose::Target& target : key_pose.targets) {
+    targets.push_back(
+        {{"feature", target.feature}, {"degrees", target.degrees}, {"tolerance_deg", target.tolerance_deg}});
+  }
+  return {{"beat", key_pose.beat}, {"targets", std::move(targets)}};
+}
+
+std::string FileOf(const Move& move) { return move.name + ".bvh"; }
+
+Json DescribeMove(const Move& move) {
+  Json key_poses = Json::array();
+  for (const KeyPose& key_pose : move.key_poses) key_poses.push_back(DescribeKeyPose(key_pose));
+  return {{"name", move.name},
+          {"tempo_bpm", move.tempo_bpm},
+          {"beats", move.beats},
+          {"rate_hz", move.motion.rate_hz},
+          {"poses", EncodePoses(move.motion.poses)},
+          {"key_poses", std::move(key_poses)},
+          {"file", FileOf(move)}};
+}
+
+Judgement ReadEvent(AnswerFields& fields, const Window& window) {
+  Judgement judgement;
+  const auto right_at = fields.NullableInteger("right_at_frame", window.begin, window.end - 1);
+  if (right_at) judgement.right_at = *right_at - window.begin;
+  judgement.score = fields.Number("score", kScores);
+  judgement.running_score.assign(static_cast<std::size_t>(window.end - window.begin), judgement.score);
+  return judgement;
+}
+
+}  // namespace
+
+Exhibit ExhibitMoves(const Repertoire& repertoire) {
+  Exhibit setting{std::make_unique<Json>(DescribeBody()), {}};
+  Json& moves = (*setting.json)["moves"] = Json::array();
+  for (const Move& move : repertoire.moves) {
+    moves.push_back(DescribeMove(move));
+    setting.files.push_back({FileOf(move), WriteBvh(ToClip(move.motion, move.name))});
+  }
+  return setting;
+}
+
+Exhibit ExhibitSession(const DetectionWorld& world) {
+  Json frames = Json::array(), events = Json::array();
+  for (const SensedFrame& frame : world.stream.frames) {
+    frames.push_back(
+        {{"pose", EncodePose(PoseOf(frame))}, {"states", StateLetters(frame)}, {"body_seen", frame.body_seen}});
+  }
+  for (const SessionEvent& event : world.session.events) {
+    const Window window = WindowOf(event, world.stream);
+    events.push_back({{"move", event.move}, {"begin_frame", window.begin}, {"end_frame", window.end}});
+  }
+  const char* file = "stream.trc";
+  Json json = {
+      {"rate_hz", world.stream.rate_hz}, {"frames", std::move(frames)}, {"events", std::move(events)}, {"file", file}};
+  return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(MotionOf(world.stream), file)}}};
+}
+
+Exhibit ExhibitTruth(const DetectionWorld& world) {
+  Json events = Json::array();
+  for (const SessionEvent& event : world.session.events) {
+    const Window window = WindowOf(event, world.stream);
+    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultName(event.fault)},
+                 {"danced", event.danced}, {"begin_frame", window.begin}, {"end_frame", window.end}};
+    if (event.first_right_s) told["first_right_s"] = *event.first_right_s;
+    events.push_back(std::move(told));
+  }
+  const BodyMotion& motion = world.session.motion;
+  const char* file = "truth.trc";
+  Json json = {
+      {"rate_hz", motion.rate_hz}, {"poses", EncodePoses(motion.poses)}, {"events", std::move(events)}, {"file", file}};
+  return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(motion, file)}}};
+}
+
+Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorld& world,
+                                         const Repertoire& repertoire) {
+  AnswerFields fields(answer);
+  SessionVerdict verdict;
+  verdict.filtered = world.stream;
+
+  const std::vector<SessionEvent>& asked = world.session.events;
+  const Json& events = fields.List("events", asked.size(), asked.size());
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    AnswerFields event(events[i], fields.PathOf("events", i));
+    verdict.events.push_back(ReadEvent(event, WindowOf(asked[i], world.stream)));
+    if (auto done = event.Finish(); !done) fields.Note(done.error());
+  }
+
+  std::vector<std::string> moves;
+  for (const auto& [move, taught] : repertoire.taught) moves.push_back(move);
+  const int frames = static_cast<int>(world.stream.frames.size());
+  std::set<std::pair<std::string, int>> alarms;  // by move, then by time; said twice is said once
+  const Json& said = fields.List("alarms", 0, moves.size() * world.stream.frames.size());
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    AnswerFields alarm(said[i], fields.PathOf("alarms", i));
+    const std::string move = alarm.RequiredChoice("move", moves);
+    const int frame = alarm.Integer("frame", 0, frames - 1);
+    if (auto done = alarm.Finish(); !done) fields.Note(done.error());
+    if (!IsPerformance(move, frame, world)) alarms.emplace(move, frame);
+  }
+  for (const auto& [move, frame] : alarms) verdict.alarms.push_back({move, frame});
+
+  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  return verdict;
+}
+
+}  // namespace etude

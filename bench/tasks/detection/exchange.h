@@ -1,0 +1,52 @@
+#pragma once
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/detection/judge.h"
+#include "bench/tasks/detection/world.h"
+
+namespace etude {
+
+/// What methods outside the program are told about a session, and what they answer. Frames count from the session's
+/// first; a pose is sixty numbers (EncodePose).
+///
+/// Setting, what may be danced, as built-in recognisers are taught it:
+///
+///     {"joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
+///      "moves": [{"name": "clap", "tempo_bpm": 120, "beats": 8, "rate_hz": 30, "poses": [[x, y, z, …], …],
+///                 "key_poses": [{"beat": 1, "targets": [{"feature": "RH", "degrees": 90, "tolerance_deg": 20}]}],
+///                 "file": "clap.bvh"}, …]}
+///
+/// `poses` is one performance of the move, danced perfectly; a key pose is reached when all its angles are (features:
+/// paper A's ten, engine/fuzzy).
+Exhibit ExhibitMoves(const Repertoire& repertoire);
+
+/// Problem: what the sensor saw, and what the coach asked for and when. A performance is judged in its window
+/// [begin_frame, end_frame). `states` has one letter per joint: tracked, inferred, not tracked.
+///
+///     {"rate_hz": 30, "frames": [{"pose": [x, y, z, …], "states": "tttiiitttttttttttttn", "body_seen": true}, …],
+///      "events": [{"move": "clap", "begin_frame": 30, "end_frame": 120}, …], "file": "stream.trc"}
+///
+/// The file holds the same positions, for other tools.
+Exhibit ExhibitSession(const DetectionWorld& world);
+
+/// Truth: the session as it was danced. `first_right_s` is absent when the performance was not right.
+///
+///     {"rate_hz": 30, "poses": [[x, y, z, …], …],
+///      "events": [{"move": "clap", "is_right": true, "fault": "none", "danced": "clap", "begin_frame": 30,
+///                  "end_frame": 120, "first_right_s": 2.9}, …],
+///      "file": "truth.trc"}
+Exhibit ExhibitTruth(const DetectionWorld& world);
+
+/// Answer: for each performance asked for, in order, the frame at which the method calls it right (in its window; null:
+/// it is wrong), and how right it looks, higher = righter, on any scale; then every frame at which it takes one of the
+/// moves for danced. Alarms in a window in which their move was asked for or danced are none (IsPerformance), so a
+/// method need not know where they are.
+///
+///     {"events": [{"right_at_frame": 88, "score": 0.83}, {"right_at_frame": null, "score": 0.1}, …],
+///      "alarms": [{"move": "sway", "frame": 215}, …]}
+///
+/// Refuses what is not as told here, naming where in the answer. The verdict's `filtered` is the stream itself, and
+/// its running scores are the score.
+Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorld& world, const Repertoire& repertoire);
+
+}  // namespace etude

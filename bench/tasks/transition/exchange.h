@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/transition/request.h"
+#include "bench/tasks/transition/stage.h"
+#include "engine/bridging/splice.h"
+
+namespace etude {
+
+/// What methods outside the program are told about transitions, and what they answer. Clips are named by their
+/// index in the setting, frames by theirs in the clip; a pose is sixty numbers (EncodePose).
+///
+/// Setting, the clips as built-in methods see them, danced by one character:
+///
+///     {"rate_hz": 30, "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
+///      "clips": [{"name": "builtin:clap", "poses": [[x, y, z, …], …], "file": "clip-0.bvh"}, …]}
+///
+/// The files hold the same poses, for other tools.
+Exhibit ExhibitStage(const Stage& stage);
+
+/// Problem: clip `from` shows its frame `request_frame` when clip `to` is asked for.
+///
+///     {"from": 0, "to": 3, "request_frame": 41, "max_wait_s": 1}
+///
+/// `max_wait_s` is the scenario's `wait_s`: how long the caller would like to wait at most. A later switch is
+/// allowed and costs `wait_s`, as that of the built-in `wait-for-end` does.
+Exhibit ExhibitRequest(const SwitchRequest& request, double max_wait_s);
+
+/// Truth: the largest jump that still counts in `natural_share`.
+///
+///     {"natural_limit_cm": 3.1}
+Exhibit ExhibitNature(const Stage& stage, const SwitchRequest& request);
+
+/// How a method outside gets from one clip into the other:
+///
+///     {"leave_frame": 52, "enter_frame": 10}
+///
+/// Clip `from` is shown up to `leave_frame`; that moment is also `enter_frame` of clip `to`, of which the next frame
+/// is shown then, and so on to its end. Clip `to` is turned and moved on the floor (yaw, x, z), so that `enter_frame`
+/// lies on the last frame shown: heading on heading, hip centre over hip centre. May be said beside:
+///
+/// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played on the way, entered and left alike.
+/// - `"join"`: `cut` (default) or `inertialised`, what built-in methods have.
+/// - `"between": [[x, y, z, …], …]`: frames of the method's own making, shown as they are after `leave_frame`, in the
+///   place and heading of clip `from` as the setting has it. Then clip `to` is laid on the last of them, so that one
+///   should be the method's version of `enter_frame`. They are danced by the same character: a limb more than 2 cm
+///   longer or shorter than in the clips is refused. At most 300. Not together with `through` or `join: inertialised`.
+/// - `"matched": true`: the frames left and entered were chosen because they are alike. Then `false_smooth` is
+///   measured, which is missing else.
+///
+/// A method that finds no way answers `{"unsolved": "why"}`, like a built-in one that finds no match.
+struct SwitchAnswer {
+  std::optional<std::string> unsolved;  ///< why; the rest is then empty
+  std::vector<Switch> switches;         ///< without their distances
+  Join join = Join::kCut;
+  std::vector<BodyPose> between;
+  bool matched = false;
+};
+
+/// Refuses what is not as told above, naming where in the answer.
+Result<SwitchAnswer> ReadSwitchAnswer(const Json& answer, const Stage& stage, const SwitchRequest& request);
+
+}  // namespace etude

@@ -1,0 +1,80 @@
+#include "bench/tasks/transition/follow.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "engine/bridging/alignment.h"
+
+namespace etude {
+namespace {
+
+BodyPose StepBack(const BodyPose& first, const BodyPose& second) {
+  BodyPose before;
+  for (std::size_t i = 0; i < kRoleCount; ++i) before.joints[i] = 2.0 * first.joints[i] - second.joints[i];
+  return before;
+}
+
+Transition PlanOf(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
+  Transition plan;
+  plan.request_frame = request.request_frame;
+  plan.switches = answer.switches;
+  for (Switch& change : plan.switches) {
+    change.distance = ComputeDistance(stage.tagged[change.from_clip].grades[change.from_frame],
+                                      stage.tagged[change.to_clip].grades[change.to_frame], PaperWeights());
+  }
+  const Switch& last = plan.switches.back();
+  const bool is_front = last.to_frame < stage.tagged[last.to_clip].FrameCount() / 2;
+  const bool is_direct = plan.switches.size() == 1 && answer.between.empty();
+  plan.branch = !is_direct ? Branch::kInBetween : is_front ? Branch::kFrontHalf : Branch::kRearHalf;
+
+  const double rate_hz = stage.tagged[request.from].rate_hz;
+  plan.wait_s = (plan.switches.front().from_frame - request.request_frame) / rate_hz;
+  for (std::size_t i = 1; i < plan.switches.size(); ++i) {
+    plan.wait_s += (plan.switches[i].from_frame - plan.switches[i - 1].to_frame) / rate_hz;
+  }
+  plan.wait_s += static_cast<double>(answer.between.size()) / rate_hz;
+  return plan;
+}
+
+}  // namespace
+
+SwitchOutcome FollowAnswer(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
+  SwitchOutcome outcome{.matched = answer.matched, .weights = PaperWeights(), .plan = {}, .splice = {}};
+  outcome.between_frames = static_cast<int>(answer.between.size());
+  outcome.plan = PlanOf(answer, stage, request);
+  const std::vector<Switch>& switches = outcome.plan.switches;
+  outcome.splice = answer.between.empty() ? SpliceClips(stage.motions, switches, answer.join)
+                                          : SpliceBetween(stage.motions[request.from], stage.motions[request.to],
+                                                          switches.front(), answer.between);
+  return outcome;
+}
+
+Splice SpliceBetween(const BodyMotion& from, const BodyMotion& to, const Switch& change,
+                     std::span<const BodyPose> between) {
+  assert(!between.empty());
+  const int left = change.from_frame, entered = change.to_frame;
+  Splice splice;
+  splice.motion.rate_hz = from.rate_hz;
+  std::vector<BodyPose>& shown = splice.motion.poses;
+  shown.assign(from.poses.begin(), from.poses.begin() + left + 1);
+  shown.insert(shown.end(), between.begin(), between.end());
+  const FloorMove place = AlignOnFloor(to.poses[entered], between.back());
+  for (std::size_t frame = entered + 1; frame < to.poses.size(); ++frame) shown.push_back(place.Apply(to.poses[frame]));
+
+  Seam into;
+  into.frame = left;
+  into.leaving_before = shown[std::max(left - 1, 0)];
+  into.leaving = shown[left];
+  into.arriving = StepBack(shown[left + 1], shown[left + 2]);
+  into.arriving_after = shown[left + 1];
+  Seam out;
+  out.frame = left + static_cast<int>(between.size());
+  out.leaving_before = shown[out.frame - 1];
+  out.leaving = shown[out.frame];
+  out.arriving = place.Apply(to.poses[entered]);
+  out.arriving_after = shown[out.frame + 1];
+  splice.seams = {into, out};
+  return splice;
+}
+
+}  // namespace etude

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/transition/adaptive_weights.h"
+#include "bench/tasks/transition/options.h"
+#include "bench/tasks/transition/request.h"
+#include "bench/tasks/transition/scoring.h"
+#include "bench/tasks/transition/stage.h"
+
+namespace etude {
+
+/// What the worlds of a task share; all of it must outlive them.
+struct TransitionBasis {
+  const std::vector<TransitionMethod>& methods;
+  const Stage& stage;
+  AdaptiveWeights& adaptive;  ///< remembers fits; what it answers depends on the question only
+  double max_wait_s = 0;      ///< told to methods outside; built-in ones have their own
+};
+
+/// A world of the task: one request, on the task's stage.
+class TransitionWorld final : public TaskWorld {
+ public:
+  /// A request that failed is a world to be skipped.
+  TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion);
+
+  std::optional<std::string> WhySkipped() const override;
+  CellResult Run(std::size_t method) override;
+  Result<Exhibit> MakeProblem() override;
+  Result<Exhibit> MakeTruth() override;
+  Result<CellResult> Judge(const Json& answer) override;
+
+ private:
+  SwitchOutcome Switch(const TransitionMethod& method) const;
+  CellResult Score(const SwitchOutcome& outcome) const;
+  std::string WhyNoWay(const TransitionMethod& method, const Transition& plan) const;
+
+  const TransitionBasis basis_;
+  const Result<SwitchRequest> request_;
+  const bool keeps_motion_;
+  std::vector<std::pair<std::string, std::string>> clip_digests_;
+};
+
+}  // namespace etude

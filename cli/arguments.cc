@@ -1,0 +1,231 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <iostream>
+#include <memory>
+
+#include "bench/run/worker.h"
+#include "cli/commands.h"
+
+namespace etude {
+namespace {
+
+/// The options of a command live as long as the parser and the action that will read them.
+template <typename Options>
+std::shared_ptr<Options> Keep(Options options = {}) {
+  return std::make_shared<Options>(std::move(options));
+}
+
+/// --seed, --trials and --clips, of every command that makes worlds of scenarios.
+template <typename Options>
+std::array<CLI::Option*, 3> AddWorldOptions(CLI::App& command, Options& options) {
+  return {command.add_option("--seed", options.seed, "Seed of all worlds (default: the scenario's, else 1)")
+              ->check(CLI::Range(0.0, 9007199254740992.0)),
+          command.add_option("--trials", options.trials, "Trials per condition (default: the scenario's)")
+              ->check(CLI::Range(1, 1000000)),
+          command.add_option("--clips", options.clips,
+                             "Clips instead of the scenarios' own: builtin:NAME, files, patterns")};
+}
+
+void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
+  auto options = Keep<RunOptions>();
+  auto shard = Keep<std::string>();
+  options->program_version = ETUDE_VERSION;
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
+  command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them");
+  command->add_option("-o,--output", options->output, "Result folder (default: out/<suite>-<seed>)");
+  command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
+      ->check(CLI::Range(1, 1024));
+  const auto world_options = AddWorldOptions(*command, *options);
+  command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
+  CLI::Option* overwrite =
+      command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
+  command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
+  CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
+  for (CLI::Option* option : world_options) from->excludes(option);
+  command->callback([=, &action] {
+    action = [=] {
+      if (options->scenarios.empty() == options->from.empty()) {
+        return Complain({{}, "etude run needs scenario files or folders, or --from a manifest.json (one of the two)"});
+      }
+      if (!shard->empty()) {
+        const auto part = ParseShard(*shard);
+        if (!part) return Complain({{}, "--shard: " + part.error().message});
+        options->shard = *part;
+      }
+      return RunCommand(*options);
+    };
+  });
+}
+
+void DefineMerge(CLI::App& app, const std::string& command_line, Action& action) {
+  auto options = Keep<MergeOptions>();
+  options->program_version = ETUDE_VERSION;
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand("merge", "Make one run of its shards");
+  command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
+  command->add_option("-o,--output", options->output, "Result folder")->required();
+  command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
+  command->callback([=, &action] { action = [=] { return MergeCommand(*options); }; });
+}
+
+void DefineReport(CLI::App& app, Action& action) {
+  auto folder = Keep<std::string>();
+  auto no_video = Keep<bool>(false);
+  CLI::App* command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
+  command->add_option("folder", *folder, "A result folder")->required();
+  command->add_flag("--no-video", *no_video, "Leave the video out");
+  command->callback([=, &action] { action = [=] { return ReportCommand(*folder, !*no_video); }; });
+}
+
+void DefineReplay(CLI::App& app, Action& action) {
+  struct Options {
+    std::string target, pack_file;
+    std::vector<std::string> cells;
+    std::size_t sample = 0;
+    int jobs = 0;
+  };
+  auto options = Keep<Options>();
+  CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
+  command->add_option("target", options->target, "A result folder, or a file that --pack has written")->required();
+  CLI::Option* cell = command->add_option("--cell", options->cells, "These cells, as cells.jsonl names them");
+  command->add_option("--sample", options->sample, "This many cells, drawn by the run's seed (default: all)")
+      ->check(CLI::Range(1, 10'000'000))
+      ->excludes(cell);
+  command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
+  command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
+      ->check(CLI::Range(1, 1024));
+  command->callback([=, &action] {
+    action = [=] {
+      return ReplayCommand(options->target, options->cells, options->sample, options->pack_file, options->jobs);
+    };
+  });
+}
+
+void DefineGate(CLI::App& app, Action& action) {
+  auto options = Keep<GateOptions>();
+  CLI::App* command = app.add_subcommand("gate", "Pass or fail a run, for a CI server");
+  command->add_option("folder", options->target, "A result folder (with --self-test: a scenario file, or nothing)");
+  CLI::Option* baseline = command->add_option("--baseline", options->baseline, "What the run is held against");
+  command->add_flag("--update", options->update, "Write the baseline from this run, and show what moved")
+      ->needs(baseline);
+  CLI::Option* self_test =
+      command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
+          ->excludes(baseline);
+  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str()
+      ->needs(self_test);
+  command->add_option("--trials", options->trials, "Self-test: worlds per condition (default: the scenario's)")
+      ->check(CLI::Range(1, 1000000))
+      ->needs(self_test);
+  command->callback([=, &action] {
+    action = [=] {
+      if (options->target.empty() && !options->self_test) return Complain({{}, "etude gate needs a result folder"});
+      return GateCommand(*options);
+    };
+  });
+}
+
+void DefineCompare(CLI::App& app, Action& action) {
+  auto a = Keep<std::string>(), b = Keep<std::string>();
+  CLI::App* command = app.add_subcommand("compare", "What differs between two runs of the same worlds");
+  command->add_option("a", *a, "A result folder")->required();
+  command->add_option("b", *b, "Another")->required();
+  command->callback([=, &action] { action = [=] { return CompareCommand(*a, *b); }; });
+}
+
+void DefineExport(CLI::App& app, Action& action) {
+  auto options = Keep<ExportOptions>();
+  options->program_version = ETUDE_VERSION;
+  CLI::App* command = app.add_subcommand("export", "Write the problems of scenarios as files, the truth apart");
+  command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them")->required();
+  command->add_option("-o,--output", options->output, "Folder of the data set")->required();
+  AddWorldOptions(*command, *options);
+  command->callback([=, &action] { action = [=] { return ExportCommand(*options); }; });
+}
+
+void DefineScore(CLI::App& app, const std::string& command_line, Action& action) {
+  auto options = Keep<ScoreOptions>();
+  options->program_version = ETUDE_VERSION;
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand("score", "Score a folder of answers into a result folder");
+  command->add_option("target", options->target, "An exported data set, or its scenario files")->required();
+  command->add_option("predictions", options->predictions, "Folder of answers")->required();
+  command->add_option("-o,--output", options->output, "Result folder")->required();
+  command->add_option("--name", options->name, "What to call the method")->capture_default_str();
+  command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods beside it");
+  command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
+  command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
+      ->check(CLI::Range(1, 1024));
+  AddWorldOptions(*command, *options);
+  command->callback([=, &action] { action = [=] { return ScoreCommand(*options); }; });
+}
+
+void DefineCheckMethod(CLI::App& app, Action& action) {
+  struct Options {
+    std::vector<std::string> command;
+    std::string task;
+    double time_s = 10, memory_mb = 4096;
+  };
+  auto options = Keep<Options>();
+  CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
+  command->add_option("command", options->command, "The program and its arguments, after --")->required();
+  command->add_option("--task", options->task, "ik, transition, detection or capture (default: the one it speaks of)");
+  command->add_option("--time", options->time_s, "Seconds per problem")->capture_default_str();
+  command->add_option("--memory", options->memory_mb, "MB of memory")->capture_default_str();
+  command->callback([=, &action] {
+    action = [=] { return CheckMethodCommand(options->command, options->task, options->time_s, options->memory_mb); };
+  });
+}
+
+void DefineList(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("list", "List what a scenario can name");
+  command->require_subcommand(1);
+  const auto list = [&](const char* name, const char* help, Listing what) {
+    command->add_subcommand(name, help)->callback([=, &action] { action = [=] { return ListCommand(what, ""); }; });
+  };
+  list("methods", "Tasks, and what their methods are made of", Listing::kMethods);
+  list("clips", "Built-in clips", Listing::kClips);
+  auto json = Keep<bool>(false), markdown = Keep<bool>(false);
+  CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");
+  CLI::Option* as_json = metrics->add_flag("--json", *json, "Everything, with the test vectors, for other programs");
+  metrics->add_flag("--markdown", *markdown, "The page docs/metrics.md")->excludes(as_json);
+  metrics->callback([=, &action] {
+    const MetricsFormat format = *json       ? MetricsFormat::kJson
+                                 : *markdown ? MetricsFormat::kMarkdown
+                                             : MetricsFormat::kTable;
+    action = [=] { return ListMetricsCommand(format); };
+  });
+  auto as_page = Keep<bool>(false);
+  CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
+  keys->add_flag("--markdown", *as_page, "The page docs/keys.md");
+  keys->callback([=, &action] { action = [=] { return ListKeysCommand(*as_page); }; });
+  auto folder = Keep<std::string>("scenarios/quick");
+  CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios of a folder");
+  scenarios->add_option("folder", *folder, "Folder of scenarios")->capture_default_str();
+  scenarios->callback([=, &action] { action = [=] { return ListCommand(Listing::kScenarios, *folder); }; });
+}
+
+}  // namespace
+
+void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
+  app.require_subcommand(1);
+  DefineRun(app, command_line, action);
+  DefineMerge(app, command_line, action);
+  DefineReport(app, action);
+  DefineReplay(app, action);
+  DefineGate(app, action);
+  DefineCompare(app, action);
+  DefineExport(app, action);
+  DefineScore(app, command_line, action);
+  DefineCheckMethod(app, action);
+  DefineList(app, action);
+  CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
+  worker->group("");  // hidden
+  worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
+}
+
+}  // namespace etude

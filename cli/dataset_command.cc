@@ -1,0 +1,127 @@
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "bench/dataset/export.h"
+#include "bench/dataset/score.h"
+#include "bench/process/child_process.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "cli/progress_bar.h"
+
+namespace etude {
+namespace {
+
+bool IsSet(const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  const char* value = std::getenv(assignment.substr(0, equals).c_str());
+  return value != nullptr && assignment.substr(equals + 1) == value;
+}
+
+/// Starts this very command anew in the pinned environment, unless it is in there already: pictures and numbers are
+/// then those of a run. Returns only when it is, or when that fails.
+Result<void> EnterPinnedEnvironment() {
+  const std::vector<std::string>& pinned = PinnedEnvironment();
+  if (std::all_of(pinned.begin(), pinned.end(), IsSet)) return {};
+  constexpr const char* kTried = "ETUDE_RESTARTED";
+  if (std::getenv(kTried) != nullptr) return Fail({}, "the pinned environment cannot be set for this process");
+  ::setenv(kTried, "1", 1);
+  for (const std::string& assignment : pinned) {
+    const std::size_t equals = assignment.find('=');
+    ::setenv(assignment.substr(0, equals).c_str(), assignment.substr(equals + 1).c_str(), 1);
+  }
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::string line{std::istreambuf_iterator<char>(file), {}};
+  std::vector<char*> arguments;
+  for (std::size_t at = 0; at < line.size(); at += std::strlen(&line[at]) + 1) arguments.push_back(&line[at]);
+  arguments.push_back(nullptr);
+  ::execv("/proc/self/exe", arguments.data());
+  return Fail({}, "this program cannot be started anew: {}", std::strerror(errno));
+}
+
+/// "3/80 worlds" on standard error: redrawn on a terminal, else at every tenth of the way.
+class WorldCounter {
+ public:
+  void Show(std::size_t done, std::size_t worlds) {
+    const std::string text = fmt::format("{}/{} worlds", done, worlds);
+    if (::isatty(STDERR_FILENO) == 1) {
+      std::fputs(("\r\033[K" + text + (done == worlds ? "\n" : "")).c_str(), stderr);
+    } else if (const std::size_t tenths = worlds == 0 ? 10 : 10 * done / worlds; tenths >= next_) {
+      next_ = tenths + 1;
+      std::fputs((text + "\n").c_str(), stderr);
+    }
+  }
+
+ private:
+  std::size_t next_ = 0;
+};
+
+void PrintFaults(const char* what, const std::vector<std::string>& faults) {
+  constexpr std::size_t kMost = 20;
+  if (faults.empty()) return;
+  std::string text = fmt::format("{} {}\n", faults.size(), what);
+  for (std::size_t i = 0; i < std::min(faults.size(), kMost); ++i) text += "  " + faults[i] + "\n";
+  if (faults.size() > kMost) text += fmt::format("  … and {} more\n", faults.size() - kMost);
+  std::fputs(text.c_str(), stderr);
+}
+
+int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults) {
+  PrintFaults("missing:", faults.missing);
+  PrintFaults("extra, answering no problem:", faults.extra);
+  PrintFaults("more than one answer to a problem:", faults.duplicate);
+  PrintFaults("broken:", faults.broken);
+  const bool only_missing = faults.extra.empty() && faults.duplicate.empty() && faults.broken.empty();
+  return Complain(
+      {{options.predictions, 0, 0},
+       fmt::format("nothing was scored: {} answers are missing, {} extra, {} duplicate, {} broken{}",
+                   faults.missing.size(), faults.extra.size(), faults.duplicate.size(), faults.broken.size(),
+                   only_missing ? "; --allow-missing counts a missing one as a failure" : "")});
+}
+
+}  // namespace
+
+int ExportCommand(const ExportOptions& given) {
+  if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
+  const Interrupt interrupt;
+  ExportOptions options = given;
+  options.stop = interrupt.requested();
+  WorldCounter counter;
+  const auto outcome = ExportSuite(options, [&](std::size_t done, std::size_t worlds) { counter.Show(done, worlds); });
+  if (!outcome) return Complain(outcome.error());
+  if (outcome->stopped) {
+    Complain({{}, "stopped; nothing is kept"});
+    return kInterrupted;
+  }
+  fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",
+             outcome->problems, options.output,
+             outcome->skipped > 0 ? fmt::format(" ({} worlds skipped, see inputs/index.csv)", outcome->skipped) : "",
+             options.output, options.output);
+  return kSuccess;
+}
+
+int ScoreCommand(const ScoreOptions& given) {
+  if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
+  const Interrupt interrupt;
+  ScoreOptions options = given;
+  options.stop = interrupt.requested();
+  ProgressBar bar;
+  const auto outcome = ScorePredictions(options, [&](const Progress& progress) { bar.Show(progress); });
+  if (!outcome) return Complain(outcome.error());
+  if (outcome->run.stopped) {
+    Complain({{}, "stopped; nothing is kept"});
+    return kInterrupted;
+  }
+  if (!outcome->faults.empty()) return ComplainOfFaults(options, outcome->faults);
+  fmt::print("{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome->run.cells_ok, outcome->run.cells,
+             outcome->run.seconds, options.output, options.output);
+  return outcome->run.cells_ok > 0 ? kSuccess : kNothingWorked;
+}
+
+}  // namespace etude

@@ -1,0 +1,137 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "bench/files/files.h"
+#include "bench/gate/baseline_file.h"
+#include "bench/gate/gate.h"
+#include "bench/gate/in_process_run.h"
+#include "bench/gate/self_test.h"
+#include "cli/commands.h"
+#include "cli/move_table.h"
+#include "reports/gate_report.h"
+#include "reports/gate_table.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostRows = 40;
+
+int ExitCode(GateVerdict verdict) {
+  switch (verdict) {
+    case GateVerdict::kPassed:
+      return kSuccess;
+    case GateVerdict::kRegressed:
+      return kRegression;
+    case GateVerdict::kNotWhole:
+      break;
+  }
+  return kIncomplete;
+}
+
+void PrintReport(const GateReport& report) {
+  PrintMoves(report.comparison, "baseline", "now", kMostRows);
+  for (const GateExpectation& e : report.expectations) {
+    if (e.result.outcome == Outcome::kMet) continue;
+    fmt::print("{}: {}: {} [{}]\n", OutcomeName(e.result.outcome), e.scenario, e.result.text, e.result.detail);
+  }
+  for (const RatioResult& ratio : report.ratios) {
+    fmt::print("{}: {}: {} [{}]\n", OutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio), RatioDetail(ratio));
+  }
+  PrintList("New, not in the baseline:", report.comparison.only_after);
+  PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);
+  PrintList("Incomplete:", report.incomplete);
+  for (const std::string& sentence : GateSentences(report)) fmt::print("{}\n", sentence);
+  fmt::print("Gate: {}\n", GateVerdictWords(GateVerdictOf(report)));
+}
+
+int Judge(const GateOptions& options, const FinishedRun& run) {
+  std::optional<Snapshot> baseline;
+  if (!options.baseline.empty()) {
+    auto loaded = LoadBaseline(options.baseline);
+    if (!loaded) return Complain(loaded.error());
+    baseline = std::move(*loaded);
+  }
+  const auto report = JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline);
+  if (!report) return Complain(report.error());
+  const fs::path folder = fs::path(options.target) / "report";
+  if (auto saved = WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(*report)); !saved) {
+    return Complain(saved.error());
+  }
+  if (auto saved = WriteFileAtomically(folder / "gate.xml", WriteGateJunit(*report)); !saved) {
+    return Complain(saved.error());
+  }
+  PrintReport(*report);
+  return ExitCode(GateVerdictOf(*report));
+}
+
+/// What moved from an old baseline to a new one, as far as their worlds are the same.
+void PrintDifference(Snapshot before, Snapshot after, const std::set<std::string>& exact) {
+  PrintList("Made anew:", DropIncomparable(before, after));
+  const SnapshotComparison comparison = CompareSnapshots(before, after, exact);
+  PrintMoves(comparison, "was", "is", kMostRows);
+  PrintList("Gone:", comparison.only_before);
+  PrintList("New:", comparison.only_after);
+}
+
+int Update(const GateOptions& options, const FinishedRun& run) {
+  std::vector<std::string> incomplete = run.incomplete;
+  for (const std::string& ends : DescribeMachineEnds(run)) incomplete.push_back(ends);
+  if (!incomplete.empty()) {
+    PrintList("No baseline is made of an incomplete run:", incomplete);
+    return kIncomplete;
+  }
+  const Snapshot now = TakeSnapshot(run);
+  const auto text = WriteBaseline(now);
+  if (!text) return Complain(text.error());
+  std::optional<Snapshot> before;
+  if (std::error_code none; fs::exists(options.baseline, none)) {
+    auto loaded = LoadBaseline(options.baseline);  // what is no baseline is not written over
+    if (!loaded) return Complain(loaded.error());
+    before = std::move(*loaded);
+  }
+  if (auto saved = WriteFileAtomically(options.baseline, *text); !saved) return Complain(saved.error());
+  if (before) PrintDifference(std::move(*before), now, ExactScenarios(run));
+  fmt::print("{}: {}, {} bytes\n", options.baseline, before ? "updated" : "made", text->size());
+  return kSuccess;
+}
+
+std::string RateText(const Rate& rate) {
+  return fmt::format("{} of {} ({:.1f} %, 95 % interval {:.1f}–{:.1f} %)", rate.count, rate.of,
+                     rate.of == 0 ? 0.0 : 100.0 * rate.count / rate.of, 100 * rate.low, 100 * rate.high);
+}
+
+int SelfTest(const GateOptions& options) {
+  const auto rehearsal = ReadRehearsal(options.target, options.trials);
+  if (!rehearsal) return Complain(rehearsal.error());
+  const auto report =
+      RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, options.repetitions);
+  if (!report) return Complain(report.error());
+  fmt::print("{} ({}), {} worlds per condition, {} comparisons per gate\n\n", rehearsal->setup.name,
+             rehearsal->setup.file, rehearsal->setup.trials, report->comparisons);
+  fmt::print("Alarms although nothing changed\n");
+  fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report->rerun_alarms));
+  fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report->false_alarms),
+             100 * kFalseAlarmLimit);
+  fmt::print("  single comparisons of these gates:   {}\n", RateText(report->false_alarm_comparisons));
+  for (const auto& [title, results] :
+       {std::pair{"Injected differences found", &report->injected}, std::pair{"Real changes found", &report->real}}) {
+    if (!results->empty()) fmt::print("{}\n", title);
+    for (const PowerResult& result : *results) fmt::print("  {}: {}\n", result.change, RateText(result.found));
+  }
+  fmt::print("\nThe gate {} its promise.\n", report->Holds() ? "keeps" : "does not keep");
+  return report->Holds() ? kSuccess : kRegression;
+}
+
+}  // namespace
+
+int GateCommand(const GateOptions& options) {
+  if (options.self_test) return SelfTest(options);
+  const auto run = LoadFinishedRun(options.target);
+  if (!run) return Complain(run.error());
+  return options.update ? Update(options, *run) : Judge(options, *run);
+}
+
+}  // namespace etude

@@ -1,0 +1,57 @@
+#include "cli/move_table.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+
+#include "reports/gate_table.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kColumns = 9;
+using Line = std::array<std::string, kColumns>;
+
+Line LineOf(const GateTableRow& row) {
+  return {row.verdict,    row.scenario + (row.condition == "-" ? "" : " " + row.condition),
+          row.method,     row.metric,
+          row.before,     row.after,
+          row.difference, row.p,
+          row.worlds};
+}
+
+/// Columns that people see, not bytes: continuation bytes of UTF-8 take none.
+std::size_t WidthOf(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
+                std::size_t most) {
+  const std::vector<GateTableRow> rows = MovedRows(comparison);
+  if (rows.empty()) return;
+  std::vector<Line> lines = {{"", "", "method", "metric", before, after, "difference (95 %)", "p (Holm)", "in worlds"}};
+  for (std::size_t i = 0; i < std::min(most, rows.size()); ++i) lines.push_back(LineOf(rows[i]));
+  std::array<std::size_t, kColumns> widths{};
+  for (const Line& line : lines) {
+    for (std::size_t c = 0; c < kColumns; ++c) widths[c] = std::max(widths[c], WidthOf(line[c]));
+  }
+  for (const Line& line : lines) {
+    std::string text = " ";
+    for (std::size_t c = 0; c < kColumns; ++c)
+      text += " " + line[c] + std::string(widths[c] - WidthOf(line[c]) + 1, ' ');
+    fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
+  }
+  if (rows.size() > most) fmt::print("  … and {} more\n", rows.size() - most);
+}
+
+void PrintList(const std::string& title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return;
+  fmt::print("{}\n", title);
+  for (const std::string& line : lines) fmt::print("  {}\n", line);
+}
+
+}  // namespace etude

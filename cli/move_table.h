@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/gate/comparison.h"
+
+namespace etude {
+
+/// Prints a table of what moved, with what the two sides are called in its head; at most `most` rows, and how many
+/// were left out.
+void PrintMoves(const SnapshotComparison& comparison, const std::string& before, const std::string& after,
+                std::size_t most);
+
+/// Prints a title and indented lines, or nothing without lines.
+void PrintList(const std::string& title, const std::vector<std::string>& lines);
+
+}  // namespace etude

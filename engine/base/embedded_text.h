@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string_view>
+
+namespace etude {
+
+/// A text file compiled into the program (cmake/embed_texts.cmake), so that a test, a worker and an installed binary
+/// all find it.
+struct EmbeddedText {
+  std::string_view name;  ///< its file name, "clap.yaml"
+  std::string_view text;
+};
+
+}  // namespace etude

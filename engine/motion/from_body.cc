@@ -1,0 +1,32 @@
+#include "engine/motion/from_body.h"
+
+#include <cassert>
+
+namespace etude {
+namespace {
+
+glm::dvec3 FromParent(const BodyPose& pose, Role role) {
+  const std::optional<Role> parent = ParentOf(role);
+  return parent ? pose[role] - pose[*parent] : pose[role];
+}
+
+}  // namespace
+
+Clip ToClip(const BodyMotion& motion, std::string name) {
+  assert(!motion.poses.empty());
+  Clip clip{.name = std::move(name), .skeleton = {}, .rate_hz = motion.rate_hz, .frames = {}};
+  for (const Role role : AllRoles()) {
+    const std::optional<Role> parent = ParentOf(role);
+    clip.skeleton.joints.push_back({.name = std::string(RoleName(role)),
+                                    .parent = parent ? static_cast<int>(Index(*parent)) : -1,
+                                    .offset = FromParent(motion.poses.front(), role)});
+  }
+  for (const BodyPose& pose : motion.poses) {
+    LocalPose& frame = clip.frames.emplace_back();
+    for (const Role role : AllRoles())
+      frame.push_back({.translation = FromParent(pose, role), .rotation = {1, 0, 0, 0}});
+  }
+  return clip;
+}
+
+}  // namespace etude

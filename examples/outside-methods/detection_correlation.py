@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Recognises moves by correlation: the angles of eight joints, as they run over one performance of a move, are laid
+along the learner's stream; where they correlate well enough, the move has been danced.
+"""
+import math
+
+from etude_method import run
+
+# The angle at the middle joint.
+ANGLES = [("shoulder_centre", "left_shoulder", "left_elbow"), ("left_shoulder", "left_elbow", "left_wrist"),
+          ("shoulder_centre", "right_shoulder", "right_elbow"), ("right_shoulder", "right_elbow", "right_wrist"),
+          ("hip_centre", "left_hip", "left_knee"), ("left_hip", "left_knee", "left_ankle"),
+          ("hip_centre", "right_hip", "right_knee"), ("right_hip", "right_knee", "right_ankle")]
+ENOUGH = 0.75  # a correlation above it is a performance
+STRIDE = 3     # frames between the moments compared; ten a second are enough for a dance
+
+
+def angles_of(pose, joints):
+    def at(name):
+        i = 3 * joints.index(name)
+        return pose[i:i + 3]
+
+    angles = []
+    for a, b, c in ANGLES:
+        u = [x - y for x, y in zip(at(a), at(b))]
+        v = [x - y for x, y in zip(at(c), at(b))]
+        cosine = sum(x * y for x, y in zip(u, v)) / ((math.hypot(*u) * math.hypot(*v)) or 1.0)
+        angles.append(math.acos(max(-1.0, min(1.0, cosine))))
+    return angles
+
+
+def normalised(rows):
+    """One list of numbers, each angle about its mean over the rows, of length 1."""
+    means = [sum(column) / len(rows) for column in zip(*rows)]
+    numbers = [x - m for row in rows for x, m in zip(row, means)]
+    length = math.sqrt(sum(x * x for x in numbers)) or 1.0
+    return [x / length for x in numbers]
+
+
+def prepare(setting, options, files):
+    moves = {}
+    for move in setting["moves"]:
+        step = STRIDE * move["rate_hz"] / 30
+        count = int(len(move["poses"]) / step)
+        moves[move["name"]] = normalised([angles_of(move["poses"][int(i * step)], setting["joints"])
+                                          for i in range(count)])
+    return setting["joints"], moves
+
+
+def answer(kept, problem, files):
+    joints, moves = kept
+    rows = [angles_of(frame["pose"], joints) for frame in problem["frames"]]
+    alike = {}  # by move: the frame at which a performance would end -> how well it correlates
+    for move, taught in moves.items():
+        span = STRIDE * (len(taught) // len(ANGLES))
+        alike[move] = {start + span - 1: sum(x * y for x, y in zip(taught, normalised(rows[start:start + span:STRIDE])))
+                       for start in range(0, len(rows) - span + 1, STRIDE)}
+    events, alarms = [], []
+    for event in problem["events"]:
+        window = range(event["begin_frame"], event["end_frame"])
+        seen = {end: value for end, value in alike[event["move"]].items() if end in window}
+        right = [end for end, value in sorted(seen.items()) if value >= ENOUGH]
+        events.append({"right_at_frame": right[0] if right else None, "score": max(seen.values(), default=-1.0)})
+    for move, found in alike.items():
+        last = -math.inf
+        for end, value in sorted(found.items()):
+            if value >= ENOUGH and end - last > len(moves[move]) // len(ANGLES) * STRIDE / 2:  # once per performance
+                alarms.append({"move": move, "frame": end})
+                last = end
+    return {"events": events, "alarms": alarms}
+
+
+if __name__ == "__main__":
+    run("detection-correlation-python", "1.0", prepare, answer)

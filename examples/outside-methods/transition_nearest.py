@@ -1,0 +1,55 @@
+#!/usr/bin/env python3
+"""Switches where the two clips look most alike: of all pairs of a frame that clip `from` shows soon enough and a frame
+of clip `to`, the pair with the smallest distance between poses (as in motion graphs: Kovar, Gleicher, Pighin 2002).
+
+Poses are compared as Etude lays them on each other: hip centre over hip centre on the floor, heading on heading.
+"""
+import math
+
+from etude_method import run
+
+LOOK_AHEAD = 2  # poses this many frames later are compared as well, so that the motions agree and not only the poses
+
+
+def laid_down(pose, joints):
+    """The pose with its hip centre over the origin, facing along z."""
+    at = {name: 3 * i for i, name in enumerate(joints)}
+    x0, z0 = pose[at["hip_centre"]], pose[at["hip_centre"] + 2]
+    # From the right hip to the left one is the body's own x axis.
+    dx = pose[at["left_hip"]] - pose[at["right_hip"]]
+    dz = pose[at["left_hip"] + 2] - pose[at["right_hip"] + 2]
+    length = math.hypot(dx, dz) or 1.0
+    c, s = dx / length, dz / length
+    laid = []
+    for i in range(0, len(pose), 3):
+        x, y, z = pose[i] - x0, pose[i + 1], pose[i + 2] - z0
+        laid += [c * x + s * z, y, c * z - s * x]
+    return laid
+
+
+def prepare(setting, options, files):
+    laid = [[laid_down(pose, setting["joints"]) for pose in clip["poses"]] for clip in setting["clips"]]
+    return setting["rate_hz"], laid
+
+
+def distance(a, b):
+    return sum((x - y) ** 2 for x, y in zip(a, b))
+
+
+def answer(kept, problem, files):
+    rate_hz, clips = kept
+    source, target = clips[problem["from"]], clips[problem["to"]]
+    first = problem["request_frame"]
+    last = min(len(source) - 1, first + int(problem["max_wait_s"] * rate_hz))
+    best = None
+    for leave in range(first, last + 1):
+        for enter in range(len(target) - 1):
+            later = min(LOOK_AHEAD, len(source) - 1 - leave, len(target) - 1 - enter)
+            gap = distance(source[leave], target[enter]) + distance(source[leave + later], target[enter + later])
+            if best is None or gap < best[0]:
+                best = (gap, leave, enter)
+    return {"leave_frame": best[1], "enter_frame": best[2], "join": "inertialised", "matched": True}
+
+
+if __name__ == "__main__":
+    run("transition-nearest-python", "1.0", prepare, answer)

@@ -1,0 +1,173 @@
+#include "reports/comparison_table.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "reports/badge.h"
+#include "reports/escape.h"
+#include "reports/figures.h"
+
+namespace etude {
+namespace {
+
+/// One comparison as the texts of its cells, not yet escaped.
+struct Line {
+  std::string condition, metric, methods, pairs, difference, interval, p, effect, notes;
+};
+
+int Worlds(const Comparison& c) { return c.pairs + c.only_baseline + c.only_method + c.neither; }
+
+/// A difference, short: tables have no room for "percentage points".
+std::string Amount(double difference, const MetricWords& words) {
+  return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
+}
+
+std::string MetricText(const std::string& metric) {
+  const MetricWords words = WordsFor(metric);
+  const MetricInfo* info = FindMetric(metric);
+  if (info == nullptr) return words.label;
+  const std::string matters =
+      fmt::format("{:g}{}", info->practical * words.scale, words.is_share ? " pp" : words.difference_suffix);
+  const std::string_view direction = DirectionWords(info->direction);
+  return fmt::format("{} ({}{}{} matters)", words.label, direction, direction.empty() ? "" : ", ", matters);
+}
+
+std::string EffectText(const Comparison& c) {
+  if (!c.effect_size) return std::string(kNoValue);
+  const std::string size = FormatFixed(*c.effect_size, 2);
+  return *c.effect_size > 0 ? "+" + size : size;
+}
+
+std::string Notes(const Comparison& c) {
+  std::string text = c.why_open;
+  for (const std::string& note : c.notes) text += (text.empty() ? "" : "; ") + note;
+  return text;
+}
+
+Line LineOf(const ConditionSummary& condition, const Comparison& c) {
+  const MetricWords words = WordsFor(c.metric);
+  Line line;
+  line.condition = ConditionLabel(condition.condition);
+  line.metric = MetricText(c.metric);
+  line.methods = fmt::format("{} − {}", c.method, c.baseline);
+  line.pairs = Worlds(c) == c.pairs ? FormatCount(c.pairs)
+                                    : fmt::format("{} of {}", FormatCount(c.pairs), FormatCount(Worlds(c)));
+  line.difference = c.difference ? Amount(*c.difference, words) : std::string(kNoValue);
+  line.interval = FormatInterval(c.ci_low, c.ci_high, words);
+  if (c.interval == IntervalKind::kPercentile && c.differing > 0) line.interval += " †";
+  line.p = FormatP(c.p_holm);
+  line.effect = EffectText(c);
+  line.notes = Notes(c);
+  return line;
+}
+
+/// The figures, and below them over the whole width what to mind.
+std::string RowHtml(const Line& line, Verdict verdict, bool swept, int columns) {
+  std::string html =
+      fmt::format("<tr{}><td>{}</td>", line.notes.empty() ? "" : " class=\"noted\"", EscapeMarkup(line.methods));
+  if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(line.condition));
+  for (const std::string& figure : {line.pairs, line.difference, line.interval, line.p, line.effect}) {
+    html += fmt::format("<td class=\"n\">{}</td>", EscapeMarkup(figure));
+  }
+  html += fmt::format("<td>{}</td></tr>", VerdictBadge(verdict));
+  if (line.notes.empty()) return html;
+  return html + fmt::format("<tr class=\"note\"><td colspan=\"{}\">{}</td></tr>", columns, EscapeMarkup(line.notes));
+}
+
+std::string Legend(const ScenarioSummary& scenario) {
+  return fmt::format(
+      "Difference: method − baseline in the same world, the median (of shares and penalised costs the mean); its 95 % "
+      "interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p: Wilcoxon’s "
+      "signed "
+      "ranks (where the mean counts, sign flips), corrected over this scenario’s {} (Holm). Effect: rank-biserial "
+      "correlation, −1 to +1, + is better. Better or worse: p ≤ 0.05, an interval on one side of zero, and a "
+      "difference "
+      "that matters. No difference: the interval within what matters.",
+      Plural(scenario.family, "comparison"));
+}
+
+std::string Exact(std::optional<double> value) {
+  return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
+}
+
+std::size_t CountOf(const ScenarioSummary& scenario) {
+  std::size_t count = 0;
+  for (const ConditionSummary& condition : scenario.conditions) count += condition.comparisons.size();
+  return count;
+}
+
+}  // namespace
+
+std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
+  if (CountOf(scenario) == 0) return "";
+  const bool swept = scenario.conditions.size() > 1;
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Every comparison\"><table><thead><tr>"
+      "<th scope=\"col\">Methods</th>";
+  if (swept) html += "<th scope=\"col\">Condition</th>";
+  for (const char* head : {"Pairs", "Difference", "95 % interval", "p (Holm)", "Effect"}) {
+    html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", head);
+  }
+  html += "<th scope=\"col\">Verdict</th></tr></thead>";
+  const int columns = swept ? 8 : 7;
+  for (const std::string& metric : scenario.headline_metrics) {
+    html += fmt::format("<tbody><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>", columns,
+                        EscapeMarkup(MetricText(metric)));
+    // Conditions of the same methods stand under each other.
+    for (const std::string& method : scenario.methods) {
+      for (const ConditionSummary& condition : scenario.conditions) {
+        for (const Comparison& c : condition.comparisons) {
+          if (c.metric == metric && c.method == method)
+            html += RowHtml(LineOf(condition, c), c.verdict, swept, columns);
+        }
+      }
+    }
+    html += "</tbody>";
+  }
+  return html + fmt::format("</table></div><p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
+}
+
+std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
+  const std::size_t count = CountOf(scenario);
+  if (count == 0) return "";
+  std::string text = fmt::format(
+      "\n<details><summary>Every comparison ({})</summary>\n\n"
+      "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | verdict | mind |\n"
+      "|---|---|---|---|---|---|---|---|---|\n",
+      count);
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const Comparison& c : condition.comparisons) {
+      const Line line = LineOf(condition, c);
+      text += fmt::format("| {} | {} | {} | {} | {} ({}) | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
+                          EscapeMarkdown(line.methods), EscapeMarkdown(line.condition), line.pairs, line.difference,
+                          line.interval, EscapeMarkdown(line.p), line.effect, VerdictName(c.verdict),
+                          EscapeMarkdown(line.notes));
+    }
+  }
+  return text + fmt::format("\n{}\n\n</details>\n", EscapeMarkdown(Legend(scenario)));
+}
+
+std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
+  std::string csv =
+      "scenario,condition,metric,baseline,method,pairs,differing,only_baseline,only_method,neither,difference,ci95_low,"
+      "ci95_high,interval,mean_difference,mean_ci95_low,mean_ci95_high,p_signed_rank,signed_rank_how,p_sign_flip,"
+      "sign_flip_how,p_holm,effect_size,share_better,verdict,notes\n";
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const Comparison& c : condition.comparisons) {
+      csv += fmt::format("{},{},{},{},{},", EscapeCsv(scenario.name), EscapeCsv(ConditionLabel(condition.condition)),
+                         EscapeCsv(c.metric), EscapeCsv(c.baseline), EscapeCsv(c.method));
+      csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
+      csv += fmt::format("{},{},{},{},{},{},{},", Exact(c.difference), Exact(c.ci_low), Exact(c.ci_high),
+                         IntervalKindName(c.interval), Exact(c.mean), Exact(c.mean_low), Exact(c.mean_high));
+      csv += fmt::format("{},{},{},{},{},", Exact(c.signed_rank.p), EscapeCsv(c.signed_rank.how), Exact(c.sign_flip.p),
+                         EscapeCsv(c.sign_flip.how), Exact(c.p_holm));
+      csv += fmt::format("{},{},{},{}\n", Exact(c.effect_size),
+                         Exact(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
+                         EscapeCsv(Notes(c)));
+    }
+  }
+  return csv;
+}
+
+}  // namespace etude

@@ -1,0 +1,81 @@
+#include <fmt/core.h>
+
+#include "reports/escape.h"
+#include "reports/gate_report.h"
+#include "reports/gate_table.h"
+
+namespace etude {
+namespace {
+
+// A comment on a pull request takes 65,536 characters; a table of more rows is read by nobody.
+constexpr std::size_t kMostRows = 100;
+
+std::string MoveTable(const std::vector<GateTableRow>& rows) {
+  std::string text =
+      "\n| | scenario | condition | method | metric | baseline | now | difference (95 %) | p | worlds |\n"
+      "|---|---|---|---|---|---:|---:|---:|---:|---:|\n";
+  for (std::size_t i = 0; i < std::min(kMostRows, rows.size()); ++i) {
+    const GateTableRow& row = rows[i];
+    const std::string verdict = row.fails ? "**" + row.verdict + "**" : row.verdict;
+    text += "| " + verdict;
+    for (const std::string& cell : {row.scenario, row.condition, row.method, row.metric, row.before, row.after,
+                                    row.difference, row.p, row.worlds}) {
+      text += " | " + EscapeMarkdown(cell);
+    }
+    text += " |\n";
+  }
+  if (rows.size() > kMostRows) text += fmt::format("\n… and {} more rows, in gate.xml.\n", rows.size() - kMostRows);
+  return text;
+}
+
+std::string List(std::string_view title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = fmt::format("\n{}\n\n", title);
+  for (std::size_t i = 0; i < std::min(kMostRows, lines.size()); ++i) text += "- " + EscapeMarkdown(lines[i]) + "\n";
+  if (lines.size() > kMostRows) text += fmt::format("- … and {} more\n", lines.size() - kMostRows);
+  return text;
+}
+
+/// Expectations and time rules that are not met, or could not be decided.
+std::vector<std::string> ClaimsThatAre(const GateReport& report, Outcome outcome) {
+  std::vector<std::string> lines;
+  for (const GateExpectation& e : report.expectations) {
+    if (e.result.outcome != outcome) continue;
+    lines.push_back(fmt::format("{}: {} ({})", e.scenario, e.result.text, e.result.detail));
+  }
+  for (const RatioResult& ratio : report.ratios) {
+    if (ratio.outcome != outcome) continue;
+    lines.push_back(fmt::format("{}: {} ({})", ratio.scenario, RatioClaim(ratio), RatioDetail(ratio)));
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string WriteGateMarkdown(const GateReport& report) {
+  std::string text =
+      fmt::format("## Etude gate of {}: {}\n\n", EscapeMarkdown(report.suite), GateVerdictWords(GateVerdictOf(report)));
+  for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
+  text += List("**Incomplete**, so there is no verdict on the whole:", report.incomplete);
+  text += List("**Not met:**", ClaimsThatAre(report, Outcome::kUnmet));
+  std::vector<GateTableRow> failing, others;
+  for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
+  if (!failing.empty()) text += MoveTable(failing);
+  if (!others.empty()) {
+    text += fmt::format("\n<details><summary>What else moved ({})</summary>\n{}\n</details>\n", others.size(),
+                        MoveTable(others));
+  }
+  text += List("Could not be decided:", ClaimsThatAre(report, Outcome::kUndecided));
+  text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);
+  text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
+  if (!report.baseline_file.empty()) {
+    text += fmt::format(
+        "\nBaseline {} (Etude {}), run by Etude {}. p: after Holm's correction. Worlds: "
+        "where the values differ, of those compared.\n",
+        EscapeMarkdown(report.baseline_file), EscapeMarkdown(report.baseline_version),
+        EscapeMarkdown(report.program_version));
+  }
+  return text;
+}
+
+}  // namespace etude

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "bench/gate/gate.h"
+
+namespace etude {
+
+/// What a gate found, as a comment on a pull request: the verdict, what fails, what else moved, what could not be
+/// compared.
+std::string WriteGateMarkdown(const GateReport& report);
+
+/// The same as JUnit XML: a suite per scenario, in it a case per expectation, time rule and comparison; an
+/// incomplete run fails a case of the suite "gate".
+std::string WriteGateJunit(const GateReport& report);
+
+}  // namespace etude

@@ -1,0 +1,138 @@
+#include "reports/gate_table.h"
+
+#include <algorithm>
+#include <array>
+
+#include "reports/figures.h"
+
+namespace etude {
+namespace {
+
+MetricWords GateWordsFor(const std::string& metric) {
+  if (metric != kOkShare) return WordsFor(metric);
+  return {.label = "cells that ended ok",
+          .suffix = " %",
+          .difference_suffix = " percentage points",
+          .scale = 100,
+          .is_share = true,
+          .direction = Direction::kHigherIsBetter};
+}
+
+std::string DifferenceText(const Comparison& comparison, const MetricWords& words) {
+  if (!comparison.difference) return std::string(kNoValue);
+  const std::string text = FormatNumber(*comparison.difference * words.scale) + words.difference_suffix;
+  if (!comparison.ci_low) return text;
+  return text + " (" + FormatInterval(comparison.ci_low, comparison.ci_high, words) + ")";
+}
+
+std::string TestText(const MetricMove& move) {
+  if (move.movement == Movement::kChanged || !move.comparison.p_holm) return std::string(kNoValue);
+  return *move.comparison.p_holm < 0.001 ? "< 0.001" : fmt::format("{:.3f}", *move.comparison.p_holm);
+}
+
+std::string WorldsText(const MetricMove& move) {
+  std::string text = fmt::format("{} of {}", FormatCount(move.differing), FormatCount(move.worlds));
+  if (move.lost > 0) text += fmt::format(", {} lost", Plural(move.lost, "value"));
+  if (move.gained > 0) text += fmt::format(", {} gained", Plural(move.gained, "value"));
+  return text;
+}
+
+/// "2 worse, 3 better, 165 same", zeros left out.
+std::string MovementCounts(const std::vector<MetricMove>& moves) {
+  std::string text;
+  for (Movement movement : {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
+                            Movement::kNoMatter, Movement::kSame}) {
+    const auto count =
+        std::count_if(moves.begin(), moves.end(), [&](const MetricMove& move) { return move.movement == movement; });
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), MovementWords(movement));
+  }
+  return text;
+}
+
+/// "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
+template <typename Items, typename OutcomeOf>
+std::string OutcomeCounts(const Items& items, std::string_view what, OutcomeOf outcome_of) {
+  std::string text;
+  for (Outcome outcome : {Outcome::kUnmet, Outcome::kUndecided, Outcome::kMet}) {
+    const auto count =
+        std::count_if(items.begin(), items.end(), [&](const auto& item) { return outcome_of(item) == outcome; });
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), OutcomeName(outcome));
+  }
+  return text.empty() ? "" : Plural(static_cast<long long>(items.size()), what) + ": " + text;
+}
+
+}  // namespace
+
+GateTableRow TableRow(const MetricMove& move) {
+  const MetricWords words = GateWordsFor(move.identity.metric);
+  return {.scenario = move.identity.scenario,
+          .condition = move.identity.condition,
+          .method = move.identity.method,
+          .metric = words.label,
+          .before = FormatValue(move.before, words),
+          .after = FormatValue(move.after, words),
+          .difference = DifferenceText(move.comparison, words),
+          .p = TestText(move),
+          .worlds = WorldsText(move),
+          .verdict = std::string(MovementWords(move.movement)),
+          .fails = IsRegression(move)};
+}
+
+std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison) {
+  constexpr std::array kOrder = {Movement::kWorse, Movement::kChanged, Movement::kBetter, Movement::kUnclear,
+                                 Movement::kNoMatter};
+  std::vector<GateTableRow> rows;
+  for (Movement movement : kOrder) {
+    for (const MetricMove& move : comparison.moves) {
+      if (move.movement == movement) rows.push_back(TableRow(move));
+    }
+  }
+  return rows;
+}
+
+std::string RatioClaim(const RatioResult& ratio) {
+  return fmt::format("processor time of {} over {} at most {}", ratio.rule.of, ratio.rule.over, ratio.rule.at_most);
+}
+
+std::string RatioDetail(const RatioResult& ratio) {
+  if (!ratio.median) return "no world has both times";
+  const std::string median = "median " + FormatNumber(*ratio.median);
+  const std::string worlds = Plural(ratio.pairs, "world");
+  if (!ratio.ci_low) return fmt::format("{} on {}, too few for an interval", median, worlds);
+  return fmt::format("{} (95 % interval {}) on {}", median, FormatInterval(ratio.ci_low, ratio.ci_high, {}), worlds);
+}
+
+std::string_view GateVerdictWords(GateVerdict verdict) {
+  switch (verdict) {
+    case GateVerdict::kPassed:
+      return "pass";
+    case GateVerdict::kRegressed:
+      return "regression";
+    case GateVerdict::kNotWhole:
+      break;
+  }
+  return "incomplete";
+}
+
+std::string CompareSentence(const SnapshotComparison& comparison) {
+  if (comparison.moves.empty()) return "nothing to compare";
+  return Plural(static_cast<long long>(comparison.moves.size()), "comparison") + ": " +
+         MovementCounts(comparison.moves);
+}
+
+std::vector<std::string> GateSentences(const GateReport& report) {
+  std::vector<std::string> sentences = {
+      OutcomeCounts(report.expectations, "expectation", [](const GateExpectation& e) { return e.result.outcome; }),
+      OutcomeCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.outcome; })};
+  if (report.baseline_file.empty()) {
+    sentences.push_back("nothing was compared: no baseline was given");
+  } else if (!report.comparison.moves.empty()) {
+    sentences.push_back("against the baseline, " + CompareSentence(report.comparison));
+  }
+  std::erase(sentences, "");
+  return sentences;
+}
+
+}  // namespace etude

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/gate/gate.h"
+
+namespace etude {
+
+/// One line of "what moved", in words.
+struct GateTableRow {
+  std::string scenario, condition, method, metric;
+  std::string before, after;  ///< the metric's aggregate over all worlds
+  std::string difference;     ///< of the pairs, with its interval
+  std::string p;              ///< of the test, after Holm's correction; kNoValue when nothing was tested
+  std::string worlds;         ///< "12 of 60", lost and gained values told
+  std::string verdict;
+  bool fails = false;
+};
+
+/// One row per move that is not kSame: regressions first, each group in the order of the run.
+std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison);
+GateTableRow TableRow(const MetricMove& move);
+
+/// "iterations of fixed over …": how a time rule reads, and what was found.
+std::string RatioClaim(const RatioResult& ratio);
+std::string RatioDetail(const RatioResult& ratio);
+
+/// "pass", "regression", "incomplete"
+std::string_view GateVerdictWords(GateVerdict verdict);
+/// "170 comparisons with the baseline: 2 worse, 3 better, 165 same", and likewise of all else that was judged.
+std::vector<std::string> GateSentences(const GateReport& report);
+/// "170 comparisons: 2 worse, 3 better, 165 same"
+std::string CompareSentence(const SnapshotComparison& comparison);
+
+}  // namespace etude

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// A case of a JUnit file: met passes, unmet is a failure, undecided is skipped.
+struct JunitCase {
+  std::string name;
+  Outcome outcome;
+  std::string detail;
+};
+
+struct JunitSuite {
+  std::string name;
+  std::vector<JunitCase> cases;
+};
+
+/// JUnit XML as CI systems read it, its counts made from the cases.
+std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>& suites);
+
+}  // namespace etude

@@ -1,0 +1,180 @@
+#include "bench/gate/comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/random/stream.h"
+#include "tests/bench/gate/example.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Snapshot SnapshotOf(const MakeResult& make, const std::string& extra = "") {
+  return TakeSnapshot(ExampleRun(make, extra));
+}
+
+Snapshot Reference() {
+  return SnapshotOf([](int trial, const std::string&) { return ExampleResult(trial); });
+}
+
+/// How the move of method a's metric came out, under both conditions alike.
+MetricMove MoveOf(const Snapshot& after, const std::string& metric, const std::set<std::string>& exact = {}) {
+  const SnapshotComparison comparison = CompareSnapshots(Reference(), after, exact);
+  EXPECT_EQ(comparison.moves.size(), 2u * 2 * 3);  // conditions, methods; two metrics and the share of ok cells
+  for (const MetricMove& move : comparison.moves) {
+    if (move.identity.method == "b") {
+      EXPECT_EQ(move.movement, Movement::kSame);
+    }
+  }
+  for (const MetricMove& move : comparison.moves) {
+    if (move.identity.method == "a" && move.identity.metric == metric) return move;
+  }
+  ADD_FAILURE() << metric;
+  return {};
+}
+
+/// Method a shifted by `shift(trial)`.
+Snapshot Shifted(const std::function<double(int)>& shift) {
+  return SnapshotOf(
+      [&](int trial, const std::string& method) { return ExampleResult(trial, method == "a" ? shift(trial) : 0); });
+}
+
+TEST(Snapshots, OfTheSameRunDoNotDiffer) {
+  for (const std::set<std::string>& exact : {std::set<std::string>{}, {"s"}}) {
+    const SnapshotComparison comparison = CompareSnapshots(Reference(), Reference(), exact);
+    EXPECT_EQ(comparison.moves.size(), 12u);
+    for (const MetricMove& move : comparison.moves) EXPECT_EQ(move.movement, Movement::kSame);
+    EXPECT_THAT(comparison.only_before, IsEmpty());
+    EXPECT_THAT(comparison.only_after, IsEmpty());
+  }
+}
+
+TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
+  const auto wobble = [](int trial) { return 0.001 * (trial % 5); };
+  const auto movement = [&](double size) {
+    return MoveOf(Shifted([&](int trial) { return size + wobble(trial); }), "position_error_cm").movement;
+  };
+  EXPECT_EQ(movement(1), Movement::kWorse);
+  EXPECT_EQ(movement(-1), Movement::kBetter);
+  EXPECT_EQ(movement(0.01), Movement::kNoMatter);  // 0.05 cm is what matters
+}
+
+TEST(Snapshots, CallADifferenceUnclearThatTheWorldsDoNotSettle) {
+  const auto torn = Shifted([](int trial) { return trial % 2 == 0 ? 3.0 : -3.1; });
+  EXPECT_EQ(MoveOf(torn, "position_error_cm").movement, Movement::kUnclear);
+}
+
+TEST(Snapshots, SeeARegressionInFewerThanHalfOfTheWorlds) {
+  const auto third = Shifted([](int trial) { return trial % 3 == 0 ? 2.0 + 0.01 * trial : 0.0; });
+  const MetricMove move = MoveOf(third, "position_error_cm");
+  EXPECT_EQ(move.comparison.difference, 0);  // what the median alone would say
+  EXPECT_EQ(move.differing, 8);
+  EXPECT_EQ(move.movement, Movement::kWorse);
+  // In very few worlds no test can tell; it must not be called too small to matter.
+  const auto once = Shifted([](int trial) { return trial == 7 ? 50.0 : 0.0; });
+  EXPECT_EQ(MoveOf(once, "position_error_cm").movement, Movement::kUnclear);
+}
+
+TEST(Snapshots, DifferByTheLastDigitUnderTheExactRuleInEitherDirection) {
+  for (double sign : {-1, 1}) {
+    const auto last_digit = Shifted([&](int trial) { return trial == 7 ? sign * 4e-15 : 0.0; });
+    const MetricMove move = MoveOf(last_digit, "position_error_cm", {"s"});
+    EXPECT_EQ(move.movement, Movement::kChanged);
+    EXPECT_EQ(move.differing, 1);
+    EXPECT_NE(MoveOf(last_digit, "position_error_cm").movement, Movement::kWorse);
+  }
+}
+
+Snapshot Ending(Status status, int trials) {
+  return SnapshotOf([&](int trial, const std::string& method) {
+    if (method != "a" || trial >= trials) return ExampleResult(trial);
+    CellResult result = CellResult::Ended(status, "gave up");
+    result.Missing("position_error_cm", "gave up");
+    result.Measure("solved_practical", 0);
+    return result;
+  });
+}
+
+TEST(Snapshots, CountFailuresAndLostValuesAgainstTheMethod) {
+  for (Status status : {Status::kFailed, Status::kUnsolved, Status::kBadOutput}) {
+    const Snapshot after = Ending(status, 12);
+    EXPECT_EQ(MoveOf(after, kOkShare).movement, Movement::kWorse);
+    const MetricMove lost = MoveOf(after, "position_error_cm");
+    EXPECT_EQ(lost.lost, 12);
+    EXPECT_EQ(lost.comparison.pairs, 12);
+    EXPECT_EQ(lost.movement, Movement::kWorse);  // the values that are left did not change at all
+  }
+  EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), "position_error_cm").movement, Movement::kUnclear);
+  EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), "position_error_cm", {"s"}).movement, Movement::kChanged);
+}
+
+TEST(Snapshots, LeaveOutWorldsWhoseEndDependsOnTheMachine) {
+  for (Status status : {Status::kTimeout, Status::kCrashed, Status::kOutOfMemory}) {
+    const MetricMove move = MoveOf(Ending(status, 12), kOkShare);
+    EXPECT_EQ(move.movement, Movement::kSame);
+    EXPECT_EQ(move.worlds, 12);
+  }
+}
+
+TEST(Snapshots, SeeAStatusChangeUnderTheExactRule) {
+  const auto with = [](Status status) {
+    return SnapshotOf([=](int trial, const std::string& method) {
+      CellResult result = ExampleResult(trial);
+      if (method == "a") result.status = status;
+      return result;
+    });
+  };
+  for (const auto& [exact, expected] : {std::pair<std::set<std::string>, Movement>{{"s"}, Movement::kChanged},
+                                        std::pair<std::set<std::string>, Movement>{{}, Movement::kSame}}) {
+    const SnapshotComparison found = CompareSnapshots(with(Status::kUnsolved), with(Status::kFailed), exact);
+    EXPECT_EQ(found.moves[0].identity.metric, kOkShare);
+    EXPECT_EQ(found.moves[0].movement, expected);
+  }
+}
+
+TEST(Snapshots, ListWhatOnlyOneOfThemHolds) {
+  Snapshot less = Reference();
+  less.scenarios[0].cells[3].metrics.pop_back();
+  less.scenarios[0].cells.erase(less.scenarios[0].cells.begin());
+  const SnapshotComparison comparison = CompareSnapshots(Reference(), less, {});
+  EXPECT_THAT(comparison.only_before,
+              ElementsAre("s, joint_noise_deg=1, a", "s, joint_noise_deg=2, b, solved_practical"));
+  EXPECT_EQ(CompareSnapshots(less, Reference(), {}).only_after, comparison.only_before);
+  EXPECT_EQ(comparison.moves.size(), 12u - 3 - 1);
+  EXPECT_THAT(CompareSnapshots(Reference(), {}, {}).only_before, ElementsAre("s"));
+}
+
+TEST(Snapshots, AreComparableWhateverDoesNotShapeWorlds) {
+  const auto same = [](int trial, const std::string&) { return ExampleResult(trial); };
+  const Snapshot annotated = SnapshotOf(same, "expect: [{metric: position_error_cm, of: a, at_most: 99}]  # new\n");
+  EXPECT_THAT(WhyNotComparable(Reference(), annotated), IsEmpty());
+  EXPECT_THAT(WhyNotComparable(Reference(), SnapshotOf(same, "max_sweeps: 7\n")),
+              ElementsAre(HasSubstr("joint_noise_deg=1 are made from other"), HasSubstr("joint_noise_deg=2 are")));
+}
+
+TEST(Snapshots, AreNotComparableWithOtherSeedsTrialsClipsOrMetricVersions) {
+  const auto complaint = [](const std::function<void(SnapshotScenario&)>& change) {
+    Snapshot after = Reference();
+    change(after.scenarios[0]);
+    const std::vector<std::string> reasons = WhyNotComparable(Reference(), after);
+    Snapshot before = Reference();
+    EXPECT_EQ(DropIncomparable(before, after), reasons);
+    EXPECT_EQ(before.scenarios.size(), reasons.empty() ? 1u : 0u);
+    return reasons.empty() ? "" : reasons.front();
+  };
+  EXPECT_EQ(complaint([](SnapshotScenario&) {}), "");
+  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.seed = 6; }), "s: seed 5 and 6");
+  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.trials = 23; }), "s: trials 24 and 23");
+  EXPECT_EQ(complaint([](SnapshotScenario& s) { s.metrics[0].second = 9; }),
+            "s: position_error_cm in versions 1 and 9");
+  FinishedRun other_clip = ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); });
+  other_clip.scenarios[0].clip_digests = {"another"};
+  EXPECT_EQ(WhyNotComparable(Reference(), TakeSnapshot(other_clip)).size(), 2u);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,44 @@
+#include "tests/bench/gate/example.h"
+
+#include <gtest/gtest.h>
+
+namespace etude {
+
+constexpr int kTrials = 24;
+
+CellResult ExampleResult(int trial, double shift) {
+  CellResult result = CellResult::Ended(Status::kOk, "");
+  result.Measure("position_error_cm", 10 + trial + shift);
+  result.Measure("solved_practical", trial % 2);
+  return result;
+}
+
+FinishedRun ExampleRun(const MakeResult& make, const std::string& extra) {
+  const SourceTexts texts = {{"s.yaml",
+                              "scenario: s\nquestion: q?\ntask: ik\ntrials: 24\nsweep: {joint_noise_deg: [1, 2]}\n"
+                              "methods: [{name: a, solver: ccd}, {name: b, solver: ccd}]\n"
+                              "metrics: [position_error_cm, solved_practical]\n" +
+                                  extra}};
+  auto scenarios = ParseScenarios("s.yaml", texts);
+  EXPECT_TRUE(scenarios) << ToString(scenarios.error());
+  FinishedRun run;
+  run.data.suite = "example";
+  run.data.program_version = "1.2.3";
+  ScenarioSetup setup;
+  setup.name = "s";
+  setup.seed = 5;
+  setup.trials = kTrials;
+  run.scenarios.push_back({scenarios->front(), setup, {"clip"}});
+  for (const Condition& condition : scenarios->front().conditions) {
+    for (int trial = 0; trial < kTrials; ++trial) {
+      for (const char* method : {"a", "b"}) {
+        run.data.rows.push_back({"s", "ik", condition.settings, trial, "", method, make(trial, method)});
+      }
+    }
+  }
+  run.data.scenarios.push_back({});
+  run.data.scenarios.back().name = "s";
+  return run;
+}
+
+}  // namespace etude

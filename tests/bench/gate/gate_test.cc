@@ -1,0 +1,137 @@
+#include "bench/gate/gate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/bench/gate/example.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+FinishedRun Steady(const std::string& extra = "") {
+  return ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); }, extra);
+}
+
+FinishedRun Worse(const std::string& extra = "") {
+  return ExampleRun([](int trial, const std::string& method) { return ExampleResult(trial, method == "b" ? 1 : 0); },
+                    extra);
+}
+
+GateVerdict VerdictOn(const FinishedRun& run, const Snapshot& baseline) {
+  const auto report = JudgeRun(run, &baseline, "b.json");
+  EXPECT_TRUE(report) << ToString(report.error());
+  return report ? GateVerdictOf(*report) : GateVerdict::kPassed;
+}
+
+TEST(Gate, PassesARerunAndStopsARegression) {
+  const Snapshot baseline = TakeSnapshot(Steady());
+  EXPECT_EQ(VerdictOn(Steady(), baseline), GateVerdict::kPassed);
+  EXPECT_EQ(VerdictOn(Worse(), baseline), GateVerdict::kRegressed);
+}
+
+TEST(Gate, LetsAnImprovementPassUnlessTheRuleIsExact) {
+  const std::string exact = "gate: {rule: exact}\n";
+  EXPECT_EQ(VerdictOn(Steady(), TakeSnapshot(Worse())), GateVerdict::kPassed);
+  EXPECT_EQ(VerdictOn(Steady(exact), TakeSnapshot(Worse(exact))), GateVerdict::kRegressed);
+  EXPECT_EQ(VerdictOn(Steady(exact), TakeSnapshot(Steady(exact))), GateVerdict::kPassed);
+}
+
+TEST(Gate, ComparesOnlyTheMetricsThatItsRulesName) {
+  const std::string shares = "gate: {metrics: [solved_practical]}\n";
+  EXPECT_EQ(VerdictOn(Worse(shares), TakeSnapshot(Steady(shares))), GateVerdict::kPassed);
+  EXPECT_EQ(TakeSnapshot(Steady(shares)).scenarios[0].metrics.size(), 1u);
+}
+
+TEST(Gate, FailsOnAnUnmetExpectationWithoutAnyBaseline) {
+  FinishedRun run = Steady();
+  run.data.scenarios[0].expectations = {{"a below b", Outcome::kUndecided, "few"}};
+  EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kPassed);
+  run.data.scenarios[0].expectations[0].outcome = Outcome::kUnmet;
+  EXPECT_EQ(GateVerdictOf(*JudgeRun(run, nullptr, "")), GateVerdict::kRegressed);
+}
+
+TEST(Gate, RefusesABaselineOfOtherWorldsAndSaysWhatDiffers) {
+  Snapshot baseline = TakeSnapshot(Steady());
+  baseline.scenarios[0].seed = 9;
+  const auto report = JudgeRun(Steady(), &baseline, "b.json");
+  ASSERT_FALSE(report);
+  EXPECT_THAT(ToString(report.error()), HasSubstr("b.json: its worlds are not those of the run: s: seed 9 and 5"));
+}
+
+TEST(Gate, DoesNotJudgeARunThatLacksRows) {
+  const Snapshot baseline = TakeSnapshot(Steady());
+  FinishedRun run = Worse();
+  run.data.rows.erase(run.data.rows.begin() + 7);
+  ASSERT_TRUE(CheckRows(run, {"cells.jsonl", 0, 0}));
+  EXPECT_THAT(run.incomplete, ElementsAre("s: 1 of 96 rows are missing, the first is s/joint_noise_deg=1/003/b"));
+  EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kNotWhole);
+  FinishedRun whole = Worse();
+  ASSERT_TRUE(CheckRows(whole, {}));
+  EXPECT_THAT(whole.incomplete, IsEmpty());
+}
+
+TEST(Gate, RefusesRowsThatAreThereTwiceOrThatNobodyAskedFor) {
+  FinishedRun twice = Steady();
+  twice.data.rows.push_back(twice.data.rows[3]);
+  EXPECT_THAT(ToString(CheckRows(twice, {"cells.jsonl", 0, 0}).error()),
+              HasSubstr("holds the cell s/joint_noise_deg=1/001/b twice"));
+  FinishedRun stranger = Steady();
+  stranger.data.rows[3].method = "c";
+  EXPECT_THAT(ToString(CheckRows(stranger, {}).error()), HasSubstr("/c, which no scenario of the manifest asks for"));
+}
+
+TEST(Gate, IsIncompleteWhereTheMachineEndedACell) {
+  const Snapshot baseline = TakeSnapshot(Steady());
+  for (Status status : {Status::kTimeout, Status::kCrashed, Status::kOutOfMemory}) {
+    FinishedRun run = Steady();
+    run.data.rows[5].result = CellResult::Ended(status, "signal 9");
+    EXPECT_EQ(VerdictOn(run, baseline), GateVerdict::kNotWhole);
+    EXPECT_THAT(DescribeMachineEnds(run), ElementsAre(HasSubstr("s/joint_noise_deg=1/002/b: signal 9")));
+  }
+  EXPECT_THAT(DescribeMachineEnds(Steady()), IsEmpty());
+}
+
+TEST(Gate, IsIncompleteWhenTheBaselineHoldsMoreThanTheRun) {
+  const Snapshot baseline = TakeSnapshot(Steady());
+  Snapshot more = baseline;
+  more.scenarios.push_back(more.scenarios[0]);
+  more.scenarios[1].name = "gone";
+  EXPECT_EQ(VerdictOn(Steady(), more), GateVerdict::kNotWhole);
+  Snapshot less = baseline;
+  less.scenarios[0].cells.pop_back();
+  EXPECT_EQ(VerdictOn(Steady(), less), GateVerdict::kPassed);
+}
+
+FinishedRun Timed(double ratio, int worlds) {
+  FinishedRun run = Steady("gate: {time_ratios: [{of: b, over: a, at_most: 2}]}\n");
+  for (const Row& row : run.data.rows) {
+    if (row.trial >= worlds) continue;
+    const double world = 1 + row.trial;  // worlds differ in size, which a ratio of medians would mix up
+    run.cpu_seconds[row.Id()] = row.method == "a" ? world : world * (ratio + 0.01 * (row.trial % 5));
+  }
+  return run;
+}
+
+TEST(TimeRatios, AreJudgedByTheIntervalOfPairedRatios) {
+  const auto outcome = [](double ratio, int worlds = 24) { return JudgeTimeRatios(Timed(ratio, worlds))[0].outcome; };
+  EXPECT_EQ(outcome(1.5), Outcome::kMet);
+  EXPECT_EQ(outcome(2.5), Outcome::kUnmet);
+  EXPECT_EQ(outcome(2.5, 2), Outcome::kUndecided);  // four worlds under two conditions
+  EXPECT_EQ(outcome(1.985), Outcome::kUndecided);   // the median lies above the limit, the interval across it
+  EXPECT_EQ(outcome(2.5, 0), Outcome::kUndecided);
+  EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(2.5, 24), nullptr, "")), GateVerdict::kRegressed);
+  EXPECT_EQ(GateVerdictOf(*JudgeRun(Timed(1.5, 24), nullptr, "")), GateVerdict::kPassed);
+}
+
+TEST(TimeRatios, LeaveOutCellsThatEndedBecauseOfTheMachine) {
+  FinishedRun run = Timed(1.5, 24);
+  run.data.rows[1].result.status = Status::kTimeout;
+  EXPECT_EQ(JudgeTimeRatios(run)[0].pairs, 47);
+}
+
+}  // namespace
+}  // namespace etude

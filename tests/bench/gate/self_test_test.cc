@@ -1,0 +1,89 @@
+#include "bench/gate/self_test.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/gate/in_process_run.h"
+#include "sim/random/stream.h"
+#include "tests/bench/gate/example.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two methods whose errors are normal about 50 cm; b's are `gap` larger in the same worlds.
+RunUnderSeed NormalRuns(double gap) {
+  return [=](std::uint64_t seed) -> Result<FinishedRun> {
+    return ExampleRun([=](int trial, const std::string& method) {
+      RandomStream world({.suite_seed = seed, .scenario = "self-test", .trial = trial}, "world");
+      CellResult result = ExampleResult(trial, world.Normal(50, 5));
+      RandomStream own({.suite_seed = seed, .scenario = "self-test", .trial = trial}, method);
+      result.metrics[0].value = *result.metrics[0].value + own.Normal(method == "b" ? gap : 0, 0.1);
+      return result;
+    });
+  };
+}
+
+TEST(SelfTest, FindsNoAlarmBetweenEqualSeedsAndEveryLargeChange) {
+  const auto report = RunSelfTest(NormalRuns(1), 20);
+  ASSERT_TRUE(report) << ToString(report.error());
+  EXPECT_EQ(report->comparisons, 12);
+  EXPECT_EQ(report->rerun_alarms.count, 0);
+  EXPECT_EQ(report->rerun_alarms.of, 20);
+  EXPECT_LE(report->false_alarms.count, 3);
+  EXPECT_EQ(report->false_alarm_comparisons.of, 20 * 12);
+  EXPECT_EQ(report->injected.back().found.count, 20);
+  EXPECT_LT(report->injected.front().found.count, 20);
+  ASSERT_EQ(report->real.size(), 1u);
+  EXPECT_EQ(report->real[0].found.count, 20);
+  EXPECT_TRUE(report->Holds());
+}
+
+TEST(SelfTest, DoesNotFindARealChangeThatIsNone) { EXPECT_LE(RunSelfTest(NormalRuns(0), 20)->real[0].found.count, 2); }
+
+TEST(SelfTest, ConvictsAGateWhoseRerunsDiffer) {
+  int calls = 0;
+  const auto report = RunSelfTest(
+      [&](std::uint64_t seed) -> Result<FinishedRun> {
+        const double drift = 1e-12 * ++calls;
+        return ExampleRun([=](int trial, const std::string&) { return ExampleResult(trial, drift * (1 + seed)); });
+      },
+      3);
+  EXPECT_EQ(report->rerun_alarms.count, 3);
+  EXPECT_FALSE(report->Holds());
+}
+
+TEST(SelfTest, ConvictsAGateThatAlarmsBetweenSeeds) {
+  const auto report = RunSelfTest(
+      [](std::uint64_t seed) -> Result<FinishedRun> {
+        // Not exchangeable: the second seed of each pair is worse.
+        return ExampleRun([=](int trial, const std::string&) { return ExampleResult(trial, seed % 2 == 0 ? 5 : 0); });
+      },
+      4);
+  EXPECT_EQ(report->false_alarms.count, 4);
+  EXPECT_FALSE(report->Holds());
+}
+
+TEST(SelfTest, SaysWhenAScenarioGivesItNothingToInjectInto) {
+  const auto report = RunSelfTest(
+      [](std::uint64_t) -> Result<FinishedRun> {
+        return ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); },
+                          "gate: {metrics: [solved_practical]}\n");
+      },
+      1);
+  EXPECT_THAT(ToString(report.error()), HasSubstr("no gated metric is a median with a direction"));
+}
+
+TEST(Rehearsal, RunsItsBuiltInScenarioTheSameWayTwice) {
+  const auto rehearsal = ReadRehearsal("", 4);
+  ASSERT_TRUE(rehearsal) << ToString(rehearsal.error());
+  const auto report = RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, 2);
+  ASSERT_TRUE(report) << ToString(report.error());
+  EXPECT_EQ(report->rerun_alarms.count, 0);
+  EXPECT_EQ(report->rerun_alarms.of, 2);
+  EXPECT_FALSE(ReadRehearsal("no-such-file.yaml", {}));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,111 @@
+"""Metrics of camera capture and of person masks."""
+import math
+
+from independent import common
+from independent.common import BONES, ROLES, angle, distance, dot, flat, frames_of, minus
+
+PCK_MM, AUC_MM = 50, 200
+
+
+def joint_errors_mm(found, truth):
+    return [[common.MM * distance(p[role], t[role]) for role in ROLES] for p, t in zip(found, truth)]
+
+
+def mpjpe(given, key="found"):
+    return common.mean(flat(joint_errors_mm(frames_of(given[key]), frames_of(given["truth"]))))
+
+
+def largest_eigen(matrix):
+    """The largest eigenvalue of a symmetric matrix, with its vector, by Jacobi's rotations."""
+    n = len(matrix)
+    a = [list(row) for row in matrix]
+    v = [[float(i == j) for j in range(n)] for i in range(n)]
+    for _ in range(60):
+        for p in range(n):
+            for q in range(p + 1, n):
+                if a[p][q] == 0:
+                    continue
+                turn = 0.5 * math.atan2(2 * a[p][q], a[q][q] - a[p][p])
+                c, s = math.cos(turn), math.sin(turn)
+                for k in range(n):
+                    a[k][p], a[k][q] = c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]
+                for k in range(n):
+                    a[p][k], a[q][k] = c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]
+                    v[k][p], v[k][q] = c * v[k][p] - s * v[k][q], s * v[k][p] + c * v[k][q]
+    best = max(range(n), key=lambda i: a[i][i])
+    return a[best][best], [v[k][best] for k in range(n)]
+
+
+def aligned(pose, truth):
+    """`pose` after the best similarity, by Horn's quaternions (1987): no singular values, no reflection possible."""
+    centre = [common.mean([pose[role][k] for role in ROLES]) for k in range(3)]
+    goal = [common.mean([truth[role][k] for role in ROLES]) for k in range(3)]
+    p = {role: minus(pose[role], centre) for role in ROLES}
+    t = {role: minus(truth[role], goal) for role in ROLES}
+    m = [[math.fsum(p[role][i] * t[role][j] for role in ROLES) for j in range(3)] for i in range(3)]
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = m
+    largest, (w, x, y, z) = largest_eigen([
+        [xx + yy + zz, yz - zy, zx - xz, xy - yx],
+        [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+        [zx - xz, xy + yx, yy - xx - zz, yz + zy],
+        [xy - yx, zx + xz, yz + zy, zz - xx - yy]])
+    scatter = math.fsum(dot(p[role], p[role]) for role in ROLES)
+    scale = largest / scatter if scatter > 0 else 1.0
+    rotation = [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+                [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z]]
+    return {role: [goal[i] + scale * dot(rotation[i], p[role]) for i in range(3)] for role in ROLES}
+
+
+def pa_mpjpe(given):
+    truth = frames_of(given["truth"])
+    return common.mean(flat(joint_errors_mm([aligned(p, t) for p, t in zip(frames_of(given["found"]), truth)], truth)))
+
+
+def joint_share(given, credit):
+    errors = flat(joint_errors_mm(frames_of(given["found"]), frames_of(given["truth"])))
+    return math.fsum(credit(error) for error in errors) / len(errors)
+
+
+def bone_length_error(given):
+    def lengths(pose):
+        return [distance(pose[child], pose[parent]) for child, parent in BONES.items()]
+    return common.mean([common.CM * abs(a - b) for p, t in zip(frames_of(given["found"]), frames_of(given["truth"]))
+                        for a, b in zip(lengths(p), lengths(t))])
+
+
+def measured_error(things, error):
+    return common.mean([error(thing["found"], thing["truth"]) for thing in things if thing["found"] and thing["truth"]])
+
+
+def limb_direction_error(given):
+    return measured_error(given["limbs"], lambda a, b: common.degrees(angle(a, b)))
+
+
+def triangulation_error(given):
+    return measured_error(given["ends_m"], lambda a, b: common.MM * distance(a, b))
+
+
+def coverage(things):
+    return common.share([thing["found"] is not None for thing in things if thing["truth"]])
+
+
+def reprojection(given):
+    def camera_rms(camera):
+        squares = []
+        for point, pixel in zip(camera["points_m"], camera["pixels"], strict=True):
+            u, v, w = (dot(row, [*point, 1]) for row in camera["matrix"])
+            squares.append((u / w - pixel[0]) ** 2 + (v / w - pixel[1]) ** 2)
+        return math.sqrt(common.mean(squares))
+    return common.mean([camera_rms(camera) for camera in given["cameras"]])
+
+
+def over_images(given, part, whole):
+    """The mean over images of part / whole, both functions of the pixels (found, truth, shadow)."""
+    shares = []
+    for image in given["images"]:
+        pixels = list(zip(flat(image["found"]), flat(image["truth"]), flat(image["shadow"]), strict=True))
+        total = sum(whole(*pixel) for pixel in pixels)
+        if total > 0:
+            shares.append(sum(part(*pixel) for pixel in pixels) / total)
+    return common.mean(shares)

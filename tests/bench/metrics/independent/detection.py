@@ -1,0 +1,54 @@
+"""Metrics of move detection."""
+from independent import common
+
+
+def precision(given):
+    return common.share([event["right"] for event in given["events"] if event["called"]])
+
+
+def recall(given):
+    return common.share([event["called"] for event in given["events"] if event["right"]])
+
+
+def f1(given):
+    both = sum(event["right"] and event["called"] for event in given["events"])
+    either = sum(event["right"] + event["called"] for event in given["events"])
+    return 2 * both / either if either else None
+
+
+def roc_auc(given):
+    right = [event["score"] for event in given["events"] if event["right"]]
+    wrong = [event["score"] for event in given["events"] if not event["right"]]
+    return common.mean([1.0 if a > b else tie_credit() if a == b else 0.0 for a in right for b in wrong])
+
+
+def tie_credit():
+    return 0.5
+
+
+def latency(given):
+    waits = []
+    for event in given["performances"]:
+        called = event["called_frame"] is not None
+        frame = event["called_frame"] if called else event["window_end_frame"]
+        waits.append((frame / given["rate_hz"] - event["first_right_s"], called))
+    return kaplan_meier_median(waits)
+
+
+def kaplan_meier_median(waits):
+    surviving = 1.0
+    for time in sorted({seconds for seconds, called in waits if called}):
+        at_risk = sum(seconds >= time for seconds, _ in waits)
+        happened = sum(seconds == time and called for seconds, called in waits)
+        surviving *= 1 - happened / at_risk
+        if surviving <= 0.5 + 1e-12:
+            return time
+    return None
+
+
+def false_alarms(given):
+    def excused(call):
+        return any(call["move"] in (window["asked"], window["danced"]) and
+                   window["begin_frame"] <= call["frame"] < window["end_frame"] for window in given["windows"])
+    alarms = sum(not excused(call) for call in given["calls"])
+    return alarms / (given["frames"] / given["rate_hz"] / 60)

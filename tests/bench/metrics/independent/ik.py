@@ -1,0 +1,30 @@
+"""Metrics of inverse kinematics."""
+import math
+
+from independent import common
+from independent.common import angle, distance
+
+PRACTICAL, TIGHT = 0.1, 0.001  # cm and degrees
+PENALTY = 2
+
+
+def effector_positions_cm(given):
+    return [common.CM * distance(e["position_m"], e["target_m"]) for e in given["effectors"]]
+
+
+def effector_angles_deg(given):
+    return [common.mean([common.degrees(angle(a, b)) for a, b in zip(e["axes"], e["target_axes"])])
+            for e in given["effectors"]]
+
+
+def solved(given, goal):
+    return int(common.worst(effector_positions_cm(given)) < goal and common.worst(effector_angles_deg(given)) < goal)
+
+
+def angle_difference(given, other):
+    gaps = [(a - b + 180) % 360 - 180 for a, b in zip(given["found_deg"], given[other])]
+    return math.sqrt(common.mean([gap * gap for gap in gaps]))
+
+
+def penalised(given, spent, limit):
+    return given[spent] if given["solved"] and given[spent] <= given[limit] else PENALTY * given[limit]

@@ -1,0 +1,175 @@
+"""Metrics of transitions."""
+import math
+
+from independent import common
+from independent.common import BONES, ROLES, angle, cross, distance, dot, frames_of, minus, norm, pose_of
+
+SEAM_REACH = 5
+FOOT_HEIGHT_CM = 2.5
+FALSE_SMOOTH_CM = 20
+NATURAL_QUANTILE = 0.95
+SPARC_CUT_OFF_HZ, SPARC_THRESHOLD, SPARC_PADDING = 10, 0.05, 4
+
+
+def difference(frames, joint, f, coefficients):
+    """‖Σ c_i p(f + i − 1)‖: the second difference around f, or the third from f − 1 on."""
+    return norm([math.fsum(c * frames[f + i - 1][joint][k] for i, c in enumerate(coefficients)) for k in range(3)])
+
+
+def over_seam_frames(given, needed_after, value):
+    """The worst of value(frames, f) over the frames within reach of a seam that have their neighbours."""
+    frames = frames_of(given["motion"])
+    return common.worst([value(frames, f) for seam in given["seams"]
+                         for f in range(seam - SEAM_REACH, seam + SEAM_REACH + 1)
+                         if f >= 1 and f + needed_after < len(frames)])
+
+
+def jump_at(frames, f):
+    return common.worst([common.CM * difference(frames, joint, f, (1, -2, 1)) for joint in ROLES])
+
+
+def jump(given):
+    return over_seam_frames(given, 1, jump_at)
+
+
+def mean_jump(given):
+    return over_seam_frames(given, 1, lambda frames, f: common.mean(
+        [common.CM * difference(frames, joint, f, (1, -2, 1)) for joint in ROLES]))
+
+
+def jerk(given):
+    rate = given["motion"].get("rate_hz", 30)
+    return over_seam_frames(given, 2, lambda frames, f: common.worst(
+        [rate ** 3 * difference(frames, joint, f, (-1, 3, -3, 1)) for joint in ROLES]))
+
+
+def smallest_rotation(a, b):
+    """The matrix that turns direction a into b the shortest way (Rodrigues); identity without an axis."""
+    axis, turn = cross(a, b), angle(a, b)
+    size = norm(axis)
+    if size == 0:
+        return [[float(i == j) for j in range(3)] for i in range(3)]
+    x, y, z = (component / size for component in axis)
+    c, s = math.cos(turn), math.sin(turn)
+    return [[c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s],
+            [y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s],
+            [z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)]]
+
+
+def rotation_step_change(given):
+    def change(frames, f):
+        changes = []
+        for child, parent in BONES.items():
+            before, here, after = (minus(frames[g][child], frames[g][parent]) for g in (f - 1, f, f + 1))
+            first, second = smallest_rotation(before, here), smallest_rotation(here, after)
+            quotient = [[dot(second[i], first[j]) for j in range(3)] for i in range(3)]  # the inverse is the transpose
+            twist = [quotient[2][1] - quotient[1][2], quotient[0][2] - quotient[2][0], quotient[1][0] - quotient[0][1]]
+            trace = quotient[0][0] + quotient[1][1] + quotient[2][2]
+            changes.append(common.degrees(math.atan2(norm(twist), trace - 1)))
+        return common.worst(changes)
+    return over_seam_frames(given, 1, change)
+
+
+def foot_slide(given):
+    frames, rate = frames_of(given["motion"]), given["motion"].get("rate_hz", 30)
+
+    def slide(seam):
+        speeds = []
+        for f in range(seam, min(seam + int(rate), len(frames) - 1)):
+            for foot in ("left_foot", "right_foot"):
+                here, there = frames[f][foot], frames[f + 1][foot]
+                speed = common.CM * rate * math.hypot(there[0] - here[0], there[2] - here[2])
+                speeds.append(speed * min(1, max(0, 2 - 2 ** (common.CM * here[1] / FOOT_HEIGHT_CM))))
+        return common.mean(speeds)
+    return common.worst([slide(seam) for seam in given["seams"]])
+
+
+def natural(given):
+    jumps = []
+    for clip in given["clips"]:
+        frames = frames_of(clip)
+        window = 2 * SEAM_REACH + 1
+        for first in range(1, len(frames) - window):
+            jumps.append(common.worst([jump_at(frames, f) for f in range(first, first + window)]))
+    jumps.sort()
+    rank = NATURAL_QUANTILE * (len(jumps) - 1)
+    low = math.floor(rank)
+    high = min(low + 1, len(jumps) - 1)
+    return int(given["jump_cm"] < jumps[low] + (rank - low) * (jumps[high] - jumps[low]))
+
+
+def pose_gap(given):
+    return common.worst([common.CM * distance(pose_of(m["leaving"])[role], pose_of(m["arriving"])[role])
+                         for m in given["meetings"] for role in ROLES])
+
+
+def velocity_gap(given):
+    gaps = []
+    for meeting in given["meetings"]:
+        a, b, c, d = (pose_of(meeting[key]) for key in ("leaving_before", "leaving", "arriving", "arriving_after"))
+        gaps += [common.CM * given["rate_hz"] * distance(minus(b[role], a[role]), minus(d[role], c[role]))
+                 for role in ROLES]
+    return common.worst(gaps)
+
+
+def false_smooth(given):
+    return int(given["pose_gap_cm"] > FALSE_SMOOTH_CM) if given["matched"] else None
+
+
+def wait(given):
+    return math.fsum((stay["until_frame"] - stay["from_frame"]) / given["rate_hz"] for stay in given["stays"])
+
+
+ARM = [[(20, 1), (90, 0)], [(20, 0), (90, 1), (180, 0)], [(90, 0), (180, 1)]]
+ELBOW = [[(0, 1), (90, 0)], [(20, 0), (90, 1)]]
+POSTURE = [[(0, 1), (40, 0)], [(0, 0), (40, 1), (80, 0)], [(40, 0), (80, 1), (120, 0)], [(80, 0), (120, 1)]]
+TRUNK = [[(125, 0), (180, 1)], [(110, 1), (180, 0)]]
+LEG = [[(0, 1), (40, 0)], [(0, 0), (40, 1)]]
+KNEE = [[(100, 0), (180, 1)], [(90, 1), (180, 0)]]
+FEATURES = [ARM, ARM, ELBOW, ELBOW, POSTURE, TRUNK, LEG, LEG, KNEE, KNEE]
+
+
+def grade(corners, value):
+    if value <= corners[0][0]:
+        return corners[0][1]
+    for (x0, y0), (x1, y1) in zip(corners, corners[1:]):
+        if value <= x1:
+            return y0 + (y1 - y0) * (value - x0) / (x1 - x0)
+    return corners[-1][1]
+
+
+def fuzzy_distance(given):
+    return common.worst([math.sqrt(math.fsum(
+        weight * (grade(term, a) - grade(term, b)) ** 2
+        for weight, terms, a, b in zip(given["weights"], FEATURES, change["from_features"], change["to_features"],
+                                       strict=True) for term in terms)) for change in given["switches"]])
+
+
+def speed_profile(given):
+    frames, rate = frames_of(given["motion"]), given["motion"].get("rate_hz", 30)
+    first = max(0, given["seams"][0] - int(rate))
+    last = min(len(frames) - 1, given["seams"][-1] + int(rate))
+    return [common.mean([rate * distance(frames[f + 1][role], frames[f][role]) for role in ROLES])
+            for f in range(first, last)], rate
+
+
+def sparc(given):
+    speed, rate = (given["speed_mps"], given["rate_hz"]) if "speed_mps" in given else speed_profile(given)
+    if len(speed) < 2:
+        return None
+    size = 2 ** (math.ceil(math.log2(len(speed))) + SPARC_PADDING)
+    spectrum = []
+    for i in range(size):
+        if i * rate / size > SPARC_CUT_OFF_HZ:
+            break
+        real = math.fsum(v * math.cos(2 * math.pi * i * n / size) for n, v in enumerate(speed))
+        imaginary = math.fsum(v * math.sin(2 * math.pi * i * n / size) for n, v in enumerate(speed))
+        spectrum.append(math.hypot(real, imaginary))
+    if max(spectrum) == 0:
+        return None
+    spectrum = [v / max(spectrum) for v in spectrum]
+    loud = [i for i, v in enumerate(spectrum) if v >= SPARC_THRESHOLD]
+    steps = loud[-1] - loud[0]
+    if steps == 0:
+        return None
+    return -math.fsum(math.hypot(1 / steps, spectrum[i + 1] - spectrum[i]) for i in range(loud[0], loud[-1]))

@@ -1,0 +1,179 @@
+"""`etude list metrics`: other implementations can agree with it, and would notice if they did not."""
+import copy
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import unittest
+import unittest.mock
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
+import second_implementation as second  # noqa: E402
+from independent import capture, common, detection, ik, transition  # noqa: E402
+from etude_case import IK, EtudeCase  # noqa: E402
+from json_schema import complaints, load_schema, own_complaints  # noqa: E402
+
+
+def or_nothing(function):
+    return lambda values: function(values) if values else None
+
+
+# What another implementation may get wrong: the module and the part of it to exchange, and the metrics whose vectors
+# must notice.
+MUTANTS = {
+    "median for mean": (common, {"mean": or_nothing(statistics.median)}, [
+        "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
+        "mpjpe_before_ik_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg",
+        "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
+        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "roc_auc"]),
+    "worst for mean": (common, {"mean": or_nothing(max)}, [
+        "position_error_cm", "orientation_error_deg", "orientation_error_max_deg", "hidden_angle_error_deg",
+        "mpjpe_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg", "triangulation_error_mm",
+        "reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
+        "mean_joint_jump_cm", "foot_slide_cmps"]),
+    "mean for worst": (common, {"worst": lambda values: statistics.fmean(values) if values else 0.0}, [
+        "position_error_max_cm", "orientation_error_max_deg", "solved_practical", "jump_cm", "mean_joint_jump_cm",
+        "jerk_peak_mps3", "rotation_step_change_deg", "foot_slide_cmps", "pose_gap_cm", "velocity_gap_cmps",
+        "natural_share", "fuzzy_distance"]),
+    "metres for centimetres": (common, {"CM": 1}, [
+        "position_error_cm", "position_error_max_cm", "solved_practical", "bone_length_error_cm", "jump_cm",
+        "mean_joint_jump_cm", "foot_slide_cmps", "pose_gap_cm", "velocity_gap_cmps", "natural_share"]),
+    "centimetres for millimetres": (common, {"MM": 100}, [
+        "mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "auc_200mm", "triangulation_error_mm"]),
+    "radians for degrees": (common, {"degrees": lambda radians: radians}, [
+        "orientation_error_deg", "orientation_error_max_deg", "limb_direction_error_deg", "rotation_step_change_deg"]),
+    "counts for shares": (common, {"share": sum}, [
+        "limb_direction_coverage", "triangulation_coverage", "frames_recovered", "precision", "recall"]),
+    "a window of nine frames": (transition, {"SEAM_REACH": 4}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
+    "a window of thirteen": (transition, {"SEAM_REACH": 6}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
+    "joints within 49 mm": (capture, {"PCK_MM": 49}, ["pck_50mm"]),
+    "joints within 51 mm": (capture, {"PCK_MM": 51}, ["pck_50mm"]),
+    "an area up to 15 cm": (capture, {"AUC_MM": 150}, ["auc_200mm"]),
+    "no alignment": (capture, {"aligned": lambda pose, truth: pose}, ["pa_mpjpe_mm"]),
+    "feet to 5 cm": (transition, {"FOOT_HEIGHT_CM": 5}, ["foot_slide_cmps"]),
+    "gaps above 19 cm": (transition, {"FALSE_SMOOTH_CM": 19}, ["false_smooth"]),
+    "gaps above 21 cm": (transition, {"FALSE_SMOOTH_CM": 21}, ["false_smooth"]),
+    "the 90th percentile": (transition, {"NATURAL_QUANTILE": 0.9}, ["natural_share"]),
+    "solved within 0.05": (ik, {"PRACTICAL": 0.05}, ["solved_practical"]),
+    "solved within 0.3": (ik, {"PRACTICAL": 0.3}, ["solved_practical"]),
+    "tight within 0.0005": (ik, {"TIGHT": 0.0005}, ["solved_tight"]),
+    "tight within 0.1": (ik, {"TIGHT": 0.1}, ["solved_tight"]),
+    "a cut-off at 5 Hz": (transition, {"SPARC_CUT_OFF_HZ": 5}, ["sparc"]),
+    "a cut-off at 20 Hz": (transition, {"SPARC_CUT_OFF_HZ": 20}, ["sparc"]),
+    "a threshold of 0.1": (transition, {"SPARC_THRESHOLD": 0.1}, ["sparc"]),
+    "padding by 3": (transition, {"SPARC_PADDING": 3}, ["sparc"]),
+    "PAR-10": (ik, {"PENALTY": 10}, ["iterations_par2", "fk_evaluations_par2"]),
+    "ties lost": (detection, {"tie_credit": lambda: 0.0}, ["roc_auc"]),
+    "misses left out": (detection, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
+        [seconds for seconds, called in waits if called])}, ["latency_s"]),
+}
+
+
+class Metrics(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.text = cls().etude("list", "metrics", "--json").stdout
+        cls.catalogue = json.loads(cls.text)
+
+    def second_implementation(self, catalogue):
+        return subprocess.run([sys.executable, HERE / "second_implementation.py"], input=json.dumps(catalogue),
+                              capture_output=True, text=True, timeout=60)
+
+    def vectors(self):
+        return [vector for metric in self.catalogue["metrics"] for vector in metric["vectors"]]
+
+    def test_a_second_implementation_agrees_with_every_vector(self):
+        result = self.second_implementation(self.catalogue)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn(f"{len(self.vectors())} vectors of {len(self.catalogue['metrics'])} metrics, 0 disagreements",
+                      result.stdout)
+
+    def test_a_wrong_expectation_is_reported(self):
+        for name, change in {"value": {"expected": 2.1}, "null": {"expected": None}}.items():
+            with self.subTest(name):
+                catalogue = copy.deepcopy(self.catalogue)
+                catalogue["metrics"][0]["vectors"][0].update(change)
+                result = self.second_implementation(catalogue)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("position_error_cm: ", result.stdout)
+                self.assertIn("1 disagreements", result.stdout)
+
+    def test_a_metric_without_vectors_or_of_another_version_is_reported(self):
+        catalogue = copy.deepcopy(self.catalogue)
+        catalogue["metrics"][0]["vectors"] = []
+        catalogue["metrics"][1]["version"] = 2
+        del catalogue["metrics"][2]
+        result = self.second_implementation(catalogue)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("3 disagreements", result.stdout)
+
+    def test_the_vectors_notice_every_mistake_listed(self):
+        for name, (module, parts, must_notice) in MUTANTS.items():
+            with self.subTest(name), unittest.mock.patch.multiple(module, **parts):
+                vectors = [vector for vector in self.vectors() if vector["metric"] in must_notice]
+                noticed = {vector["metric"] for vector in vectors if not self.agrees(vector)}
+                self.assertEqual(set(must_notice), noticed)
+
+    @staticmethod
+    def agrees(vector):
+        try:
+            return second.agrees(vector)
+        except ArithmeticError:  # a mistake may also end in a division by zero
+            return False
+
+    def test_the_json_fits_its_schema(self):
+        schema = load_schema("metrics.schema.json")
+        self.assertEqual(complaints(self.catalogue, schema), [])
+        self.assertEqual(own_complaints(self.catalogue, schema), [])
+
+    def test_the_schema_flags_what_does_not_fit(self):
+        schema = load_schema("metrics.schema.json")
+        changes = {"direction": "up", "version": 0, "practical_threshold": -1, "vectors": [], "unit": None, "extra": 1,
+                   "formula": ""}
+        for key, value in changes.items():
+            with self.subTest(key):
+                catalogue = copy.deepcopy(self.catalogue)
+                catalogue["metrics"][3][key] = value
+                self.assertNotEqual(complaints(catalogue, schema), [])
+                self.assertNotEqual(own_complaints(catalogue, schema), [])
+
+    def test_rows_fit_their_schema(self):
+        schema = load_schema("row.schema.json")
+        rows = self.run_suite(self.write("ik.yaml", IK))
+        self.assertTrue(rows)
+        for row in rows:
+            self.assertEqual(complaints(row, schema), [])
+            self.assertEqual(own_complaints(row, schema), [])
+        for key, value in {"status": "fine", "position_error_cm": "0.1", "digest_world": "NaN!", "trial": -1}.items():
+            with self.subTest(key):
+                self.assertNotEqual(complaints({**rows[0], key: value}, schema), [])
+                self.assertNotEqual(own_complaints({**rows[0], key: value}, schema), [])
+        del rows[0]["reason"]
+        self.assertNotEqual(own_complaints(rows[0], schema), [])
+
+    def test_the_row_schema_knows_exactly_the_metrics_of_the_catalogue(self):
+        properties = load_schema("row.schema.json")["properties"]
+        measured = [key for key, value in properties.items() if value == {"$ref": "#/$defs/measured"}]
+        self.assertEqual(measured, [metric["id"] for metric in self.catalogue["metrics"]])
+
+    def test_the_page_is_the_programs(self):
+        page = self.etude("list", "metrics", "--markdown").stdout
+        self.assertEqual((ROOT / "docs" / "metrics.md").read_text(), page,
+                         "write it anew: etude list metrics --markdown > docs/metrics.md")
+
+    def test_the_table_names_every_metric(self):
+        lines = self.etude("list", "metrics").stdout.splitlines()
+        self.assertEqual([line.split()[0] for line in lines], [metric["id"] for metric in self.catalogue["metrics"]])
+
+    def test_json_and_markdown_together_are_refused(self):
+        result = self.etude("list", "metrics", "--json", "--markdown")
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertEqual(len(result.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+#include "bench/outside/conformance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Examined {
+  Result<bool> passed;
+  std::vector<ConformanceCheck> checks;
+};
+
+Examined Examine(const std::string& task, std::vector<std::string> command) {
+  Examined examined;
+  examined.passed = CheckConformance({.command = std::move(command), .task = task, .time_s = 20},
+                                     [&](const ConformanceCheck& check) { examined.checks.push_back(check); });
+  return examined;
+}
+
+struct Example {
+  std::string task, file;
+};
+
+class Examples : public ::testing::TestWithParam<Example> {};
+
+TEST_P(Examples, PassEveryCheck) {
+  const auto [passed, checks] = Examine(GetParam().task, {"python3", "examples/outside-methods/" + GetParam().file});
+  ASSERT_TRUE(passed) << ToString(passed.error());
+  EXPECT_TRUE(*passed);
+  EXPECT_EQ(checks.size(), 8u);
+  for (const ConformanceCheck& check : checks) EXPECT_TRUE(check.passed) << check.name << ": " << check.found;
+}
+
+INSTANTIATE_TEST_SUITE_P(Conformance, Examples,
+                         ::testing::Values(Example{"ik", "ik_dls.py"}, Example{"transition", "transition_nearest.py"},
+                                           Example{"detection", "detection_correlation.py"}),
+                         [](const auto& tested) { return tested.param.task; });
+
+TEST(Conformance, KnowsEveryTask) {
+  const std::string blind = R"({"poses": [null, null, null, null, null, null]})";
+  const auto [passed, checks] = Examine("capture", {"python3", "tests/bench/outside/hostile.py", "is_good", blind});
+  ASSERT_TRUE(passed) << ToString(passed.error());
+  EXPECT_TRUE(*passed);
+  EXPECT_THAT(checks.at(1).found, HasSubstr("0 of 3 scored as solved"));
+}
+
+/// A program, and the first check that it fails.
+struct Misfit {
+  std::string behaviour, check, found;
+};
+
+class Misfits : public ::testing::TestWithParam<Misfit> {};
+
+TEST_P(Misfits, AreFoundOut) {
+  const std::string angles = R"({"angles_deg": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,)"
+                             R"( 0, 0, 0, 0, 0, 0]})";
+  const Misfit& misfit = GetParam();
+  const auto [passed, checks] = Examine("ik", {"python3", "tests/bench/outside/hostile.py", misfit.behaviour, angles});
+  ASSERT_TRUE(passed) << ToString(passed.error());
+  EXPECT_FALSE(*passed);
+  const auto failed = std::find_if(checks.begin(), checks.end(), [](const auto& check) { return !check.passed; });
+  ASSERT_NE(failed, checks.end());
+  EXPECT_EQ(failed->name, misfit.check);
+  EXPECT_THAT(failed->found, HasSubstr(misfit.found));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Conformance, Misfits,
+    ::testing::Values(Misfit{"speaks_another_protocol", "starts and greets", "does not speak protocol 1"},
+                      Misfit{"prints_garbage", "gives answers that can be scored",
+                             "bad_output: said something that is not JSON: 'loading"},
+                      Misfit{"answers_large", "gives answers that can be scored", "its answer cannot be scored: "},
+                      Misfit{"counts_its_problems", "answers a problem put twice alike", "first '"},
+                      Misfit{"remembers_the_first_problem",
+                             "answers alike when started anew and asked in another order", "first '"},
+                      Misfit{"refuses_what_it_does_not_know",
+                             "takes long lines, keys it does not know, and ids of any text", "not JSON"},
+                      Misfit{"stays_after_the_end", "ends when its input ends", "still ran 2 s later"}),
+    [](const auto& tested) { return tested.param.behaviour; });
+
+TEST(Conformance, TellsWhenThereIsNothingToExamine) {
+  EXPECT_THAT(ToString(Examine("ki", {"true"}).passed.error()), HasSubstr("did you mean 'ik'?"));
+  EXPECT_THAT(ToString(Examine("ik", {"no-such-program"}).passed.error()), HasSubstr("no program 'no-such-program'"));
+}
+
+}  // namespace
+}  // namespace etude

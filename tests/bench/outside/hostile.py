@@ -1,0 +1,167 @@
+"""Programs that no harness should have to meet: `hostile.py BEHAVIOUR [ANSWER]`. Each greets politely and answers
+every problem with ANSWER (a JSON object), but for what its behaviour says."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+ANSWER = json.loads(sys.argv[2]) if len(sys.argv) > 2 else {"number": 1}
+
+
+def write(text):
+    sys.stdout.write(text)
+    sys.stdout.flush()
+
+
+def say(**message):
+    write(json.dumps(message) + "\n")
+
+
+def answer(problem, **instead):
+    say(**{"type": "answer", "id": problem["id"], "answer": ANSWER} | instead)
+
+
+def crashes(problem):
+    print("about to fall\n\n", file=sys.stderr, flush=True)
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def crashes_at_every_second_problem(problem, asked=[0]):
+    asked[0] += 1
+    crashes(problem) if asked[0] == 2 else answer(problem)
+
+
+def exits(problem):
+    write('{"type": "ans')
+    sys.exit(3)
+
+
+def hangs(problem):
+    time.sleep(1000)
+
+
+def prints_garbage(problem):
+    write("loading model \x1b[1m100%\x1b[0m\n")
+
+
+def answers_nan(problem):
+    write('{"type": "answer", "id": "%s", "answer": {"number": NaN}}\n' % problem["id"])
+
+
+def answers_beyond_doubles(problem):
+    write('{"type": "answer", "id": "%s", "answer": {"number": 1e999}}\n' % problem["id"])
+
+
+def answers_deeply(problem):
+    write("[" * 1000000 + "\n")
+
+
+def answers_bytes(problem):
+    sys.stdout.buffer.write(b'{"type": "answer", "id": "\xff\xfe"}\n')
+    sys.stdout.flush()
+
+
+def answers_without_end(problem):
+    while True:
+        write("x" * 65536)
+
+
+def answers_twice(problem):
+    line = json.dumps({"type": "answer", "id": problem["id"], "answer": ANSWER}) + "\n"
+    write(line + line)
+
+
+def answers_another_question(problem):
+    answer(problem, id="another")
+
+
+def answers_a_list(problem):
+    answer(problem, answer=[1, 2])
+
+
+def answers_late(problem):
+    time.sleep(0.2)
+    answer(problem)
+
+
+def answers_large(problem):
+    answer(problem, answer={"number": [0.25] * 1000000})
+
+
+def eats_memory(problem):
+    eaten = []
+    while True:
+        eaten.append(bytearray(b"x" * 10_000_000))
+
+
+def lets_a_child_eat_memory(problem):
+    """One in a session of its own, whose parent has gone."""
+    script = "eaten = bytearray(b'x' * 300_000_000); import time; time.sleep(1000)"
+    subprocess.run(["sh", "-c", 'setsid python3 -c "$0" </dev/null >/dev/null & exit', script])
+    hangs(problem)
+
+
+def leaves_a_child_at_its_output(problem):
+    subprocess.Popen(["sleep", "1000"])
+    sys.exit(5)
+
+
+def closes_its_output(problem):
+    os.close(1)
+    time.sleep(1000)
+
+
+def floods_its_standard_error(problem):
+    for _ in range(100):
+        sys.stderr.write(("x" * 99 + "\n") * 1000)
+    print("the last line", file=sys.stderr, flush=True)
+    crashes(problem) if problem["id"].endswith("crash") else answer(problem)
+
+
+def counts_its_problems(problem, asked=[0]):
+    asked[0] += 1
+    answer(problem, answer=ANSWER | {"iterations": asked[0]})
+
+
+def remembers_the_first_problem(problem, first=[]):
+    first.append(problem["problem"]["start_angles_deg"])
+    answer(problem, answer={"angles_deg": first[0]})
+
+
+def refuses_what_it_does_not_know(problem):
+    prints_garbage(problem) if "of_a_later_version" in problem["problem"] else answer(problem)
+
+
+def gives_up(problem):
+    say(type="no_answer", id=problem["id"], reason="no way\nout")
+
+
+def is_good(problem):
+    answer(problem)
+
+
+def main(behaviour):
+    if behaviour == "never_reads":
+        time.sleep(1000)
+    for line in sys.stdin:
+        message = json.loads(line)
+        if message["type"] == "hello":
+            if behaviour == "dies_in_the_handshake":
+                with open(sys.argv[3], "a") as log:
+                    log.write("started\n")
+                sys.exit("no licence found")
+            protocol = 2 if behaviour == "speaks_another_protocol" else 1
+            say(type="hello", protocol=protocol, name="hostile", version="1.0")
+        elif message["type"] == "setting":
+            if behaviour == "dies_at_a_setting" and message["id"] == "fatal":
+                sys.exit(7)
+            say(type="ready")
+        else:
+            globals().get(behaviour, is_good)(message)
+
+
+main(sys.argv[1])
+if sys.argv[1] == "stays_after_the_end":
+    time.sleep(1000)

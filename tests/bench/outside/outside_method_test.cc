@@ -1,0 +1,218 @@
+#include "bench/outside/outside_method.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Exhibit Show(Json json, std::vector<Attachment> files = {}) {
+  return {std::make_unique<Json>(std::move(json)), std::move(files)};
+}
+
+OutsideOptions Behaving(const std::string& behaviour) {
+  OutsideOptions options;
+  options.command = {"python3", "tests/bench/outside/hostile.py", behaviour};
+  options.task = "echo";
+  options.time_s = 20;
+  options.memory_mb = 200;
+  options.error_file = ::testing::TempDir() + "standard-error-" + behaviour;
+  std::filesystem::remove(options.error_file);
+  return options;
+}
+
+OutsideReply Ask(OutsideMethod& method, const std::string& id = "p", const std::string& setting = "s") {
+  return method.Ask(setting, Show({{"size", 1}}), id, Show({{"question", 2}}));
+}
+
+std::string ReadText(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(OutsideMethod, AnswersManyProblemsInOneLife) {
+  OutsideMethod method(Behaving("is_good"));
+  for (const char* setting : {"s", "s", "t", "s"}) {
+    const OutsideReply reply = Ask(method, "p", setting);
+    ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+    EXPECT_EQ(reply.answer->dump(), R"({"number":1})");
+    EXPECT_GT(reply.peak_mb, 1);
+    EXPECT_GT(reply.cpu_s, 0);
+    EXPECT_LT(reply.cpu_s, 5);
+  }
+  EXPECT_EQ(method.CalledItself(), "hostile 1.0");
+  EXPECT_EQ(method.End(5000), "exit code 0");
+}
+
+TEST(OutsideMethod, LargeAnswersAndLargeProblemsPass) {
+  OutsideMethod method(Behaving("answers_large"));
+  const OutsideReply reply = method.Ask("s", Show({{"size", 1}}), "p", Show({{"text", std::string(5000000, 'x')}}));
+  ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+  EXPECT_EQ((*reply.answer)["number"].size(), 1000000u);
+}
+
+TEST(OutsideMethod, NoAnswerIsUnsolvedWithItsReason) {
+  OutsideMethod method(Behaving("gives_up"));
+  const OutsideReply reply = Ask(method);
+  EXPECT_EQ(reply.status, Status::kUnsolved);
+  EXPECT_EQ(reply.reason, "gave no answer: 'no way\\x0aout'");
+}
+
+struct Hostility {
+  std::string behaviour;
+  Status status;
+  std::string reason;  ///< how it begins
+};
+
+class Hostile : public ::testing::TestWithParam<Hostility> {};
+
+TEST_P(Hostile, BecomesAReplyAndTheNextProblemIsPutToANewProgram) {
+  const Hostility& hostility = GetParam();
+  OutsideMethod method(Behaving(hostility.behaviour));
+  for (int i = 0; i < 2; ++i) {
+    const OutsideReply reply = Ask(method);
+    EXPECT_EQ(StatusName(reply.status), StatusName(hostility.status));
+    EXPECT_THAT(reply.reason, StartsWith(hostility.reason));
+    EXPECT_EQ(reply.answer, nullptr);
+    EXPECT_EQ(method.End(0), "not running");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OutsideMethod, Hostile,
+    ::testing::Values(
+        Hostility{"crashes", Status::kCrashed,
+                  "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"},
+        Hostility{"exits", Status::kCrashed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
+        Hostility{"prints_garbage", Status::kBadOutput,
+                  R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
+        Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 52: '"},
+        Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
+        Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 deep: '[[[["},
+        Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
+        Hostility{"answers_without_end", Status::kBadOutput, "said a line of more than 16 MiB: 'xxx"},
+        Hostility{"answers_twice", Status::kBadOutput, R"(said more than one line: '{"type": "answer", "id": "p")"},
+        Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p'"},
+        Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
+        Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
+        Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
+        Hostility{"leaves_a_child_at_its_output", Status::kCrashed, "ended with exit code 5"},
+        Hostility{"speaks_another_protocol", Status::kBadOutput, "in its start: does not speak protocol 1: "}),
+    [](const auto& tested) { return tested.param.behaviour; });
+
+TEST(OutsideMethod, ClosingItsOutputIsNoWayToLiveOn) {
+  OutsideMethod method(Behaving("closes_its_output"));
+  const OutsideReply reply = Ask(method);
+  EXPECT_EQ(reply.status, Status::kBadOutput);
+  EXPECT_EQ(reply.reason, "closed its output, but went on running");
+}
+
+TEST(OutsideMethod, TakingTooLongIsATimeout) {
+  for (const char* behaviour : {"hangs", "answers_late"}) {
+    OutsideOptions options = Behaving(behaviour);
+    options.time_s = 0.1;
+    OutsideMethod method(options);
+    const OutsideReply reply = Ask(method);
+    EXPECT_EQ(reply.status, Status::kTimeout);
+    EXPECT_EQ(reply.reason, "took longer than 0.1 s");
+  }
+}
+
+TEST(OutsideMethod, ALateAnswerIsNotTakenForTheNextOne) {
+  OutsideOptions options = Behaving("answers_late");
+  options.time_s = 0.1;
+  OutsideMethod method(options);
+  EXPECT_EQ(Ask(method, "first").status, Status::kTimeout);
+  EXPECT_EQ(Ask(method, "second").status, Status::kTimeout);
+}
+
+TEST(OutsideMethod, WhoNeverReadsIsNotWaitedForLongerThanAllowed) {
+  OutsideOptions options = Behaving("never_reads");
+  options.time_s = options.start_s = 0.1;
+  OutsideMethod method(options);
+  const auto start = std::chrono::steady_clock::now();
+  const OutsideReply reply = method.Ask("s", Show({{"text", std::string(5000000, 'x')}}), "p", Show({{"question", 2}}));
+  EXPECT_EQ(reply.status, Status::kTimeout);
+  EXPECT_EQ(reply.reason, "in its start: took longer than 0.1 s");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+TEST(OutsideMethod, AProblemAfterACrashIsAnsweredByANewProgram) {
+  OutsideMethod method(Behaving("crashes_at_every_second_problem"));
+  for (const Status expected : {Status::kOk, Status::kCrashed, Status::kOk, Status::kCrashed}) {
+    EXPECT_EQ(Ask(method).status, expected);
+  }
+}
+
+TEST(OutsideMethod, AStartThatFailsThreeTimesIsNotTriedAgain) {
+  OutsideOptions options = Behaving("dies_in_the_handshake");
+  const std::string starts = ::testing::TempDir() + "starts";
+  std::filesystem::remove(starts);
+  options.command.insert(options.command.end(), {"{}", starts});
+  OutsideMethod method(options);
+  for (int i = 0; i < 6; ++i) {
+    const OutsideReply reply = Ask(method);
+    EXPECT_EQ(reply.status, Status::kCrashed);
+    EXPECT_EQ(reply.reason, "in its start: ended with exit code 1; its last words: 'no licence found'");
+  }
+  EXPECT_EQ(ReadText(starts), "started\nstarted\nstarted\n");
+}
+
+TEST(OutsideMethod, ASettingThatKillsItSparesTheOthers) {
+  OutsideMethod method(Behaving("dies_at_a_setting"));
+  for (int i = 0; i < 4; ++i) {
+    const OutsideReply reply = Ask(method, "p", "fatal");
+    EXPECT_EQ(reply.status, Status::kCrashed);
+    EXPECT_EQ(reply.reason, "at setting 'fatal': ended with exit code 7");
+  }
+  EXPECT_EQ(Ask(method, "p", "harmless").status, Status::kOk);
+}
+
+TEST(OutsideMethod, AProgramThatCannotBeStartedFails) {
+  OutsideOptions options = Behaving("is_good");
+  options.command = {"no-such-program"};
+  OutsideMethod method(options);
+  const OutsideReply reply = Ask(method);
+  EXPECT_EQ(reply.status, Status::kFailed);
+  EXPECT_THAT(reply.reason, HasSubstr("no program 'no-such-program' in PATH"));
+}
+
+TEST(OutsideMethod, KeepsAMebibyteOfItsStandardErrorAndItsLastWords) {
+  const OutsideOptions options = Behaving("floods_its_standard_error");
+  {
+    OutsideMethod method(options);
+    EXPECT_EQ(Ask(method).status, Status::kOk);
+    EXPECT_THAT(Ask(method, "crash").reason, HasSubstr("; its last words: 'about to fall'"));
+  }
+  EXPECT_EQ(std::filesystem::file_size(options.error_file), std::uintmax_t{1} << 20);
+}
+
+TEST(OutsideMethod, AttachmentsLieInAFolderWhileItWorks) {
+  OutsideOptions options = Behaving("is_good");
+  options.command = {
+      "sh", "-c",
+      "read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"cat\",\"version\":\"1\"}';"
+      "read setting; echo '{\"type\":\"ready\"}'; read problem;"
+      "folder=$(echo \"$problem\" | sed 's/.*\"files\":\"\\([^\"]*\\)\".*/\\1/');"
+      "echo \"{\\\"type\\\":\\\"answer\\\",\\\"id\\\":\\\"p\\\",\\\"answer\\\":{\\\"folder\\\":\\\"$folder\\\","
+      "\\\"text\\\":\\\"$(cat \"$folder/a.txt\")\\\"}}\"; read x"};
+  OutsideMethod method(options);
+  const OutsideReply reply = method.Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}, {{"a.txt", "inside"}}));
+  ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+  EXPECT_EQ((*reply.answer)["text"], "inside");
+  EXPECT_FALSE(std::filesystem::exists((*reply.answer)["folder"].get<std::string>()));
+}
+
+}  // namespace
+}  // namespace etude

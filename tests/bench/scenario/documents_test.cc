@@ -1,0 +1,111 @@
+#include <filesystem>
+#include <sstream>
+
+#include "bench/files/files.h"
+#include "bench/scenario/keys.h"
+#include "bench/tasks/registry.h"
+#include "tests/bench/scenario/parse.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+std::string ReadPage(const std::string& name) {
+  const auto text = ReadWholeFile(std::filesystem::path(ETUDE_SOURCE_DIR) / "docs" / name);
+  EXPECT_TRUE(text) << name;
+  return text.value_or("");
+}
+
+/// The yaml blocks of a page: whole files, by the name that their first line says, and pieces of scenarios.
+struct Blocks {
+  SourceTexts files;
+  std::vector<std::string> pieces;
+};
+
+Blocks BlocksOf(const std::string& page) {
+  Blocks blocks;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (line != "```yaml") continue;
+    std::string text, first;
+    for (std::getline(lines, first), line = first; line != "```"; std::getline(lines, line)) text += line + "\n";
+    if (first.starts_with("# ")) {
+      EXPECT_TRUE(blocks.files.emplace(first.substr(2), text).second) << first;
+    } else {
+      blocks.pieces.push_back(text);
+    }
+  }
+  return blocks;
+}
+
+/// A scenario of a piece: what a scenario needs beyond it is added.
+std::string Complete(const std::string& piece) {
+  const std::vector<std::pair<std::string, std::string>> needed = {
+      {"scenario", "s"},
+      {"question", "q"},
+      {"task", "ik"},
+      {"methods", "[{name: fixed, weights: fixed}, {name: adaptive, weights: adaptive}]"}};
+  std::string whole = piece;
+  for (const auto& [key, value] : needed) {
+    if (!piece.starts_with(key + ":") && piece.find("\n" + key + ":") == std::string::npos) {
+      whole += key + ": " + value + "\n";
+    }
+  }
+  return whole;
+}
+
+/// What is wrong with the scenarios of a file, the values of their task's keys included.
+std::string ComplaintOfAll(const std::string& file, const SourceTexts& texts, const ClipLibrary& clips) {
+  const auto scenarios = ParseScenarios(file, texts);
+  if (!scenarios) return ToString(scenarios.error());
+  for (const Scenario& scenario : *scenarios) {
+    std::vector<Node> methods;
+    for (const MethodEntry& method : scenario.methods) {
+      if (method.exec.empty()) methods.push_back(method.node);
+    }
+    for (const Condition& condition : scenario.conditions) {
+      Fields fields(condition.node, "a scenario");
+      for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
+      TaskInput input{fields, methods, clips};
+      const auto task = FindTaskKind(scenario.task)->make(input);
+      if (!task) return ToString(task.error());
+      if (const auto done = fields.Finish(); !done) return ToString(done.error());
+    }
+  }
+  return "";
+}
+
+TEST(Documents, ShowScenariosThatAreRead) {
+  const auto clips = LoadClips({"builtin:boxing"}, {});
+  ASSERT_TRUE(clips);
+  const Blocks blocks = BlocksOf(ReadPage("scenarios.md"));
+  ASSERT_GE(blocks.files.size(), 3u);
+  ASSERT_GE(blocks.pieces.size(), 5u);
+  for (const auto& [name, text] : blocks.files) {
+    if (name.starts_with("shared/")) continue;  // only included
+    EXPECT_EQ(ComplaintOfAll(name, blocks.files, *clips), "") << name;
+  }
+  for (const std::string& piece : blocks.pieces) {
+    EXPECT_EQ(ComplaintOfAll("s.yaml", {{"s.yaml", Complete(piece)}}, *clips), "") << piece;
+  }
+}
+
+TEST(Documents, WouldBeCaughtShowingWhatIsNotRead) {
+  const auto clips = LoadClips({"builtin:boxing"}, {});
+  ASSERT_TRUE(clips);
+  const Blocks blocks = BlocksOf("Text.\n```yaml\nsweep: {poses: [2]}\n```\n```yaml\nsweeps: {}\n```\n");
+  ASSERT_EQ(blocks.pieces.size(), 2u);
+  const auto complaint = [&](const std::string& piece) {
+    return ComplaintOfAll("s.yaml", {{"s.yaml", Complete(piece)}}, *clips);
+  };
+  EXPECT_THAT(complaint(blocks.pieces[0]), HasSubstr("2 is out of range"));
+  EXPECT_THAT(complaint(blocks.pieces[1]), HasSubstr("did you mean 'sweep'?"));
+}
+
+TEST(Documents, ListEveryKeyAsTheProgramDoes) {
+  EXPECT_EQ(ReadPage("keys.md"), KeysAsMarkdown()) << "write it anew: etude list keys --markdown > docs/keys.md";
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,137 @@
+#include "bench/scenario/keys.h"
+#include "bench/tasks/registry.h"
+#include "tests/bench/scenario/parse.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAreArray;
+
+struct Defaults {
+  std::string text;  ///< "key: value, …"
+  int count = 0;
+};
+
+/// The defaults of all keys that have one, written out; those of `chosen` are left alone, as it stands already.
+Defaults WriteOut(const std::vector<KeyInfo>& keys, const std::string& chosen) {
+  Defaults defaults{chosen};
+  for (const KeyInfo& key : keys) {
+    const bool is_value = !key.fallback.empty() && key.fallback.front() != '(';
+    if (!is_value || chosen.starts_with(key.key + ":")) continue;
+    defaults.text += (defaults.text.empty() ? "" : ", ") + key.key + ": " + key.fallback;
+    ++defaults.count;
+  }
+  return defaults;
+}
+
+/// Everything that a world's cell says, one text per value.
+std::vector<std::string> CellOf(const TaskKind& kind, const std::string& condition, const std::string& method,
+                                const ClipLibrary& clips) {
+  const auto mapping = ParseYaml("{" + condition + "}", "s.yaml");
+  const auto entry = ParseYaml("{name: a" + (method.empty() ? "" : ", " + method) + "}", "s.yaml");
+  EXPECT_TRUE(mapping && entry) << condition << " / " << method;
+  Fields fields(*mapping, "a condition");
+  TaskInput input{fields, std::span(&*entry, 1), clips};
+  const auto task = kind.make(input);
+  EXPECT_TRUE(task) << ToString(task.error());
+  if (!task) return {};
+  const auto done = fields.Finish();
+  EXPECT_TRUE(done) << ToString(done.error());
+  std::vector<std::string> said;
+  for (const CellResult& cell : RunWorld(**task, {1, "defaults", 0}, 1)) {
+    said.push_back(std::string(StatusName(cell.status)) + " " + cell.reason);
+    for (const MetricValue& metric : cell.metrics) {
+      said.push_back(fmt::format("{} {}", metric.id, metric.value ? fmt::format("{}", *metric.value) : "-"));
+    }
+    for (const auto& [stage, digest] : cell.digests) said.push_back(stage + " " + digest);
+  }
+  EXPECT_GT(said.size(), 5u);
+  return said;
+}
+
+struct Case {
+  std::string task;
+  std::string condition;  ///< what stands in both, to make the world small
+  std::string method;
+  std::string another;  ///< a key of the condition with another value than its default: the control
+};
+
+TEST(Defaults, OfATaskAreTheSameWrittenOrLeftOut) {
+  const auto clips = LoadClips({"builtin:boxing", "builtin:clap", "builtin:sway"}, {});
+  ASSERT_TRUE(clips);
+  const std::vector<Case> cases = {{"ik", "", "", "joint_noise_deg: 16"},
+                                   {"ik", "", "solver: damped-least-squares", "poses: 0.4"},
+                                   {"transition", "", "", "wait_s: 0.01"},
+                                   {"detection", "", "", "noise: 1.5"},
+                                   {"detection", "", "weights: adaptive", "turn_deg: 30"},
+                                   {"capture", "duration_s: 0.1", "", "annotation_error_px: 2.5"}};
+  for (const Case& c : cases) {
+    const TaskKind& kind = *FindTaskKind(c.task);
+    const Defaults condition = WriteOut(kind.condition_keys, c.condition);
+    std::vector<KeyInfo> method_keys = kind.method_keys;
+    if (c.method == "solver: damped-least-squares") {  // it has neither
+      std::erase_if(method_keys, [](const KeyInfo& key) { return key.key == "weights" || key.key == "refresh"; });
+    }
+    if (c.task == "detection" && c.method.empty()) {  // read with adaptive weights only
+      std::erase_if(method_keys, [](const KeyInfo& key) { return key.key.ends_with("_weight"); });
+    }
+    const Defaults method = WriteOut(method_keys, c.method);
+    EXPECT_GE(condition.count + method.count, 5) << c.task;
+    const auto left_out = CellOf(kind, c.condition, c.method, *clips);
+    EXPECT_THAT(CellOf(kind, condition.text, method.text, *clips), ElementsAreArray(left_out))
+        << condition.text << " / " << method.text;
+    const std::string comma = c.condition.empty() ? "" : ", ";
+    EXPECT_NE(CellOf(kind, c.condition + comma + c.another, c.method, *clips), left_out) << c.task << c.another;
+  }
+}
+
+TEST(Defaults, OfEveryScenarioAreTheSameWrittenOrLeftOut) {
+  std::string written;
+  int count = 0;
+  for (const KeyInfo& key : CommonScenarioKeys()) {
+    if (key.fallback.empty() || key.fallback.front() == '(') continue;
+    written += key.key + ": " + key.fallback + "\n";
+    ++count;
+  }
+  EXPECT_GE(count, 7);
+  const Scenario a = ParseOne(kHead + kMethods + written), b = ParseOne(kHead + kMethods);
+  EXPECT_EQ(a.clips, b.clips);
+  EXPECT_EQ(a.trials, b.trials);
+  EXPECT_EQ(a.seed.value_or(0), 1u);  // what a run takes when none is written
+  EXPECT_EQ(a.conditions.size(), b.conditions.size());
+  EXPECT_EQ(a.expectations.size(), b.expectations.size());
+  EXPECT_EQ(a.gate.metrics, b.gate.metrics);
+}
+
+TEST(Defaults, OfNestedMappingsAreTheSameWrittenOrLeftOut) {
+  const auto group = [](const std::string& path) {
+    for (const KeyGroup& each : AllKeyGroups()) {
+      if (each.path == path) return WriteOut(each.keys, "").text;
+    }
+    ADD_FAILURE() << path;
+    return std::string();
+  };
+  const std::string yaml = kHead + kMethods + "sweep: {poses: {from: 0, to: 1, count: 3, " + group("sweep.PARAMETER") +
+                           "}}\n" + "limits: {" + group("limits") + "}\n" + "video: {" + group("video") + "}\n" +
+                           "expect: [{metric: iterations, of: a, at_most: 1, " + group("expect[]") + "}]\n" +
+                           "gate: {rule: threshold, time_ratios: [{of: a, over: b, " + group("gate.time_ratios[]") +
+                           "}]}\n";
+  const Scenario a = ParseOne(yaml);
+  const Scenario b = ParseOne(kHead + kMethods +
+                              "sweep: {poses: {from: 0, to: 1, count: 3}}\nvideo: {}\n"
+                              "expect: [{metric: iterations, of: a, at_most: 1}]\n"
+                              "gate: {time_ratios: [{of: a, over: b}]}\n");
+  ASSERT_EQ(a.conditions.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(a.conditions[i].settings, b.conditions[i].settings);
+  EXPECT_EQ(a.limits.time_s, b.limits.time_s);
+  EXPECT_EQ(a.limits.memory_mb, b.limits.memory_mb);
+  EXPECT_EQ(a.recordings.methods, b.recordings.methods);
+  EXPECT_EQ(a.recordings.trials, b.recordings.trials);
+  EXPECT_EQ(a.expectations[0].statistic, b.expectations[0].statistic);
+  EXPECT_EQ(a.expectations[0].where, b.expectations[0].where);
+  EXPECT_EQ(a.gate.exact, b.gate.exact);
+  EXPECT_EQ(a.gate.time_ratios[0].at_most, b.gate.time_ratios[0].at_most);
+}
+
+}  // namespace
+}  // namespace etude

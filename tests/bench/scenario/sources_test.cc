@@ -1,0 +1,145 @@
+#include "bench/scenario/sources.h"
+
+#include <filesystem>
+
+#include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
+#include "tests/bench/scenario/parse.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kTwo =
+    "include: [shared/all.yaml, more.yaml]\n"
+    "defaults: {question: q, task: ik, trials: 7, methods: [{name: a}]}\n"
+    "scenarios:\n"
+    "  - {scenario: one}\n"
+    "  - {scenario: two, trials: 9, max_sweeps: 4}\n";
+const SourceTexts kIncluded = {
+    {"shared/all.yaml", "include: [deep.yaml]\ndefaults: {trials: 1, seed: 2, max_sweeps: 5}\n"},
+    {"shared/deep.yaml", "defaults: {seed: 1, noise: uniform, stop_at: tight}\n"},
+    {"more.yaml", "defaults: {max_sweeps: 6, poses: {uniform: 1}}\n"}};
+
+TEST(Sources, LetsTheNearerFileWin) {
+  const auto scenarios = Parse(kTwo, kIncluded);
+  ASSERT_TRUE(scenarios) << ToString(scenarios.error());
+  ASSERT_EQ(scenarios->size(), 2u);
+  const Scenario &one = (*scenarios)[0], &two = (*scenarios)[1];
+  EXPECT_EQ(one.name, "one");
+  EXPECT_EQ(one.trials, 7);  // the file's defaults over shared/all.yaml's
+  EXPECT_EQ(two.trials, 9);  // its own over the file's
+  EXPECT_EQ(one.seed, 2u);   // shared/all.yaml's over shared/deep.yaml's
+  const auto value = [](const Scenario& scenario, const char* key) {
+    return scenario.conditions[0].node.Find(key)->scalar;
+  };
+  EXPECT_EQ(value(one, "max_sweeps"), "6");  // a later include over an earlier one
+  EXPECT_EQ(value(two, "max_sweeps"), "4");
+  EXPECT_EQ(value(one, "noise"), "uniform");
+}
+
+TEST(Sources, ReplacesAKeyWholeAndNeverMerges) {
+  const auto scenarios = Parse(
+      "defaults: {limits: {time_s: 5, memory_mb: 100}}\n"
+      "scenarios: [{scenario: s, question: q, task: ik, methods: [{name: a}], limits: {time_s: 7}}]\n");
+  ASSERT_TRUE(scenarios) << ToString(scenarios.error());
+  EXPECT_EQ(scenarios->front().limits.time_s, 7);
+  EXPECT_EQ(scenarios->front().limits.memory_mb, Limits{}.memory_mb);
+}
+
+TEST(Sources, LetsASingleScenarioInclude) {
+  const auto scenarios = Parse("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults: {trials: 3}\n"}});
+  ASSERT_TRUE(scenarios) << ToString(scenarios.error());
+  EXPECT_EQ(scenarios->front().trials, 3);
+}
+
+TEST(Sources, PointsIntoTheFileWhereTheKeyStands) {
+  EXPECT_EQ(Complaint("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults:\n  trials: 0\n"}}),
+            "more.yaml:2:11: 'trials': 0 is out of range; allowed: 1 to 1000000");
+  EXPECT_THAT(Complaint("include: [more.yaml]\n" + kHead + kMethods, {{"more.yaml", "defaults:\n  trails: 1\n"}}),
+              HasSubstr("more.yaml:2:3: unknown key of a scenario 'trails'; did you mean 'trials'?"));
+}
+
+TEST(Sources, TellsWhatIsWrongWithAFileOfSeveralScenarios) {
+  EXPECT_THAT(Complaint("scenarios: []\n"), HasSubstr("s.yaml:1:12: 'scenarios' must be a list of at least one"));
+  EXPECT_THAT(Complaint("scenarios: 1\n"), HasSubstr("found '1'"));
+  EXPECT_THAT(Complaint("scenarios: [1]\n"), HasSubstr("s.yaml:1:13: a scenario must be a mapping"));
+  EXPECT_THAT(Complaint("scenarios: [{include: [a]}]\n"), HasSubstr("'include' stands at the top of a file"));
+  EXPECT_THAT(Complaint("default: {trials: 1}\nscenarios: [{}]\n"),
+              HasSubstr("s.yaml:1:1: unknown key of a file of several scenarios 'default'; did you mean 'defaults'?"));
+  EXPECT_THAT(Complaint("scenario: s\nscenarios: [{}]\n"), HasSubstr("unknown key of a file of several scenarios"));
+  EXPECT_THAT(Complaint("defaults: {scenario: s}\nscenarios: [{}]\n"),
+              HasSubstr("s.yaml:1:12: 'scenario' cannot be a default"));
+  EXPECT_THAT(Complaint("defaults: [trials]\nscenarios: [{}]\n"), HasSubstr("'defaults' must be a mapping"));
+  EXPECT_THAT(Complaint("defaults: {trials: 5}\n"), HasSubstr("s.yaml:1:1: no scenario, only 'defaults'"));
+  EXPECT_THAT(Complaint("defaults: {question: q, task: ik, methods: [{name: a}]}\n"
+                        "scenarios: [{scenario: s}, {scenario: s}]\n"),
+              HasSubstr("s.yaml:2:39: two scenarios of this file are named 's'"));
+  EXPECT_THAT(Complaint(""), HasSubstr("a scenario must be a mapping (key: value), found nothing"));
+}
+
+TEST(Sources, TellsWhatIsWrongWithAnInclude) {
+  const auto complaint = [](const std::string& include, const SourceTexts& more) {
+    return Complaint("include: " + include + "\n" + kHead + kMethods, more);
+  };
+  EXPECT_THAT(complaint("a.yaml", {}), HasSubstr("s.yaml:1:10: 'include': expected a list, found 'a.yaml'"));
+  EXPECT_THAT(complaint("[a.yaml]", {}), HasSubstr("s.yaml:1:11: the text of 'a.yaml' is missing"));
+  EXPECT_THAT(complaint("['']", {}), HasSubstr("s.yaml:1:11: an empty name where a file is named"));
+  EXPECT_THAT(complaint("[s.yaml]", {}), HasSubstr("s.yaml:1:11: 's.yaml' includes itself"));
+  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "include: [./x/../s.yaml]\n"}}),
+              HasSubstr("a.yaml:1:11: 's.yaml' includes itself"));
+  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "trials: 5\n"}}),
+              HasSubstr("a.yaml:1:1: unknown key of an included file 'trials'. Allowed: include, defaults"));
+  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "- 1\n"}}), HasSubstr("an included file must be a mapping"));
+  EXPECT_THAT(complaint("[a.yaml]", {{"a.yaml", "defaults: {\n"}}), HasSubstr("a.yaml:2:1: not valid YAML"));
+}
+
+TEST(Sources, RefusesAnAvalancheOfIncludes) {
+  SourceTexts deep;
+  for (int i = 0; i < 50; ++i) deep[fmt::format("{}.yaml", i)] = fmt::format("include: [{}.yaml]\n", i + 1);
+  EXPECT_THAT(Complaint("include: [0.yaml]\n" + kHead, deep), HasSubstr("included more than 8 files deep"));
+  SourceTexts wide;  // 12^7 inclusions of 7 small files
+  for (int i = 0; i < 7; ++i) {
+    std::string list;
+    for (int k = 0; k < 12; ++k) list += fmt::format("{}.yaml,", i + 1);
+    wide[fmt::format("{}.yaml", i)] = "include: [" + list + "]\n";
+  }
+  wide["7.yaml"] = "defaults: {}\n";
+  EXPECT_THAT(Complaint("include: [0.yaml]\n" + kHead, wide), HasSubstr("more than 100 inclusions"));
+}
+
+TEST(Sources, RefusesCopiesThatWouldFillTheMemory) {
+  std::string many = "a";
+  for (int i = 0; i < 3000; ++i) many += ",a";
+  const std::string head = "defaults: {question: q, task: ik, methods: [{name: a}], ";
+  std::string scenarios = "scenarios:\n";
+  for (int i = 0; i < 500; ++i) scenarios += fmt::format("  - {{scenario: s{}}}\n", i);
+  EXPECT_THAT(Complaint(head + "clips: [" + many + "]}\n" + scenarios), HasSubstr("at most 300000 values in all"));
+  EXPECT_THAT(Complaint(head + "sweep: {poses: {from: 0, to: 1, count: 1000}}}\n" + scenarios),
+              HasSubstr("the conditions of the file hold more than 300000 values"));
+}
+
+TEST(Sources, ReadsFilesAndAllThatTheyInclude) {
+  const auto made = TemporaryFolder::Make("sources");
+  ASSERT_TRUE(made);
+  const std::filesystem::path folder = made->path();
+  const auto write = [&](const std::string& name, const std::string& text) {
+    ASSERT_TRUE(WriteFileAtomically(folder / name, text));
+  };
+  const std::string main = (folder / "main.yaml").string();
+  write("main.yaml", kTwo);
+  SourceTexts texts;
+  const auto missing = ReadSources(main, texts);
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(ToString(missing.error()), HasSubstr("main.yaml:1:11: "));
+  EXPECT_THAT(ToString(missing.error()), HasSubstr("all.yaml"));
+  for (const auto& [name, text] : kIncluded) write(name, text);
+  ASSERT_TRUE(ReadSources(main, texts));
+  EXPECT_EQ(texts.size(), 4u);
+  EXPECT_EQ(texts.count((folder / "shared/deep.yaml").string()), 1u);
+  EXPECT_EQ(ParseScenarios(main, texts)->size(), 2u);
+}
+
+}  // namespace
+}  // namespace etude

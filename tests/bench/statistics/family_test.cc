@@ -1,0 +1,126 @@
+#include "bench/statistics/family.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "bench/statistics/compare.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Comparison Compared(const std::vector<double>& differences, const char* metric = "position_error_cm") {
+  std::vector<Pair> pairs;
+  for (double difference : differences) pairs.push_back({0, difference});
+  Comparison comparison = ComparePaired(pairs, *FindMetric(metric), 1, "x");
+  comparison.baseline = "fixed";
+  comparison.method = "adaptive";
+  return comparison;
+}
+
+std::vector<double> Falling(int count) {
+  std::vector<double> differences;
+  for (int i = 1; i <= count; ++i) differences.push_back(-1 - 0.01 * i);
+  return differences;
+}
+
+/// The first of `count` comparisons of which all others show nothing.
+Comparison JudgedAmong(int count, const Comparison& first) {
+  std::vector<Comparison> all(count, Compared(std::vector<double>(20, 0.0)));
+  all[0] = first;
+  std::vector<Comparison*> family;
+  for (Comparison& comparison : all) family.push_back(&comparison);
+  JudgeFamily(family);
+  return all[0];
+}
+
+TEST(JudgeFamily, TakesBackWhatManyQuestionsWouldFindByChance) {
+  const Comparison seven = Compared(Falling(7));  // p = 2 / 128
+  EXPECT_EQ(JudgedAmong(1, seven).verdict, Verdict::kBetter);
+  EXPECT_EQ(JudgedAmong(3, seven).verdict, Verdict::kBetter);
+  EXPECT_EQ(JudgedAmong(4, seven).verdict, Verdict::kInconclusive);
+  EXPECT_DOUBLE_EQ(*JudgedAmong(4, seven).p_holm, 8.0 / 128);
+}
+
+TEST(JudgeFamily, SaysHowManyPairsItTakes) {
+  EXPECT_EQ(JudgedAmong(12, Compared(Falling(8))).why_open,
+            "too few worlds: 8 of 8 pairs differ, so p ≥ 0.0078; one of 12 comparisons (Holm) needs at least 9");
+  EXPECT_EQ(JudgedAmong(12, Compared(Falling(9))).verdict, Verdict::kBetter);
+  EXPECT_THAT(JudgedAmong(12, Compared(Falling(9))).why_open, IsEmpty());
+  EXPECT_THAT(JudgedAmong(1, Compared(Falling(5))).why_open, HasSubstr("one comparison needs at least 6"));
+  EXPECT_THAT(JudgedAmong(1, Compared({})).why_open, HasSubstr("no world"));
+}
+
+TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
+  std::vector<double> mostly_lower = Falling(20);
+  for (int rank : {5, 9, 13, 15}) mostly_lower[rank - 1] *= -1;
+  const Comparison noisy = Compared(mostly_lower);
+  ASSERT_LT(*noisy.signed_rank.p, 0.05);
+  ASSERT_LT(*noisy.ci_high, 0);
+  EXPECT_THAT(JudgedAmong(40, noisy).why_open, HasSubstr("but not among 40 comparisons (Holm)"));
+  // Of a jump 1 cm matters: these differ for certain, by 0.9 cm or more.
+  RandomStream dice({.suite_seed = 4, .scenario = "small", .trial = 0}, "x");
+  std::vector<double> small(40);
+  for (double& difference : small) difference = dice.Normal(-0.95, 0.6);
+  const Comparison open = JudgedAmong(1, Compared(small, "jump_cm"));
+  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.why_open, "it differs, but whether by as much as matters is open");
+}
+
+TEST(JudgeFamily, WarnsOfWorldsThatOnlyOneSurvived) {
+  Comparison lossy = Compared(Falling(20));
+  lossy.only_baseline = 7;
+  lossy.neither = 1;
+  EXPECT_THAT(
+      JudgedAmong(1, lossy).notes,
+      ElementsAre("8 of 28 worlds are not in the difference: only “fixed” has a value in 7, neither has one in 1 "
+                  "(survivorship)"));
+  lossy.only_baseline = 0;
+  EXPECT_THAT(JudgedAmong(1, lossy).notes,
+              ElementsAre("1 of 21 worlds are not in the difference: neither has one in 1"));
+}
+
+TEST(JudgeFamily, WarnsWhenTheMedianHidesWhatFewWorldsShow) {
+  std::vector<double> rare(40, 0.0);
+  for (int i = 0; i < 12; ++i) rare[i] = 50 + i;
+  const Comparison judged = JudgedAmong(1, Compared(rare));
+  EXPECT_EQ(judged.verdict, Verdict::kNoDifference);
+  EXPECT_THAT(judged.notes, ElementsAre(HasSubstr("which the median does not show")));
+}
+
+/// Scenarios of twelve comparisons each: how often does one of them find what is not there?
+int FalseAlarms(double effect, bool corrected) {
+  int alarms = 0;
+  for (int scenario = 0; scenario < 100; ++scenario) {
+    std::vector<Comparison> all;
+    for (int c = 0; c < 12; ++c) {
+      RandomStream dice({.suite_seed = 4, .scenario = "family", .trial = scenario * 12 + c}, "x");
+      std::vector<double> differences(20);
+      for (double& difference : differences) difference = dice.Normal(effect, 1);
+      all.push_back(Compared(differences));
+    }
+    std::vector<Comparison*> family;
+    for (Comparison& comparison : all) family.push_back(&comparison);
+    if (corrected) JudgeFamily(family);
+    bool alarm = false;
+    for (const Comparison& c : all) alarm |= c.verdict == Verdict::kBetter || c.verdict == Verdict::kWorse;
+    alarms += alarm;
+  }
+  return alarms;
+}
+
+TEST(JudgeFamily, RaisesAFalseAlarmInOneScenarioOfTwenty) {
+  EXPECT_LE(FalseAlarms(0, true), 10);
+  // The controls: without the correction every other scenario has one; a true effect is found.
+  EXPECT_GE(FalseAlarms(0, false), 25);
+  EXPECT_GE(FalseAlarms(-1, true), 95);
+}
+
+}  // namespace
+}  // namespace etude

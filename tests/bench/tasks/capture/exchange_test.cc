@@ -1,0 +1,187 @@
+#include "bench/tasks/capture/exchange.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/capture/capture_cell.h"
+#include "bench/tasks/capture/capture_task.h"
+#include "bench/tasks/capture/recording_extras.h"
+#include "engine/document/node.h"
+#include "engine/motion/bvh.h"
+#include "sim/sensors/image_files.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const WorldKey kKey{.suite_seed = 3, .scenario = "capture-exchange", .trial = 0};
+
+std::unique_ptr<Task> MakeTask(const std::string& yaml, std::vector<Node> methods = {}) {
+  const Node node = *ParseYaml(yaml, "test.yaml");
+  const ClipLibrary clips = *LoadClips({"builtin:boxing"}, {});
+  Fields condition(node, "a test");
+  TaskInput input{condition, methods, clips};
+  return std::move(*MakeCaptureTaskKind().make(input));
+}
+
+std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
+  for (const MetricValue& metric : cell.metrics) {
+    if (metric.id == id) return metric.value;
+  }
+  ADD_FAILURE() << id << " is not among the metrics";
+  return std::nullopt;
+}
+
+const Attachment* Find(const Exhibit& exhibit, std::string_view name) {
+  for (const Attachment& file : exhibit.files) {
+    if (file.name == name) return &file;
+  }
+  ADD_FAILURE() << "no file " << name;
+  return nullptr;
+}
+
+/// Marks as the problem tells them.
+Marks MarksOf(const Json& json) {
+  Marks marks;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    const Json& s = json["strokes"][i];
+    if (!s.is_null()) marks.strokes[i] = PixelSegment{{s[0], s[1]}, {s[2], s[3]}};
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    const Json& d = json["discs"][i];
+    if (!d.is_null()) marks.effectors[i] = glm::dvec2(d[0], d[1]);
+  }
+  return marks;
+}
+
+TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethodsSee) {
+  const auto method = *ParseYaml("[{name: hue, oracle: [calibration]}]", "methods.yaml");
+  const auto task = MakeTask("{duration_s: 0.1, mark_every: 2}", method.items);
+  const auto world = task->MakeWorld(kKey, false);
+  const CellResult built_in = world->Run(0);
+  const auto problem = world->MakeProblem();
+  ASSERT_TRUE(problem) << ToString(problem.error());
+  const Json& json = *problem->json;
+  ASSERT_EQ(json["frames"], 3);
+  ASSERT_EQ(json["cameras"].size(), 2u);
+  EXPECT_EQ(json["cameras"][0]["calibration"].size(), 24u);
+  EXPECT_EQ(problem->files.size(), 2u * (1 + 3));
+  EXPECT_TRUE(Find(*problem, json["cameras"][1]["background"].get<std::string>())->bytes.starts_with("\x89PNG"));
+  EXPECT_EQ(json["cameras"][1]["pictures"][2], "camera-2-0002.png");
+
+  const Json& marks = json["marks"]["hue"];
+  EXPECT_TRUE(marks[0][1].is_null()) << "nobody looked at the second frame";
+  // The limb directions that the told marks give are those of the built-in method, whose cameras are true.
+  const CaptureWorld truth =
+      MakeCaptureWorld({.duration_s = 0.1, .mark_every = 2}, LoadClips({"builtin:boxing"}, {})->clips[0], kKey);
+  std::vector<Sighted> limbs;
+  for (std::size_t k : {0u, 2u}) {
+    const FrameMeasurement seen = MeasureFrame(MarksOf(marks[0][k]), MatrixOf(truth.cameras[0]), MarksOf(marks[1][k]),
+                                               MatrixOf(truth.cameras[1]));
+    const FrameMeasurement true_frame = TrueMeasurement(truth.truth[k]);
+    for (std::size_t i = 0; i < kRoleCount; ++i) limbs.push_back({seen.directions[i], true_frame.directions[i]});
+  }
+  EXPECT_EQ(ValueOf(built_in, "limb_direction_error_deg"), LimbDirectionErrorDeg(limbs).mean);
+  EXPECT_LT(*ValueOf(built_in, "limb_direction_coverage"), 0.7) << "a frame of three was not marked";
+}
+
+TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
+  const auto task = MakeTask("{duration_s: 0.1}");
+  const auto world = task->MakeWorld(kKey, true);
+  const auto truth = world->MakeTruth();
+  ASSERT_TRUE(truth) << ToString(truth.error());
+  Json answer;
+  answer["poses"] = (*truth->json)["poses"];
+  const auto cell = world->Judge(answer);
+  ASSERT_TRUE(cell) << ToString(cell.error());
+  EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
+  EXPECT_EQ(ValueOf(*cell, "mpjpe_mm"), 0);
+  EXPECT_EQ(ValueOf(*cell, "frames_recovered"), 1);
+  EXPECT_EQ(ValueOf(*cell, "iou"), std::nullopt);
+  EXPECT_EQ(cell->series.size(), 1u);
+  ASSERT_TRUE(cell->recording);
+  EXPECT_TRUE(ReadRecordingExtras(cell->recording->extras_json));
+
+  const auto clip = ReadBvh(Find(*truth, "truth.bvh")->bytes, "truth.bvh");
+  ASSERT_TRUE(clip) << ToString(clip.error());
+  EXPECT_EQ(clip->frames.size(), 3u);
+  EXPECT_THAT(Find(*truth, "truth.trc")->bytes, HasSubstr("hip_centre\t\t\tspine"));
+  EXPECT_THAT(Find(*truth, "camera-2.yaml")->bytes, HasSubstr("!!opencv-matrix"));
+  EXPECT_EQ((*truth->json)["labels"]["trunk"], 2);
+  EXPECT_TRUE(Find(*truth, "camera-1-0002.exr")->bytes.starts_with("\x76\x2f\x31\x01")) << "OpenEXR's magic number";
+}
+
+TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) {
+  const auto task = MakeTask("{duration_s: 0.2}");
+  const auto world = task->MakeWorld(kKey, false);
+  const CaptureWorld truth = MakeCaptureWorld({.duration_s = 0.2}, LoadClips({"builtin:boxing"}, {})->clips[0], kKey);
+  Json answer;
+  for (std::size_t k = 0; k < truth.truth.size(); ++k) {
+    answer["poses"].push_back(k == 2 ? Json(nullptr) : EncodePose(truth.truth[k]));
+  }
+  const auto cell = world->Judge(answer);
+  ASSERT_TRUE(cell) << ToString(cell.error());
+  EXPECT_NEAR(*ValueOf(*cell, "frames_recovered"), 5.0 / 6, 1e-12);
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (k == 2) {
+      EXPECT_GT(cell->series[0].values[k], 0.01);
+    } else {
+      EXPECT_EQ(cell->series[0].values[k], 0);
+    }
+  }
+  answer["poses"] = std::vector<Json>(6, nullptr);
+  const auto nothing = world->Judge(answer);
+  ASSERT_TRUE(nothing) << ToString(nothing.error());
+  EXPECT_EQ(nothing->status, Status::kFailed);
+  EXPECT_EQ(ValueOf(*nothing, "frames_recovered"), 0);
+  EXPECT_EQ(ValueOf(*nothing, "mpjpe_mm"), std::nullopt);
+}
+
+TEST(CaptureExchange, ReportsEveryMetricThatItsKindNames) {
+  const auto task = MakeTask("{duration_s: 0.1}");
+  const auto world = task->MakeWorld(kKey, false);
+  Json answer;
+  answer["poses"] = (*world->MakeTruth()->json)["poses"];
+  const CellResult cell = *world->Judge(answer);
+  std::vector<std::string> reported;
+  for (const MetricValue& metric : cell.metrics) reported.push_back(metric.id);
+  EXPECT_THAT(reported, testing::UnorderedElementsAreArray(MakeCaptureTaskKind().metrics));
+}
+
+TEST(CaptureExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
+  const auto complaint = [](const char* answer) {
+    const auto read = ReadCaptureAnswer(Json::parse(answer), 2);
+    return read ? std::string() : ToString(read.error());
+  };
+  EXPECT_EQ(complaint(R"({"poses": [null, null]})"), "");
+  EXPECT_THAT(complaint(R"([])"), HasSubstr("not an object"));
+  EXPECT_THAT(complaint(R"({})"), HasSubstr("poses"));
+  EXPECT_THAT(complaint(R"({"poses": [null]})"), HasSubstr("1 entries, not 2"));
+  EXPECT_THAT(complaint(R"({"poses": [null, [1, 2, 3]]})"), HasSubstr("poses[1]: 3 numbers, not 60"));
+  EXPECT_THAT(complaint(R"({"poses": [null, null], "pose": 1})"), HasSubstr("did you mean 'poses'"));
+}
+
+TEST(CaptureExchange, SettingAndFailureAreTold) {
+  const auto task = MakeTask("{duration_s: 0.1}");
+  const Json setting = *task->Setting()->json;
+  EXPECT_EQ(setting["joints"].size(), kRoleCount);
+  ASSERT_EQ(setting["strokes"].size(), kStrokeCount);
+  EXPECT_EQ(setting["strokes"][0]["from"], RoleName(StrokeMarks()[0].from));
+  EXPECT_EQ(setting["discs"].size(), kEffectorCount);
+  EXPECT_EQ(task->ValueOfFailure("frames_recovered"), 0);
+  EXPECT_EQ(task->ValueOfFailure("mpjpe_mm"), std::nullopt);
+}
+
+TEST(CaptureExchange, RefusesTakesOfMorePicturesThanItHolds) {
+  const auto task = MakeTask("{duration_s: 21}");
+  const auto problem = task->MakeWorld(kKey, false)->MakeProblem();
+  ASSERT_FALSE(problem);
+  EXPECT_THAT(ToString(problem.error()), HasSubstr("a duration_s of 20"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/tasks/detection/detection_task.h"
+
+namespace etude {
+
+class DetectionFixture : public ::testing::Test {
+ protected:
+  static constexpr const char* kFourMethods = R"(
+methods:
+  - {name: fixed, weights: fixed, threshold: 1}
+  - {name: adaptive, weights: adaptive}
+  - {name: fixed-holt, filter: holt, threshold: 1}
+  - {name: adaptive-euro, filter: one-euro, weights: adaptive}
+)";
+
+  /// A task made of a scenario's text; the text must live as long as the task is being made only.
+  static Result<std::unique_ptr<Task>> MakeTask(const std::string& yaml, const ClipLibrary& clips) {
+    auto node = ParseYaml(yaml, "test.yaml");
+    if (!node) return tl::unexpected(node.error());
+    Fields condition(*node, "a detection scenario");
+    TaskInput input{condition, node->Find("methods")->items, clips};
+    return MakeDetectionTaskKind().make(input);
+  }
+
+  static ClipLibrary FourMoves() {
+    return *LoadClips({"builtin:clap", "builtin:boxing", "builtin:sway", "builtin:side_kick"}, {});
+  }
+
+  /// A clip as a user's file gives it: no move is known.
+  static LibraryClip Unlabelled() {
+    LibraryClip clip;
+    clip.name = "walk";
+    clip.motion = FourMoves().clips.front().motion;
+    return clip;
+  }
+
+  static WorldKey World(int trial) { return {.suite_seed = 1, .scenario = "detection-test", .trial = trial}; }
+
+  /// All of kFourMethods in one world.
+  static std::vector<CellResult> CellsOf(const Task& task, int trial, bool keeps_motion = false) {
+    return RunWorld(task, World(trial), 4, keeps_motion);
+  }
+
+  static std::optional<double> Metric(const CellResult& cell, std::string_view id) {
+    for (const MetricValue& metric : cell.metrics) {
+      if (metric.id == id) return metric.value;
+    }
+    ADD_FAILURE() << "no metric " << id;
+    return std::nullopt;
+  }
+
+  static std::string DigestOf(const CellResult& cell, std::string_view stage) {
+    for (const auto& [name, digest] : cell.digests) {
+      if (name == stage) return digest;
+    }
+    ADD_FAILURE() << "no digest of " << stage;
+    return "";
+  }
+};
+
+}  // namespace etude

@@ -1,0 +1,224 @@
+#include "bench/tasks/ik/exchange.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/ik/ik_cell.h"
+#include "bench/tasks/ik/ik_task.h"
+#include "engine/base/angles.h"
+#include "engine/kinematics/solvers.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const WorldKey kWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
+constexpr int kMaxSteps = 200;
+
+std::unique_ptr<Task> MakeTask(const std::string& condition = "{}") {
+  const Node node = *ParseYaml(condition, "test.yaml");
+  Fields fields(node, "an ik scenario");
+  const ClipLibrary no_clips;
+  TaskInput input{fields, {}, no_clips};
+  return std::move(*MakeIkTaskKind().make(input));
+}
+
+std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
+  for (const MetricValue& metric : cell.metrics) {
+    if (metric.id == id) return metric.value;
+  }
+  ADD_FAILURE() << "no metric " << id;
+  return std::nullopt;
+}
+
+// What a stranger would write who knows nothing but the words of exchange.h: plain lists of rows.
+struct StrangersFrame {
+  std::array<double, 3> p{};
+  std::array<std::array<double, 3>, 3> R{};
+};
+
+std::array<std::array<double, 3>, 3> Times(const std::array<std::array<double, 3>, 3>& a,
+                                           const std::array<std::array<double, 3>, 3>& b) {
+  std::array<std::array<double, 3>, 3> product{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) product[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return product;
+}
+
+StrangersFrame Beyond(const StrangersFrame& frame, const Json& offset) {
+  StrangersFrame moved = frame;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) moved.p[i] += frame.R[i][k] * offset[k].get<double>();
+  }
+  return moved;
+}
+
+std::array<std::array<double, 3>, 3> Turn(const std::string& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  if (axis == "x") return {{{1, 0, 0}, {0, c, -s}, {0, s, c}}};
+  if (axis == "y") return {{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}};
+  return {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
+}
+
+std::vector<StrangersFrame> StrangersEffectors(const Json& setting, const Json& root, const Json& angles_deg) {
+  std::vector<StrangersFrame> joints, effectors;
+  for (const Json& joint : setting["joints"]) {
+    if (joint["parent"].is_null()) {
+      joints.push_back({root["position_m"], root["rotation"]});
+      continue;
+    }
+    StrangersFrame frame = Beyond(joints[joint["parent"].get<std::size_t>()], joint["offset_m"]);
+    frame.R = Times(frame.R, joint["rest"]);
+    int angle = joint["first_angle"];
+    for (const Json& axis : joint["axes"]) {
+      frame.R = Times(frame.R, Turn(axis, angles_deg[angle++].get<double>() * kPi / 180));
+    }
+    joints.push_back(frame);
+  }
+  for (const Json& effector : setting["effectors"]) {
+    effectors.push_back(Beyond(joints[effector["joint"].get<std::size_t>()], effector["offset_m"]));
+  }
+  return effectors;
+}
+
+TEST(IkExchange, AStrangersForwardKinematicsReachesTheTargetsWithTheTrueAngles) {
+  const auto task = MakeTask();
+  const auto world = task->MakeWorld(kWorld, false);
+  const Json setting = *task->Setting()->json, problem = *world->MakeProblem()->json, truth = *world->MakeTruth()->json;
+  EXPECT_EQ(setting["angles"].size(), 29u);
+  const auto reached = StrangersEffectors(setting, problem["root"], truth["angles_deg"]);
+  const auto begun = StrangersEffectors(setting, problem["root"], problem["start_angles_deg"]);
+  ASSERT_EQ(problem["targets"].size(), 4u);
+  for (std::size_t e = 0; e < 4; ++e) {
+    const Json& target = problem["targets"][e];
+    EXPECT_EQ(target["effector"], setting["effectors"][e]["name"]);
+    double distance = 0, begin_distance = 0;
+    for (int i = 0; i < 3; ++i) {
+      distance = std::max(distance, std::abs(reached[e].p[i] - target["position_m"][i].get<double>()));
+      begin_distance = std::max(begin_distance, std::abs(begun[e].p[i] - target["position_m"][i].get<double>()));
+      for (int j = 0; j < 3; ++j) EXPECT_NEAR(reached[e].R[i][j], target["rotation"][i][j].get<double>(), 1e-12);
+    }
+    EXPECT_LT(distance, 1e-12);
+    EXPECT_GT(begin_distance, 1e-3) << "a control: the start is elsewhere";
+  }
+}
+
+TEST(IkExchange, TheProblemStartsWithinTheLimitsThatTheSettingNames) {
+  const auto task = MakeTask("{joint_noise_deg: 60}");
+  const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kWorld, false)->MakeProblem()->json;
+  for (std::size_t i = 0; i < 29; ++i) {
+    const double start = problem["start_angles_deg"][i];
+    EXPECT_GE(start, setting["angles"][i]["lower_deg"].get<double>() - 1e-9);
+    EXPECT_LE(start, setting["angles"][i]["upper_deg"].get<double>() + 1e-9);
+  }
+  EXPECT_EQ(setting["angles"][0]["name"], "left_ankle.x");
+  EXPECT_EQ(setting["max_steps"], 200);
+  EXPECT_NEAR(setting["position_goal_cm"].get<double>(), 0.1, 1e-15);
+}
+
+TEST(IkExchange, TheTruthIsAPerfectAnswer) {
+  const auto task = MakeTask();
+  const auto world = task->MakeWorld(kWorld, true);
+  Json answer = *world->MakeTruth()->json;
+  answer["iterations"] = 7;
+  const auto cell = world->Judge(answer);
+  ASSERT_TRUE(cell) << ToString(cell.error());
+  EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
+  EXPECT_LT(*ValueOf(*cell, "position_error_max_cm"), 1e-9);
+  EXPECT_LT(*ValueOf(*cell, "orientation_error_max_deg"), 1e-5);  // acos near 1
+  EXPECT_LT(*ValueOf(*cell, "hidden_angle_error_deg"), 1e-9);
+  EXPECT_EQ(ValueOf(*cell, "solved_tight"), 1);
+  EXPECT_EQ(ValueOf(*cell, "iterations_par2"), 7);
+  EXPECT_EQ(ValueOf(*cell, "fk_evaluations"), std::nullopt) << "it did not say";
+  EXPECT_EQ(ValueOf(*cell, "fk_evaluations_par2"), std::nullopt);
+  ASSERT_TRUE(cell->recording);
+  EXPECT_EQ(cell->recording->tracks.size(), 3u);
+  EXPECT_EQ(cell->recording->tracks[2].motion.poses.size(), 2u);
+}
+
+TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  IkMethod method{"today", FindIkSolver("damped-least-squares"), {}};
+  const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
+  const CellResult built_in = RunIkCell(tree, world, method, false);
+  const CellResult judged =
+      ScoreIkAnswer(tree, world, {solution.angles, solution.iterations, solution.fk_evaluations}, kMaxSteps, false);
+  EXPECT_EQ(judged.status, built_in.status);
+  ASSERT_EQ(judged.metrics.size(), built_in.metrics.size());
+  for (std::size_t i = 0; i < judged.metrics.size(); ++i) {
+    EXPECT_EQ(judged.metrics[i].id, built_in.metrics[i].id);
+    EXPECT_EQ(judged.metrics[i].value, built_in.metrics[i].value) << judged.metrics[i].id;
+  }
+}
+
+TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
+  const KinematicTree tree = MakeBodyTree({});
+  IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  // Targets that an elbow bent the wrong way reaches exactly.
+  const int elbow = tree.joints[kTreeLeftElbow].first_dof;
+  world.truth.angles[elbow] = Radians(-5);
+  world.problem.targets.clear();
+  for (const LimbFrame& effector : ComputeFrames(tree, world.truth).effectors) {
+    EffectorTarget target;
+    target.position = effector.position;
+    target.axes = effector.axes;
+    world.problem.targets.push_back(target);
+  }
+  const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, 3, 4}, kMaxSteps, false);
+  EXPECT_EQ(cell.status, Status::kUnsolved);
+  EXPECT_THAT(cell.reason,
+              HasSubstr(fmt::format("1 angle outside the limits, angles_deg[{}] the farthest, by 5°", elbow)));
+  EXPECT_LT(*ValueOf(cell, "position_error_cm"), 1e-9);
+  EXPECT_EQ(ValueOf(cell, "solved_practical"), 0);
+  EXPECT_EQ(ValueOf(cell, "iterations_par2"), 2 * kMaxSteps);
+  EXPECT_EQ(ValueOf(cell, "fk_evaluations_par2"), 2 * (kMaxSteps + 1));
+}
+
+TEST(IkExchange, CountsAnAnswerThatCostMoreThanTheLimitAsUnsolvedInItsPenalisedCost) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, kMaxSteps + 1, 4}, kMaxSteps, false);
+  EXPECT_EQ(ValueOf(cell, "iterations_par2"), 2 * kMaxSteps);
+  EXPECT_EQ(ValueOf(cell, "fk_evaluations_par2"), 4);
+}
+
+TEST(IkExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
+  const auto task = MakeTask();
+  const auto world = task->MakeWorld(kWorld, false);
+  const Json good = *world->MakeTruth()->json;
+  const auto complaint = [&](auto change) {
+    Json answer = good;
+    change(answer);
+    const auto cell = world->Judge(answer);
+    return cell ? std::string() : ToString(cell.error());
+  };
+  EXPECT_EQ(complaint([](Json&) {}), "");
+  EXPECT_THAT(complaint([](Json& a) { a = 3; }), HasSubstr("not an object"));
+  EXPECT_THAT(complaint([](Json& a) { a.erase("angles_deg"); }), HasSubstr("angles_deg"));
+  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"].push_back(0); }), HasSubstr("30 entries, not 29"));
+  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][3] = "high"; }), HasSubstr("angles_deg[3]"));
+  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][3] = std::nan(""); }), HasSubstr("angles_deg[3]"));
+  EXPECT_THAT(complaint([](Json& a) { a["angles_deg"][3] = 1e300; }), HasSubstr("angles_deg[3]"));
+  EXPECT_THAT(complaint([](Json& a) { a["iterations"] = -1; }), HasSubstr("iterations"));
+  EXPECT_THAT(complaint([](Json& a) { a["iteration"] = 1; }), HasSubstr("did you mean 'iterations'"));
+}
+
+TEST(IkExchange, CreditsNoAnswerWithAFailure) {
+  const auto task = MakeTask("{max_sweeps: 50}");
+  EXPECT_EQ(task->ValueOfFailure("solved_practical"), 0);
+  EXPECT_EQ(task->ValueOfFailure("solved_tight"), 0);
+  EXPECT_EQ(task->ValueOfFailure("iterations_par2"), 100);
+  EXPECT_EQ(task->ValueOfFailure("fk_evaluations_par2"), 102);
+  EXPECT_EQ(task->ValueOfFailure("position_error_cm"), std::nullopt);
+  EXPECT_EQ(task->ValueOfFailure("iterations"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace etude

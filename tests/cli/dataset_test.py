@@ -1,0 +1,172 @@
+"""Data sets out, predictions in: the truth scores perfectly, anything else does not, and nothing is scored by halves."""
+import csv
+import json
+import shutil
+import struct
+import unittest
+import zlib
+
+from etude_case import IK, EtudeCase
+
+CAPTURE = """scenario: film
+question: Can others read it?
+task: capture
+clips: ['builtin:boxing']
+duration_s: 0.1
+trials: 1
+methods:
+  - {name: dls, solver: damped-least-squares}
+"""
+
+
+def png_size(data):
+    """The size of a PNG file, after checking every chunk and unpacking its pixels."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, pixels, size = 8, b"", None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
+        if kind == b"IHDR":
+            size = struct.unpack(">II", body[:8])
+        if kind == b"IDAT":
+            pixels += body
+        at += 12 + length
+    assert len(zlib.decompress(pixels)) == size[1] * (1 + 3 * size[0])
+    return size
+
+
+class DataSets(EtudeCase):
+    def export(self, text, name="ik.yaml"):
+        """An exported scenario, and its truth turned into a folder of answers."""
+        data, answers = self.folder / "data", self.folder / "answers"
+        result = self.etude("export", self.write(name, text), "-o", data)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(data / "inputs" / "index.csv", newline="") as file:
+            self.index = list(csv.DictReader(file))
+        for line in self.index:
+            self.assertTrue((data / "inputs" / line["problem"]).exists(), line)
+            world = line["prediction"].removesuffix(".json")
+            truth = json.loads((data / "truth" / world / "truth.json").read_text())
+            truth.pop("labels", None)
+            path = answers / line["prediction"]
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(json.dumps(truth))
+        return data, answers
+
+    def score(self, data, answers, *more, code=0):
+        result = self.etude("score", data, answers, "-o", self.out, *more)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual(self.out.exists(), code < 2)
+        if code == 2:
+            return result.stderr
+        return [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
+
+    def test_the_truth_scores_perfectly_beside_the_very_rows_of_a_run(self):
+        data, answers = self.export(IK)
+        self.assertEqual(len(self.index), 8)
+        rows = self.score(data, answers, "--name", "oracle")
+        mine = [row for row in rows if row["method"] == "oracle"]
+        self.assertEqual(len(mine), 8)
+        for row in mine:
+            self.assertEqual(row["status"], "ok")
+            self.assertEqual(row["solved_tight"], 1)
+            self.assertLess(row["position_error_max_cm"], 1e-9)
+            self.assertLess(row["hidden_angle_error_deg"], 1e-9)
+        run = self.run_suite(self.folder / "ik.yaml", out=self.folder / "run")
+        self.assertEqual([row for row in rows if row["method"] != "oracle"], run)
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertIn("oracle", json.dumps(summary["scenarios"][0]))
+        manifest = json.loads((self.out / "manifest.json").read_text())
+        self.assertEqual(manifest["predictions"]["answers"], 8)
+        self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+
+    def test_worse_answers_score_worse(self):
+        data, answers = self.export(IK)
+        for path in answers.rglob("*.json"):
+            truth = json.loads(path.read_text())
+            truth["angles_deg"] = [angle + 1 for angle in truth["angles_deg"]]
+            path.write_text(json.dumps(truth))
+        for row in self.score(data, answers, "--alone", code=1):  # no cell is ok
+            self.assertEqual(row["method"], "predictions")
+            self.assertEqual(row["status"], "unsolved")
+            self.assertAlmostEqual(row["hidden_angle_error_deg"], 1, places=6)
+            self.assertGreater(row["position_error_cm"], 0.1)
+            self.assertEqual(row["solved_practical"], 0)
+
+    def test_what_is_missing_extra_duplicate_or_broken_is_listed_and_nothing_is_scored(self):
+        data, answers = self.export(IK)
+        first = answers / "ik" / "joint_noise_deg=2"
+        (first / "001.json").unlink()
+        (first / "4.json").write_text("{}")
+        shutil.copy(first / "002.json", first / "2.json")
+        (first / "003.json").write_text(json.dumps({"angles_deg": [0] * 28}))
+        (answers / "ik" / "joint_noise_deg=5" / "000.json").write_text("{\"angles_deg\": [1, 2")
+        complaint = self.score(data, answers, code=2)
+        for words in ["ik/joint_noise_deg=2/001.json", "ik/joint_noise_deg=2/4.json", "2.json (as",
+                      "28 entries, not 29", "joint_noise_deg=5/000.json",
+                      "1 answers are missing, 1 extra, 1 duplicate, 2 broken"]:
+            self.assertIn(words, complaint)
+        self.assertIn("broken", self.score(data, answers, "--allow-missing", code=2))
+
+    def test_a_missing_answer_may_be_a_failure_instead(self):
+        data, answers = self.export(IK)
+        (answers / "ik" / "joint_noise_deg=2" / "001.json").unlink()
+        self.assertIn("--allow-missing", self.score(data, answers, code=2))
+        rows = [row for row in self.score(data, answers, "--allow-missing", "--alone")]
+        failed = [row for row in rows if row["status"] != "ok"]
+        self.assertEqual([row["cell"] for row in failed], ["ik/joint_noise_deg=2/001/predictions"])
+        self.assertEqual(failed[0]["status"], "failed")
+        self.assertIn("001.json is missing", failed[0]["reason"])
+        self.assertEqual(failed[0]["solved_practical"], 0)
+        self.assertEqual(failed[0]["iterations_par2"], 400)
+        self.assertIsNone(failed[0]["position_error_cm"])
+
+    def test_an_export_is_whole_or_not_there_and_the_same_again(self):
+        data, _ = self.export(IK)
+        again = self.folder / "again"
+        again.mkdir()
+        self.assertEqual(self.etude("export", self.folder / "ik.yaml", "-o", again).returncode, 0)
+        files = sorted(path.relative_to(data) for path in data.rglob("*") if path.is_file())
+        self.assertGreater(len(files), 16)
+        for file in files:
+            self.assertEqual((data / file).read_bytes(), (again / file).read_bytes(), file)
+        refused = self.etude("export", self.folder / "ik.yaml", "-o", data)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is not empty", refused.stderr)
+        nothing = self.etude("export", self.write("bad.yaml", IK.replace("ccd", "cdc")), "-o", self.folder / "bad")
+        self.assertEqual(nothing.returncode, 2)
+        self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith("bad")], ["bad.yaml"])
+
+    def test_the_inputs_tell_neither_seed_nor_truth(self):
+        data, _ = self.export(IK)
+        truth = json.loads((data / "truth/ik/joint_noise_deg=2/000/truth.json").read_text())
+        told = "".join(path.read_text() for path in (data / "inputs").rglob("*") if path.is_file())
+        self.assertNotIn(json.dumps(truth["angles_deg"][3]), told)
+        self.assertNotIn("seed", told)
+
+    def test_a_film_comes_in_formats_that_others_read(self):
+        data, answers = self.export(CAPTURE, "film.yaml")
+        inputs, truth = data / "inputs/film/all", data / "truth/film/all/000"
+        problem = json.loads((inputs / "000/problem.json").read_text())
+        for camera in problem["cameras"]:
+            for picture in [camera["background"], *camera["pictures"]]:
+                self.assertEqual(png_size((inputs / "000" / picture).read_bytes()), (640, 480))
+        lines = (truth / "truth.trc").read_text().splitlines()
+        self.assertEqual(len(lines), 6 + problem["frames"])
+        with open(truth / "truth.csv", newline="") as file:
+            table = list(csv.DictReader(file))
+        self.assertAlmostEqual(1000 * float(table[2]["head_y_m"]),
+                               float(lines[8].split("\t")[lines[3].split("\t").index("head") + 1]), places=4)
+        self.assertTrue((truth / "camera-2.yaml").read_text().startswith("%YAML:1.0\n---\n"))
+        self.assertEqual((truth / "camera-1-0002.exr").read_bytes()[:4], b"\x76\x2f\x31\x01")
+        # A BVH file of the truth is a clip like any other.
+        clip = self.etude("run", self.folder / "film.yaml", "--clips", truth / "truth.bvh", "-o", self.folder / "again")
+        self.assertEqual(clip.returncode, 0, clip.stderr)
+        mine = [row for row in self.score(data, answers) if row["method"] == "predictions"]
+        self.assertEqual([row["mpjpe_mm"] for row in mine], [0])
+        self.assertIsNone(mine[0]["iou"])
+
+
+if __name__ == "__main__":
+    unittest.main()

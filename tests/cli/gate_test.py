@@ -1,0 +1,165 @@
+"""`etude gate` and `etude compare` as a CI server and a reviewer meet them."""
+import json
+import os
+import re
+import unittest
+import xml.etree.ElementTree
+
+from etude_case import EtudeCase
+
+SCENARIO = """scenario: ik
+question: Does the gate see it?
+task: ik
+trials: 12
+sweep: {joint_noise_deg: [2, 5]}
+methods:
+  - {name: fixed, solver: ccd, weights: fixed-tuned}
+  - {name: least-squares, solver: damped-least-squares}
+"""
+WORSE = SCENARIO.replace("weights: fixed-tuned", "weights: fixed")
+
+
+class Gate(EtudeCase):
+    def setUp(self):
+        super().setUp()
+        self.baseline = self.folder / "baselines" / "ik.json"
+        self.now = self.folder / "now"
+
+    def gate(self, folder, *arguments, expect):
+        result = self.etude("gate", folder, *arguments)
+        self.assertEqual(result.returncode, expect, result.stdout + result.stderr)
+        if expect == 2:
+            self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        return result.stdout + result.stderr
+
+    def make_baseline(self, text=SCENARIO):
+        self.run_suite(self.write("ik.yaml", text))
+        return self.gate(self.out, "--baseline", self.baseline, "--update", expect=0)
+
+    def run_now(self, text, *arguments):
+        return self.run_suite(self.write("ik.yaml", text), *arguments, out=self.now)
+
+    def test_a_rerun_passes_to_the_digit(self):
+        exact = SCENARIO + "gate: {rule: exact}\n"
+        self.make_baseline(exact)
+        self.run_now(exact, "--jobs", 1)
+        self.assertIn("Gate: pass", self.gate(self.now, "--baseline", self.baseline, expect=0))
+        self.assertNotIn("changed", (self.now / "report" / "gate.md").read_text())
+
+    def test_a_regression_fails_and_is_shown_to_people_and_to_ci(self):
+        self.make_baseline()
+        self.run_now(WORSE)
+        text = self.gate(self.now, "--baseline", self.baseline, expect=1)
+        self.assertRegex(text, r"worse +ik joint_noise_deg=2 +fixed")
+        self.assertIn("ik, fixed", text)  # its settings changed
+        self.assertIn("**worse**", (self.now / "report" / "gate.md").read_text())
+        suites = xml.etree.ElementTree.parse(self.now / "report" / "gate.xml").getroot()
+        failures = [case.get("name") for case in suites.iter("testcase") if case.find("failure") is not None]
+        self.assertEqual(len(failures), int(suites.get("failures")))
+        self.assertTrue(failures and all(", fixed: " in name for name in failures), failures)
+
+    def test_one_digit_of_one_cell_fails_the_exact_rule_only(self):
+        for rule, code in ("exact", 1), ("threshold", 0):
+            with self.subTest(rule=rule):
+                run, baseline = self.folder / rule, self.folder / f"{rule}.json"
+                self.run_suite(self.write("ik.yaml", SCENARIO + f"gate: {{rule: {rule}}}\n"), out=run)
+                self.gate(run, "--baseline", baseline, "--update", expect=0)
+                text = baseline.read_text()
+                value = re.search(r'"metric":"position_error_cm","values":\[([^,]+),', text)
+                other = repr(float(value.group(1)) * (1 + 1e-14))
+                baseline.write_text(text[:value.start(1)] + other + text[value.end(1):])
+                self.assertIn("1 of 12", self.gate(run, "--baseline", baseline, expect=code))
+
+    def test_an_update_shows_what_moved_and_is_the_new_standard(self):
+        self.make_baseline()
+        before = self.baseline.read_text().splitlines()
+        self.run_now(WORSE)
+        text = self.gate(self.now, "--baseline", self.baseline, "--update", expect=0)
+        self.assertRegex(text, r"worse +ik joint_noise_deg=2 +fixed")
+        after = self.baseline.read_text().splitlines()
+        self.assertEqual(len(before), len(after))
+        moved = [line for old, line in zip(before, after) if old != line]
+        self.assertTrue(all('"fixed"' in line for line in moved), moved)
+        self.gate(self.now, "--baseline", self.baseline, expect=0)
+
+    def test_an_unmet_expectation_fails_without_a_baseline(self):
+        self.run_suite(self.write("ik.yaml", SCENARIO))
+        self.assertIn("no baseline was given", self.gate(self.out, expect=0))
+        self.run_now(SCENARIO + "expect: [{metric: iterations, of: fixed, at_most: 0}]\n")
+        self.assertIn("unmet: ik: ", self.gate(self.now, expect=1))
+
+    def test_a_run_without_all_its_rows_is_incomplete(self):
+        self.make_baseline()
+        cells = self.out / "cells.jsonl"
+        lines = cells.read_text().splitlines(keepends=True)
+        cells.write_text("".join(lines[:-3]))
+        text = self.gate(self.out, "--baseline", self.baseline, expect=3)
+        self.assertIn("3 of 48 rows are missing", text)
+        before = self.baseline.read_text()
+        self.gate(self.out, "--baseline", self.baseline, "--update", expect=3)
+        self.assertEqual(self.baseline.read_text(), before)
+        cells.write_text("".join(lines))
+        self.gate(self.out, "--baseline", self.baseline, expect=0)
+        (self.out / "journal.jsonl").write_text("")
+        self.assertIn("did not come to its end", self.gate(self.out, "--baseline", self.baseline, expect=3))
+
+    def test_cells_ended_by_the_machine_are_no_regression(self):
+        self.make_baseline()
+        cells = self.out / "cells.jsonl"
+        rows = [json.loads(line) for line in cells.read_text().splitlines()]
+        rows[5].update(status="timeout", reason="300 s")
+        cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
+        text = self.gate(self.out, "--baseline", self.baseline, expect=3)
+        self.assertIn("1 × timeout, which depends on the machine", text)
+        self.assertNotIn("worse", text)
+
+    def test_bad_input_is_told_in_one_line(self):
+        self.assertIn("no such folder", self.gate(self.folder / "none", expect=2))
+        self.make_baseline()
+        whole = self.baseline.read_text()
+        self.assertIn("no such file", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
+        for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":1', '"schema":7'):
+            self.baseline.write_text(broken)
+            self.assertIn(str(self.baseline), self.gate(self.out, "--baseline", self.baseline, expect=2))
+            # What is no baseline is not written over.
+            self.gate(self.out, "--baseline", self.baseline, "--update", expect=2)
+            self.assertEqual(self.baseline.read_text(), broken)
+        self.baseline.write_text(whole)
+        self.run_now(SCENARIO, "--seed", 2, "--trials", 11)
+        text = self.gate(self.now, "--baseline", self.baseline, expect=2)
+        self.assertIn("ik: seed 1 and 2; ik: trials 12 and 11", text)
+
+    def test_comparing_two_runs_lists_what_only_one_holds(self):
+        self.run_suite(self.write("ik.yaml", SCENARIO))
+        self.run_now(SCENARIO.replace("[2, 5]", "[2, 7]"))
+        same = self.etude("compare", self.out, self.out)
+        self.assertEqual(same.returncode, 0, same.stderr)
+        self.assertRegex(same.stdout, r"^\d+ comparisons: \d+ same\n$")
+        result = self.etude("compare", self.out, self.now)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("Only in A:\n  ik, joint_noise_deg=5, fixed\n  ik, joint_noise_deg=5, least-squares", result.stdout)
+        self.assertIn("Only in B:\n  ik, joint_noise_deg=7, fixed\n", result.stdout)
+        self.assertEqual(self.etude("compare", self.out, self.folder / "none").returncode, 2)
+
+    def test_the_gate_measures_itself(self):
+        repetitions = int(os.environ.get("ETUDE_REPETITIONS", 6))
+        result = self.etude("gate", "--self-test", "--repetitions", repetitions)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        print(result.stdout)
+
+        def share(line):
+            match = re.search(re.escape(line) + r": +(\d+) of (\d+) ", result.stdout)
+            self.assertIsNotNone(match, result.stdout)
+            self.assertGreaterEqual(int(match.group(2)), repetitions)
+            return int(match.group(1)) / int(match.group(2))
+
+        self.assertEqual(share("reruns of the same seed, rule exact"), 0)
+        self.assertEqual(share("worse by 4 × what matters"), 1)
+        self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
+        if repetitions >= 100:
+            self.assertLessEqual(share("gates between two seeds"), 0.05)
+            self.assertGreaterEqual(share("worse by 2 × what matters"), 0.8)
+
+
+if __name__ == "__main__":
+    unittest.main()

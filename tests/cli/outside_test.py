@@ -1,0 +1,104 @@
+"""Methods from outside in a run: a good one is a method among others; a hostile one becomes rows, and nothing else
+suffers."""
+import pathlib
+import subprocess
+import time
+import unittest
+
+from etude_case import ETUDE, IK, EtudeCase
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HOSTILE = ROOT / "tests/bench/outside/hostile.py"
+EXAMPLES = ROOT / "examples/outside-methods"
+
+LIMITS = "limits: {time_s: 5, memory_mb: 300}\n"
+REASONS = {
+    "crashes": ("crashed", "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"),
+    "hangs": ("timeout", "took longer than 0.5 s"),
+    "prints_garbage": ("bad_output", "said something that is not JSON: 'loading model \\x1b[1m100%\\x1b[0m'"),
+    "answers_nan": ("bad_output", "said something that is not JSON near byte "),
+    "eats_memory": ("out_of_memory", "held more than 300 MB of memory"),
+}
+
+
+def outside(name, *command, more=""):
+    words = ", ".join(f"'{word}'" for word in command)
+    return f"  - {{name: {name}, exec: [python3, {words}]{more}}}\n"
+
+
+def soon(happens, limit_s=30):
+    """Waits for something to happen."""
+    end = time.monotonic() + limit_s
+    while not happens() and time.monotonic() < end:
+        time.sleep(0.02)
+    return bool(happens())
+
+
+class OutsideMethods(EtudeCase):
+    def test_hostile_methods_become_rows_and_nothing_else_suffers(self):
+        good = outside("good", EXAMPLES / "ik_dls.py")
+        hostile = "".join(outside(name, HOSTILE, name, more=", time_s: 0.5" if name == "hangs" else "")
+                          for name in REASONS)
+        alone = self.run_suite(self.write("alone.yaml", IK + good + LIMITS), out=self.folder / "alone")
+        among = self.run_suite(self.write("among.yaml", IK + hostile + good + LIMITS), "--jobs", 2)
+        for name, (status, reason) in REASONS.items():
+            rows = [row for row in among if row["method"] == name]
+            self.assertEqual(len(rows), 8)
+            for row in rows:
+                self.assertEqual(row["status"], status, row)
+                self.assertTrue(row["reason"].startswith(reason), row["reason"])
+                self.assertEqual(row["solved_practical"], 0, "a failure stays in the denominator")
+                self.assertIsNone(row["position_error_cm"])
+        self.assertEqual([row for row in among if row["method"] not in REASONS], alone)
+        self.assertEqual({row["status"] for row in alone if row["method"] == "good"}, {"ok"})
+
+    def test_answers_of_the_wrong_shape_say_where(self):
+        wrong = {"short": ('{"angles_deg": [1, 2]}', "angles_deg: "), "other": ('{"angle": 3}', "angle")}
+        methods = "".join(outside(name, HOSTILE, "is_good", answer) for name, (answer, _) in wrong.items())
+        for row in self.run_suite(self.write("wrong.yaml", IK + methods)):
+            if row["method"] in wrong:
+                self.assertEqual(row["status"], "bad_output")
+                self.assertIn(wrong[row["method"]][1], row["reason"])
+
+    def test_a_program_that_cannot_be_found_fails_its_cells_only(self):
+        rows = self.run_suite(self.write("none.yaml", IK + "  - {name: none, exec: [no-such-program]}\n"))
+        none = [row for row in rows if row["method"] == "none"]
+        self.assertEqual({row["status"] for row in none}, {"failed"})
+        self.assertIn("no program 'no-such-program' in PATH", none[0]["reason"])
+        self.assertEqual({row["status"] for row in rows if row["method"] != "none"} - {"ok", "unsolved"}, set())
+
+    def test_check_method_tells_what_a_method_does_wrong(self):
+        for command, code, words in [
+                ([EXAMPLES / "ik_dls.py"], 0, "8 of 8 checks passed"),
+                ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
+                ([HOSTILE, "answers_twice"], 1, "said more than one line")]:
+            result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
+            self.assertEqual(result.returncode, code, result.stdout + result.stderr)
+            self.assertIn(words, result.stdout)
+        self.assertEqual(self.etude("check-method", "--task", "ki", "--", "true").returncode, 2)
+        self.assertEqual(self.etude("check-method", "--task", "ik", "--", "no-such-program").returncode, 2)
+
+    def test_no_process_is_left_behind(self):
+        path = self.write("hang.yaml", IK + outside("hangs", HOSTILE, "hangs", "{}", self.folder))
+        run = subprocess.Popen([ETUDE, "run", path, "-o", self.out], stderr=subprocess.DEVNULL)
+        mark = str(self.folder).encode()
+
+        def marked():
+            found = []
+            for process in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+                try:
+                    words = process.read_bytes()
+                except OSError:
+                    continue  # it has just ended
+                if b"hostile.py" in words and mark in words:
+                    found.append(process)
+            return found
+
+        self.assertTrue(soon(marked), "the method was never started")
+        run.kill()
+        run.wait()
+        self.assertTrue(soon(lambda: not marked()), "the method outlived the run")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,105 @@
+"""Scenario files as one writes them: several in a file, shared defaults, sweeps, and what is said of broken ones."""
+import json
+import pathlib
+import unittest
+
+from etude_case import IK, EtudeCase
+
+SHARED = """defaults:
+  task: ik
+  trials: 2
+  max_sweeps: 20
+  methods: [{name: fixed, weights: fixed}, {name: least-squares, solver: damped-least-squares}]
+"""
+SEVERAL = """include: [shared/ik.yaml]
+defaults: {trials: 3}
+scenarios:
+  - scenario: start
+    question: How far may it start?
+    sweep: {joint_noise_deg: {from: 5, to: 15, step: 5}}
+  - scenario: both
+    question: And when poses are harder, too?
+    trials: 1
+    sweep: {together: {joint_noise_deg: [5, 15], poses: [0.5, 1]}}
+"""
+
+
+class Scenarios(EtudeCase):
+    def write_suite(self, several=SEVERAL, shared=SHARED):
+        (self.folder / "suite" / "shared").mkdir(parents=True, exist_ok=True)
+        self.write("suite/several.yaml", several)
+        self.write("suite/shared/ik.yaml", shared)
+        self.write("suite/single.yaml", IK)
+        return self.folder / "suite"
+
+    def test_a_folder_runs_all_scenarios_of_its_files_with_shared_defaults(self):
+        suite = self.write_suite()
+        listed = self.etude("list", "scenarios", suite)
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertIn("  start (ik): How far may it start?\n  3 trials × 3 conditions × methods fixed, least-squares",
+                      listed.stdout)
+        rows = self.run_suite(suite)
+        count = {}
+        for row in rows:
+            count[row["scenario"]] = count.get(row["scenario"], 0) + 1
+        self.assertEqual(count, {"start": 3 * 3 * 2, "both": 1 * 2 * 2, "ik": 4 * 2 * 2})
+
+    def test_defaults_written_or_inherited_give_the_same_rows(self):
+        """Where a key stands is nothing that a result may depend on."""
+        suite = self.write_suite()
+        rows = self.run_suite(suite / "several.yaml")
+        alone = "scenario: both\nquestion: And when poses are harder, too?\ntask: ik\ntrials: 1\nmax_sweeps: 20\n"
+        alone += "sweep: {together: {joint_noise_deg: [5, 15], poses: [0.5, 1]}}\n"
+        alone += "methods: [{name: fixed, weights: fixed}, {name: least-squares, solver: damped-least-squares}]\n"
+        same = self.run_suite(self.write("alone.yaml", alone), out=self.folder / "alone")
+        self.assertEqual(len(same), 4)
+        self.assertEqual([row for row in rows if row["scenario"] == "both"], same)
+
+    def test_the_manifest_keeps_all_texts(self):
+        suite = self.write_suite()
+        self.run_suite(suite / "several.yaml")
+        sources = json.loads((self.out / "manifest.json").read_text())["sources"]
+        self.assertEqual(sorted(sources.values()), sorted([SEVERAL, SHARED]))
+
+    def test_complaints_are_one_line_that_points_into_the_right_file(self):
+        # What is written wrong, in which file, and what the complaint says.
+        cases = [
+            (SEVERAL.replace("joint_noise_deg: {", "joint_nose_deg: {"), SHARED,
+             "several.yaml:6:13: unknown parameter of task ik 'joint_nose_deg'; did you mean 'joint_noise_deg'?"),
+            (SEVERAL.replace("step: 5", "stp: 5"), SHARED,
+             "several.yaml:6:48: unknown key of a range 'stp'; did you mean 'step'?"),
+            (SEVERAL.replace("[0.5, 1]", "[0.5]"), SHARED,
+             "several.yaml:10:57: 'joint_noise_deg' and 'poses' are stepped together"),
+            (SEVERAL.replace("to: 15", "to: 1500"), SHARED,
+             "several.yaml:6:30: 'joint_noise_deg': 185 is out of range"),
+            (SEVERAL.replace("ik.yaml", "ki.yaml"), SHARED, "several.yaml:1:11: "),
+            (SEVERAL, SHARED.replace("trials", "trails"), "ik.yaml:3:3: unknown key of a scenario 'trails'"),
+            (SEVERAL, SHARED.replace("weights: fixed", "wights: fixed"),
+             "ik.yaml:5:27: unknown key of a method of task ik 'wights'; did you mean 'weights'?"),
+            (SEVERAL, SHARED.replace("max_sweeps: 20", "max_sweeps: 2.5"), "ik.yaml:4:15: 'max_sweeps' must be a whole"),
+            (SEVERAL, "include: [../several.yaml]\n" + SHARED, "ik.yaml:1:11: "),
+        ]
+        for several, shared, says in cases:
+            result = self.etude("run", self.write_suite(several, shared), "-o", self.out)
+            self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            self.assertIn(says, result.stderr)
+            self.assertFalse(self.out.exists(), "a refused run left a folder")
+
+    def test_a_file_to_be_included_is_no_scenario(self):
+        suite = self.write_suite()
+        result = self.etude("run", suite / "shared", "-o", self.out)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("ik.yaml:1:1: no scenario, only 'defaults'", result.stderr)
+
+    def test_the_page_of_keys_is_the_programs(self):
+        page = self.etude("list", "keys", "--markdown").stdout
+        self.assertEqual(page, pathlib.Path("docs/keys.md").read_text())
+        listed = self.etude("list", "keys").stdout
+        for key in ("joint_noise_deg", "oracle", "memory_mb", "together", "at_least"):
+            self.assertIn(f"`{key}`", page)
+            self.assertIn(f"  {key} ", listed)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,219 @@
+"""A run survives whatever happens to it: killed anywhere and resumed, cut into shards, repeated elsewhere, it gives
+the same bytes.  ETUDE_KILLS: how many kills (more in the heavy version of this test)."""
+import json
+import os
+import random
+import shutil
+import subprocess
+import time
+import unittest
+
+from etude_case import ETUDE, IK, EtudeCase, cells_in_journal
+
+KILLS = int(os.environ.get("ETUDE_KILLS", "6"))
+LONGER = IK.replace("trials: 4", "trials: 40") + "video: {compare: [fixed], trials: [0, 1]}\n"
+
+
+class Survival(EtudeCase):
+    def setUp(self):
+        super().setUp()
+        self.scenario = self.write("ik.yaml", LONGER)
+        self.whole = self.folder / "whole"
+        self.run_suite(self.scenario, out=self.whole)
+
+    def start(self, *arguments):
+        return subprocess.Popen([ETUDE, "run", self.scenario, "-o", str(self.out), *arguments],
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def resume(self, out=None):
+        result = self.etude("run", self.scenario, "-o", out or self.out, "--resume")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_killed_at_random_moments_and_resumed_it_gives_the_same_bytes(self):
+        dice = random.Random(3)
+        cells = []
+        while len(cells) < KILLS:
+            run = self.start("--resume")
+            # Somewhere in the next sixty cells, or in what comes before and after them all.
+            moment = cells_in_journal(self.out) + dice.randrange(60)
+            while run.poll() is None and cells_in_journal(self.out) < moment:
+                time.sleep(0.001)
+            time.sleep(dice.uniform(0, 0.03))
+            if run.poll() is not None:  # it came to its end: begin anew
+                self.assertEqual(run.returncode, 0)
+                self.assert_same_results(self.whole, self.out)
+                shutil.rmtree(self.out)
+                continue
+            run.kill()
+            run.wait()
+            cells.append(cells_in_journal(self.out))
+        self.assertGreater(len(set(cells)), 1, "the kills all came at the same moment")
+        self.resume()
+        self.assert_same_results(self.whole, self.out)
+        self.assertFalse((self.out / "journal.jsonl").exists())
+        print(f"{KILLS} kills, at cells {cells}")
+
+    def test_cut_anywhere_in_its_last_line_the_journal_is_good(self):
+        run = self.start()
+        self.wait_for_cells(self.out, 5)
+        run.kill()
+        run.wait()
+        journal = self.out / "journal.jsonl"
+        text = journal.read_bytes()
+        for cut in (1, 2, 50, 300):
+            journal.write_bytes(text[:-cut])
+            copy = self.folder / f"cut-{cut}"
+            shutil.copytree(self.out, copy)
+            self.resume(copy)
+            self.assert_same_results(self.whole, copy)
+
+    def test_killed_while_its_journal_began_it_begins_anew(self):
+        self.out.mkdir()
+        shutil.copy(self.whole / "manifest.json", self.out)
+        (self.out / "journal.jsonl").write_text('{"journal":1,"mani')
+        self.resume()
+        self.assert_same_results(self.whole, self.out)
+
+    def test_resuming_nothing_begins_and_resuming_a_whole_run_does_nothing(self):
+        self.resume()
+        before = (self.out / "host.json").read_bytes()
+        self.resume()
+        self.assertEqual((self.out / "host.json").read_bytes(), before)
+        self.assert_same_results(self.whole, self.out)
+
+    def test_another_run_is_not_gone_on_with(self):
+        run = self.start()
+        self.wait_for_cells(self.out)
+        run.kill()
+        run.wait()
+        for arguments, complaint in ((["--seed", "9"], "its 'seed' differs"), (["--trials", "41"], "differs"),
+                                     (["--shard", "1/2"], "is of shard 1/1, not 1/2")):
+            result = self.etude("run", self.scenario, "-o", self.out, "--resume", *arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(complaint, result.stderr)
+        unasked = self.etude("run", self.scenario, "-o", self.out)
+        self.assertEqual(unasked.returncode, 2)
+        self.assertIn("already holds an unfinished run; --resume goes on with it", unasked.stderr)
+        self.resume()
+        self.assert_same_results(self.whole, self.out)
+
+    def shards(self, count):
+        folders = [self.folder / f"shard-{index}-of-{count}" for index in range(1, count + 1)]
+        for index, folder in enumerate(folders, 1):
+            result = self.etude("run", self.scenario, "-o", folder, "--shard", f"{index}/{count}")
+            self.assertEqual(result.returncode, 0, result.stderr)
+        return folders
+
+    def test_shards_merge_to_the_same_bytes_in_any_order(self):
+        folders = self.shards(3)
+        host = (folders[0] / "host.json").read_bytes()
+        again = self.etude("run", self.scenario, "-o", folders[0], "--shard", "1/3", "--resume")
+        self.assertEqual((again.returncode, (folders[0] / "host.json").read_bytes()), (0, host))
+        result = self.etude("merge", folders[2], folders[0], folders[1], "-o", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_same_results(self.whole, self.out)
+
+    def test_a_killed_shard_is_resumed(self):
+        one, two = self.folder / "one", self.folder / "two"
+        run = subprocess.Popen([ETUDE, "run", self.scenario, "-o", one, "--shard", "1/2"],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_for_cells(one)
+        run.kill()
+        run.wait()
+        self.assertEqual(self.etude("run", self.scenario, "-o", two, "--shard", "2/2").returncode, 0)
+        early = self.etude("merge", one, two, "-o", self.out)
+        self.assertEqual(early.returncode, 2)
+        self.assertRegex(early.stderr, r"not all 2 shards are there .*: 1/2 in \S+ lacks \d+ of 80 cells, the first ik/")
+        self.assertFalse(self.out.exists())
+        self.assertEqual(self.etude("run", self.scenario, "-o", one, "--shard", "1/2", "--resume").returncode, 0)
+        self.assertEqual(self.etude("merge", one, two, "-o", self.out).returncode, 0)
+        self.assert_same_results(self.whole, self.out)
+
+    def test_shards_that_do_not_belong_together_are_refused(self):
+        folders = self.shards(3)
+        other = self.folder / "other"
+        self.etude("run", self.scenario, "-o", other, "--shard", "3/3", "--seed", "2")
+        for shards, complaint in ((folders[:2], "not all 3 shards are there and finished (etude run --shard i/3 --resume goes on): 3/3"),
+                                  ([*folders[:2], folders[1]], "is shard 2/3, and so is"),
+                                  ([*folders[:2], other], "is a shard of another run than"),
+                                  ([*folders, self.whole], "is a whole run already"),
+                                  ([*folders[:2], self.folder / "none"], "none holds no shard; 3/3 is missing")):
+            result = self.etude("merge", *shards, "-o", self.out)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(complaint, result.stderr)
+            self.assertEqual(result.stderr.count("\n"), 1)
+            self.assertFalse(self.out.exists())
+
+    def test_a_manifest_repeats_its_run(self):
+        result = self.etude("run", "--from", self.whole / "manifest.json", "-o", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_same_results(self.whole, self.out)
+
+    def test_a_manifest_whose_clips_have_changed_is_refused(self):
+        clip = self.folder / "walk.bvh"
+        shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", clip)
+        scenario = self.write("transition.yaml", f"""scenario: t
+question: Does it run?
+task: transition
+clips: ['builtin:clap', {clip}]
+trials: 2
+methods:
+  - {{name: cut, choice: now, join: cut}}
+""")
+        self.run_suite(scenario)
+        lines = clip.read_text().splitlines()
+        clip.write_text("\n".join(lines[:-10] + [line.replace("1", "2") for line in lines[-10:]]) + "\n")
+        result = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
+        self.assertEqual(result.returncode, 2)
+        self.assertRegex(result.stderr, r"clip 2 of scenario t was \S+ \w+ then and is \S+ \w+ now")
+        self.assertEqual(result.stderr.count("\n"), 1)
+
+    def test_cells_replay_to_the_same_stages(self):
+        result = self.etude("replay", self.whole, "--sample", 10)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("10 of 10 cells came out the same", result.stdout)
+
+    def test_a_cell_that_was_tampered_with_is_found_with_its_stage(self):
+        cells = self.whole / "cells.jsonl"
+        rows = [json.loads(line) for line in cells.read_text().splitlines()]
+        rows[7]["digest_solution"] = "0123456789abcdef"
+        cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
+        result = self.etude("replay", self.whole)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef then,", result.stdout)
+        self.assertIn("159 of 160 cells came out the same", result.stdout)
+
+    def test_a_packed_cell_replays_without_anything_else(self):
+        clip = self.folder / "walk.bvh"
+        shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", clip)
+        scenario = self.write("transition.yaml", f"""scenario: t
+question: Does it run?
+task: transition
+clips: ['builtin:clap', {clip}, 'builtin:sway']
+trials: 3
+methods:
+  - {{name: cut, choice: now, join: cut}}
+  - {{name: fuzzy, choice: fuzzy-bridge, join: cut}}
+""")
+        self.run_suite(scenario)
+        pack = self.folder / "cell.etude"
+        packed = self.etude("replay", self.out, "--cell", "t/-/001/fuzzy", "--pack", pack)
+        self.assertEqual(packed.returncode, 0, packed.stderr)
+        clip.unlink()
+        shutil.rmtree(self.out)
+        replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=60)
+        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        self.assertIn("t/-/001/fuzzy: the same, stage by stage", replayed.stdout)
+        pack.write_bytes(pack.read_bytes()[:-20])
+        torn = self.etude("replay", pack)
+        self.assertEqual(torn.returncode, 2)
+        self.assertIn("not a packed cell", torn.stderr)
+
+    def test_an_unknown_cell_is_named_with_the_nearest(self):
+        result = self.etude("replay", self.whole, "--cell", "ik/joint_noise_deg=2/000/fixd")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("did you mean 'ik/joint_noise_deg=2/000/fixed'?", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,55 @@
+#include "engine/cameras/opencv_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+namespace etude {
+namespace {
+
+/// The numbers of the matrix of that name, read as any YAML reader would find them.
+std::vector<double> MatrixNamed(const std::string& text, const std::string& name) {
+  std::size_t at = text.find("\n" + name + ": !!opencv-matrix");
+  at = text.find("data: [", at) + 7;
+  std::string list = text.substr(at, text.find(']', at) - at);
+  std::replace(list.begin(), list.end(), ',', ' ');
+  std::istringstream in(list);
+  std::vector<double> numbers;
+  for (double number; in >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+// OpenCV's own formula, written down once more: pixel = K (R X + T), divided by its last entry.
+TEST(OpenCvFile, ProjectsAsOpenCvWouldHalfAPixelApart) {
+  const Camera camera =
+      LookAt({.width = 800, .height = 500, .fx = 610, .fy = 590, .cx = 401, .cy = 239}, {2, 1.2, 3}, {0.1, 0.9, 0.2});
+  const std::string text = WriteOpenCvCamera(camera);
+  const auto K = MatrixNamed(text, "camera_matrix"), R = MatrixNamed(text, "R"), T = MatrixNamed(text, "T");
+  ASSERT_EQ(K.size(), 9u);
+  ASSERT_EQ(R.size(), 9u);
+  ASSERT_EQ(T.size(), 3u);
+  EXPECT_EQ(MatrixNamed(text, "distortion_coefficients"), std::vector<double>(5, 0.0));
+  for (const glm::dvec3 X : {glm::dvec3(0.3, 1.5, -0.2), glm::dvec3(-0.6, 0.1, 0.4)}) {
+    double c[3], p[3];
+    for (int i = 0; i < 3; ++i) c[i] = R[3 * i] * X.x + R[3 * i + 1] * X.y + R[3 * i + 2] * X.z + T[i];
+    for (int i = 0; i < 3; ++i) p[i] = K[3 * i] * c[0] + K[3 * i + 1] * c[1] + K[3 * i + 2] * c[2];
+    const glm::dvec2 ours = *Project(MatrixOf(camera), X);
+    EXPECT_NEAR(p[0] / p[2], ours.x - 0.5, 1e-9);
+    EXPECT_NEAR(p[1] / p[2], ours.y - 0.5, 1e-9);
+  }
+}
+
+TEST(OpenCvFile, HasTheHeadAndTheTypesThatFileStorageReads) {
+  const std::string text = WriteOpenCvCamera(LookAt({}, {0, 1, 4}, {0, 1, 0}));
+  EXPECT_TRUE(text.starts_with("%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n")) << text;
+  EXPECT_NE(
+      text.find("camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 600., 0., 319.5, 0., "
+                "600., 239.5, 0., 0., 1. ]\n"),
+      std::string::npos)
+      << text;
+}
+
+}  // namespace
+}  // namespace etude

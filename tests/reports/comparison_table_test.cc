@@ -1,0 +1,75 @@
+#include "reports/comparison_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "reports/figures.h"
+#include "tests/reports/example_run.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+ScenarioSummary Transition() { return ExampleRun().scenarios[0]; }
+
+TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
+  const std::string html = ComparisonTableHtml(Transition());
+  EXPECT_THAT(html, HasSubstr(">jump at the seam (lower is better, 1 cm matters)</th>"));
+  EXPECT_THAT(html, HasSubstr("<td>fuzzy-bridge − now</td><td class=\"n\">10 of 12</td>"
+                              "<td class=\"n\">−19.1 cm</td><td class=\"n\">−30.1 to −8.1</td>"
+                              "<td class=\"n\">0.012</td><td class=\"n\">+0.82</td>"));
+  EXPECT_THAT(html, HasSubstr("2 of 12 worlds have no pair &lt;script&gt;"));
+  EXPECT_THAT(html, Not(HasSubstr("<script>")));
+  EXPECT_THAT(html, HasSubstr("over this scenario’s 2 comparisons (Holm)"));
+}
+
+TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {
+  ScenarioSummary scenario = Transition();
+  Comparison& comparison = scenario.conditions[0].comparisons[0];
+  comparison.why_open = "too few worlds";
+  comparison.interval = IntervalKind::kPercentile;
+  const std::string html = ComparisonTableHtml(scenario);
+  EXPECT_THAT(html, HasSubstr("too few worlds"));
+  EXPECT_THAT(html, HasSubstr(" †</td>"));
+  EXPECT_THAT(ComparisonTableHtml(Transition()), Not(HasSubstr(" †</td>")));
+  EXPECT_THAT(ComparisonTableMarkdown(scenario), HasSubstr("too few worlds"));
+}
+
+TEST(ComparisonTable, PutsADashWhereNothingCouldBeCompared) {
+  ScenarioSummary scenario = Transition();
+  Comparison nothing;
+  nothing.metric = "jump_cm";
+  nothing.baseline = "now";
+  nothing.method = "fuzzy-bridge";
+  nothing.neither = 12;
+  scenario.conditions[0].comparisons = {nothing};
+  EXPECT_THAT(ComparisonTableHtml(scenario), HasSubstr("0 of 12</td><td class=\"n\">—</td><td class=\"n\">—</td>"));
+  EXPECT_THAT(ComparisonTableCsv(scenario), HasSubstr("fuzzy-bridge,0,0,0,0,12,,,,none,,,,,,,,,,,inconclusive,\n"));
+  scenario.conditions[0].comparisons.clear();
+  EXPECT_EQ(ComparisonTableHtml(scenario), "");
+  EXPECT_EQ(ComparisonTableMarkdown(scenario), "");
+}
+
+TEST(ComparisonTable, HasAsManyCellsInEveryRowOfTheCsv) {
+  ScenarioSummary scenario = Transition();
+  for (Comparison& comparison : scenario.conditions[0].comparisons) comparison.notes = {"no comma here"};
+  const std::string csv = ComparisonTableCsv(scenario);
+  const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');
+  const auto lines = std::count(csv.begin(), csv.end(), '\n');
+  EXPECT_EQ(lines, 1 + 8);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), ','), commas * lines);
+}
+
+TEST(FormatP, NeverSaysZero) {
+  EXPECT_EQ(FormatP(0.42), "0.42");
+  EXPECT_EQ(FormatP(0.0123), "0.012");
+  EXPECT_EQ(FormatP(1e-12), "< 0.001");
+  EXPECT_EQ(FormatP(std::nullopt), kNoValue);
+}
+
+}  // namespace
+}  // namespace etude
