@@ -173,9 +173,13 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
-  command->add_option("--task", options->task, "ik, transition, detection or capture (default: the one it speaks of)");
-  command->add_option("--time", options->time_s, "Seconds per problem")->capture_default_str();
-  command->add_option("--memory", options->memory_mb, "MB of memory")->capture_default_str();
+  command->add_option("--task", options->task, "ik, transition, detection or capture")->required();
+  command->add_option("--time", options->time_s, "Seconds per problem")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
+  command->add_option("--memory", options->memory_mb, "MB of memory")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
   command->callback([=, &action] {
     action = [=] { return CheckMethodCommand(options->command, options->task, options->time_s, options->memory_mb); };
   });

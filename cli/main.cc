@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <exception>
 
@@ -45,7 +46,11 @@ std::vector<std::string> KnownWords(const CLI::App& app) {
 
 int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  std::string words;  // of the command, each followed by a space
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    words += command->get_name() + " ";
+  }
   // What nobody took explains a failure better than what is missing for want of it.
   const std::vector<std::string> extras = app.remaining(true);
   std::string message = error.what();
@@ -53,9 +58,7 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
     message =
         UnknownName(extras.front().starts_with("-") ? "option" : "argument", extras.front(), KnownWords(*command));
   }
-  return Complain(Error{{},
-                        fmt::format("{} (etude {}{}--help explains)", message,
-                                    command == &app ? "" : command->get_name(), command == &app ? "" : " ")});
+  return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
 /// A standard stream that was closed by whoever started us would lend its number to the next file opened,
@@ -91,6 +94,7 @@ int Main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   etude::OpenStandardStreams();
+  std::signal(SIGCHLD, SIG_DFL);  // ignored, as some parents leave it, it would swallow how our children end
   try {
     const int code = etude::Main(argc, argv);
     if (std::fflush(stdout) == 0) return code;

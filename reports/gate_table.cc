@@ -18,11 +18,14 @@ MetricWords GateWordsFor(const std::string& metric) {
           .direction = Direction::kHigherIsBetter};
 }
 
-std::string DifferenceText(const Comparison& comparison, const MetricWords& words) {
-  if (!comparison.difference) return std::string(kNoValue);
-  const std::string text = FormatNumber(*comparison.difference * words.scale) + words.difference_suffix;
-  if (!comparison.ci_low) return text;
-  return text + " (" + FormatInterval(comparison.ci_low, comparison.ci_high, words) + ")";
+std::string DifferenceText(const MetricMove& move, const MetricWords& words) {
+  const Comparison& found = move.comparison;
+  const auto difference = move.by_mean ? found.mean : found.difference;
+  const auto low = move.by_mean ? found.mean_low : found.ci_low, high = move.by_mean ? found.mean_high : found.ci_high;
+  if (!difference) return std::string(kNoValue);
+  const std::string text =
+      (move.by_mean ? "mean " : "") + FormatNumber(*difference * words.scale) + words.difference_suffix;
+  return low ? text + " (" + FormatInterval(low, high, words) + ")" : text;
 }
 
 std::string TestText(const MetricMove& move) {
@@ -73,7 +76,7 @@ GateTableRow TableRow(const MetricMove& move) {
           .metric = words.label,
           .before = FormatValue(move.before, words),
           .after = FormatValue(move.after, words),
-          .difference = DifferenceText(move.comparison, words),
+          .difference = DifferenceText(move, words),
           .p = TestText(move),
           .worlds = WorldsText(move),
           .verdict = std::string(MovementWords(move.movement)),

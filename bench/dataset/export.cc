@@ -158,8 +158,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options,
     }
     const World& world = plan.world(w);
     const PreparedScenario& scenario = plan.scenario_of(w);
-    const std::string place =
-        ScenarioFolder(scenario.scenario()) + "/" + ConditionFolders(scenario.scenario())[world.condition];
+    const std::string place = scenario.scenario().name + "/" + ConditionFolders(scenario.scenario())[world.condition];
     Exporter exporter(scenario, folder->partial());
     if (world.trial == 0) {
       if (auto saved = exporter.SaveSetting(world.condition, place); !saved) return tl::unexpected(saved.error());

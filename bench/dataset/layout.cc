@@ -32,11 +32,6 @@ std::vector<std::string> ConditionFolders(const Scenario& scenario) {
   return folders;
 }
 
-std::string ScenarioFolder(const Scenario& scenario) {
-  const bool is_link = scenario.name == "." || scenario.name == "..";
-  return is_link ? "scenario" + scenario.name : scenario.name;
-}
-
 std::string TrialName(int trial) { return fmt::format("{:03}", trial); }
 
 }  // namespace etude

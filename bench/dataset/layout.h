@@ -15,9 +15,6 @@ namespace etude {
 /// of "._=,+-" becomes "_", and conditions that would then be one get "~2", "~3", … in order.
 std::vector<std::string> ConditionFolders(const Scenario& scenario);
 
-/// The scenario's name; "." and ".." are none for a folder.
-std::string ScenarioFolder(const Scenario& scenario);
-
 /// "007"
 std::string TrialName(int trial);
 

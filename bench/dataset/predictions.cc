@@ -53,7 +53,7 @@ Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     const Scenario& scenario = plan.scenario_of(w).scenario();
     const World& world = plan.world(w);
-    worlds[{ScenarioFolder(scenario) + "/" + ConditionFolders(scenario)[world.condition], world.trial}] = w;
+    worlds[{scenario.name + "/" + ConditionFolders(scenario)[world.condition], world.trial}] = w;
   }
   PredictionFiles found(plan.world_count());
   for (const fs::path& file : *files) {

@@ -54,8 +54,7 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
 std::string NameOf(const Plan& plan, std::size_t w) {
   const Scenario& scenario = plan.scenario_of(w).scenario();
   const World& world = plan.world(w);
-  return fmt::format("{}/{}/{}", ScenarioFolder(scenario), ConditionFolders(scenario)[world.condition],
-                     TrialName(world.trial));
+  return fmt::format("{}/{}/{}", scenario.name, ConditionFolders(scenario)[world.condition], TrialName(world.trial));
 }
 
 constexpr std::uintmax_t kLargestAnswer = std::uintmax_t{16} << 20;  // as a program's; 60 s of poses take 3 MB

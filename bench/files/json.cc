@@ -1,5 +1,6 @@
 #include "bench/files/json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,7 +28,28 @@ Result<std::string> WriteJson(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+int NestingOf(std::string_view text) {
+  int depth = 0, deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line) {
+  constexpr int kDeepest = 100;  // what walks over values recurses
+  if (NestingOf(text) > kDeepest) return Fail({file, line, 0}, "nested more than {} deep", kDeepest);
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "engine/base/result.h"
 
@@ -13,7 +14,10 @@ using Json = nlohmann::ordered_json;
 /// same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.
 Result<std::string> WriteJson(const Json& json);
 
-/// Reads one JSON value; complains with the file and `line` (0 = a file of one value).
+/// How deep brackets nest, whether or not the rest is JSON.
+int NestingOf(std::string_view text);
+
+/// Reads one JSON value, nested at most 100 deep; complains with the file and `line` (0 = a file of one value).
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 
 }  // namespace etude

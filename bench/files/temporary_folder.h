@@ -13,7 +13,7 @@ class TemporaryFolder {
   /// `purpose` becomes part of its name.
   static Result<TemporaryFolder> Make(const std::string& purpose);
   TemporaryFolder(TemporaryFolder&& other) noexcept;
-  TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+  TemporaryFolder& operator=(TemporaryFolder&& other) noexcept;
   ~TemporaryFolder();
 
   const std::filesystem::path& path() const { return path_; }

@@ -45,14 +45,17 @@ Comparison AskedOfTheMean(Comparison comparison) {
   return comparison;
 }
 
-Movement JudgeByThreshold(const MetricMove& move) {
+void JudgeByThreshold(MetricMove& move) {
   const MetricInfo& metric = *FindGateMetric(move.identity.metric);
-  Movement movement = Movement::kNoMatter;
+  move.movement = Movement::kNoMatter;
   if (move.comparison.differing > 0) {
-    movement = MoreTelling(MovementOf(move.comparison, metric), MovementOf(AskedOfTheMean(move.comparison), metric));
+    const Movement own = MovementOf(move.comparison, metric);
+    move.movement = MoreTelling(own, MovementOf(AskedOfTheMean(move.comparison), metric));
+    move.by_mean = move.movement != own;
   }
-  if (!move.presence) return movement;
-  return MoreTelling(movement, MovementOf(*move.presence, *FindGateMetric(kOkShare)));
+  if (move.presence) {
+    move.movement = MoreTelling(move.movement, MovementOf(*move.presence, *FindGateMetric(kOkShare)));
+  }
 }
 
 /// Holm's correction over all comparisons in which anything differs.
@@ -142,7 +145,7 @@ void JudgeMoves(std::span<MetricMove> moves, const std::set<std::string>& exact)
     } else if (exact.contains(move.identity.scenario)) {
       move.movement = Movement::kChanged;
     } else {
-      move.movement = JudgeByThreshold(move);
+      JudgeByThreshold(move);
     }
   }
 }

@@ -45,6 +45,7 @@ struct MetricMove {
   int gained = 0;                       ///< nulls that became values
   std::optional<double> before, after;  ///< the metric's aggregate over the values there are
   Comparison comparison;                ///< where both have a value; later − earlier
+  bool by_mean = false;                 ///< the mean has decided: few worlds differ, but much
   std::optional<Comparison> presence;   ///< where values were lost or gained: of "has a value", 1 or 0
 };
 

@@ -1,29 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
+#include "bench/files/temporary_folder.h"
 #include "bench/tasks/base/task.h"
 
 namespace etude {
 
-/// A private folder below the system's temporary one that holds attachments; removed with all that is in it by the
-/// destructor.
+/// A private folder that holds attachments, and goes away with all that is in it.
 class AttachmentFolder {
  public:
-  AttachmentFolder() = default;  ///< none
-  AttachmentFolder(AttachmentFolder&& other) noexcept;
-  AttachmentFolder& operator=(AttachmentFolder&& other) noexcept;
-  ~AttachmentFolder();
-
   /// No folder when there are no files.
   static Result<AttachmentFolder> Write(std::span<const Attachment> files);
 
   /// "" when there is none.
-  const std::string& path() const { return path_; }
+  std::string path() const { return folder_ ? folder_->path().string() : ""; }
 
  private:
-  std::string path_;
+  std::optional<TemporaryFolder> folder_;
 };
 
 }  // namespace etude

@@ -10,29 +10,9 @@ namespace {
 
 constexpr std::size_t kLongestName = 200;
 
-/// How deep brackets nest, whether or not the rest is JSON.
-int Depth(std::string_view text) {
-  int depth = 0, deepest = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      if (c == '"') in_string = false;
-    } else if (c == '"') {
-      in_string = true;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++depth);
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return deepest;
-}
-
 /// An object with a text `type`.
 Result<Json> ReadMessage(const std::string& line) {
-  if (Depth(line) > kDeepestReply) {
+  if (NestingOf(line) > kDeepestReply) {
     return Fail({}, "said something nested more than {} deep: {}", kDeepestReply, Printable(line));
   }
   Json message;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/scenario/methods.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {
@@ -96,6 +97,9 @@ Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
 }
 
 Result<void> PreparedScenario::AddMethod(const std::string& name, bool alone) {
+  if (!IsPlainName(name)) {
+    return Fail({}, "'{}' is no name of a method; allowed: letters, digits, '-', '_' and '.', at most 80", name);
+  }
   std::vector<MethodEntry>& methods = scenario_.methods;
   if (alone) {
     methods.clear();

@@ -40,7 +40,7 @@ class PreparedScenario {
   const Task& task(int condition) const { return *tasks_[condition]; }
 
   /// Puts a method whose answers are known already behind those of the file, compared with the first, or `alone` in
-  /// their place, with nothing expected. Fails when the name is taken.
+  /// their place, with nothing expected. Fails when the name is taken or no name.
   Result<void> AddMethod(const std::string& name, bool alone);
 
   /// What keys the dice of a trial.

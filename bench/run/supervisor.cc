@@ -18,10 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kPollMilliseconds = 20;     // how stale a look at memory or at the clock may be
-constexpr int kMostDeathsInSetup = 3;     // one may be chance (out of memory, a stray kill); a row of them is not
-constexpr double kLongestSetupS = 600;    // clips are read in it
-constexpr double kGraceForOutsideS = 10;  // a method outside is ended by the worker, which then still has to tell
+constexpr int kPollMilliseconds = 20;   // how stale a look at memory or at the clock may be
+constexpr int kMostDeathsInSetup = 3;   // one may be chance (out of memory, a stray kill); a row of them is not
+constexpr double kLongestSetupS = 600;  // clips are read in it
+constexpr double kGraceS = 10;          // a method outside is ended by the worker, which then still has to tell
+constexpr int kFarewellMs = 3000;       // in which a worker lets its methods outside come to their end
 
 Clock::time_point After(double seconds) {
   constexpr double kLongest = 1e9;  // beyond any run, within what the clock can hold
@@ -79,6 +80,7 @@ class Supervisor {
     worker.order.reset();
     worker.built = false;
     if (orders_.empty()) {
+      worker.process.Finish(kFarewellMs);
       worker.dismissed = true;
       return;
     }
@@ -96,8 +98,8 @@ class Supervisor {
     const auto& methods = plan_.scenario_of(worker.order->world).scenario().methods;
     const MethodEntry& method = methods[worker.order->methods.front()];
     const double limit_s = LimitsOf(*worker.order).time_s;
-    // Handshake, setting and problem have as long each.
-    worker.deadline = After(method.exec.empty() ? limit_s : 3 * method.time_s.value_or(limit_s) + kGraceForOutsideS);
+    worker.deadline =
+        After(method.exec.empty() ? limit_s : LongestAskSeconds(method.time_s.value_or(limit_s)) + kGraceS);
   }
 
   Result<void> Step() {

@@ -1,6 +1,7 @@
 #include "bench/run/worker.h"
 
 #include <Eigen/Core>
+#include <csignal>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -42,6 +43,9 @@ Result<void> Obey(const Json& order, std::span<const std::unique_ptr<CellRunner>
 
 int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
+  // A job scheduler signals every process of a job; whether to stop is the parent's to say.
+  std::signal(SIGINT, SIG_IGN);
+  std::signal(SIGTERM, SIG_IGN);
   std::string line;
   if (!std::getline(in, line)) return 0;
   const Place place{"a worker's set-up", 1, 0};

@@ -13,14 +13,6 @@ namespace {
 constexpr std::size_t kMostMethods = 100;
 constexpr double kLongestTime_s = 86'400;
 
-bool IsPlainName(const std::string& name) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-           c == '.';
-  };
-  return !name.empty() && name.size() <= 80 && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
-}
-
 Json ScalarToJson(const Node& node) {
   const std::string& text = node.scalar;
   if (text == "true" || text == "false") return text == "true";
@@ -104,6 +96,14 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
 }
 
 }  // namespace
+
+bool IsPlainName(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
+           c == '.';
+  };
+  return !name.empty() && name.size() <= 80 && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
+}
 
 std::string ReadPlainName(Fields& fields, std::string_view key) {
   std::string name = fields.RequiredText(key);

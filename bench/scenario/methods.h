@@ -5,7 +5,10 @@
 
 namespace etude {
 
-/// A name that can be part of a cell's identity and of a file's name: letters, digits, '-', '_' and '.'.
+/// Whether a name can be part of a cell's identity and of a file's name: letters, digits, '-', '_' and '.', at most 80,
+/// not beginning with a dot.
+bool IsPlainName(const std::string& name);
+/// Reads such a name.
 std::string ReadPlainName(Fields& fields, std::string_view key);
 
 /// Reads `methods`: what every method has (its name, whom it is compared with) and all of those outside.

@@ -109,6 +109,11 @@ class DataSets(EtudeCase):
             self.assertIn(words, complaint)
         self.assertIn("broken", self.score(data, answers, "--allow-missing", code=2))
 
+    def test_a_method_needs_a_name_of_its_own(self):
+        data, answers = self.export(IK)
+        self.assertIn("has a method named 'fixed' already", self.score(data, answers, "--name", "fixed", code=2))
+        self.assertIn("'a/b' is no name", self.score(data, answers, "--name", "a/b", code=2))
+
     def test_a_missing_answer_may_be_a_failure_instead(self):
         data, answers = self.export(IK)
         (answers / "ik" / "joint_noise_deg=2" / "001.json").unlink()

