@@ -6,12 +6,26 @@
 #include <sstream>
 
 #include "bench/files/files.h"
+#include "bench/metrics/catalogue.h"
 #include "bench/results/folder.h"
 
 namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Values of two versions of a metric never mix.
+Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
+  const Json versions = manifest.value("metrics", Json::object());
+  for (const auto& [id, version] : versions.items()) {
+    const MetricInfo* metric = FindMetric(id);
+    if (metric != nullptr && version != metric->version) {
+      return Fail(place, "was measured with version {} of {}; this program has version {}: run it anew", version.dump(),
+                  id, metric->version);
+    }
+  }
+  return {};
+}
 
 /// The scenarios of manifest.json, read from the texts that it keeps.
 Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
@@ -22,6 +36,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
   const Place place{path.string(), 0, 0};
   auto suite = DecodeSetup(*manifest, place);
   if (!suite) return tl::unexpected(suite.error());
+  if (auto same = CheckMetricVersions(*manifest, place); !same) return tl::unexpected(same.error());
   std::vector<FinishedScenario> finished;
   for (std::size_t s = 0; s < suite->scenarios.size(); ++s) {
     FinishedScenario& one = finished.emplace_back();

@@ -75,6 +75,9 @@ void CellRunner::Open(int condition, int trial) {
   const std::vector<int>& filmed = scenario_.scenario().recordings.trials;
   try {
     world_ = scenario_.task(condition).MakeWorld(key, std::find(filmed.begin(), filmed.end(), trial) != filmed.end());
+    const auto& methods = scenario_.scenario().methods;
+    const bool runs_built_in = methods.size() > outside_.size();
+    if (runs_built_in && !world_->WhySkipped()) world_->PrepareShared();
   } catch (const std::exception& error) {
     world_.reset();
     why_no_world_ = std::string("the world cannot be built: ") + error.what();

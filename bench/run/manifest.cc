@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "bench/files/files.h"
+#include "bench/metrics/catalogue.h"
 #include "bench/process/child_process.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
@@ -63,6 +64,9 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
             {"packages", ETUDE_PACKAGES},
             {"glibc", gnu_get_libc_version()}};
   json.update(EncodeSetup(suite));
+  for (const TaskKind& kind : AllTaskKinds()) {
+    for (const std::string& id : kind.metrics) json["metrics"][id] = FindMetric(id)->version;
+  }
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     json["scenarios"][s]["loaded_clips"] = DescribeClips(scenarios[s].clips());
     const TaskKind& kind = *FindTaskKind(scenarios[s].scenario().task);

@@ -88,6 +88,9 @@ class TaskWorld {
   /// Why no method can run here ("clip x has no labelled moves"), else nothing: then every cell is skipped.
   virtual std::optional<std::string> WhySkipped() const { return std::nullopt; }
 
+  /// Computes the costly stages that several built-in methods share, so that none of them is charged with their time.
+  virtual void PrepareShared() {}
+
   /// Runs a built-in method: its index in TaskInput::methods.
   virtual CellResult Run(std::size_t method) = 0;
 

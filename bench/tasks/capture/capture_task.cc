@@ -27,6 +27,8 @@ class CaptureTaskWorld : public TaskWorld {
         stages_(study.options, clip, key, study.sources, keeps_motion),
         keeps_motion_(keeps_motion) {}
 
+  void PrepareShared() override { (void)stages_.GetTake(); }  // a failure is told by every cell
+
   CellResult Run(std::size_t method) override { return RunCaptureCell(stages_, study_.methods[method], keeps_motion_); }
 
   Result<Exhibit> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
