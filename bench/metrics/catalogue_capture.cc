@@ -16,7 +16,6 @@ const MetricInput kEnds = {"ends_m",
                            "[x, y, z] in metres, or null where there is none"};
 
 const char* const kNoFrame = "When no frame was recovered.";
-const std::string kOutside = ", or the method is one from outside, whose stages are not seen.";
 const char* const kMillimetre = "A pixel is 6 mm wide on the stage, and a human's marks are two pixels off.";
 const char* const kHundredth = "One joint in a hundred.";
 const char* const kCoverageSource = "Etude: an error over what was measured needs its denominator beside it.";
@@ -188,7 +187,7 @@ std::vector<MetricInfo> CaptureCatalogue() {
        .formula =
            "recovered / all frames of the window. A frame is recovered when its marks, or neighbours' at most half a "
            "second (or the distance of marked frames) away, gave a body and inverse kinematics an answer.",
-       .null_rule = "When a camera could not be calibrated.",
+       .null_rule = "Never: no answer, or a camera that could not be calibrated, is 0.",
        .source = "Etude.",
        .inputs = {{"recovered", "per frame 1 or 0"}}},
   };

@@ -100,7 +100,7 @@ std::vector<MetricInfo> DetectionCatalogue() {
        .formula = "alarms / minutes of the whole session: performances included, since a move's recogniser runs "
                   "through others' windows too. A call of move m at frame f is an alarm unless begin ≤ f < end holds "
                   "for a performance in which m was asked for or danced. How often a recogniser calls while a move "
-                  "lasts is part of the recogniser; what a method from outside says twice counts once.",
+                  "lasts is part of the recogniser; what a method outside says twice counts once.",
        .null_rule = "Never.",
        .source = "Etude.",
        .inputs = {{"rate_hz", "frames per second"},

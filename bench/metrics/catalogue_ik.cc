@@ -19,7 +19,7 @@ const std::vector<MetricInput> kCost = {
 };
 
 const char* const kNeverNull = "Never: a solution has all its effectors.";
-const char* const kUntold = "When a method from outside answered without saying what it took.";
+const char* const kUntold = "When a method outside answers without telling what it took.";
 const char* const kHalfSolved = "Half of what counts as solved.";
 const char* const kSolvedReason = "One world in fifty.";
 const char* const kStepsReason = "On easy worlds a few steps more or less are the last step's luck.";
@@ -40,8 +40,8 @@ std::vector<MetricInfo> IkCatalogue() {
                   "left foot is the root). In task capture the same over the recovered frames too: the mean over "
                   "frames of the mean over effectors, where t is the point triangulated from the pictures, not the "
                   "truth; frames held from a neighbour do not count.",
-       .null_rule = "Task capture: when no frame was recovered, or the method is one from outside, whose stages are "
-                    "not seen. Task ik: never.",
+       .null_rule = "Task capture: when no frame was recovered, or the method is one outside, whose stages are not "
+                    "seen. Task ik: never.",
        .source = "Paper B, whose tables show every effector; this is their mean.",
        .inputs = {kEffectors}},
       {.id = "position_error_max_cm",
@@ -116,11 +116,13 @@ std::vector<MetricInfo> IkCatalogue() {
        .direction = kHigherIsBetter,
        .aggregate = kMean,
        .practical = 0.02,
-       .definition = "1 when all effectors are within 0.1 cm and 0.1° of their targets, else 0.",
+       .definition =
+           "1 when all effectors are within 0.1 cm and 0.1° of their targets and no joint limit is broken, else 0.",
        .practical_reason = kSolvedReason,
        .formula = "1 if position_error_max_cm < 0.1 and orientation_error_max_deg < 0.1, else 0; exactly at a limit is "
-                  "0. An answer from outside must keep every joint's limits too. The denominator of its mean is every "
-                  "world: a method that gave no answer has 0.",
+                  "0. A limit is broken when an angle of a method outside lies beyond it by more than 10⁻⁶ degrees; "
+                  "built-in solvers keep them all. The denominator of its mean is every world: a method that gave no "
+                  "answer has 0.",
        .null_rule = "Never: no answer is 0.",
        .source = "Etude.",
        .inputs = {kEffectors}},
@@ -130,11 +132,11 @@ std::vector<MetricInfo> IkCatalogue() {
        .direction = kHigherIsBetter,
        .aggregate = kMean,
        .practical = 0.02,
-       .definition = "1 when all effectors are within 0.001 cm and 0.001° of their targets, else 0.",
+       .definition =
+           "1 when all effectors are within 0.001 cm and 0.001° of their targets and no joint limit is broken, else 0.",
        .practical_reason = kSolvedReason,
        .formula = "1 if position_error_max_cm < 0.001 and orientation_error_max_deg < 0.001, else 0; exactly at a "
-                  "limit is 0. An answer from outside must keep every joint's limits too. The denominator of its mean "
-                  "is every world: a method that gave no answer has 0.",
+                  "limit is 0. Joint limits and denominator as in solved_practical.",
        .null_rule = "Never: no answer is 0.",
        .source = "Etude: a hundredth of solved_practical, to see who converges.",
        .inputs = {kEffectors}},

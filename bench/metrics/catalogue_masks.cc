@@ -10,7 +10,6 @@ const std::vector<MetricInput> kImages = {{"images",
                                            "per image: `found`, `truth` and `shadow`, masks of one size, each a list "
                                            "of rows from the top, each a list of 0 and 1"}};
 
-const std::string kOutside = ", or the method is one from outside, whose stages are not seen.";
 const char* const kReason = "One pixel in a hundred.";
 
 }  // namespace

@@ -72,7 +72,8 @@ Join JoinOf(std::string_view name) { return ValueNamed(name, kJoins); }
 std::vector<KeyInfo> TransitionConditionKeys() {
   return {
       {"threshold", "0…6", "0.4", "Two bridge frames match when their fuzzy distance is below it; for all methods."},
-      {"wait_s", "0…60 (seconds)", "1", "How long after the request a switch may come; for all methods."}};
+      {"wait_s", "0…60 (seconds)", "1",
+       "How long after the request a switch may come; for all methods, those outside are told it as max_wait_s."}};
 }
 
 std::vector<KeyInfo> TransitionMethodKeys() {
