@@ -95,6 +95,7 @@ int Main(int argc, char** argv) {
 int main(int argc, char** argv) {
   etude::OpenStandardStreams();
   std::signal(SIGCHLD, SIG_DFL);  // ignored, as some parents leave it, it would swallow how our children end
+  std::signal(SIGXFSZ, SIG_IGN);  // past a limit of file size, a write fails and is told of like any other
   try {
     const int code = etude::Main(argc, argv);
     if (std::fflush(stdout) == 0) return code;

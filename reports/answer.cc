@@ -149,7 +149,7 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
   };
   add(first.baseline, only_baseline);
   add(first.method, only_method);
-  return text.empty() ? "" : fmt::format(" Not counted, since one of the two has no value there: {}.", text);
+  return text.empty() ? "" : fmt::format(" Not in this difference, since one of the two has no value there: {}.", text);
 }
 
 }  // namespace

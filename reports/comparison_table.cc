@@ -79,11 +79,11 @@ std::string Legend(const ScenarioSummary& scenario) {
   return fmt::format(
       "Difference: method − baseline in the same world, the median (of shares and penalised costs the mean); its 95 % "
       "interval is a BCa bootstrap (of shares adjusted Wald; †: percentile, where BCa is undefined). p: Wilcoxon’s "
-      "signed "
-      "ranks (where the mean counts, sign flips), corrected over this scenario’s {} (Holm). Effect: rank-biserial "
+      "signed ranks (where the mean counts, sign flips), corrected over this scenario’s {} (Holm). Effect: "
+      "rank-biserial "
       "correlation, −1 to +1, + is better. Better or worse: p ≤ 0.05, an interval on one side of zero, and a "
-      "difference "
-      "that matters. No difference: the interval within what matters.",
+      "difference that matters. No difference: the interval within what matters. Where one method alone failed, p "
+      "counts that world as its loss, and the verdict must hold with and without.",
       Plural(scenario.family, "comparison"));
 }
 

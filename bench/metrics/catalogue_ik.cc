@@ -120,9 +120,9 @@ std::vector<MetricInfo> IkCatalogue() {
            "1 when all effectors are within 0.1 cm and 0.1° of their targets and no joint limit is broken, else 0.",
        .practical_reason = kSolvedReason,
        .formula = "1 if position_error_max_cm < 0.1 and orientation_error_max_deg < 0.1, else 0; exactly at a limit is "
-                  "0. A limit is broken when an angle of a method outside lies beyond it by more than 10⁻⁶ degrees; "
-                  "built-in solvers keep them all. The denominator of its mean is every world: a method that gave no "
-                  "answer has 0.",
+                  "0. A limit is broken when an angle lies beyond it by more than 10⁻⁶ degrees; a built-in method with "
+                  "`limits: false` is not held to them. The denominator of its mean is every world: a method that gave "
+                  "no answer has 0.",
        .null_rule = "Never: no answer is 0.",
        .source = "Etude.",
        .inputs = {kEffectors}},

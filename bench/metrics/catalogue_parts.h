@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bench/metrics/catalogue.h"
@@ -12,5 +13,8 @@ std::vector<MetricInfo> CaptureCatalogue();
 std::vector<MetricInfo> MaskCatalogue();
 std::vector<MetricInfo> TransitionCatalogue();
 std::vector<MetricInfo> DetectionCatalogue();
+
+/// Ends the null rule of a metric that only a built-in method's stages can tell.
+inline const std::string kOutside = ", or the method is one outside, whose stages are not seen.";
 
 }  // namespace etude

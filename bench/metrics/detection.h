@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// An event is one scripted performance of a move (metrics.md, "detection"). Positive = "right".
+/// An event is one scripted performance of a move (docs/metrics.md). Positive = "right".
 struct JudgedEvent {
   bool is_right = false;      ///< the truth
   bool called_right = false;  ///< what the recogniser said by the end of the event's window

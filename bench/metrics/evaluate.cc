@@ -101,7 +101,8 @@ bool IsNaturalJump(const Json& in) {
     const std::vector<double> own = NaturalJumpsCm(ReadMotion(clip));
     jumps.insert(jumps.end(), own.begin(), own.end());
   }
-  return IsNatural(in.at("jump_cm").get<double>(), std::move(jumps));
+  const Json& jump = in.at("jump_cm");
+  return IsNatural(jump.is_null() ? std::nullopt : std::optional(jump.get<double>()), std::move(jumps));
 }
 
 double WorstFootSlide(const Json& in) {

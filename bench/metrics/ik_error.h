@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// How well end effectors meet their targets (metrics.md: position_error_cm, position_error_max_cm,
+/// How well end effectors meet their targets (docs/metrics.md: position_error_cm, position_error_max_cm,
 /// orientation_error_deg, …_max_deg, solved_*).
 struct IkErrorSummary {
   double position_cm = 0;      ///< mean over the effectors

@@ -26,7 +26,7 @@ double FrameMpjpeMm(const BodyPose& found, const BodyPose& truth);
 /// The same after `AlignSimilarity` of this frame.
 double FramePaMpjpeMm(const BodyPose& found, const BodyPose& truth);
 
-/// How far a recovered motion is from the true one (metrics.md), over all joints and frames.
+/// How far a recovered motion is from the true one (docs/metrics.md), over all joints and frames.
 struct PoseErrors {
   double mpjpe_mm = 0;
   double pa_mpjpe_mm = 0;

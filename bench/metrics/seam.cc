@@ -117,8 +117,8 @@ double NaturalLimitCm(std::vector<double> natural_jumps) {
   return std::lerp(natural_jumps[below], natural_jumps[above], rank - static_cast<double>(below));
 }
 
-bool IsNatural(double jump_cm, std::vector<double> natural_jumps_cm) {
-  return jump_cm < NaturalLimitCm(std::move(natural_jumps_cm));
+bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
+  return jump_cm && *jump_cm < NaturalLimitCm(std::move(natural_jumps_cm));
 }
 
 double FootSlideCmps(const BodyMotion& motion, int seam) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace etude {
 
-/// The smoothness of a motion around given frames (metrics.md, transition metrics). Motions are judged
+/// The smoothness of a motion around given frames (docs/metrics.md, Transitions). Motions are judged
 /// at 30 Hz, in metres, danced by a body whose hips stand at 0.90 m.
 
 /// How unevenly a motion moves close to a seam.
@@ -35,8 +36,9 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip);
 /// Needs a value.
 double NaturalLimitCm(std::vector<double> natural_jumps);
 
-/// `natural_share` of one switch: its jump is below the limit of the natural jumps. Needs a natural jump.
-bool IsNatural(double jump_cm, std::vector<double> natural_jumps_cm);
+/// `natural_share` of one switch: its jump is below the limit of the natural jumps, of which it needs one. A switch
+/// that found no way has no jump, and is not natural.
+bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm);
 
 /// Mean over both feet and the second after frame `seam` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1):
 /// the horizontal speed of feet that should be standing. Needs a frame after the seam.

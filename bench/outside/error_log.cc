@@ -12,7 +12,9 @@
 namespace etude {
 
 ErrorLog::ErrorLog(std::string file) : file_(std::move(file)) {
-  if (!file_.empty()) memory_ = ::memfd_create("standard error", MFD_CLOEXEC);
+  if (file_.empty()) return;
+  memory_ = ::memfd_create("standard error", MFD_CLOEXEC);
+  if (memory_ < 0) MakeItsFolder();
 }
 
 ErrorLog::~ErrorLog() {
@@ -50,9 +52,16 @@ std::string ErrorLog::LastLine() const {
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
+// Not sooner than there is something to keep: most runs have no such folder.
+void ErrorLog::MakeItsFolder() const {
+  std::error_code ignored;  // what a program says is not worth failing a cell
+  std::filesystem::create_directories(std::filesystem::path(file_).parent_path(), ignored);
+}
+
 void ErrorLog::Save() {
   const long size = Size();
   if (size == 0) return;
+  MakeItsFolder();
   std::error_code absent;
   const auto saved = std::filesystem::file_size(file_, absent);
   const long room = absent ? kLargest : kLargest - static_cast<long>(std::min<std::uintmax_t>(saved, kLargest));

@@ -23,10 +23,11 @@ class ErrorLog {
   void Trim();
   /// The last line that is not empty, of what was said since the last Save; "" when there is none.
   std::string LastLine() const;
-  /// Appends what was said to the file, up to its limit, and forgets it.
+  /// Appends what was said to the file, up to its limit, and forgets it. Makes the folder that the file is in.
   void Save();
 
  private:
+  void MakeItsFolder() const;
   std::string Read(long start, long size) const;
   long Size() const;
 

@@ -66,7 +66,7 @@ struct GateRules {
   std::vector<TimeRatio> time_ratios;
 };
 
-/// A question put to several methods on the same worlds (design.md §5), as its file says it. The keys
+/// A question put to several methods on the same worlds (docs/scenarios.md), as its file says it. The keys
 /// of its task are read by the task itself, from each condition's mapping.
 struct Scenario {
   std::string file;

@@ -76,19 +76,55 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   return result;
 }
 
+std::optional<Comparison> CompareWithFailures(std::span<const Pair> pairs, const FailedWorlds& failed,
+                                              const MetricInfo& metric, std::uint64_t seed, const std::string& purpose,
+                                              double confidence) {
+  if (failed.baseline + failed.method == 0 || pairs.empty() || metric.direction == Direction::kNeither) {
+    return std::nullopt;
+  }
+  double largest = AreShares(pairs) ? 1 : metric.practical;
+  for (const Pair& pair : pairs) largest = std::max(largest, std::abs(pair.method - pair.baseline));
+  const bool lower = metric.direction == Direction::kLowerIsBetter;
+  const Pair loss = lower ? Pair{0, largest} : Pair{largest, 0}, win{loss.method, loss.baseline};
+  std::vector<Pair> all(pairs.begin(), pairs.end());
+  all.insert(all.end(), failed.method, loss);
+  all.insert(all.end(), failed.baseline, win);
+  return ComparePaired(all, metric, seed, purpose + "/failures", confidence);
+}
+
 std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric) {
   return metric.aggregate == Aggregate::kMedian ? comparison.signed_rank.p : comparison.sign_flip.p;
+}
+
+bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
+  return metric.aggregate == Aggregate::kMean && comparison.interval != IntervalKind::kAdjustedWald &&
+         comparison.differing < kSmallestSample;
 }
 
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
   if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
-  if (low >= -metric.practical && high <= metric.practical) return Verdict::kNoDifference;
+  if (low >= -metric.practical && high <= metric.practical) {
+    return SeesTooFewDiffer(comparison, metric) ? Verdict::kInconclusive : Verdict::kNoDifference;
+  }
   const bool beyond_zero = low > 0 || high < 0;
   const bool significant = *comparison.p_holm <= 1 - confidence;
   if (!beyond_zero || !significant || std::abs(difference) < metric.practical) return Verdict::kInconclusive;
   if (metric.direction == Direction::kNeither) return Verdict::kInconclusive;
   return (difference < 0) == (metric.direction == Direction::kLowerIsBetter) ? Verdict::kBetter : Verdict::kWorse;
+}
+
+Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
+                      double confidence) {
+  Verdict of_pairs = VerdictOf(comparison, metric, confidence);
+  comparison.verdict = of_pairs;
+  if (!with_failures) return of_pairs;
+  comparison.p_holm = with_failures->p_holm;
+  const Verdict with_their_p = VerdictOf(comparison, metric, confidence);
+  if (of_pairs == Verdict::kInconclusive) of_pairs = with_their_p;
+  const bool agree = with_their_p == VerdictOf(*with_failures, metric, confidence);
+  comparison.verdict = agree ? with_their_p : Verdict::kInconclusive;
+  return of_pairs;
 }
 
 }  // namespace etude

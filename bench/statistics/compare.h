@@ -23,14 +23,37 @@ struct Pair {
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,
                          const std::string& purpose, double confidence = kConfidence);
 
+/// Worlds in which one method has a value, and the other's cell failed.
+struct FailedWorlds {
+  int baseline = 0, method = 0;  ///< whose cell failed
+};
+
+/// The same comparison with failures in the denominator: each world in which one method alone failed counts as the
+/// largest difference among the pairs, or one that just matters, against the method that failed (worst ranks,
+/// Lachin 1999). Nothing when there is no such world, no pair, or no better direction.
+std::optional<Comparison> CompareWithFailures(std::span<const Pair> pairs, const FailedWorlds& failed,
+                                              const MetricInfo& metric, std::uint64_t seed, const std::string& purpose,
+                                              double confidence = kConfidence);
+
 /// The p of the test that decides, fixed by the metric and never by the result: of Wilcoxon's where the aggregate is
 /// the median, of the sign flips where it is the mean.
 std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric);
 
+/// Whether a mean's bootstrap rests on too few differences to exclude rare large ones: of 8 worlds that are all equal
+/// it makes an interval of no width, and a difference in every tenth world goes unseen in 43 % of such samples.
+bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
+
 /// What the interval, `p_holm` and the metric's practical threshold say, alpha = 1 − confidence:
-///   no difference    the interval lies within ± threshold (equivalence; at 95 % stricter than two one-sided 5 % tests)
+///   no difference    the interval lies within ± threshold (equivalence; at 95 % stricter than two one-sided 5 %
+///   tests);
+///                    of a bootstrapped mean only when kSmallestSample pairs differ, for it can't see what is rare
 ///   better / worse   p_holm ≤ alpha, the interval lies on one side of zero, the difference is at least the threshold
 ///   inconclusive     anything else; always with fewer than kSmallestSample pairs
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence = kConfidence);
+
+/// Gives the comparison the p with failures counted, if there are any, and the verdict that holds with and without
+/// them, else kInconclusive. Both come with their own `p_holm`. Returns what would be said without the failures.
+Verdict JudgeBothWays(Comparison& comparison, const std::optional<Comparison>& with_failures, const MetricInfo& metric,
+                      double confidence = kConfidence);
 
 }  // namespace etude

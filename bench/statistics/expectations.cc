@@ -42,7 +42,10 @@ Finding JudgeComparison(const Expectation& expectation, std::span<const Row* con
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
   const PairedWorlds worlds = PairsOf(rows, other, expectation.of, expectation.metric);
-  const Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose, expectation.confidence);
+  Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose, expectation.confidence);
+  const auto with_failures =
+      CompareWithFailures(worlds.pairs, worlds.failed, metric, seed, purpose, expectation.confidence);
+  const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
@@ -53,6 +56,7 @@ Finding JudgeComparison(const Expectation& expectation, std::span<const Row* con
   std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
                                    *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
                                    *found.p_holm, found.pairs, missing);
+  if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold when failing counts as losing"};
   const double alpha = 1 - expectation.confidence;
   if (outcome == Outcome::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,

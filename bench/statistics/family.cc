@@ -27,7 +27,7 @@ std::string NoteOnMissing(const Comparison& c) {
   add(fmt::format("only “{}” has a value", c.method), c.only_method);
   add("neither has one", c.neither);
   return fmt::format("{} of {} worlds are not in the difference: {}{}", without, c.pairs + without, who,
-                     c.only_baseline + c.only_method > 0 ? " (survivorship)" : "");
+                     c.pairs > 0 && c.only_baseline + c.only_method > 0 ? " (survivorship)" : "");
 }
 
 /// Why the verdict is open, in the order in which one would ask.
@@ -35,7 +35,14 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   if (c.verdict != Verdict::kInconclusive) return "";
   if (c.pairs == 0) return "no world gave both a value";
   const int needed = PairsNeeded(comparisons, kAlpha);
-  if (c.differing<needed&& * c.p_holm> kAlpha) {
+  if (SeesTooFewDiffer(c, metric) && c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical) {
+    return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
+                       c.differing, c.pairs);
+  }
+  if (c.differing == 0 && c.ci_low) {
+    return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
+  }
+  if (*c.p_holm > kAlpha && c.differing < needed) {
     return fmt::format("too few worlds: {} of {} pairs differ, so p ≥ {:.2g}; {} needs at least {}", c.differing,
                        c.pairs, SmallestP(c.differing),
                        comparisons == 1 ? "one comparison" : fmt::format("one of {} comparisons (Holm)", comparisons),
@@ -43,7 +50,11 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
   }
   if (!c.ci_low) return fmt::format("too few worlds: no interval below {}", kSmallestSample);
   const bool beyond_zero = *c.ci_low > 0 || *c.ci_high < 0;
-  if (!beyond_zero) return "the interval holds zero, and differences that matter";
+  if (!beyond_zero && *c.p_holm > kAlpha) return "the interval holds zero, and differences that matter";
+  if (!beyond_zero) {
+    return fmt::format("the test finds a difference (p = {:.2g} among {}), but the interval of its {} reaches zero",
+                       *c.p_holm, comparisons, metric.aggregate == Aggregate::kMedian ? "median" : "mean");
+  }
   const double p = *DecidingP(c, metric);
   if (*c.p_holm > kAlpha) {
     if (p > kAlpha) return fmt::format("the interval excludes zero, but the test does not confirm it (p = {:.2g})", p);
@@ -71,18 +82,27 @@ std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
 
 }  // namespace
 
-void JudgeFamily(std::span<Comparison* const> family) {
-  std::vector<std::optional<double>> p_values;
-  for (const Comparison* comparison : family) {
-    p_values.push_back(DecidingP(*comparison, *FindMetric(comparison->metric)));
+void JudgeFamily(std::span<const Question> family) {
+  std::vector<std::optional<double>> pairs_alone, all_worlds;
+  for (const Question& question : family) {
+    const MetricInfo& metric = *FindMetric(question.comparison->metric);
+    pairs_alone.push_back(DecidingP(*question.comparison, metric));
+    all_worlds.push_back(question.with_failures ? DecidingP(*question.with_failures, metric) : pairs_alone.back());
   }
-  const auto corrected = HolmCorrected(p_values);
+  const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
   for (std::size_t i = 0; i < family.size(); ++i) {
-    Comparison& comparison = *family[i];
+    Comparison& comparison = *family[i].comparison;
     const MetricInfo& metric = *FindMetric(comparison.metric);
-    comparison.p_holm = corrected[i];
-    comparison.verdict = VerdictOf(comparison, metric);
-    comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
+    comparison.p_holm = corrected_alone[i];
+    std::optional<Comparison> with_failures = family[i].with_failures;
+    if (with_failures) with_failures->p_holm = corrected[i];
+    const Verdict of_pairs = JudgeBothWays(comparison, with_failures, metric);
+    if (comparison.verdict == of_pairs) {
+      comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
+    } else if (comparison.verdict == Verdict::kInconclusive) {
+      comparison.why_open =
+          fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
+    }
     for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
       if (!note.empty()) comparison.notes.push_back(note);
     }

@@ -41,6 +41,9 @@ PairedWorlds PairsOf(std::span<const Row* const> rows, const std::string& baseli
   }
   const auto value_in = [&](const Row* row) { return row == nullptr ? std::nullopt : ValueOf(*row, metric); };
   const auto skipped = [](const Row* row) { return row == nullptr || row->result.status == Status::kSkipped; };
+  const auto failed = [](const Row* row) {
+    return row != nullptr && row->result.status != Status::kOk && row->result.status != Status::kSkipped;
+  };
   PairedWorlds paired;
   for (const auto& [trial, world] : worlds) {
     const auto of_baseline = value_in(world.baseline), of_method = value_in(world.method);
@@ -48,8 +51,10 @@ PairedWorlds PairsOf(std::span<const Row* const> rows, const std::string& baseli
       paired.pairs.push_back({*of_baseline, *of_method});
     } else if (of_baseline) {
       ++paired.only_baseline;
+      paired.failed.method += failed(world.method);
     } else if (of_method) {
       ++paired.only_method;
+      paired.failed.baseline += failed(world.baseline);
     } else if (!skipped(world.baseline) || !skipped(world.method)) {
       ++paired.neither;
     }

@@ -20,6 +20,8 @@ std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string
 struct PairedWorlds {
   std::vector<Pair> pairs;  ///< both have a value
   int only_baseline = 0, only_method = 0, neither = 0;
+  FailedWorlds
+      failed;  ///< of only_method and only_baseline: where the other's cell failed, rather than having no such metric
 };
 
 /// Rows of one world share their trial.

@@ -77,26 +77,31 @@ MethodSummary SummariseMethod(const std::string& method, std::span<const Row* co
   return summary;
 }
 
+struct Asked {
+  Comparison comparison;
+  std::optional<Comparison> with_failures;
+};
+
 /// All comparisons of one condition, verdicts left open: they depend on the other conditions too.
-std::vector<Comparison> CompareAll(const Scenario& scenario, const Condition& condition,
-                                   std::span<const Row* const> rows, std::uint64_t seed) {
-  std::vector<Comparison> comparisons;
+std::vector<Asked> CompareAll(const Scenario& scenario, const Condition& condition, std::span<const Row* const> rows,
+                              std::uint64_t seed) {
+  std::vector<Asked> asked;
   for (const MethodEntry& entry : scenario.methods) {
     if (entry.name == entry.against) continue;
     for (const std::string& id : scenario.metrics) {
+      const MetricInfo& metric = *FindMetric(id);
       const PairedWorlds worlds = PairsOf(rows, entry.against, entry.name, id);
-      Comparison comparison =
-          ComparePaired(worlds.pairs, *FindMetric(id), seed,
-                        PurposeOf(scenario.name, condition.settings, id, entry.against, entry.name));
+      const std::string purpose = PurposeOf(scenario.name, condition.settings, id, entry.against, entry.name);
+      Comparison comparison = ComparePaired(worlds.pairs, metric, seed, purpose);
       comparison.baseline = entry.against;
       comparison.method = entry.name;
       comparison.only_baseline = worlds.only_baseline;
       comparison.only_method = worlds.only_method;
       comparison.neither = worlds.neither;
-      comparisons.push_back(std::move(comparison));
+      asked.push_back({std::move(comparison), CompareWithFailures(worlds.pairs, worlds.failed, metric, seed, purpose)});
     }
   }
-  return comparisons;
+  return asked;
 }
 
 }  // namespace
@@ -104,6 +109,7 @@ std::vector<Comparison> CompareAll(const Scenario& scenario, const Condition& co
 ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed) {
   ScenarioSummary summary{
       scenario.name, scenario.task, scenario.question, MethodNames(scenario), scenario.metrics, {}, {}};
+  std::vector<std::optional<Comparison>> with_failures;  // of all conditions' comparisons, in order
   for (const Condition& condition : scenario.conditions) {
     const std::vector<const Row*> selected = RowsIn(rows, condition.settings);
     const std::vector<const MetricInfo*> metrics = MetricsIn(selected);
@@ -112,11 +118,16 @@ ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, s
     for (const MethodEntry& entry : scenario.methods) {
       part.methods.push_back(SummariseMethod(entry.name, selected, metrics, scenario, condition, seed));
     }
-    part.comparisons = CompareAll(scenario, condition, selected, seed);
+    for (Asked& asked : CompareAll(scenario, condition, selected, seed)) {
+      part.comparisons.push_back(std::move(asked.comparison));
+      with_failures.push_back(std::move(asked.with_failures));
+    }
   }
-  std::vector<Comparison*> family;
+  std::vector<Question> family;
   for (ConditionSummary& part : summary.conditions) {
-    for (Comparison& comparison : part.comparisons) family.push_back(&comparison);
+    for (Comparison& comparison : part.comparisons) {
+      family.push_back({&comparison, std::move(with_failures[family.size()])});
+    }
   }
   JudgeFamily(family);
   summary.family = static_cast<int>(family.size());

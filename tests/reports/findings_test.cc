@@ -70,11 +70,12 @@ TEST(Answer, SaysWhyItIsOpen) {
 
 TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
   Comparison lossy = Figures(40, -4.7, -6.0, -1.1, 0.9, Verdict::kBetter);
-  EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("Not counted")));
+  EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("Not in this difference")));
   lossy.only_baseline = 13;
   lossy.only_method = 1;
-  EXPECT_THAT(AnswerTo(lossy), HasSubstr("Not counted, since one of the two has no value there: only “fixed” in 13 "
-                                         "worlds, only “adaptive” in 1 world."));
+  EXPECT_THAT(AnswerTo(lossy),
+              HasSubstr("Not in this difference, since one of the two has no value there: only “fixed” in 13 "
+                        "worlds, only “adaptive” in 1 world."));
 }
 
 TEST(Answer, AdmitsThatNothingCouldBeCompared) {

@@ -28,7 +28,7 @@ FrameMeasurement MeasureFrame(const Marks& marks1, const ProjectionMatrix& matri
 /// The true values of what `MeasureFrame` measures.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
-/// Completes every frame from its neighbours (algorithms.md B8): directions on the sphere (slerp), points
+/// Completes every frame from its neighbours (ours): directions on the sphere (slerp), points
 /// straight, the nearest one held before the first and after the last. A frame stays empty when something
 /// in it was not measured within `longest_gap` frames before or after it.
 std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames, int longest_gap);

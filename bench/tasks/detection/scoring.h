@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The metrics of a session (metrics.md, "detection").
+/// The metrics of a session (docs/metrics.md).
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result);
 
 /// The ids of all of them, in the order in which they are measured.

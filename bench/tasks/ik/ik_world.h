@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// One trial (algorithms.md B6, "The trial", after paper B's chapter 5): a true pose, and the problem of finding back
+/// One trial (after paper B's chapter 5): a true pose, and the problem of finding back
 /// from a disturbed one to the places and axes of its end effectors.
 struct IkWorld {
   TreeState truth;

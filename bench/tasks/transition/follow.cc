@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
 
 #include "engine/bridging/alignment.h"
 
@@ -14,41 +15,9 @@ BodyPose StepBack(const BodyPose& first, const BodyPose& second) {
   return before;
 }
 
-Transition PlanOf(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
-  Transition plan;
-  plan.request_frame = request.request_frame;
-  plan.switches = answer.switches;
-  for (Switch& change : plan.switches) {
-    change.distance = ComputeDistance(stage.tagged[change.from_clip].grades[change.from_frame],
-                                      stage.tagged[change.to_clip].grades[change.to_frame], PaperWeights());
-  }
-  const Switch& last = plan.switches.back();
-  const bool is_front = last.to_frame < stage.tagged[last.to_clip].FrameCount() / 2;
-  const bool is_direct = plan.switches.size() == 1 && answer.between.empty();
-  plan.branch = !is_direct ? Branch::kInBetween : is_front ? Branch::kFrontHalf : Branch::kRearHalf;
-
-  const double rate_hz = stage.tagged[request.from].rate_hz;
-  plan.wait_s = (plan.switches.front().from_frame - request.request_frame) / rate_hz;
-  for (std::size_t i = 1; i < plan.switches.size(); ++i) {
-    plan.wait_s += (plan.switches[i].from_frame - plan.switches[i - 1].to_frame) / rate_hz;
-  }
-  plan.wait_s += static_cast<double>(answer.between.size()) / rate_hz;
-  return plan;
-}
-
-}  // namespace
-
-SwitchOutcome FollowAnswer(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
-  SwitchOutcome outcome{.matched = answer.matched, .weights = PaperWeights(), .plan = {}, .splice = {}};
-  outcome.between_frames = static_cast<int>(answer.between.size());
-  outcome.plan = PlanOf(answer, stage, request);
-  const std::vector<Switch>& switches = outcome.plan.switches;
-  outcome.splice = answer.between.empty() ? SpliceClips(stage.motions, switches, answer.join)
-                                          : SpliceBetween(stage.motions[request.from], stage.motions[request.to],
-                                                          switches.front(), answer.between);
-  return outcome;
-}
-
+/// Shows `from` up to the frame left, then the frames of `between` as they are (one at least), then what follows the
+/// frame entered of `to`, laid on the last of them. Both ends of `between` are seams; for the first, the frame that
+/// would stand in the left one's place is what the new motion comes from at a steady speed.
 Splice SpliceBetween(const BodyMotion& from, const BodyMotion& to, const Switch& change,
                      std::span<const BodyPose> between) {
   assert(!between.empty());
@@ -75,6 +44,35 @@ Splice SpliceBetween(const BodyMotion& from, const BodyMotion& to, const Switch&
   out.arriving_after = shown[out.frame + 1];
   splice.seams = {into, out};
   return splice;
+}
+
+/// As PlanTransition would have told it, but for the wait, which is measured on the outcome (ScoreSwitch).
+Transition PlanOf(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
+  Transition plan;
+  plan.request_frame = request.request_frame;
+  plan.switches = answer.switches;
+  for (Switch& change : plan.switches) {
+    change.distance = ComputeDistance(stage.tagged[change.from_clip].grades[change.from_frame],
+                                      stage.tagged[change.to_clip].grades[change.to_frame], PaperWeights());
+  }
+  const Switch& last = plan.switches.back();
+  const bool is_front = last.to_frame < stage.tagged[last.to_clip].FrameCount() / 2;
+  const bool is_direct = plan.switches.size() == 1 && answer.between.empty();
+  plan.branch = !is_direct ? Branch::kInBetween : is_front ? Branch::kFrontHalf : Branch::kRearHalf;
+  return plan;
+}
+
+}  // namespace
+
+SwitchOutcome FollowAnswer(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
+  SwitchOutcome outcome{.matched = answer.matched, .weights = PaperWeights(), .plan = {}, .splice = {}};
+  outcome.between_frames = static_cast<int>(answer.between.size());
+  outcome.plan = PlanOf(answer, stage, request);
+  const std::vector<Switch>& switches = outcome.plan.switches;
+  outcome.splice = answer.between.empty() ? SpliceClips(stage.motions, switches, answer.join)
+                                          : SpliceBetween(stage.motions[request.from], stage.motions[request.to],
+                                                          switches.front(), answer.between);
+  return outcome;
 }
 
 }  // namespace etude

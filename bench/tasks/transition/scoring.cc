@@ -136,7 +136,7 @@ Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage) {
   facts["distance"] = distance.value;
   facts["partials"] = Partials(distance);
   facts["request_frame"] = plan.request_frame - cut.first;  // negative: before this recording begins
-  facts["wait_s"] = plan.wait_s;
+  facts["wait_s"] = WaitSeconds(StaysOf(outcome), outcome.splice.motion.rate_hz);
   facts["pairs_seen"] = plan.pairs_seen;
   facts["switches"] = nlohmann::json::array();
   for (const Switch& change : plan.switches) {

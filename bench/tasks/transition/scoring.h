@@ -20,7 +20,7 @@ struct SwitchOutcome {
   Splice splice;           ///< empty when the plan found no way
 };
 
-/// The metrics of a switch (metrics.md), the worst seam counting where an in-between made two.
+/// The metrics of a switch (docs/metrics.md), the worst seam counting where an in-between made two.
 void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& result);
 
 /// The ids of all of them, in the order in which they are measured.

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr double kJudgedHipHeight = 0.90;  // metrics.md
+constexpr double kJudgedHipHeight = 0.90;  // docs/metrics.md
 
 std::string MoveIdentity(const std::string& move) { return "builtin:" + move; }
 

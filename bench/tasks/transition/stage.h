@@ -23,8 +23,8 @@ struct Stage {
 /// Shorter clips have no unbroken window of eleven frames to be judged by.
 constexpr int kShortestClip = 13;
 
-/// What a switch between these two clips is compared with, in centimetres (metrics.md): the clips asked for set the
-/// standard, not one played in between.
+/// What a switch between these two clips is compared with, in centimetres (docs/metrics.md): the clips asked for set
+/// the standard, not one played in between.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 
 Stage SetStage(const ClipLibrary& library);

@@ -11,7 +11,7 @@ import sys
 
 from independent import capture, common, detection, ik, transition
 
-METRICS = {  # version 1 of each
+METRICS = {  # version 1 of each, but for NEWER
     "position_error_cm": lambda g: common.mean(ik.effector_positions_cm(g)),
     "position_error_max_cm": lambda g: common.worst(ik.effector_positions_cm(g)),
     "orientation_error_deg": lambda g: common.mean(ik.effector_angles_deg(g)),
@@ -60,6 +60,7 @@ METRICS = {  # version 1 of each
     "latency_s": detection.latency,
     "false_alarms_per_min": detection.false_alarms,
 }
+NEWER = {"natural_share": 2}
 
 
 def agrees(vector):
@@ -72,7 +73,7 @@ def agrees(vector):
 def disagreements(catalogue):
     """What is wrong with the metrics of `etude list metrics --json`, one line each."""
     for metric in catalogue["metrics"]:
-        if metric["id"] not in METRICS or metric["version"] != 1:
+        if metric["id"] not in METRICS or metric["version"] != NEWER.get(metric["id"], 1):
             yield f"{metric['id']} v{metric['version']} is not known here"
         elif not metric["vectors"]:
             yield f"{metric['id']} has no test vector"

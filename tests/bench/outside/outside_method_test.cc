@@ -198,6 +198,21 @@ TEST(OutsideMethod, KeepsAMebibyteOfItsStandardErrorAndItsLastWords) {
   EXPECT_EQ(std::filesystem::file_size(options.error_file), std::uintmax_t{1} << 20);
 }
 
+TEST(OutsideMethod, MakesTheFolderOfItsStandardErrorWhenItHasSomethingToKeep) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "folder-of-standard-errors";
+  std::filesystem::remove_all(folder);
+  OutsideOptions silent = Behaving("is_good");
+  silent.error_file = folder / "inner" / "silent.txt";
+  OutsideMethod quiet(silent);
+  EXPECT_EQ(Ask(quiet).status, Status::kOk);
+  EXPECT_FALSE(std::filesystem::exists(folder));
+  OutsideOptions loud = Behaving("crashes");
+  loud.error_file = folder / "inner" / "loud.txt";
+  OutsideMethod talker(loud);
+  EXPECT_EQ(Ask(talker).status, Status::kCrashed);
+  EXPECT_THAT(ReadText(loud.error_file), HasSubstr("about to fall"));
+}
+
 TEST(OutsideMethod, AttachmentsLieInAFolderWhileItWorks) {
   OutsideOptions options = Behaving("is_good");
   options.command = {

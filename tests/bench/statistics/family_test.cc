@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <vector>
 
 #include "bench/statistics/compare.h"
@@ -31,11 +32,12 @@ std::vector<double> Falling(int count) {
 }
 
 /// The first of `count` comparisons of which all others show nothing.
-Comparison JudgedAmong(int count, const Comparison& first) {
+Comparison JudgedAmong(int count, const Comparison& first, const std::optional<Comparison>& with_failures = {}) {
   std::vector<Comparison> all(count, Compared(std::vector<double>(20, 0.0)));
   all[0] = first;
-  std::vector<Comparison*> family;
-  for (Comparison& comparison : all) family.push_back(&comparison);
+  std::vector<Question> family;
+  for (Comparison& comparison : all) family.push_back({&comparison, {}});
+  family[0].with_failures = with_failures;
   JudgeFamily(family);
   return all[0];
 }
@@ -73,6 +75,21 @@ TEST(JudgeFamily, SaysWhyADifferenceIsNotYetAVerdict) {
   EXPECT_EQ(open.why_open, "it differs, but whether by as much as matters is open");
 }
 
+TEST(JudgeFamily, TellsATestThatFoundSomethingFromOneThatDidNot) {
+  // A share of equal worlds and many small wins: the ranks are clear, the median stays at the equal ones.
+  std::vector<double> steps(24, 0.0);
+  for (int i = 0; i < 13; ++i) steps[i] = -1 - 0.01 * i;
+  const Comparison found = JudgedAmong(2, Compared(steps));
+  EXPECT_EQ(found.verdict, Verdict::kInconclusive);
+  EXPECT_THAT(found.why_open, HasSubstr("the test finds a difference (p = 0.00049 among 2), but the interval of its "
+                                        "median reaches zero"));
+  // A share of twelve equal worlds: nothing differs, and the interval is wide all the same.
+  std::vector<Pair> equal(12, Pair{1, 1});
+  Comparison same = ComparePaired(equal, *FindMetric("solved_practical"), 1, "x");
+  EXPECT_EQ(JudgedAmong(1, same).why_open,
+            "no pair differs, but 12 worlds are too few to exclude a difference that matters");
+}
+
 TEST(JudgeFamily, WarnsOfWorldsThatOnlyOneSurvived) {
   Comparison lossy = Compared(Falling(20));
   lossy.only_baseline = 7;
@@ -84,6 +101,34 @@ TEST(JudgeFamily, WarnsOfWorldsThatOnlyOneSurvived) {
   lossy.only_baseline = 0;
   EXPECT_THAT(JudgedAmong(1, lossy).notes,
               ElementsAre("1 of 21 worlds are not in the difference: neither has one in 1"));
+}
+
+TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
+  std::vector<Pair> pairs;
+  for (double difference : Falling(20)) pairs.push_back({0, difference});
+  const auto judged = [&](const FailedWorlds& failed) {
+    return JudgedAmong(1, Compared(Falling(20)),
+                       CompareWithFailures(pairs, failed, *FindMetric("position_error_cm"), 1, "x"));
+  };
+  // A few failures don't turn twenty wins, as many as the wins do; those of the other speak for the method.
+  EXPECT_EQ(judged({.baseline = 0, .method = 2}).verdict, Verdict::kBetter);
+  EXPECT_EQ(judged({.baseline = 20, .method = 0}).verdict, Verdict::kBetter);
+  const Comparison open = judged({.baseline = 0, .method = 12});
+  EXPECT_EQ(open.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(open.why_open, "“better” where both have a value, but not when failing counts as losing");
+  EXPECT_GT(*open.p_holm, 0.05);
+  EXPECT_DOUBLE_EQ(*open.difference, *Compared(Falling(20)).difference);
+}
+
+TEST(JudgeFamily, CallsAMeanEqualOnlyWhenEnoughPairsDiffer) {
+  std::vector<double> steps(40, 0.0);
+  for (int i = 0; i < 5; ++i) steps[i] = 2;
+  const Comparison few = JudgedAmong(1, Compared(steps, "iterations_par2"));
+  EXPECT_EQ(few.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(few.why_open, "5 of 40 pairs differ: too few to exclude rare differences that would move the mean");
+  steps[5] = 2;
+  EXPECT_EQ(JudgedAmong(1, Compared(steps, "iterations_par2")).verdict, Verdict::kNoDifference);
+  EXPECT_EQ(JudgedAmong(1, Compared(std::vector<double>(40, 0.0), "iterations")).verdict, Verdict::kNoDifference);
 }
 
 TEST(JudgeFamily, WarnsWhenTheMedianHidesWhatFewWorldsShow) {
@@ -105,8 +150,8 @@ int FalseAlarms(double effect, bool corrected) {
       for (double& difference : differences) difference = dice.Normal(effect, 1);
       all.push_back(Compared(differences));
     }
-    std::vector<Comparison*> family;
-    for (Comparison& comparison : all) family.push_back(&comparison);
+    std::vector<Question> family;
+    for (Comparison& comparison : all) family.push_back({&comparison, {}});
     if (corrected) JudgeFamily(family);
     bool alarm = false;
     for (const Comparison& c : all) alarm |= c.verdict == Verdict::kBetter || c.verdict == Verdict::kWorse;

@@ -82,7 +82,8 @@ TEST_F(SummaryTest, CorrectsOverAllConditionsAndMetrics) {
   EXPECT_EQ(summary.family, 4);
   const Comparison& comparison = summary.conditions[0].comparisons[0];
   EXPECT_DOUBLE_EQ(*comparison.signed_rank.p, 2.0 / 512);
-  EXPECT_DOUBLE_EQ(*comparison.p_holm, 4 * 2.0 / 512);
+  // Nine wins, and the crash is a loss: 2 (1 + 10) of 2¹⁰ signs of ten equal differences.
+  EXPECT_DOUBLE_EQ(*comparison.p_holm, 4 * 22.0 / 1024);
 }
 
 TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
@@ -119,7 +120,12 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
   EXPECT_EQ(comparison.pairs, 9);
   EXPECT_DOUBLE_EQ(*comparison.difference, -2);
   EXPECT_DOUBLE_EQ(comparison.share_better, 1);
-  EXPECT_EQ(comparison.verdict, Verdict::kBetter);
+  EXPECT_EQ(comparison.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(comparison.why_open, "“better” where both have a value, but not when failing counts as losing");
+  for (Row& row : rows) {
+    if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
+  }
+  EXPECT_EQ(Summarise(scenario, rows, 1).conditions[0].comparisons[0].verdict, Verdict::kBetter);
 }
 
 TEST_F(SummaryTest, JudgesExpectations) {
@@ -129,6 +135,24 @@ TEST_F(SummaryTest, JudgesExpectations) {
   EXPECT_EQ(summary.expectations[2].outcome, Outcome::kMet) << summary.expectations[2].detail;
   EXPECT_EQ(summary.expectations[3].outcome, Outcome::kUnmet) << summary.expectations[3].detail;
   EXPECT_EQ(summary.expectations[4].outcome, Outcome::kUndecided) << summary.expectations[4].detail;
+}
+
+TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
+  const auto verdict_when_b_ends = [&](Status status) {
+    std::vector<Row> fewer = rows;
+    for (Row& row : fewer) {
+      if (row.method != "b" || row.trial < 6) continue;
+      row.result = CellResult::Ended(status, "why");
+      row.result.Missing("position_error_cm", "why");
+    }
+    Scenario alone = scenario;
+    alone.conditions.pop_back();
+    alone.metrics = {"position_error_cm"};
+    const ScenarioSummary judged = Summarise(alone, std::span(fewer).first(20), 1);
+    return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].outcome);
+  };
+  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, Outcome::kUndecided));
+  EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, Outcome::kMet));
 }
 
 TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {

@@ -85,6 +85,8 @@ def foot_slide(given):
 
 
 def natural(given):
+    if given["jump_cm"] is None:
+        return 0
     jumps = []
     for clip in given["clips"]:
         frames = frames_of(clip)

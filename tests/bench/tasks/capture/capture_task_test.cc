@@ -6,6 +6,7 @@
 #include "bench/tasks/capture/recording_extras.h"
 #include "engine/document/node.h"
 #include "engine/motion/bvh.h"
+#include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {
@@ -25,14 +26,6 @@ Result<std::unique_ptr<Task>> Make(const std::string& yaml) {
   auto task = MakeCaptureTaskKind().make(input);
   if (task && !condition.ok()) return tl::unexpected(condition.Finish().error());
   return task;
-}
-
-std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
-  for (const MetricValue& metric : cell.metrics) {
-    if (metric.id == id) return metric.value;
-  }
-  ADD_FAILURE() << id << " is not among the metrics";
-  return std::nullopt;
 }
 
 std::string DigestOf(const CellResult& cell, std::string_view stage) {

@@ -12,6 +12,7 @@
 #include "engine/document/node.h"
 #include "engine/motion/bvh.h"
 #include "sim/sensors/image_files.h"
+#include "tests/bench/tasks/base/cell_values.h"
 
 namespace etude {
 namespace {
@@ -26,14 +27,6 @@ std::unique_ptr<Task> MakeTask(const std::string& yaml, std::vector<Node> method
   Fields condition(node, "a test");
   TaskInput input{condition, methods, clips};
   return std::move(*MakeCaptureTaskKind().make(input));
-}
-
-std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
-  for (const MetricValue& metric : cell.metrics) {
-    if (metric.id == id) return metric.value;
-  }
-  ADD_FAILURE() << id << " is not among the metrics";
-  return std::nullopt;
 }
 
 const Attachment* Find(const Exhibit& exhibit, std::string_view name) {

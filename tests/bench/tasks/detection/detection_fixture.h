@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/tasks/detection/detection_task.h"
+#include "tests/bench/tasks/base/cell_values.h"
 
 namespace etude {
 
@@ -47,14 +48,6 @@ methods:
   /// All of kFourMethods in one world.
   static std::vector<CellResult> CellsOf(const Task& task, int trial, bool keeps_motion = false) {
     return RunWorld(task, World(trial), 4, keeps_motion);
-  }
-
-  static std::optional<double> Metric(const CellResult& cell, std::string_view id) {
-    for (const MetricValue& metric : cell.metrics) {
-      if (metric.id == id) return metric.value;
-    }
-    ADD_FAILURE() << "no metric " << id;
-    return std::nullopt;
   }
 
   static std::string DigestOf(const CellResult& cell, std::string_view stage) {

@@ -14,17 +14,17 @@ TEST_F(DetectionTask, TellsRightFromWrongWithoutErrorWhenTheSensorHasNone) {
   for (int trial = 0; trial < 3; ++trial) {
     const CellResult fixed = CellsOf(*task, trial).front();
     ASSERT_EQ(fixed.status, Status::kOk) << fixed.reason;
-    EXPECT_EQ(Metric(fixed, "f1"), 1.0);
-    EXPECT_EQ(Metric(fixed, "roc_auc"), 1.0);
+    EXPECT_EQ(ValueOf(fixed, "f1"), 1.0);
+    EXPECT_EQ(ValueOf(fixed, "roc_auc"), 1.0);
     // It answers once the last pose was held for three frames, two frames after it was truly reached.
-    EXPECT_NEAR(*Metric(fixed, "latency_s"), 2.0 / 30, 0.5 / 30);
+    EXPECT_NEAR(*ValueOf(fixed, "latency_s"), 2.0 / 30, 0.5 / 30);
   }
 }
 
 TEST_F(DetectionTask, FailsToTellThemApartWhenTheSensorIsHopeless) {
   const auto task = *MakeTask(std::string("noise: 10\nevents: 8\n") + kFourMethods, FourMoves());
   double recall = 0;
-  for (int trial = 0; trial < 3; ++trial) recall += *Metric(CellsOf(*task, trial).front(), "recall") / 3;
+  for (int trial = 0; trial < 3; ++trial) recall += *ValueOf(CellsOf(*task, trial).front(), "recall") / 3;
   EXPECT_LT(recall, 0.5);
 }
 
@@ -88,8 +88,8 @@ TEST_F(DetectionTask, ShowsAnOracleTheTruthWhateverTheSensorDoes) {
   const auto task = *MakeTask(yaml, FourMoves());
   for (int trial = 0; trial < 2; ++trial) {
     const auto cells = RunWorld(*task, World(trial), 2);
-    EXPECT_EQ(Metric(cells[1], "f1"), 1.0);
-    EXPECT_LT(Metric(cells[0], "f1").value_or(0), 1.0);
+    EXPECT_EQ(ValueOf(cells[1], "f1"), 1.0);
+    EXPECT_LT(ValueOf(cells[0], "f1").value_or(0), 1.0);
     EXPECT_EQ(DigestOf(cells[0], "stream"), DigestOf(cells[1], "stream")) << "the same world";
     EXPECT_NE(DigestOf(cells[1], "filtered"), DigestOf(cells[1], "stream"));
   }

@@ -125,10 +125,10 @@ TEST_F(DetectionExchange, ScoresTheTruthPerfectAndLiesWorse) {
     honest["events"].push_back({{"right_at_frame", frame}, {"score", right ? 1 : -1}});
   }
   const CellResult perfect = *world->Judge(honest);
-  EXPECT_EQ(Metric(perfect, "f1"), 1.0);
-  EXPECT_EQ(Metric(perfect, "roc_auc"), 1.0);
-  EXPECT_NEAR(*Metric(perfect, "latency_s"), 0, 1.0 / 30);
-  EXPECT_EQ(Metric(perfect, "false_alarms_per_min"), 0.0);
+  EXPECT_EQ(ValueOf(perfect, "f1"), 1.0);
+  EXPECT_EQ(ValueOf(perfect, "roc_auc"), 1.0);
+  EXPECT_NEAR(*ValueOf(perfect, "latency_s"), 0, 1.0 / 30);
+  EXPECT_EQ(ValueOf(perfect, "false_alarms_per_min"), 0.0);
 
   Json liar = honest;
   for (std::size_t i = 0; i < liar["events"].size(); ++i) {
@@ -136,8 +136,8 @@ TEST_F(DetectionExchange, ScoresTheTruthPerfectAndLiesWorse) {
     event["score"] = -event["score"].get<double>();
     event["right_at_frame"] = truth["events"][i]["is_right"].get<bool>() ? Json() : truth["events"][i]["begin_frame"];
   }
-  EXPECT_EQ(Metric(*world->Judge(liar), "f1"), 0.0);
-  EXPECT_EQ(Metric(*world->Judge(liar), "roc_auc"), 0.0);
+  EXPECT_EQ(ValueOf(*world->Judge(liar), "f1"), 0.0);
+  EXPECT_EQ(ValueOf(*world->Judge(liar), "roc_auc"), 0.0);
 }
 
 TEST_F(DetectionExchange, CountsAlarmsOutsideTheirMovesWindowsOnceEach) {
@@ -147,17 +147,17 @@ TEST_F(DetectionExchange, CountsAlarmsOutsideTheirMovesWindowsOnceEach) {
   for (std::size_t i = 0; i < asked.size(); ++i) {
     answer["events"].push_back({{"right_at_frame", nullptr}, {"score", 0}});
   }
-  const double none = *Metric(*world->Judge(answer), "false_alarms_per_min");
+  const double none = *ValueOf(*world->Judge(answer), "false_alarms_per_min");
   EXPECT_EQ(none, 0);
   answer["alarms"] = {{{"move", asked[0]["move"]}, {"frame", asked[0]["begin_frame"]}}};
-  EXPECT_EQ(Metric(*world->Judge(answer), "false_alarms_per_min"), 0.0) << "it was asked for then";
+  EXPECT_EQ(ValueOf(*world->Judge(answer), "false_alarms_per_min"), 0.0) << "it was asked for then";
   answer["alarms"] = {{{"move", "sway"}, {"frame", 0}}};
-  const double one = *Metric(*world->Judge(answer), "false_alarms_per_min");
+  const double one = *ValueOf(*world->Judge(answer), "false_alarms_per_min");
   EXPECT_GT(one, 0);
   answer["alarms"].push_back(answer["alarms"][0]);
-  EXPECT_EQ(Metric(*world->Judge(answer), "false_alarms_per_min"), one) << "said twice is said once";
+  EXPECT_EQ(ValueOf(*world->Judge(answer), "false_alarms_per_min"), one) << "said twice is said once";
   answer["alarms"][1]["frame"] = 5;
-  EXPECT_DOUBLE_EQ(*Metric(*world->Judge(answer), "false_alarms_per_min"), 2 * one);
+  EXPECT_DOUBLE_EQ(*ValueOf(*world->Judge(answer), "false_alarms_per_min"), 2 * one);
 }
 
 TEST_F(DetectionExchange, RefusesAWrongAnswerAndNamesThePlace) {

@@ -9,6 +9,7 @@
 #include "bench/tasks/ik/ik_task.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/solvers.h"
+#include "tests/bench/tasks/base/cell_values.h"
 
 namespace etude {
 namespace {
@@ -24,14 +25,6 @@ std::unique_ptr<Task> MakeTask(const std::string& condition = "{}") {
   const ClipLibrary no_clips;
   TaskInput input{fields, {}, no_clips};
   return std::move(*MakeIkTaskKind().make(input));
-}
-
-std::optional<double> ValueOf(const CellResult& cell, std::string_view id) {
-  for (const MetricValue& metric : cell.metrics) {
-    if (metric.id == id) return metric.value;
-  }
-  ADD_FAILURE() << "no metric " << id;
-  return std::nullopt;
 }
 
 // What a stranger would write who knows nothing but the words of exchange.h: plain lists of rows.

@@ -1,0 +1,1 @@
+#include <boost/math/distributions/normal.hpp>
