@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
@@ -184,9 +183,8 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   manifest["predictions"] = DescribePredictions(options, plan, cells);
   const fs::path folder = options.output;
   if (auto saved = SaveJson(folder / "manifest.json", manifest); !saved) return tl::unexpected(saved.error());
-  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   const auto whole = RunOrders(*suite, plan, plan.OrdersFor({}, DoneCells(cells)),
-                               {.program = ThisProgram(), .error_folder = "", .jobs = jobs, .stop = options.stop},
+                               {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
                                [&](std::size_t cell, FinishedCell finished) -> Result<void> {
                                  meter.Count(finished.row);
                                  cells[cell] = std::move(finished);
@@ -198,7 +196,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.cells_ok = meter.progress().cells_ok;
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
-  const Json host = DescribeHost(options.command_line, jobs, outcome.run.seconds);
+  const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
   if (auto done = FinishRun(folder, plan, std::move(cells), host); !done) return tl::unexpected(done.error());
   claimed->Keep();
   return outcome;

@@ -125,8 +125,8 @@ std::vector<Descriptor> HoldTree(pid_t root) {
   return held;
 }
 
-void KillAll(const std::vector<Descriptor>& held) {
-  for (const Descriptor& process : held) ::syscall(SYS_pidfd_send_signal, process.number(), SIGKILL, nullptr, 0);
+void SignalAll(const std::vector<Descriptor>& held, int signal) {
+  for (const Descriptor& process : held) ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0);
 }
 
 }  // namespace
@@ -266,8 +266,9 @@ std::string ChildProcess::Finish(int patience_ms) {
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
-  KillAll(HoldTree(pid_));
-  KillAll(tree);
+  //CTL SignalAll(HoldTree(pid_), SIGSTOP);  // one that stands still starts no other that the next look could miss
+  SignalAll(HoldTree(pid_), SIGKILL);
+  SignalAll(tree, SIGKILL);
   ::kill(-pid_, SIGKILL);  // before it is reaped: until then its number, and so its group's, is nobody else's
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <thread>
 
 #include "bench/replay/compare_rows.h"
 #include "bench/results/folder.h"
@@ -67,9 +66,8 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   const auto chosen = ChooseCells(options, *run);
   if (!chosen) return tl::unexpected(chosen.error());
   std::map<std::size_t, CellCheck> checks;
-  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   const auto whole = RunOrders(*suite, plan, OrdersOf(plan, *chosen),
-                               {.program = ThisProgram(), .error_folder = "", .jobs = jobs, .stop = options.stop},
+                               {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
                                [&](std::size_t cell, FinishedCell finished) -> Result<void> {
                                  checks.emplace(cell, CompareRows(run->rows[cell], finished.row));
                                  return {};

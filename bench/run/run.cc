@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
@@ -157,11 +156,10 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   std::vector<Order> orders = plan.OrdersFor(options.shard, DoneCells(cells));
   const bool was_done = continues && orders.empty();
   Keeper keeper(std::move(cells), std::move(*journal), wanted, on_progress);
-  const int jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   const auto whole = RunOrders(*suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),
-                                .jobs = jobs,
+                                .jobs = options.jobs,
                                 .stop = options.stop},
                                [&](std::size_t cell, FinishedCell finished) {
                                  auto kept = keeper.Add(cell, std::move(finished));
@@ -177,7 +175,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   RunOutcome outcome{folder, progress.cells_done, progress.cells_ok, SecondsSince(start), !*whole};
   if (outcome.stopped) return outcome;
   claimed->Keep();
-  const Json host = DescribeHost(options.command_line, jobs, outcome.seconds);
+  const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
   if (options.shard.IsWhole()) {
     if (auto done = FinishRun(folder, plan, keeper.TakeCells(), host); !done) return tl::unexpected(done.error());
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {

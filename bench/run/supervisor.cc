@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <thread>
 
 #include "bench/process/child_process.h"
 #include "bench/run/cell_json.h"
@@ -51,7 +52,7 @@ class Supervisor {
     const auto setup_line = WriteJson({{"setup", EncodeSetup(setup)}, {"error_folder", options_.error_folder}});
     if (!setup_line) return tl::unexpected(setup_line.error());
     setup_line_ = *setup_line;
-    const std::size_t jobs = std::min<std::size_t>(options_.jobs, orders_.size());
+    const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
       if (!worker && !workers_.empty()) break;  // fewer do the same work
@@ -217,6 +218,10 @@ Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Or
                        const SupervisorOptions& options, const Deliver& deliver) {
   if (orders.empty()) return true;
   return Supervisor(plan, std::move(orders), options, deliver).Run(setup);
+}
+
+int WorkerCount(int jobs) {
+  return jobs > 0 ? jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 std::string ThisProgram() { return std::filesystem::read_symlink("/proc/self/exe").string(); }

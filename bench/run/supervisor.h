@@ -14,7 +14,7 @@ namespace etude {
 struct SupervisorOptions {
   std::string program;       ///< what to start as `PROGRAM worker`
   std::string error_folder;  ///< where methods outside leave what they say on standard error; "" = nowhere
-  int jobs = 1;
+  int jobs = 0;              ///< worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< set (by Ctrl-C) to end early
 };
 
@@ -29,6 +29,9 @@ using Deliver = std::function<Result<void>(std::size_t cell, FinishedCell finish
 /// their set-up.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
+
+/// How many workers `jobs` means: 0 is one per processor.
+int WorkerCount(int jobs);
 
 /// The program that is running, to be started again as a worker.
 std::string ThisProgram();

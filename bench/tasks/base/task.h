@@ -64,6 +64,9 @@ struct CellResult {
     return result;
   }
   void Measure(std::string id, double value) { metrics.push_back({std::move(id), value, ""}); }
+  void MeasureOr(std::string id, std::optional<double> value, std::string why_missing) {
+    value ? Measure(std::move(id), *value) : Missing(std::move(id), std::move(why_missing));
+  }
   void Missing(std::string id, std::string why) { metrics.push_back({std::move(id), std::nullopt, std::move(why)}); }
 };
 

@@ -25,17 +25,12 @@ struct Mean {
   }
 };
 
-void MeasureOptional(const char* id, const std::optional<double>& value, const char* why_missing, CellResult& cell) {
-  if (value) return cell.Measure(id, *value);
-  cell.Missing(id, why_missing);
-}
-
 void ReportMasks(const MaskScore& score, CellResult& cell) {
-  MeasureOptional("iou", score.iou, "no picture shows or finds a person", cell);
-  MeasureOptional("mask_precision", score.precision, "nobody was found in any picture", cell);
-  MeasureOptional("mask_recall", score.recall, "no picture shows a person", cell);
-  MeasureOptional("mask_f1", score.f1, "no picture shows or finds a person", cell);
-  MeasureOptional("shadow_error", score.shadow_error, "no picture shows a shadow", cell);
+  cell.MeasureOr("iou", score.iou, "no picture shows or finds a person");
+  cell.MeasureOr("mask_precision", score.precision, "nobody was found in any picture");
+  cell.MeasureOr("mask_recall", score.recall, "no picture shows a person");
+  cell.MeasureOr("mask_f1", score.f1, "no picture shows or finds a person");
+  cell.MeasureOr("shadow_error", score.shadow_error, "no picture shows a shadow");
 }
 
 void Add(const BodyPose& pose, Digest& digest) {
@@ -57,10 +52,10 @@ void ReportStages(const CalibratedCameras& cameras, const Take& take, const Obse
                   {"points", measured.points_digest}};
   cell.Measure("reprojection_rms_px", cameras.reprojection_rms_px);
   ReportMasks(observation.score, cell);
-  MeasureOptional("limb_direction_error_deg", measured.directions.mean, "no limb was marked in both pictures", cell);
-  MeasureOptional("limb_direction_coverage", measured.directions.coverage, "no limb has a direction", cell);
-  MeasureOptional("triangulation_error_mm", measured.points.mean, "no end effector was marked in both pictures", cell);
-  MeasureOptional("triangulation_coverage", measured.points.coverage, "there are no end effectors", cell);
+  cell.MeasureOr("limb_direction_error_deg", measured.directions.mean, "no limb was marked in both pictures");
+  cell.MeasureOr("limb_direction_coverage", measured.directions.coverage, "no limb has a direction");
+  cell.MeasureOr("triangulation_error_mm", measured.points.mean, "no end effector was marked in both pictures");
+  cell.MeasureOr("triangulation_coverage", measured.points.coverage, "there are no end effectors");
 }
 
 // "the left hand was never marked in both pictures", for the first thing that is never measured.

@@ -8,14 +8,6 @@
 namespace etude {
 namespace {
 
-void MeasureOr(CellResult& result, const char* id, std::optional<double> value, const char* reason) {
-  if (value) {
-    result.Measure(id, *value);
-  } else {
-    result.Missing(id, reason);
-  }
-}
-
 std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const SessionVerdict& verdict) {
   std::vector<JudgedEvent> events;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
@@ -78,12 +70,13 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, Ce
   const std::vector<JudgedEvent> events = JudgedEvents(world, verdict);
   const Confusion confusion = CountConfusion(events);
   const std::vector<Wait> waits = WaitsOf(world, verdict);
-  MeasureOr(result, "f1", F1(confusion), "no performance was right, and none was called right");
-  MeasureOr(result, "precision", Precision(confusion), "no performance was called right");
-  MeasureOr(result, "recall", Recall(confusion), "no performance was right");
-  MeasureOr(result, "roc_auc", RocAuc(events), "all performances were right, or all were wrong");
-  MeasureOr(result, "latency_s", KaplanMeierMedian(waits),
-            waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
+  result.MeasureOr("f1", F1(confusion), "no performance was right, and none was called right");
+  result.MeasureOr("precision", Precision(confusion), "no performance was called right");
+  result.MeasureOr("recall", Recall(confusion), "no performance was right");
+  result.MeasureOr("roc_auc", RocAuc(events), "all performances were right, or all were wrong");
+  result.MeasureOr(
+      "latency_s", KaplanMeierMedian(waits),
+      waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
   result.Measure("false_alarms_per_min",
                  FalseAlarmsPerMinute(verdict.alarms.size(), world.session.motion.DurationSeconds()));
 }

@@ -127,15 +127,18 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
     return cell;
   }
   const IkErrorSummary errors = SummariseIkErrors(solution.errors);
-  AddMetrics(world, solution.angles, errors, /*keeps_limits=*/true,
+  const std::string broken_limits = DescribeBrokenLimits(tree, solution.angles);  // by a solver told to ignore them
+  AddMetrics(world, solution.angles, errors, broken_limits.empty(),
              {solution.iterations, solution.fk_evaluations, method.options.max_iterations}, cell);
   AddCurves(solution, cell);
   if (keeps_motion) cell.recording = Record(tree, world, PathOf(solution));
-  if (IsSolvedPractically(errors)) {
+  cell.status = Status::kUnsolved;
+  if (!broken_limits.empty()) {
+    cell.reason = broken_limits;
+  } else if (IsSolvedPractically(errors)) {
     cell.status = Status::kOk;
     cell.reason.clear();
   } else {
-    cell.status = Status::kUnsolved;
     cell.reason = fmt::format("{} after {} {}{}", DescribeErrors(errors), solution.iterations,
                               method.solver->uses_weights ? "sweeps" : "steps",
                               solution.status == IkStatus::kStalled ? ", stalled" : "");

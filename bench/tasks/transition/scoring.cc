@@ -94,7 +94,7 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   result.Measure("foot_slide_cmps", foot_slide);
   const Cut second = Around(splice, 1);
   const auto arc = SpectralArcLength(MeanJointSpeed(splice.motion, second.first, second.last), splice.motion.rate_hz);
-  arc ? result.Measure("sparc", *arc) : result.Missing("sparc", "nothing moves around the seam");
+  result.MeasureOr("sparc", arc, "nothing moves around the seam");
   result.Measure("wait_s", WaitSeconds(StaysOf(outcome), splice.motion.rate_hz));
   result.Measure("fuzzy_distance", WorstSwitch(outcome.plan).distance.value);
 }
