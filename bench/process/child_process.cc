@@ -266,7 +266,7 @@ std::string ChildProcess::Finish(int patience_ms) {
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
-  //CTL SignalAll(HoldTree(pid_), SIGSTOP);  // one that stands still starts no other that the next look could miss
+  SignalAll(HoldTree(pid_), SIGSTOP);  // one that stands still starts no other that the next look could miss
   SignalAll(HoldTree(pid_), SIGKILL);
   SignalAll(tree, SIGKILL);
   ::kill(-pid_, SIGKILL);  // before it is reaped: until then its number, and so its group's, is nobody else's
