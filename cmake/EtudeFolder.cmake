@@ -28,7 +28,7 @@ endfunction()
 # etude_tests(DEPENDS <folder>... LIBRARIES <target>... LABELS <label>...)
 #   Makes one test program of every .cc file of the current folder, which mirrors the folder it
 #   tests (tests/engine/motion tests engine/motion), and registers each test with ctest in the
-#   pinned environment of design.md section 6.
+#   pinned environment (bench/process).
 function(etude_tests)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;LABELS" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// The settings under which the same build gives the same bytes on any machine (design.md §6). They
+/// The settings under which the same build gives the same bytes on any machine. They
 /// must stand before a process starts, which is why work is done in child processes.
 const std::vector<std::string>& PinnedEnvironment();
 

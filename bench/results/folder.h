@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// The version of the layout of a result folder (design.md §4), raised when old readers would fail.
+/// The version of the layout of a result folder (docs/results.md), raised when old readers would fail.
 constexpr int kResultSchema = 2;
 
 /// Stands in a result folder while its run is under way, and after it was interrupted.

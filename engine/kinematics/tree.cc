@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// The frames that limbs have when the body stands at rest, facing +Z (algorithms.md B5). Columns are X, Y, Z.
+// The frames that limbs have when the body stands at rest, facing +Z. Columns are X, Y, Z.
 const glm::dvec3 kRight(-1, 0, 0), kUp(0, 1, 0), kForward(0, 0, 1);
 const glm::dmat3 kClimbing(kRight, kForward, kUp);
 const glm::dmat3 kHipLine(kForward, kUp, kRight);

@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// The limbs of one person, metres, both sides alike. The default is the adult of algorithms.md B6.
+/// The limbs of one person, metres, both sides alike. The default is an adult.
 struct LimbLengths {
   double foot = 0.18;   ///< ankle to toe tips
   double shank = 0.42;  ///< knee to ankle
@@ -86,7 +86,7 @@ enum BodyTreeJoint {
   kBodyTreeJointCount
 };
 
-/// Paper B's body (figure 3.10, algorithms.md B5 and B6): rooted at the left toe, 15 joints, 29 degrees of freedom,
+/// Paper B's body (figure 3.10): rooted at the left toe, 15 joints, 29 degrees of freedom,
 /// limits `adult`, effectors right foot, left hand, right hand, head in this order. At rest (all angles zero) it
 /// stands with hanging arms. *Ours*: its feet are level then; on real clips that keeps the ankles within their limits
 /// most often.

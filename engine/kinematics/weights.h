@@ -9,7 +9,7 @@
 namespace etude {
 
 /// How much an end effector's position counts against its three axes. Paper B, section 3.7.3, asks for weights that
-/// follow the errors and gives no formula; the formulas are ours (algorithms.md B6). e = distance to the target in cm,
+/// follow the errors and gives no formula; the formulas are ours. e = distance to the target in cm,
 /// θ_k = angle of axis k to its target.
 enum class WeightRule {
   kFixed,          ///< w_p = 1, w_o = 1

@@ -13,7 +13,7 @@ namespace {
 
 using enum Role;
 
-// Tips relative to the limb they end (algorithms.md B6's lengths, cm).
+// Tips relative to the limb they end (an adult's, cm).
 constexpr double kHandPerForearm = 18.0 / 25.0;
 constexpr double kFootPerShank = 18.0 / 42.0;
 constexpr double kHeadPerTrunk = 25.0 / 50.0;

@@ -46,7 +46,7 @@ struct SessionEvent {
   std::optional<double> first_right_s;
 
   bool IsRight() const { return fault == Fault::kNone; }
-  /// The event is judged from its first beat to half a second after its last (metrics.md).
+  /// The event is judged from its first beat to half a second after its last (docs/metrics.md).
   double WindowEnd() const { return end_s + 0.5; }
 };
 

@@ -8,7 +8,7 @@
 namespace etude {
 
 /// What a world's dice are keyed by: never the method, never the condition's values, so that every
-/// method meets the same world and a sweep changes strengths, not the dice (design.md §2).
+/// method meets the same world and a sweep changes strengths, not the dice.
 struct WorldKey {
   std::uint64_t suite_seed = 1;
   std::string_view scenario;

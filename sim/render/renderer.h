@@ -62,7 +62,7 @@ class Renderer {
   ~Renderer();
 
   /// Draws `figures` (none = the background picture) in `room`, seen by `camera`. The same bytes every
-  /// time in the pinned environment (design.md §6). Pixel geometry is `Project`'s, without smoothing of
+  /// time in the pinned environment. Pixel geometry is `Project`'s, without smoothing of
   /// edges. Pictures have 1 to `kLargestPicture` pixels a side. The camera stands above the floor and in
   /// front of the wall; up to about 55° to the side, every pixel then shows floor, wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);

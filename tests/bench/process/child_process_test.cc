@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -237,16 +236,6 @@ TEST(ChildProcess, KeepsItsStandardErrorInAFile) {
   const auto child = ChildProcess::Start({.program = "sh", .arguments = {}, .error_file = "/no/such/folder/file"});
   ASSERT_FALSE(child);
   EXPECT_EQ(ToString(child.error()), "/no/such/folder/file: cannot write: No such file or directory");
-}
-
-TEST(ChildProcess, NothingSurvivesThatStartsOthersWhileItIsEnded) {
-  for (int i = 0; i < 3; ++i) {
-    ChildProcess child = Shell("echo going; while :; do setsid sleep 61.25 & done");
-    ASSERT_EQ(ReadLine(child), "going");
-    ::usleep(3000 * i);
-    child.Finish();
-  }
-  EXPECT_NE(std::system("pgrep -fx 'sleep 61.25' > /dev/null"), 0);
 }
 
 TEST(ChildProcess, MeasuresItselfAndAllThatItHasStarted) {

@@ -8,7 +8,7 @@
 
 namespace etude::testing {
 
-/// A person of algorithms.md B6's limb lengths in centimetres, standing in a T-pose with the toes on
+/// A person of the default limb lengths in centimetres, standing in a T-pose with the toes on
 /// the floor, under MotionBuilder's names. Every length below can be read off this table.
 inline Skeleton PersonSkeleton() {
   Skeleton person;

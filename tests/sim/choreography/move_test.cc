@@ -115,7 +115,7 @@ TEST(BuiltinMoves, NeverMoveFasterThanADancer) {
   }
 }
 
-/// metrics.md's foot slide of one foot's toe, cm/s, over one loop.
+/// docs/metrics.md's foot slide of one foot's toe, cm/s, over one loop.
 double FootSlide(const BodyMotion& motion, Role toe) {
   double sum = 0;
   const std::size_t frames = motion.poses.size();
