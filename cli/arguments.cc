@@ -17,11 +17,20 @@ std::shared_ptr<Options> Keep(Options options = {}) {
   return std::make_shared<Options>(std::move(options));
 }
 
+/// An empty value is most often a variable that nobody has set: no option of a command takes one.
+void RefuseEmptyValues(CLI::App& command) {
+  const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() > 0) option->check(not_empty);
+  }
+  for (CLI::App* inner : command.get_subcommands([](CLI::App*) { return true; })) RefuseEmptyValues(*inner);
+}
+
 /// --seed, --trials and --clips, of every command that makes worlds of scenarios.
 template <typename Options>
 std::array<CLI::Option*, 3> AddWorldOptions(CLI::App& command, Options& options) {
   return {command.add_option("--seed", options.seed, "Seed of all worlds (default: the scenario's, else 1)")
-              ->check(CLI::Range(0.0, 9007199254740992.0)),
+              ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53)),
           command.add_option("--trials", options.trials, "Trials per condition (default: the scenario's)")
               ->check(CLI::Range(1, 1000000)),
           command.add_option("--clips", options.clips,
@@ -230,6 +239,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });
+  RefuseEmptyValues(app);
 }
 
 }  // namespace etude

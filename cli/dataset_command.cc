@@ -11,40 +11,13 @@
 
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
-#include "bench/process/child_process.h"
+#include "bench/process/pinned_environment.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
 
 namespace etude {
 namespace {
-
-bool IsSet(const std::string& assignment) {
-  const std::size_t equals = assignment.find('=');
-  const char* value = std::getenv(assignment.substr(0, equals).c_str());
-  return value != nullptr && assignment.substr(equals + 1) == value;
-}
-
-/// Starts this very command anew in the pinned environment, unless it is in there already: pictures and numbers are
-/// then those of a run. Returns only when it is, or when that fails.
-Result<void> EnterPinnedEnvironment() {
-  const std::vector<std::string>& pinned = PinnedEnvironment();
-  if (std::all_of(pinned.begin(), pinned.end(), IsSet)) return {};
-  constexpr const char* kTried = "ETUDE_RESTARTED";
-  if (std::getenv(kTried) != nullptr) return Fail({}, "the pinned environment cannot be set for this process");
-  ::setenv(kTried, "1", 1);
-  for (const std::string& assignment : pinned) {
-    const std::size_t equals = assignment.find('=');
-    ::setenv(assignment.substr(0, equals).c_str(), assignment.substr(equals + 1).c_str(), 1);
-  }
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string line{std::istreambuf_iterator<char>(file), {}};
-  std::vector<char*> arguments;
-  for (std::size_t at = 0; at < line.size(); at += std::strlen(&line[at]) + 1) arguments.push_back(&line[at]);
-  arguments.push_back(nullptr);
-  ::execv("/proc/self/exe", arguments.data());
-  return Fail({}, "this program cannot be started anew: {}", std::strerror(errno));
-}
 
 /// "3/80 worlds" on standard error: redrawn on a terminal, else at every tenth of the way.
 class WorldCounter {

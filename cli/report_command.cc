@@ -9,6 +9,7 @@ namespace etude {
 int ReportCommand(const std::string& folder, bool with_video) {
   const auto run = LoadRun(folder);
   if (!run) return Complain(run.error());
+  if (auto whole = CheckRowsAgainstSummary(folder, *run); !whole) return Complain(whole.error());
   const auto written = WriteReport(*run, folder, {.pictures = with_video});
   if (!written) return Complain(written.error());
   fmt::print("{}/report/index.html\n", folder);

@@ -16,6 +16,10 @@
 #include <cstring>
 #include <utility>
 
+#include "bench/process/descriptor.h"
+#include "bench/process/held_tree.h"
+#include "bench/process/pinned_environment.h"
+
 namespace etude {
 namespace {
 
@@ -65,26 +69,6 @@ Result<std::string> FindProgram(const std::string& name) {
   return Fail({}, "no program '{}' in PATH ({})", name, folders);
 }
 
-/// A file descriptor that is closed at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() { Close(); }
-  int number() const { return number_; }
-  int Release() { return std::exchange(number_, -1); }
-  void Close() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-
- private:
-  int number_;
-};
-
 struct Pipe {
   Descriptor read, write;
 };
@@ -113,33 +97,7 @@ Result<Pipe> MakePipe() {
   ::_exit(127);
 }
 
-/// Takes hold of a process and its descendants, so that killing them later cannot hit another process that has
-/// been given one of their numbers.
-std::vector<Descriptor> HoldTree(pid_t root) {
-  std::vector<pid_t> processes = ProcessTree(root);
-  for (int i = 0; i < 10 && processes.size() > 1; ++i) {  // an orphan that moves up to `root` meanwhile is missed
-    if (std::exchange(processes, ProcessTree(root)) == processes) break;
-  }
-  std::vector<Descriptor> held;
-  for (const pid_t process : processes) held.emplace_back(static_cast<int>(::syscall(SYS_pidfd_open, process, 0)));
-  return held;
-}
-
-void SignalAll(const std::vector<Descriptor>& held, int signal) {
-  for (const Descriptor& process : held) ::syscall(SYS_pidfd_send_signal, process.number(), signal, nullptr, 0);
-}
-
 }  // namespace
-
-const std::vector<std::string>& PinnedEnvironment() {
-  static const std::vector<std::string> settings = {
-      "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4",  // its sin, exp, … have FMA variants with other last bits
-      "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",                  // llvmpipe compiles shaders for the CPU it meets
-      "MESA_SHADER_CACHE_DISABLE=true",                    // the cache forgets for which CPU a shader was compiled
-      "LP_NUM_THREADS=0",                                  // one process per core is faster than threads
-  };
-  return settings;
-}
 
 Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const auto path = FindProgram(options.program);
@@ -262,13 +220,11 @@ bool ChildProcess::HasEnded() const {
 
 std::string ChildProcess::Finish(int patience_ms) {
   if (pid_ < 0) return "not running";
-  const std::vector<Descriptor> tree = HoldTree(pid_);  // orphans of a child that ended could not be found any more
+  HeldTree tree(pid_);  // descendants of a child that ended could not be found any more
   ::close(input_);
   for (int i = 0; i < patience_ms && !HasEnded(); ++i) ::usleep(1000);
   ::close(output_);
-  SignalAll(HoldTree(pid_), SIGSTOP);  // one that stands still starts no other that the next look could miss
-  SignalAll(HoldTree(pid_), SIGKILL);
-  SignalAll(tree, SIGKILL);
+  tree.Kill();
   ::kill(-pid_, SIGKILL);  // before it is reaped: until then its number, and so its group's, is nobody else's
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {

@@ -12,10 +12,6 @@
 
 namespace etude {
 
-/// The settings under which the same build gives the same bytes on any machine. They
-/// must stand before a process starts, which is why work is done in child processes.
-const std::vector<std::string>& PinnedEnvironment();
-
 struct ChildOptions {
   std::string program;  ///< a path, or a name to be found in PATH
   std::vector<std::string> arguments = {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "bench/files/files.h"
@@ -158,6 +159,28 @@ Result<RunData> LoadRun(const fs::path& folder) {
   if (auto loaded = LoadSeries(folder, run); !loaded) return tl::unexpected(loaded.error());
   if (auto loaded = LoadRecordings(folder, run); !loaded) return tl::unexpected(loaded.error());
   return run;
+}
+
+Result<void> CheckRowsAgainstSummary(const fs::path& folder, const RunData& run) {
+  const Place place{(folder / "cells.jsonl").string(), 0, 0};
+  std::set<std::string> ids;
+  for (const Row& row : run.rows) {
+    if (!ids.insert(row.Id()).second) return Fail(place, "holds the cell {} twice", row.Id());
+  }
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    std::ptrdiff_t summed = 0;
+    for (const ConditionSummary& condition : scenario.conditions) {
+      for (const MethodSummary& method : condition.methods) {
+        for (const auto& [status, count] : method.statuses) summed += count;
+      }
+    }
+    const auto found =
+        std::count_if(run.rows.begin(), run.rows.end(), [&](const Row& row) { return row.scenario == scenario.name; });
+    if (found != summed) {
+      return Fail(place, "holds {} rows of scenario {}; summary.json sums up {}", found, scenario.name, summed);
+    }
+  }
+  return {};
 }
 
 }  // namespace etude

@@ -22,4 +22,7 @@ Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<
 /// version, and when the run did not come to its end.
 Result<RunData> LoadRun(const std::filesystem::path& folder);
 
+/// Whether the rows are those that summary.json sums up: as many of each scenario, none twice.
+Result<void> CheckRowsAgainstSummary(const std::filesystem::path& folder, const RunData& run);
+
 }  // namespace etude

@@ -11,6 +11,7 @@
 
 #include "bench/results/folder.h"
 #include "bench/run/cell_json.h"
+#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
@@ -18,6 +19,19 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kJournalVersion = 1;
+
+/// A line says at its end what its text adds up to, so that a disk's or an editor's mistake is found.
+constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
+
+std::string WithSum(const std::string& json) {
+  const std::string text = json.substr(0, json.size() - 1);  // without the last brace
+  return text + std::string(kSumBegin) + Digest().Add(std::string_view(text)).Hex() + std::string(kSumEnd) + "\n";
+}
+
+bool HasRightSum(const std::string& line) {
+  const std::size_t at = line.rfind(kSumBegin);
+  return at != std::string::npos && WithSum(line.substr(0, at) + "}") == line + "\n";
+}
 
 Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   const auto json = ReadJson(line, place.file, place.line);
@@ -41,6 +55,8 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
 
 Result<void> AddCell(const std::string& line, const Place& place, const Plan& plan, const Shard& shard,
                      CellTable& cells) {
+  if (!HasRightSum(line))
+    return Fail(place, "this line is not as it was written; delete it to have its cell run again");
   const auto json = ReadJson(line, place.file, place.line);
   if (!json) return tl::unexpected(json.error());
   auto finished = DecodeFinishedCell(*json, place);
@@ -95,7 +111,7 @@ Result<void> Journal::Append(std::size_t cell, FinishedCell finished) {
   json.update(EncodeFinishedCell(std::move(finished)));
   const auto line = WriteJson(json);
   if (!line) return tl::unexpected(line.error());
-  return Write(*line + "\n");
+  return Write(WithSum(*line));
 }
 
 Result<void> Journal::Write(const std::string& line) {

@@ -10,7 +10,7 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/process/child_process.h"
+#include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"

@@ -114,7 +114,9 @@ class Supervisor {
       const bool stirred = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
       if (auto watched_over = WatchOver(workers_[i], stirred); !watched_over) return watched_over;
     }
-    std::erase_if(workers_, [](const Worker& worker) { return worker.dismissed; });
+    // One that is still in its set-up is not waited for when there is nothing left to give it.
+    std::erase_if(workers_,
+                  [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && !worker.order); });
     return {};
   }
 

@@ -49,6 +49,7 @@ class OutsideMethods(EtudeCase):
                 self.assertTrue(row["reason"].startswith(reason), row["reason"])
                 self.assertEqual(row["solved_practical"], 0, "a failure stays in the denominator")
                 self.assertIsNone(row["position_error_cm"])
+        self.assertIn("about to fall", (self.out / "stderr" / "ik~crashes.txt").read_text())
         self.assertEqual([row for row in among if row["method"] not in REASONS], alone)
         self.assertEqual({row["status"] for row in alone if row["method"] == "good"}, {"ok"})
 

@@ -209,6 +209,31 @@ methods:
         self.assertEqual(torn.returncode, 2)
         self.assertIn("not a packed cell", torn.stderr)
 
+    def test_a_result_with_a_row_missing_or_twice_is_not_reported(self):
+        cells = self.whole / "cells.jsonl"
+        lines = cells.read_text().splitlines(keepends=True)
+        for changed, complaint in ((lines[:-1], "holds 159 rows of scenario ik; summary.json sums up 160"),
+                                   (lines[:-1] + lines[:1], "holds the cell ik/joint_noise_deg=2/000/fixed twice")):
+            cells.write_text("".join(changed))
+            result = self.etude("report", self.whole, "--no-video")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(complaint, result.stderr)
+
+    def test_a_full_disk_is_one_complaint_and_loses_nothing(self):
+        limited = subprocess.run(["bash", "-c", 'ulimit -f 400; exec "$0" run "$1" -o "$2"', ETUDE, self.scenario, self.out],
+                                 capture_output=True, text=True, timeout=60)
+        self.assertEqual(limited.returncode, 2)
+        self.assertEqual(len([line for line in limited.stderr.splitlines() if line.startswith("etude: ")]), 1)
+        self.assertIn("--resume goes on with it", limited.stderr)
+        self.resume()
+        self.assert_same_results(self.whole, self.out)
+
+    def test_no_option_takes_an_empty_value(self):
+        for arguments in (["run", self.scenario, "-o", ""], ["gate", self.whole, "--baseline", ""], ["report", ""]):
+            result = self.etude(*arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("must not be empty", result.stderr)
+
     def test_an_unknown_cell_is_named_with_the_nearest(self):
         result = self.etude("replay", self.whole, "--cell", "ik/joint_noise_deg=2/000/fixd")
         self.assertEqual(result.returncode, 2)

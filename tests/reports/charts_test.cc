@@ -33,12 +33,13 @@ TEST(IntervalChart, HasAMarkForEveryMethodUnderEveryCondition) {
 TEST(IntervalChart, DrawsNothingRatherThanZeroForAMissingValue) {
   RunData run = ExampleRun();
   MetricSummary& metric = run.scenarios[1].conditions[0].methods[1].metrics[0];
-  metric.median = metric.ci_low = metric.ci_high = std::nullopt;
+  metric.median = metric.mean = metric.ci_low = metric.ci_high = std::nullopt;
   const auto json = nlohmann::json::parse(IntervalChart(run.scenarios[1])->json);
   EXPECT_TRUE(json["methods"][1]["marks"][0]["value"].is_null());
   metric = run.scenarios[1].conditions[0].methods[0].metrics[0];
   for (auto& method : run.scenarios[1].conditions[0].methods) {
-    method.metrics[0].median = method.metrics[0].ci_low = method.metrics[0].ci_high = std::nullopt;
+    MetricSummary& missing = method.metrics[0];
+    missing.median = missing.mean = missing.ci_low = missing.ci_high = std::nullopt;
   }
   EXPECT_FALSE(IntervalChart(run.scenarios[1]).has_value());
 }

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/process/pinned_environment.h"
+
 namespace etude {
 namespace {
 

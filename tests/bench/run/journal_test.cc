@@ -98,12 +98,16 @@ TEST_F(JournalTest, GoesOnAfterATornLine) {
   EXPECT_FALSE(cells[5]);
 }
 
-TEST_F(JournalTest, RefusesALineInTheMiddleThatCannotBeRead) {
+TEST_F(JournalTest, FindsEveryChangedByteOfALine) {
   WriteTwo();
-  std::string text = Text();
-  text[text.find('\n') + 1] = '?';
-  Rewrite(text);
-  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:2: not valid JSON"));
+  const std::string text = Text();
+  const std::size_t begin = text.find('\n') + 1, end = text.find('\n', begin);
+  for (std::size_t at = begin; at < end; ++at) {
+    std::string changed = text;
+    changed[at] = changed[at] == '1' ? '2' : '1';
+    Rewrite(changed);
+    EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:2: this line is not as it was written")) << at;
+  }
 }
 
 TEST_F(JournalTest, RefusesACellTwice) {
