@@ -27,7 +27,6 @@ constexpr double kNearestToWall = 1.0;
 // How long the change stays marked after the seam.
 constexpr int kMarkFrames = 15;
 
-
 std::string TextOf(const Json& json, const char* key) {
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();

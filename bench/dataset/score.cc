@@ -43,9 +43,6 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
   if (fs::exists(manifest, error)) {
     if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
   }
-  for (PreparedScenario& scenario : *scenarios) {
-    if (auto added = scenario.AddMethod(options.name, options.alone); !added) return tl::unexpected(added.error());
-  }
   return scenarios;
 }
 
@@ -140,7 +137,7 @@ Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& 
 }
 
 /// What beside the manifest of a run repeats this one: the answers, by their fingerprint.
-Json DescribePredictions(const ScoreOptions& options, const Plan& plan, const CellTable& cells) {
+Json DescribeAnswers(const Plan& plan, const CellTable& cells) {
   Digest digest;
   std::size_t answers = 0;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
@@ -150,15 +147,16 @@ Json DescribePredictions(const ScoreOptions& options, const Plan& plan, const Ce
       ++answers;
     }
   }
-  return {{"method", options.name}, {"answers", answers}, {"digest", digest.Hex()}};
+  return {{"answers", answers}, {"digest", digest.Hex()}};
 }
 
 }  // namespace
 
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress) {
-  const auto suite = ReadTarget(options);
+  auto suite = ReadTarget(options);
   if (!suite) return tl::unexpected(suite.error());
+  suite->scored = ScoredMethod{options.name, options.alone};
   const auto state = LookAtFolder(options.output);
   if (!state) return tl::unexpected(state.error());
   if (*state != FolderState::kFree) {
@@ -180,16 +178,17 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   auto claimed = RunFolder::Claim(options.output, /*keep_contents=*/false);
   if (!claimed) return tl::unexpected(claimed.error());
   Json manifest = MakeManifest(*suite, *scenarios, options.program_version);
-  manifest["predictions"] = DescribePredictions(options, plan, cells);
+  manifest["scored"].update(DescribeAnswers(plan, cells));
   const fs::path folder = options.output;
   if (auto saved = SaveJson(folder / "manifest.json", manifest); !saved) return tl::unexpected(saved.error());
-  const auto whole = RunOrders(*suite, plan, plan.OrdersFor({}, DoneCells(cells)),
-                               {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
-                               [&](std::size_t cell, FinishedCell finished) -> Result<void> {
-                                 meter.Count(finished.row);
-                                 cells[cell] = std::move(finished);
-                                 return {};
-                               });
+  const auto whole =
+      RunOrders(*suite, plan, plan.OrdersFor({}, DoneCells(cells)),
+                {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
+                [&](std::size_t cell, FinishedCell finished) -> Result<void> {
+                  meter.Count(finished.row);
+                  cells[cell] = std::move(finished);
+                  return {};
+                });
   if (!whole) return tl::unexpected(whole.error());
   outcome.run.stopped = !*whole;
   outcome.run.cells = meter.progress().cells_done;

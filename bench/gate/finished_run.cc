@@ -48,6 +48,9 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
     if (named == parsed->end()) return Fail(place, "'{}' holds no scenario '{}'", one.setup.file, one.setup.name);
     one.scenario = std::move(*named);
     one.scenario.trials = one.setup.trials;
+    if (suite->scored) {
+      if (auto added = AddScoredMethod(*suite->scored, one.scenario); !added) return tl::unexpected(added.error());
+    }
     try {
       for (const Json& clip : manifest->at("scenarios").at(s).at("loaded_clips")) {
         one.clip_digests.push_back(clip.at("digest").get<std::string>());

@@ -46,7 +46,8 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed) {
   ScenarioSetup setup = rehearsal.setup;
   setup.seed = seed;
-  const auto prepared = Prepare(setup, rehearsal.sources);
+  const auto prepared = Prepare(
+      SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}}, setup);
   if (!prepared) return tl::unexpected(prepared.error());
   const Scenario& scenario = prepared->scenario();
   FinishedRun run;

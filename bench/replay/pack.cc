@@ -96,6 +96,10 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   if (prepared == scenarios->end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
   auto clips = PackClips(prepared->clips());
   if (!clips) return tl::unexpected(clips.error());
+  if (suite->scored && row->method == suite->scored->name) {
+    return Fail({folder, 0, 0}, "'{}' is an answer that was scored, not run", cell);
+  }
+  suite->scored.reset();
   suite->scenarios = {prepared->setup()};
   const Json pack{{"etude_pack", kPackVersion},
                   {"etude", run->program_version},

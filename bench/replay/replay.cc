@@ -19,7 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The numbers of the wanted cells, ascending.
-Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const RunData& run) {
+Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const RunData& run,
+                                          const std::optional<ScoredMethod>& scored) {
+  const auto was_run = [&](const Row& row) { return !scored || row.method != scored->name; };
   std::set<std::size_t> chosen;
   for (const std::string& wanted : options.cells) {
     const auto row = std::find_if(run.rows.begin(), run.rows.end(), [&](const Row& r) { return r.Id() == wanted; });
@@ -30,14 +32,16 @@ Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const Ru
       return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted,
                   nearest.empty() ? ", such as '" + known.front() + "'" : "; did you mean '" + nearest + "'?");
     }
+    if (!was_run(*row)) return Fail({options.folder, 0, 0}, "'{}' is an answer that was scored, not run", wanted);
     chosen.insert(static_cast<std::size_t>(row - run.rows.begin()));
   }
   if (!options.cells.empty()) return chosen;
-  // Selection sampling (Knuth, volume 2, algorithm S): every set of `count` rows is as likely.
-  const std::size_t count = options.sample == 0 ? run.rows.size() : std::min(options.sample, run.rows.size());
+  // Selection sampling (Knuth, volume 2, algorithm S): every set of `count` cells is as likely.
+  std::size_t left = static_cast<std::size_t>(std::count_if(run.rows.begin(), run.rows.end(), was_run));
+  const std::size_t count = options.sample == 0 ? left : std::min(options.sample, left);
   RandomStream dice({.suite_seed = run.seed, .scenario = "replay", .trial = 0}, "sample");
   for (std::size_t cell = 0; chosen.size() < count; ++cell) {
-    if (dice.IndexBelow(run.rows.size() - cell) < count - chosen.size()) chosen.insert(cell);
+    if (was_run(run.rows[cell]) && dice.IndexBelow(left--) < count - chosen.size()) chosen.insert(cell);
   }
   return chosen;
 }
@@ -63,15 +67,16 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   if (run->rows.size() != plan.cell_count()) {
     return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", run->rows.size(), plan.cell_count());
   }
-  const auto chosen = ChooseCells(options, *run);
+  const auto chosen = ChooseCells(options, *run, suite->scored);
   if (!chosen) return tl::unexpected(chosen.error());
   std::map<std::size_t, CellCheck> checks;
-  const auto whole = RunOrders(*suite, plan, OrdersOf(plan, *chosen),
-                               {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
-                               [&](std::size_t cell, FinishedCell finished) -> Result<void> {
-                                 checks.emplace(cell, CompareRows(run->rows[cell], finished.row));
-                                 return {};
-                               });
+  const auto whole =
+      RunOrders(*suite, plan, OrdersOf(plan, *chosen),
+                {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
+                [&](std::size_t cell, FinishedCell finished) -> Result<void> {
+                  checks.emplace(cell, CompareRows(run->rows[cell], finished.row));
+                  return {};
+                });
   if (!whole) return tl::unexpected(whole.error());
   std::vector<CellCheck> list;
   for (auto& [cell, check] : checks) list.push_back(std::move(check));

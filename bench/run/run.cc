@@ -117,6 +117,10 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const auto start = Clock::now();
   const auto suite = options.from.empty() ? ReadSuite(options) : ReadManifest(options.from);
   if (!suite) return tl::unexpected(suite.error());
+  if (suite->scored) {
+    return Fail({options.from, 0, 0}, "is of answers that were scored ('{}'), which cannot be run; etude score does it",
+                suite->scored->name);
+  }
   const fs::path folder = FolderFor(options, *suite);
   const auto state = CheckFolder(folder, options);
   if (!state) return tl::unexpected(state.error());

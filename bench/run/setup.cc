@@ -43,10 +43,12 @@ Json EncodeSetup(const SuiteSetup& setup) {
   }
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
-  return {{"suite", setup.suite},
-          {"seed", setup.seed},
-          {"scenarios", std::move(scenarios)},
-          {"sources", std::move(sources)}};
+  Json json{{"suite", setup.suite},
+            {"seed", setup.seed},
+            {"scenarios", std::move(scenarios)},
+            {"sources", std::move(sources)}};
+  if (setup.scored) json["scored"] = {{"method", setup.scored->name}, {"alone", setup.scored->alone}};
+  return json;
 }
 
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
@@ -61,14 +63,18 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
                                  scenario.at("clips").get<std::vector<std::string>>(),
                                  scenario.at("digest").get<std::string>()});
     }
+    if (json.contains("scored")) {
+      const Json& scored = json.at("scored");
+      setup.scored = ScoredMethod{scored.at("method").get<std::string>(), scored.at("alone").get<bool>()};
+    }
   } catch (const Json::exception& error) {
     return Fail(place, "not a suite's set-up: {}", error.what());
   }
   return setup;
 }
 
-Result<PreparedScenario> Prepare(const ScenarioSetup& setup, const SourceTexts& sources) {
-  auto scenarios = ParseScenarios(setup.file, sources);
+Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup) {
+  auto scenarios = ParseScenarios(setup.file, suite.sources);
   if (!scenarios) return tl::unexpected(scenarios.error());
   const auto named = std::find_if(scenarios->begin(), scenarios->end(),
                                   [&](const Scenario& scenario) { return scenario.name == setup.name; });
@@ -83,37 +89,42 @@ Result<PreparedScenario> Prepare(const ScenarioSetup& setup, const SourceTexts& 
   auto tasks = MakeTasks(prepared.scenario_, *prepared.clips_);
   if (!tasks) return tl::unexpected(tasks.error());
   prepared.tasks_ = std::move(*tasks);
+  if (suite.scored) {
+    if (auto added = AddScoredMethod(*suite.scored, prepared.scenario_); !added) return tl::unexpected(added.error());
+  }
   return prepared;
 }
 
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
   std::vector<PreparedScenario> scenarios;
   for (const ScenarioSetup& setup : suite.scenarios) {
-    auto prepared = Prepare(setup, suite.sources);
+    auto prepared = Prepare(suite, setup);
     if (!prepared) return tl::unexpected(prepared.error());
     scenarios.push_back(std::move(*prepared));
   }
   return scenarios;
 }
 
-Result<void> PreparedScenario::AddMethod(const std::string& name, bool alone) {
-  if (!IsPlainName(name)) {
-    return Fail({}, "'{}' is no name of a method; allowed: letters, digits, '-', '_' and '.', at most 80", name);
+Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
+  if (!IsPlainName(method.name)) {
+    return Fail({}, "'{}' is no name of a method; allowed: letters, digits, '-', '_' and '.', at most 80", method.name);
   }
-  std::vector<MethodEntry>& methods = scenario_.methods;
-  if (alone) {
+  std::vector<MethodEntry>& methods = scenario.methods;
+  if (method.alone) {
     methods.clear();
-    scenario_.expectations.clear();
-    scenario_.gate = {};
-    scenario_.recordings.methods.clear();
+    scenario.expectations.clear();
+    scenario.gate = {};
+    scenario.recordings.methods.clear();
   }
-  const bool is_taken = std::any_of(methods.begin(), methods.end(), [&](const auto& m) { return m.name == name; });
-  if (is_taken) return Fail({setup_.file, 0, 0}, "scenario {} has a method named '{}' already", scenario_.name, name);
+  const auto has_its_name = [&](const MethodEntry& other) { return other.name == method.name; };
+  if (std::any_of(methods.begin(), methods.end(), has_its_name)) {
+    return Fail({scenario.file, 0, 0}, "scenario {} has a method named '{}' already", scenario.name, method.name);
+  }
   MethodEntry entry;
-  entry.name = name;
-  entry.against = methods.empty() ? name : methods.front().name;
+  entry.name = method.name;
+  entry.against = methods.empty() ? method.name : methods.front().name;
   methods.push_back(std::move(entry));
-  if (!scenario_.recordings.trials.empty()) scenario_.recordings.methods.push_back(name);
+  if (!scenario.recordings.trials.empty()) scenario.recordings.methods.push_back(method.name);
   return {};
 }
 

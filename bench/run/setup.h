@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,12 +21,19 @@ struct ScenarioSetup {
   std::string digest;              ///< of the texts that the scenario stands in
 };
 
+/// A method whose answers are known already (etude score).
+struct ScoredMethod {
+  std::string name;
+  bool alone = false;  ///< in the place of the scenarios' own methods, not beside them
+};
+
 /// What the manifest keeps, and what every worker is started with.
 struct SuiteSetup {
   std::string suite;
   std::uint64_t seed = 1;
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
+  std::optional<ScoredMethod> scored;  ///< a method of every scenario, too
 };
 
 Json EncodeSetup(const SuiteSetup& setup);
@@ -39,10 +47,6 @@ class PreparedScenario {
   const ClipLibrary& clips() const { return *clips_; }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
-  /// Puts a method whose answers are known already behind those of the file, compared with the first, or `alone` in
-  /// their place, with nothing expected. Fails when the name is taken or no name.
-  Result<void> AddMethod(const std::string& name, bool alone);
-
   /// What keys the dice of a trial.
   WorldKey KeyOf(int trial) const { return {setup_.seed, scenario_.name, trial}; }
   /// A cell's row before anything is known about its result.
@@ -54,7 +58,7 @@ class PreparedScenario {
   void CompleteMetrics(int condition, Row& row) const;
 
  private:
-  friend Result<PreparedScenario> Prepare(const ScenarioSetup& setup, const SourceTexts& sources);
+  friend Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup);
 
   ScenarioSetup setup_;
   Scenario scenario_;
@@ -64,7 +68,11 @@ class PreparedScenario {
 
 /// Reads the scenario, loads its clips and makes its tasks; every complaint about a scenario, its
 /// methods or its clips comes from here.
-Result<PreparedScenario> Prepare(const ScenarioSetup& setup, const SourceTexts& sources);
+Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup);
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite);
+
+/// Puts the method behind those of the file, compared with the first, or in their place, with nothing expected. Fails
+/// when its name is taken or no name.
+Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario);
 
 }  // namespace etude

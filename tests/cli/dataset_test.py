@@ -78,8 +78,24 @@ class DataSets(EtudeCase):
         summary = json.loads((self.out / "summary.json").read_text())
         self.assertIn("oracle", json.dumps(summary["scenarios"][0]))
         manifest = json.loads((self.out / "manifest.json").read_text())
-        self.assertEqual(manifest["predictions"]["answers"], 8)
+        self.assertEqual(manifest["scored"]["answers"], 8)
         self.assertEqual(self.etude("report", self.out, "--no-video").returncode, 0)
+
+    def test_what_was_scored_is_a_result_folder_like_any_other(self):
+        data, answers = self.export(IK)
+        rows = self.score(data, answers, "--name", "oracle")
+        baseline = self.folder / "baseline.json"
+        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline, "--update").returncode, 0)
+        self.assertEqual(self.etude("gate", self.out, "--baseline", baseline).returncode, 0)
+        self.assertEqual(self.etude("compare", self.out, self.out).returncode, 0)
+        replayed = self.etude("replay", self.out)
+        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        self.assertIn(f"{len(rows) - 8} of {len(rows) - 8} cells came out the same", replayed.stdout)
+        for arguments in (["run", "--from", self.out / "manifest.json"],
+                          ["replay", self.out, "--cell", "ik/joint_noise_deg=2/000/oracle"]):
+            refused = self.etude(*arguments)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("scored", refused.stderr)
 
     def test_worse_answers_score_worse(self):
         data, answers = self.export(IK)

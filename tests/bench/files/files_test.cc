@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/files/temporary_folder.h"
+
 namespace etude {
 namespace {
 
@@ -14,6 +16,29 @@ TEST(Files, ReadBackWhatTheyWroteAndLeaveNothingBeside) {
   EXPECT_EQ(ReadWholeFile(folder / "a.txt"), "bytes");
   EXPECT_FALSE(std::filesystem::exists(TemporaryName(folder / "a.txt")));
   std::filesystem::remove_all(folder);
+}
+
+TEST(Files, OfAPlainNameAreWrittenWhereWeStand) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  const auto folder = TemporaryFolder::Make("files-test");
+  ASSERT_TRUE(folder);
+  std::filesystem::current_path(folder->path());
+  const auto written = WriteFileAtomically("plain.txt", "bytes");
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(written);
+  EXPECT_EQ(ReadWholeFile(folder->path() / "plain.txt"), "bytes");
+}
+
+TEST(TemporaryFolders, GoAwayWithAllThatIsInThem) {
+  std::filesystem::path path;
+  {
+    auto folder = TemporaryFolder::Make("files-test");
+    ASSERT_TRUE(folder);
+    const TemporaryFolder moved = std::move(*folder);
+    path = moved.path();
+    ASSERT_TRUE(WriteFileAtomically(path / "inner" / "a.txt", "bytes"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(Files, SayWhyTheyCannotBeReadOrWritten) {

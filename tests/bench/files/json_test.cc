@@ -1,0 +1,43 @@
+#include "bench/files/json.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Json, IsWrittenInTheOrderGivenAndReadsBackTheSame) {
+  const Json json{{"b", 0.1}, {"a", {1, nullptr, "\u00e9"}}};
+  const auto text = WriteJson(json);
+  ASSERT_TRUE(text);
+  EXPECT_EQ(*text, "{\"b\":0.1,\"a\":[1,null,\"\u00e9\"]}");
+  EXPECT_EQ(*ReadJson(*text, "x"), json);
+}
+
+TEST(Json, RefusesWhatIsNotAFiniteNumberAndNamesItsPath) {
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    const auto text = WriteJson({{"cells", {1.0, {{"error", bad}}}}});
+    ASSERT_FALSE(text);
+    EXPECT_EQ(ToString(text.error()), "/cells/1/error is not a finite number");
+  }
+}
+
+TEST(Json, CountsOnlyBracketsOutsideOfTexts) {
+  EXPECT_EQ(NestingOf("1"), 0);
+  EXPECT_EQ(NestingOf(R"([{"a": "[[[\"[["}])"), 2);
+  EXPECT_EQ(NestingOf("[[["), 3);
+}
+
+TEST(Json, RefusesDeepNestingBeforeItTakesTheStack) {
+  const std::string deep(1'000'000, '[');
+  EXPECT_THAT(ToString(ReadJson(deep, "a.json", 7).error()), HasSubstr("a.json:7: nested more than 100 deep"));
+  EXPECT_TRUE(ReadJson(std::string(100, '[') + std::string(100, ']'), "a.json"));
+  EXPECT_FALSE(ReadJson(std::string(101, '[') + std::string(101, ']'), "a.json"));
+}
+
+}  // namespace
+}  // namespace etude
