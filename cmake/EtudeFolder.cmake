@@ -25,6 +25,25 @@ function(etude_folder)
   endforeach()
 endfunction()
 
+# etude_embed(FUNCTION <name> HEADER <header> FILES <file>...)
+#   Puts files into the library of the current folder: a test, a worker and an installed program all find them.
+#   <header> declares the function that gives them.
+function(etude_embed)
+  cmake_parse_arguments(ARG "" "FUNCTION;HEADER" "FILES" ${ARGN})
+  etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
+  list(SORT ARG_FILES)
+  set(embedded "${CMAKE_CURRENT_BINARY_DIR}/${ARG_FUNCTION}.cc")
+  set(script "${CMAKE_SOURCE_DIR}/cmake/embed_texts.cmake")
+  add_custom_command(
+    OUTPUT "${embedded}"
+    COMMAND "${CMAKE_COMMAND}" -D "OUT=${embedded}" -D "HEADER=${ARG_HEADER}" -D "FUNCTION=${ARG_FUNCTION}"
+            -D "FILES=${ARG_FILES}" -P "${script}"
+    DEPENDS ${ARG_FILES} "${script}"
+    COMMENT "Embedding ${ARG_FUNCTION}"
+    VERBATIM)
+  target_sources(${target} PRIVATE "${embedded}")
+endfunction()
+
 # etude_tests(DEPENDS <folder>... LIBRARIES <target>... LABELS <label>...)
 #   Makes one test program of every .cc file of the current folder, which mirrors the folder it
 #   tests (tests/engine/motion tests engine/motion), and registers each test with ctest in the

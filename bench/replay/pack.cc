@@ -84,26 +84,24 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   if (!run) return tl::unexpected(run.error());
   const auto row = std::find_if(run->rows.begin(), run->rows.end(), [&](const Row& r) { return r.Id() == cell; });
   if (row == run->rows.end()) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
-  const fs::path manifest = fs::path(folder) / "manifest.json";
-  auto suite = ReadManifest(manifest);
-  if (!suite) return tl::unexpected(suite.error());
-  const auto scenarios = PrepareAll(*suite);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  if (auto same = CheckClips(manifest, *scenarios); !same) return same;
-  const auto prepared = std::find_if(scenarios->begin(), scenarios->end(), [&](const PreparedScenario& scenario) {
+  auto whole = PrepareRun(fs::path(folder) / "manifest.json");
+  if (!whole) return tl::unexpected(whole.error());
+  const std::vector<PreparedScenario>& scenarios = whole->scenarios;
+  const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row->scenario;
   });
-  if (prepared == scenarios->end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
+  if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
+  SuiteSetup suite = whole->suite;
   auto clips = PackClips(prepared->clips());
   if (!clips) return tl::unexpected(clips.error());
-  if (suite->scored && row->method == suite->scored->name) {
+  if (suite.scored && row->method == suite.scored->name) {
     return Fail({folder, 0, 0}, "'{}' is an answer that was scored, not run", cell);
   }
-  suite->scored.reset();
-  suite->scenarios = {prepared->setup()};
+  suite.scored.reset();
+  suite.scenarios = {prepared->setup()};
   const Json pack{{"etude_pack", kPackVersion},
                   {"etude", run->program_version},
-                  {"setup", EncodeSetup(*suite)},
+                  {"setup", EncodeSetup(suite)},
                   {"row", EncodeRow(*row)},
                   {"clips", std::move(*clips)}};
   const std::vector<std::uint8_t> bytes = Json::to_cbor(pack);

@@ -100,6 +100,15 @@ Result<void> CheckClips(const std::filesystem::path& path, std::span<const Prepa
   return {};
 }
 
+Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest) {
+  auto suite = ReadManifest(manifest);
+  if (!suite) return tl::unexpected(suite.error());
+  auto scenarios = PrepareAll(*suite);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
+  return PreparedRun{std::move(*suite), std::move(*scenarios)};
+}
+
 Result<std::string> BuildDigest() {
   const auto bytes = ReadWholeFile("/proc/self/exe");
   if (!bytes) return tl::unexpected(bytes.error());

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bench/files/json.h"
 #include "bench/run/plan.h"
@@ -17,6 +18,15 @@ Result<SuiteSetup> ReadManifest(const std::filesystem::path& path);
 
 /// Checks that `scenarios`, prepared from the suite of the manifest at `path`, have the very clips that it had then.
 Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios);
+
+/// A run made ready to be gone on with, merged or repeated.
+struct PreparedRun {
+  SuiteSetup suite;
+  std::vector<PreparedScenario> scenarios;
+};
+
+/// Makes ready what a manifest describes, with the very clips that it had then.
+Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest);
 
 /// Where and how it was run: host.json.
 Json DescribeHost(const std::string& command_line, int jobs, double seconds);

@@ -96,13 +96,9 @@ Result<RunOutcome> Merge(const MergeOptions& options) {
   auto shards = FindShards(options.folders);
   if (!shards) return tl::unexpected(shards.error());
   if (shards->folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards->missing, "; "));
-  const fs::path manifest = shards->folders.begin()->second / "manifest.json";
-  const auto suite = ReadManifest(manifest);
-  if (!suite) return tl::unexpected(suite.error());
-  const auto scenarios = PrepareAll(*suite);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
-  const Plan plan(*scenarios);
+  const auto prepared = PrepareRun(shards->folders.begin()->second / "manifest.json");
+  if (!prepared) return tl::unexpected(prepared.error());
+  const Plan plan(prepared->scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
   for (const auto& [index, folder] : shards->folders) {
