@@ -91,7 +91,7 @@ std::vector<std::vector<double>> PathOf(const IkSolution& solution) {
   return path;
 }
 
-/// "2 angles outside their limits, worst left_knee.x by 3.2°", or nothing.
+/// "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°", or nothing.
 std::string DescribeBrokenLimits(const KinematicTree& tree, std::span<const double> angles) {
   constexpr double kRounding = Radians(1e-6);
   int broken = 0;
