@@ -58,4 +58,12 @@ std::string Join(std::span<const std::string> items, std::string_view separator)
   return fmt::format("{}", fmt::join(items, separator));
 }
 
+std::string Quote(std::string_view text) {
+  if (text.empty()) return "the end of the line or file";
+  constexpr std::size_t kShown = 40;
+  std::string quoted = "'";
+  for (char c : text.substr(0, kShown)) quoted += (c >= ' ' && c <= '~') ? c : '?';
+  return quoted + (text.size() > kShown ? "…'" : "'");
+}
+
 }  // namespace etude

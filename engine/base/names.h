@@ -18,4 +18,8 @@ std::string UnknownName(std::string_view kind, std::string_view name, std::span<
 /// "a, b, c"
 std::string Join(std::span<const std::string> items, std::string_view separator = ", ");
 
+/// How complaints show a word: in quotes, shortened, unprintable bytes as `?`; nothing at all is
+/// "the end of the line or file".
+std::string Quote(std::string_view text);
+
 }  // namespace etude

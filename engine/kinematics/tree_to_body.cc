@@ -66,7 +66,7 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
   const BodyPose rest = ToBodyPose(body, rest_frames);
   for (const ClipJointRow& row : kClipJoints) {
     const glm::dvec3 offset = row.parent < 0 ? glm::dvec3(0) : rest[row.role] - rest[kClipJoints[row.parent].role];
-    clip.skeleton.joints.push_back({std::string(row.name), row.parent, offset, row.is_end});
+    clip.skeleton.joints.push_back({std::string(row.name), row.parent, {.translation = offset}, row.is_end});
   }
 
   clip.frames.reserve(states.size());
@@ -82,7 +82,7 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
       if (row.parent < 0) {
         pose[i] = {frames.joints[kTreeNavel].position, turned[i]};
       } else {
-        pose[i] = {clip.skeleton.joints[i].offset, glm::conjugate(turned[row.parent]) * turned[i]};
+        pose[i] = {clip.skeleton.joints[i].rest.translation, glm::conjugate(turned[row.parent]) * turned[i]};
       }
     }
   }

@@ -48,6 +48,9 @@ std::string_view RoleName(Role role);
 std::optional<Role> FindRole(std::string_view name);
 /// The joint it hangs from; the hip centre has none.
 std::optional<Role> ParentOf(Role role);
+/// A side of the body, the person's own.
+enum class Side { kLeft, kRight };
+
 /// The same joint of the other side; itself for joints of the middle.
 Role Mirrored(Role role);
 

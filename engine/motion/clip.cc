@@ -9,15 +9,25 @@ int Skeleton::Find(const std::string& name) const {
   return -1;
 }
 
+LocalPose RestPose(const Skeleton& skeleton) {
+  LocalPose rest;
+  rest.reserve(skeleton.joints.size());
+  for (const Joint& joint : skeleton.joints) rest.push_back(joint.rest);
+  return rest;
+}
+
 void ComputeGlobals(const Skeleton& skeleton, const LocalPose& pose, std::vector<GlobalTransform>& out) {
   out.resize(skeleton.joints.size());
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    const LocalTransform& local = pose[i];
+    glm::dmat3 axes = glm::mat3_cast(local.rotation);
+    for (int k = 0; k < 3; ++k) axes[k] *= local.scale[k];
     const int parent = skeleton.joints[i].parent;
     if (parent < 0) {
-      out[i] = {pose[i].translation, pose[i].rotation};
+      out[i] = {local.translation, axes};
     } else {
       const GlobalTransform& above = out[parent];
-      out[i] = {above.position + above.rotation * pose[i].translation, above.rotation * pose[i].rotation};
+      out[i] = {above.position + above.axes * local.translation, above.axes * axes};
     }
   }
 }

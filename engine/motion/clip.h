@@ -7,11 +7,24 @@
 
 namespace etude {
 
-/// A joint of a clip's own skeleton. Joints stand parents first; the root's parent is −1.
+/// A joint's place in its parent's frame: p ↦ translation + rotation · (scale ⊙ p), glTF's TRS. Motion
+/// capture has unit scales.
+struct LocalTransform {
+  glm::dvec3 translation{0};
+  glm::dquat rotation{1, 0, 0, 0};
+  glm::dvec3 scale{1};
+
+  friend bool operator==(const LocalTransform&, const LocalTransform&) = default;
+};
+
+/// One frame: a local transform for every joint of the skeleton.
+using LocalPose = std::vector<LocalTransform>;
+
+/// A joint of a clip's own skeleton. Joints stand parents first; a root's parent is −1.
 struct Joint {
   std::string name;
   int parent = -1;
-  glm::dvec3 offset{0};      ///< from the parent in the rest pose, in the file's unit
+  LocalTransform rest;       ///< in the rest pose, in the file's unit; BVH's OFFSET is its translation
   bool is_end_site = false;  ///< an end point without channels of its own (BVH "End Site")
 };
 
@@ -22,14 +35,7 @@ struct Skeleton {
   int Find(const std::string& name) const;
 };
 
-/// A joint's place in its parent's frame.
-struct LocalTransform {
-  glm::dvec3 translation{0};
-  glm::dquat rotation{1, 0, 0, 0};
-};
-
-/// One frame: a local transform for every joint of the skeleton.
-using LocalPose = std::vector<LocalTransform>;
+LocalPose RestPose(const Skeleton& skeleton);
 
 /// A motion clip with its own full skeleton, in its file's own unit and axes.
 struct Clip {
@@ -37,12 +43,15 @@ struct Clip {
   Skeleton skeleton;
   double rate_hz = 30;
   std::vector<LocalPose> frames;
+
+  /// From the first frame to the last.
+  double DurationSeconds() const { return frames.empty() ? 0 : static_cast<double>(frames.size() - 1) / rate_hz; }
 };
 
-/// A joint's place in the world.
+/// A joint's place in the world: p ↦ position + axes · p. The axes are a rotation, unless some joint above scales.
 struct GlobalTransform {
   glm::dvec3 position{0};
-  glm::dquat rotation{1, 0, 0, 0};
+  glm::dmat3 axes{1};
 };
 
 /// Forward kinematics of one frame: `out` gets one entry per joint.

@@ -19,12 +19,11 @@ Clip ToClip(const BodyMotion& motion, std::string name) {
     const std::optional<Role> parent = ParentOf(role);
     clip.skeleton.joints.push_back({.name = std::string(RoleName(role)),
                                     .parent = parent ? static_cast<int>(Index(*parent)) : -1,
-                                    .offset = FromParent(motion.poses.front(), role)});
+                                    .rest = {.translation = FromParent(motion.poses.front(), role)}});
   }
   for (const BodyPose& pose : motion.poses) {
     LocalPose& frame = clip.frames.emplace_back();
-    for (const Role role : AllRoles())
-      frame.push_back({.translation = FromParent(pose, role), .rotation = {1, 0, 0, 0}});
+    for (const Role role : AllRoles()) frame.push_back({.translation = FromParent(pose, role)});
   }
   return clip;
 }

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// scenarios/choreography/*.yaml, sorted by name (written by the build).
+/// scenarios/choreography/moves/*.yaml, sorted by name (written by the build).
 std::span<const EmbeddedText> BuiltinMoveFiles();
 
 }  // namespace etude

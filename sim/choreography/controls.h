@@ -5,9 +5,9 @@
 #include <span>
 #include <string_view>
 
-namespace etude {
+#include "engine/motion/body.h"
 
-enum class Side { kLeft, kRight };
+namespace etude {
 
 /// What moves the middle of the body. Angles turn the way a person would say it: bend = forward,
 /// side and turn = to the person's own left.

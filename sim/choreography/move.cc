@@ -72,7 +72,7 @@ Result<Move> LoadBuiltinMove(const std::string& name) {
   const auto files = BuiltinMoveFiles();
   const auto file = std::ranges::find(files, name, NameOf);
   if (file == files.end()) return Fail({}, "{}", UnknownName("move", name, BuiltinMoveNames()));
-  return ParseMove(file->text, "scenarios/choreography/" + std::string(file->name));
+  return ParseMove(file->text, "scenarios/choreography/moves/" + std::string(file->name));
 }
 
 }  // namespace etude

@@ -21,7 +21,7 @@ struct KeyPose {
   std::vector<Target> targets;
 };
 
-/// A built-in move, authored as key poses in scenarios/choreography/*.yaml.
+/// A built-in move, authored as key poses in scenarios/choreography/moves/*.yaml, or an act of the coach (acts/*.yaml).
 struct Move {
   std::string name;  ///< "clap"
   double tempo_bpm = 120;
@@ -32,9 +32,11 @@ struct Move {
   BodyMotion motion;  ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
 };
 
-/// The names of all built-in moves, sorted.
+/// The names of all built-in moves (choreography/moves), sorted.
 std::vector<std::string> BuiltinMoveNames();
-/// The built-in move of that name; the error lists the known ones.
+/// The names of the coach's acts (choreography/acts), sorted.
+std::vector<std::string> BuiltinActNames();
+/// The built-in move or act of that name; the error lists the known ones.
 Result<Move> LoadBuiltinMove(const std::string& name);
 /// Reads one move from the text of a choreography file.
 Result<Move> ParseMove(std::string_view yaml, const std::string& file);

@@ -17,10 +17,20 @@ namespace etude {
 /// One colour for every Part, by its number.
 using PartColours = std::array<Rgb8, 16>;
 
-/// A person in the scene: its shape and the colour of each part.
+/// Triangles in the world, of one colour.
+struct Surface {
+  std::vector<glm::dvec3> positions;                    ///< metres
+  std::vector<glm::dvec3> normals;                      ///< unit, one per position
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  Rgb8 colour;
+  Part part = Part::kTrunk;  ///< its number in label images
+};
+
+/// A person in the scene: capsules and the colour of each part, or surfaces, or both.
 struct Figure {
   std::vector<Capsule> shape;
   PartColours colours{};
+  std::vector<Surface> surfaces{};
 };
 
 /// The colours of the captured performer: clothes and skin of warm hues (335° over red to 45°), at

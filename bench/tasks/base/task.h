@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/clips/clip_library.h"
 #include "bench/files/json.h"
-#include "bench/tasks/base/clip_library.h"
 #include "engine/document/fields.h"
 #include "sim/random/stream.h"
 

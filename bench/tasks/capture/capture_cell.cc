@@ -8,8 +8,8 @@
 #include "bench/tasks/capture/recording_extras.h"
 #include "bench/tasks/capture/recover.h"
 #include "engine/base/digest.h"
+#include "engine/formats/bvh.h"
 #include "engine/kinematics/tree_to_body.h"
-#include "engine/motion/bvh.h"
 #include "engine/motion/from_body.h"
 
 namespace etude {

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "bench/tasks/base/clip_library.h"
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/capture/capture_options.h"
 #include "engine/cameras/camera.h"
 #include "engine/cameras/dlt.h"

@@ -5,10 +5,10 @@
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "engine/cameras/opencv_file.h"
-#include "engine/motion/bvh.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
 #include "engine/motion/from_body.h"
-#include "engine/motion/joint_csv.h"
-#include "engine/motion/trc.h"
 #include "engine/vision/strokes.h"
 #include "sim/sensors/image_files.h"
 

@@ -7,9 +7,9 @@
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/detection/scoring.h"
-#include "engine/motion/bvh.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/trc.h"
 #include "engine/motion/from_body.h"
-#include "engine/motion/trc.h"
 
 namespace etude {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/tasks/base/clip_library.h"
+#include "bench/clips/clip_library.h"
 #include "bench/tasks/detection/options.h"
 #include "engine/recognition/key_pose.h"
 #include "engine/recognition/skeleton_stream.h"

@@ -9,7 +9,7 @@
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/transition/options.h"
-#include "engine/motion/bvh.h"
+#include "engine/formats/bvh.h"
 #include "engine/motion/from_body.h"
 
 namespace etude {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/tasks/base/clip_library.h"
+#include "bench/clips/clip_library.h"
 #include "engine/bridging/bridge_frames.h"
 #include "engine/bridging/one_character.h"
 

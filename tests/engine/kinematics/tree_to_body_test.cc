@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/motion/bvh.h"
-#include "engine/motion/joint_map.h"
+#include "engine/formats/bvh.h"
+#include "engine/retargeting/joint_map.h"
 #include "tests/engine/kinematics/observed_tree.h"
 
 namespace etude {
@@ -58,7 +58,7 @@ TEST(TreeToBody, OnlyTheRootMovesWithinItsParent) {
   const Clip clip = ToClip(tree, SomeStates(tree), 30, "captured");
   for (const LocalPose& frame : clip.frames) {
     for (std::size_t j = 1; j < frame.size(); ++j) {
-      EXPECT_EQ(frame[j].translation, clip.skeleton.joints[j].offset) << "limbs are rigid";
+      EXPECT_EQ(frame[j].translation, clip.skeleton.joints[j].rest.translation) << "limbs are rigid";
       if (clip.skeleton.joints[j].is_end_site) {
         EXPECT_NEAR(std::abs(frame[j].rotation.w), 1, 1e-12) << "an end site has no channels";
       }

@@ -5,7 +5,7 @@
 
 #include "bench/tasks/capture/recording_extras.h"
 #include "engine/document/node.h"
-#include "engine/motion/bvh.h"
+#include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/gtest_printers.h"
 

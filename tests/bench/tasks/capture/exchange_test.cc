@@ -10,7 +10,7 @@
 #include "bench/tasks/capture/capture_task.h"
 #include "bench/tasks/capture/recording_extras.h"
 #include "engine/document/node.h"
-#include "engine/motion/bvh.h"
+#include "engine/formats/bvh.h"
 #include "sim/sensors/image_files.h"
 #include "tests/bench/tasks/base/cell_values.h"
 

@@ -1,0 +1,156 @@
+#include "engine/formats/bvh_hierarchy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr int kDeepestNesting = 128;
+constexpr std::size_t kMostJoints = 1024;
+constexpr int kMostChannels = 6;
+
+constexpr std::array<std::string_view, kMostChannels> kChannelNames = {"Xposition", "Yposition", "Zposition",
+                                                                       "Xrotation", "Yrotation", "Zrotation"};
+
+char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+class HierarchyReader {
+ public:
+  explicit HierarchyReader(TextScanner& scanner) : scanner_(scanner) {}
+
+  Result<BvhHierarchy> Read() {
+    if (auto ok = Expect("HIERARCHY"); !ok) return tl::unexpected(ok.error());
+    if (auto ok = Expect("ROOT"); !ok) return tl::unexpected(ok.error());
+    if (auto ok = ReadJoint(-1, 1); !ok) return tl::unexpected(ok.error());
+    const Token after = scanner_.Next();
+    if (SameWord(after.text, "ROOT")) {
+      return Fail(scanner_.At(after), "found a second ROOT; allowed: one skeleton per file");
+    }
+    if (!SameWord(after.text, "MOTION")) return Unexpected(after, "MOTION after the root's closing '}'");
+    if (hierarchy_.channels.empty()) {
+      return Fail(scanner_.At(after), "no joint has channels; at least one is needed");
+    }
+    return std::move(hierarchy_);
+  }
+
+ private:
+  tl::unexpected<Error> Unexpected(const Token& token, std::string_view allowed) const {
+    return Fail(scanner_.At(token), "found {}; expected {}", Quote(token.text), allowed);
+  }
+
+  Result<void> Expect(std::string_view word) {
+    const Token token = scanner_.Next();
+    if (!SameWord(token.text, word)) return Unexpected(token, word);
+    return {};
+  }
+
+  /// A joint's name and its block; `parent` is −1 for the root.
+  Result<void> ReadJoint(int parent, int depth) {
+    const Token name = scanner_.NameInLine();
+    if (name.text.empty()) return Unexpected(name, "a joint's name");
+    auto index = AddJoint(std::string(name.text), parent, name, depth);
+    if (!index) return tl::unexpected(index.error());
+    if (auto ok = Expect("{"); !ok) return ok;
+
+    bool has_offset = false;
+    bool has_channels = false;
+    bool has_children = false;
+    for (;;) {
+      const Token token = scanner_.Next();
+      Result<void> ok;
+      if (token.text == "}") {
+        if (!has_offset) return Unexpected(token, "OFFSET: every joint has one");
+        return {};
+      } else if (SameWord(token.text, "OFFSET") && !has_offset) {
+        has_offset = true;
+        ok = ReadOffset(*index);
+      } else if (SameWord(token.text, "CHANNELS") && !has_channels && !has_children) {
+        has_channels = true;
+        ok = ReadChannels(*index);
+      } else if (SameWord(token.text, "JOINT")) {
+        has_children = true;
+        ok = ReadJoint(*index, depth + 1);
+      } else if (SameWord(token.text, "End")) {
+        has_children = true;
+        ok = ReadEndSite(*index, token, depth + 1);
+      } else {
+        return Unexpected(token, "OFFSET and CHANNELS (once each, before any child), JOINT, End Site or '}'");
+      }
+      if (!ok) return ok;
+    }
+  }
+
+  Result<void> ReadEndSite(int parent, const Token& start, int depth) {
+    if (auto ok = Expect("Site"); !ok) return ok;
+    auto index = AddJoint(hierarchy_.skeleton.joints[parent].name + "_End", parent, start, depth);
+    if (!index) return tl::unexpected(index.error());
+    hierarchy_.skeleton.joints[*index].is_end_site = true;
+    if (auto ok = Expect("{"); !ok) return ok;
+    if (auto ok = Expect("OFFSET"); !ok) return ok;
+    if (auto ok = ReadOffset(*index); !ok) return ok;
+    return Expect("}");
+  }
+
+  Result<int> AddJoint(std::string name, int parent, const Token& place, int depth) {
+    auto& joints = hierarchy_.skeleton.joints;
+    if (depth > kDeepestNesting) {
+      return Fail(scanner_.At(place), "joints nested deeper than {} levels", kDeepestNesting);
+    }
+    if (joints.size() >= kMostJoints) {
+      return Fail(scanner_.At(place), "more than {} joints and end sites", kMostJoints);
+    }
+    joints.push_back({.name = std::move(name), .parent = parent, .rest = {}});
+    return static_cast<int>(joints.size()) - 1;
+  }
+
+  Result<void> ReadOffset(int joint) {
+    for (int axis = 0; axis < 3; ++axis) {
+      auto value = scanner_.Number(scanner_.Next(), "one of an OFFSET's three numbers");
+      if (!value) return tl::unexpected(value.error());
+      hierarchy_.skeleton.joints[joint].rest.translation[axis] = *value;
+    }
+    return {};
+  }
+
+  Result<void> ReadChannels(int joint) {
+    const Token count_token = scanner_.Next();
+    auto count = scanner_.Number(count_token, "the number of channels");
+    if (!count) return tl::unexpected(count.error());
+    if (*count < 0 || *count > kMostChannels || *count != static_cast<int>(*count)) {
+      return Fail(scanner_.At(count_token), "found {} channels; allowed: a whole number from 0 to {}",
+                  Quote(count_token.text), kMostChannels);
+    }
+    std::array<bool, kMostChannels> seen{};
+    for (int i = 0; i < *count; ++i) {
+      const Token token = scanner_.Next();
+      const auto known =
+          std::ranges::find_if(kChannelNames, [&](std::string_view name) { return SameWord(name, token.text); });
+      if (known == kChannelNames.end()) {
+        return Unexpected(token, fmt::format("{} channels out of {}", *count, fmt::join(kChannelNames, ", ")));
+      }
+      const int kind = static_cast<int>(known - kChannelNames.begin());
+      if (seen[kind]) return Fail(scanner_.At(token), "channel {} stands twice in one joint", *known);
+      seen[kind] = true;
+      hierarchy_.channels.push_back({.joint = joint, .is_rotation = kind >= 3, .axis = kind % 3});
+    }
+    return {};
+  }
+
+  TextScanner& scanner_;
+  BvhHierarchy hierarchy_;
+};
+
+}  // namespace
+
+bool SameWord(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, [](char x, char y) { return Lower(x) == Lower(y); });
+}
+
+Result<BvhHierarchy> ReadBvhHierarchy(TextScanner& scanner) { return HierarchyReader(scanner).Read(); }
+
+}  // namespace etude

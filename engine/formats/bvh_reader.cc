@@ -1,0 +1,146 @@
+#include <cmath>
+#include <initializer_list>
+
+#include "engine/base/angles.h"
+#include "engine/base/names.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/bvh_hierarchy.h"
+#include "engine/formats/text_scanner.h"
+
+namespace etude {
+namespace {
+
+constexpr double kShortestFrameSeconds = 1e-4;
+constexpr double kLongestFrameSeconds = 10;
+constexpr double kMostFrameBytes = 200e6;
+
+struct MotionHeader {
+  int frame_count = 0;
+  double rate_hz = 0;
+  Token frames_place;  ///< where the number of frames stands
+};
+
+/// Files print a frame time with few digits; the rate meant is a whole number nearly always.
+double RateOf(double frame_seconds) {
+  constexpr double kPrintedPrecision = 1e-4;
+  const double rate = 1.0 / frame_seconds;
+  const double whole = std::round(rate);
+  return std::abs(rate - whole) < kPrintedPrecision * whole ? whole : rate;
+}
+
+Result<void> ExpectWords(TextScanner& scanner, std::initializer_list<std::string_view> words) {
+  for (std::string_view word : words) {
+    const Token token = scanner.Next();
+    if (!SameWord(token.text, word)) {
+      return Fail(scanner.At(token), "found {}; expected {} of \"Frames: <count>\" and \"Frame Time: <seconds>\"",
+                  Quote(token.text), Quote(word));
+    }
+  }
+  return {};
+}
+
+Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) {
+  if (auto ok = ExpectWords(scanner, {"Frames", ":"}); !ok) return tl::unexpected(ok.error());
+  const Token count_token = scanner.Next();
+  auto count = scanner.Number(count_token, "the number of frames");
+  if (!count) return tl::unexpected(count.error());
+  if (*count < 1 || *count != std::floor(*count)) {
+    return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number from 1", Quote(count_token.text));
+  }
+  // Before any frame is stored: the announced size, not the file's, is what memory would be taken for.
+  const double bytes = *count * static_cast<double>(joints * sizeof(LocalTransform));
+  if (bytes > kMostFrameBytes) {
+    return Fail(scanner.At(count_token), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", count_token.text,
+                joints, bytes / 1e6, kMostFrameBytes / 1e6);
+  }
+
+  if (auto ok = ExpectWords(scanner, {"Frame", "Time", ":"}); !ok) return tl::unexpected(ok.error());
+  const Token time_token = scanner.Next();
+  auto seconds = scanner.Number(time_token, "the frame time");
+  if (!seconds) return tl::unexpected(seconds.error());
+  if (*seconds < kShortestFrameSeconds || *seconds > kLongestFrameSeconds) {
+    return Fail(scanner.At(time_token), "found a frame time of {} s; allowed: {:g} to {:g} s", time_token.text,
+                kShortestFrameSeconds, kLongestFrameSeconds);
+  }
+  if (const Token extra = scanner.NextInLine(); !extra.text.empty()) {
+    return Fail(scanner.At(extra), "found {} after the frame time; expected the first frame on a line of its own",
+                Quote(extra.text));
+  }
+  return MotionHeader{static_cast<int>(*count), RateOf(*seconds), count_token};
+}
+
+glm::dquat AxisRotation(int axis, double degrees) {
+  const double half = 0.5 * Radians(degrees);
+  glm::dvec3 imaginary(0);
+  imaginary[axis] = std::sin(half);
+  return {std::cos(half), imaginary.x, imaginary.y, imaginary.z};
+}
+
+void Apply(const BvhChannel& channel, double value, LocalPose& pose) {
+  LocalTransform& local = pose[channel.joint];
+  if (channel.is_rotation) {
+    local.rotation = local.rotation * AxisRotation(channel.axis, value);
+  } else {
+    local.translation[channel.axis] = value;
+  }
+}
+
+/// One line of numbers. `pose` comes in at rest.
+Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& channels, std::size_t number,
+                       LocalPose& pose) {
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const Token token = scanner.NextInLine();
+    if (token.text.empty()) {
+      return Fail(scanner.At(token), "frame {} has {} numbers; its {} channels need {}", number, i, channels.size(),
+                  channels.size());
+    }
+    auto value = scanner.Number(token, "a channel's value");
+    if (!value) return tl::unexpected(value.error());
+    Apply(channels[i], *value, pose);
+  }
+  if (const Token extra = scanner.NextInLine(); !extra.text.empty()) {
+    return Fail(scanner.At(extra), "frame {} goes on with {} after its {} numbers, one for each channel", number,
+                Quote(extra.text), channels.size());
+  }
+  return {};
+}
+
+std::string NameWithoutFolderAndExtension(std::string_view file) {
+  const std::string_view base = file.substr(file.find_last_of('/') + 1);
+  return std::string(base.substr(0, base.find_last_of('.')));
+}
+
+}  // namespace
+
+Result<Clip> ReadBvh(std::string_view bytes, const std::string& file) {
+  TextScanner scanner(bytes, file);
+  auto hierarchy = ReadBvhHierarchy(scanner);
+  if (!hierarchy) return tl::unexpected(hierarchy.error());
+  auto header = ReadMotionHeader(scanner, hierarchy->skeleton.joints.size());
+  if (!header) return tl::unexpected(header.error());
+
+  Clip clip;
+  clip.name = NameWithoutFolderAndExtension(file);
+  clip.skeleton = std::move(hierarchy->skeleton);
+  clip.rate_hz = header->rate_hz;
+  const LocalPose rest = RestPose(clip.skeleton);
+  const auto announced = static_cast<std::size_t>(header->frame_count);
+  while (scanner.SkipToText()) {
+    if (clip.frames.size() > announced) {
+      return Fail(scanner.At(scanner.Next()), "more lines than the {} frames announced on line {}", announced,
+                  header->frames_place.line);
+    }
+    clip.frames.push_back(rest);
+    auto ok = ReadFrame(scanner, hierarchy->channels, clip.frames.size(), clip.frames.back());
+    if (!ok) return tl::unexpected(ok.error());
+  }
+  // Exporters that announce their last frame's number write one frame more: read like everybody does.
+  if (clip.frames.size() == announced + 1) clip.frames.pop_back();
+  if (clip.frames.size() != announced) {
+    return Fail(scanner.At(header->frames_place), "{} frames announced; the file holds {}", announced,
+                clip.frames.size());
+  }
+  return clip;
+}
+
+}  // namespace etude

@@ -1,0 +1,76 @@
+#include "engine/formats/text_scanner.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr double kLargestNumber = 1e9;
+
+bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool IsMark(char c) { return c == '{' || c == '}' || c == ':'; }
+
+}  // namespace
+
+TextScanner::TextScanner(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text_.starts_with(kByteOrderMark)) text_.remove_prefix(kByteOrderMark.size());
+}
+
+void TextScanner::SkipBlanks() {
+  while (position_ < text_.size() && IsBlank(text_[position_])) ++position_;
+}
+
+bool TextScanner::SkipToText() {
+  for (SkipBlanks(); position_ < text_.size() && text_[position_] == '\n'; SkipBlanks()) {
+    line_start_ = ++position_;
+    ++line_;
+  }
+  return position_ < text_.size();
+}
+
+Token TextScanner::Take(std::size_t length) {
+  const Token token{text_.substr(position_, length), line_, static_cast<int>(position_ - line_start_) + 1};
+  position_ += length;
+  return token;
+}
+
+Token TextScanner::Next() {
+  if (!SkipToText()) return Take(0);
+  if (IsMark(text_[position_])) return Take(1);
+  std::size_t end = position_;
+  while (end < text_.size() && !IsBlank(text_[end]) && text_[end] != '\n' && !IsMark(text_[end])) ++end;
+  return Take(end - position_);
+}
+
+Token TextScanner::NextInLine() {
+  SkipBlanks();
+  std::size_t end = position_;
+  while (end < text_.size() && !IsBlank(text_[end]) && text_[end] != '\n') ++end;
+  return Take(end - position_);
+}
+
+Token TextScanner::NameInLine() {
+  SkipBlanks();
+  std::size_t end = position_;
+  while (end < text_.size() && text_[end] != '\n' && text_[end] != '{') ++end;
+  while (end > position_ && IsBlank(text_[end - 1])) --end;
+  return Take(end - position_);
+}
+
+Result<double> TextScanner::Number(const Token& token, std::string_view what) const {
+  // A leading plus is common in hand-written files, but unknown to from_chars.
+  const std::string_view digits = token.text.starts_with('+') ? token.text.substr(1) : token.text;
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool is_number = error == std::errc() && end == digits.data() + digits.size();
+  if (!is_number || !std::isfinite(value) || std::abs(value) > kLargestNumber) {
+    return Fail(At(token), "found {} as {}; allowed: a number within ±{:g}", Quote(token.text), what, kLargestNumber);
+  }
+  return value;
+}
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/motion/clip.h"
+
+namespace etude {
+
+/// What a surface is painted with. Textures are not read: characters are plain colours.
+struct Material {
+  std::string name;
+  glm::dvec3 colour{0.8};  ///< linear RGB, 0…1 (glTF's base colour)
+};
+
+/// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.
+struct SkinnedMesh {
+  /// A joint that may move vertices.
+  struct Binding {
+    int joint = 0;               ///< of the character's skeleton
+    glm::dmat4 inverse_bind{1};  ///< from the mesh's frame into the joint's, when bound
+  };
+  struct Vertex {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0};                       ///< unit
+    std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
+    std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
+  };
+
+  std::string name;
+  int material = 0;  ///< of the character
+  std::vector<Binding> bindings;
+  std::vector<Vertex> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+};
+
+/// A figure that can be drawn: surfaces on a skeleton. In the unit and axes of its file.
+struct Character {
+  std::string name;
+  Skeleton skeleton;
+  std::vector<Material> materials;
+  std::vector<SkinnedMesh> meshes;
+};
+
+/// A mesh's vertices in the world, in one pose of its skeleton.
+struct DeformedMesh {
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::dvec3> normals;  ///< unit
+};
+
+/// Linear blend skinning: v ↦ Σ wᵢ · globalᵢ · inverse_bindᵢ · v. `globals` is ComputeGlobals's output for
+/// the skeleton that the mesh is bound to. Normals go through the inverse transpose.
+DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>& globals);
+
+}  // namespace etude

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// What one looks at first in a clip of a body: metres, seconds.
+struct MotionStatistics {
+  double stature_m = 0;         ///< median over the frames (Stature)
+  double travelled_m = 0;       ///< way of the hip centre along the floor
+  double speed_median_m_s = 0;  ///< of the fastest joint in each frame
+  double speed_p95_m_s = 0;
+  double speed_peak_m_s = 0;
+  Role fastest = Role::kHead;  ///< the joint of the peak
+  double foot_slide_m_s = 0;   ///< FootSlide
+  double lowest_foot_m = 0;    ///< lowest point of either foot over the clip; near 0 for a clip on the floor
+};
+
+/// Needs at least one frame; of one frame all speeds are 0.
+MotionStatistics Describe(const BodyMotion& motion);
+
+/// Mean over frames and feet of the toes' horizontal speed, weighted by how much they stand: the weight is
+/// clamp(2 − 2^(h / 2.5 cm), 0, 1) at height h above the floor (Zhang et al. 2018, "Mode-adaptive neural networks").
+/// Heights are above each foot's own lowest point. Metres per second.
+double FootSlide(const BodyMotion& motion);
+
+}  // namespace etude

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/motion/body.h"
+#include "engine/motion/clip.h"
+
+namespace etude {
+
+/// A point that moves with a joint.
+struct RolePoint {
+  int joint = -1;
+  glm::dvec3 offset{0};  ///< in the joint's frame, the file's unit; zero: the joint itself
+};
+
+/// Where a clip's own skeleton has the twenty roles.
+struct JointMap {
+  std::array<RolePoint, kRoleCount> points;  ///< by Index(role)
+  /// Roles that no joint or end site of the skeleton plays: points that ride on a neighbouring joint.
+  std::vector<Role> composed;
+
+  const RolePoint& operator[](Role role) const { return points[Index(role)]; }
+};
+
+struct TaughtRoles;
+
+/// Finds the roles in a skeleton by the naming schemes of joint_names.h and by its build:
+/// - shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head by name;
+/// - the hip centre is midway between the hips, whatever the file's root is (paper B's P₁); its point
+///   here names the joint that carries both hips, `Evaluate` puts it midway;
+/// - the spine is the joint nearest to half the way from that joint to the base of the neck;
+/// - hands, feet and head are tips: the farthest end of the chain (fingers, toes, skull) whose distance
+///   from wrist, ankle or base of the neck is believable, else *composed* (ours): hand and head
+///   straight on from forearm and trunk, foot forward, in the proportions of paper B's body. Files
+///   carry end sites at 0 cm and at 1.6 m.
+///
+/// Refused: missing roles (listed with the names that are there), a knee not below its hip and the
+/// like, hips not on opposite sides of the joint that carries them.
+/// `taught` roles are taken as they are, before any name is looked for, and checked like the others.
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught = nullptr);
+
+/// One frame of a clip as the twenty joints, in the file's unit and axes. `globals` is
+/// ComputeGlobals's output for that frame.
+BodyPose Evaluate(const JointMap& map, const std::vector<GlobalTransform>& globals);
+
+}  // namespace etude

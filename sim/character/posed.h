@@ -1,0 +1,16 @@
+#pragma once
+
+#include "engine/motion/body.h"
+#include "engine/motion/character.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// A character in a pose of its own skeleton, ready to be drawn: metres, Y up, moved as `to_world` says (of
+/// a file's figure: the unit, axes and floor that ToBodyMotion has found).
+Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world = glm::dmat4(1));
+
+/// A character bound to BodySkeleton(StandingPose()), at a body's pose.
+Figure PosedFigure(const Character& character, const BodyPose& pose);
+
+}  // namespace etude

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/motion/body.h"
+#include "sim/choreography/move.h"
+
+namespace etude {
+
+/// A move's turn in a song: danced `times` times in a row.
+struct SongPart {
+  std::string move;
+  int times = 2;
+  double start_beat = 0;
+  double beats = 0;  ///< of all its repetitions
+};
+
+/// A frame that belongs to a moment of the music (paper A, 3.4: the next move is slowed or sped up by it).
+struct MusicTag {
+  std::size_t frame = 0;
+  double music_s = 0;
+};
+
+/// A choreography to a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored
+/// in scenarios/choreography/songs/*.yaml. Only moves that suit the tempo: agile ones fast songs, warm-up ones slow
+/// songs.
+struct Song {
+  std::string name;
+  double tempo_bpm = 120;
+  std::vector<SongPart> parts;
+  std::vector<MusicTag> tags;  ///< the first frame of every repetition, in order
+  BodyMotion motion;           ///< 30 Hz, from the ready stance to the ready stance, moves flowing into each other
+};
+
+/// Reads a song whose moves are the built-in ones.
+Result<Song> ParseSong(std::string_view yaml, const std::string& file);
+std::vector<std::string> BuiltinSongNames();
+Result<Song> LoadBuiltinSong(const std::string& name);
+
+}  // namespace etude

@@ -1,0 +1,60 @@
+#include "engine/motion/from_body.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/formats/bvh.h"
+#include "engine/retargeting/to_body.h"
+#include "tests/support/person.h"
+
+namespace etude {
+namespace {
+
+/// Limbs that turn and stretch from frame to frame.
+BodyMotion Rubber() {
+  BodyMotion motion;
+  for (int frame = 0; frame < 3; ++frame) {
+    BodyPose& pose = motion.poses.emplace_back();
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      const double x = static_cast<double>(i);
+      pose.joints[i] = {0.1 * x + 0.01 * frame, 1 + 0.03 * x * frame, 0.2 * frame - 0.07 * x};
+    }
+  }
+  return motion;
+}
+
+TEST(FromBody, ForwardKinematicsGivesEveryPositionBackAlsoAfterAFile) {
+  const BodyMotion motion = Rubber();
+  const Clip clip = ToClip(motion, "rubber");
+  const auto read = ReadBvh(WriteBvh(clip), "rubber.bvh");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->rate_hz, 30);
+  ASSERT_EQ(read->frames.size(), 3u);
+  std::vector<GlobalTransform> globals;
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    for (const Clip* each : {&clip, &*read}) {
+      ComputeGlobals(each->skeleton, each->frames[frame], globals);
+      for (const Role role : AllRoles()) {
+        const int joint = each->skeleton.Find(std::string(RoleName(role)));
+        ASSERT_GE(joint, 0) << RoleName(role);
+        EXPECT_LT(glm::distance(globals[joint].position, motion.poses[frame][role]), 1e-5) << RoleName(role);
+      }
+    }
+  }
+}
+
+TEST(FromBody, IsAClipThatIsUnderstoodAsTheBodyItWas) {
+  Clip person = testing::AtRest(testing::PersonSkeleton(), 3);
+  for (std::size_t frame = 0; frame < 3; ++frame) testing::LowerArms(person, frame);
+  const auto map = FindJointMap(person.skeleton, "person.bvh");
+  ASSERT_TRUE(map) << ToString(map.error());
+  const BodyMotion motion = ToBodyMotion(person, *map, "person.bvh")->motion;
+  const auto read = ReadBodyMotion(WriteBvh(ToClip(motion, "person")), "person.bvh");
+  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_EQ(read->motion.poses.size(), motion.poses.size());
+  for (const Role role : AllRoles()) {
+    EXPECT_LT(glm::distance(read->motion.poses[1][role], motion.poses[1][role]), 1e-3) << RoleName(role);
+  }
+}
+
+}  // namespace
+}  // namespace etude
