@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bench/run/worker.h"
+#include "cli/clip_arguments.h"
 #include "cli/commands.h"
 
 namespace etude {
@@ -26,15 +27,17 @@ void RefuseEmptyValues(CLI::App& command) {
   for (CLI::App* inner : command.get_subcommands([](CLI::App*) { return true; })) RefuseEmptyValues(*inner);
 }
 
-/// --seed, --trials and --clips, of every command that makes worlds of scenarios.
+/// --seed, --trials, --clips and --joint-map, of every command that makes worlds of scenarios.
 template <typename Options>
-std::array<CLI::Option*, 3> AddWorldOptions(CLI::App& command, Options& options) {
+std::array<CLI::Option*, 4> AddWorldOptions(CLI::App& command, Options& options) {
   return {command.add_option("--seed", options.seed, "Seed of all worlds (default: the scenario's, else 1)")
               ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53)),
           command.add_option("--trials", options.trials, "Trials per condition (default: the scenario's)")
               ->check(CLI::Range(1, 1000000)),
           command.add_option("--clips", options.clips,
-                             "Clips instead of the scenarios' own: builtin:NAME, files, patterns")};
+                             "Clips instead of the scenarios' own: builtin:NAME, BVH and glTF files, patterns"),
+          command.add_option("--joint-map", options.joint_map,
+                             "Which joints of the clips play which roles (etude clip map writes such a file)")};
 }
 
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
@@ -236,6 +239,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineScore(app, command_line, action);
   DefineCheckMethod(app, action);
   DefineList(app, action);
+  DefineClip(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

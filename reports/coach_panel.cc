@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "reports/followed_way.h"
 #include "reports/look.h"
 
 namespace etude {
@@ -18,10 +19,8 @@ constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
 // Drawn this much larger and shrunk, which smooths edges at half the price of RenderSmooth.
 constexpr double kDetail = 1.5;
-// The camera follows slowly: the way of the hips averaged over a second to either side. It stands still
-// (which is calmer, and spares drawing the room anew) while the dancer stays within this of the middle.
+// The camera follows slowly: a second to either side. Standing still also spares drawing the room anew.
 constexpr int kFollowFrames = 30;
-constexpr double kFreeRoom = 0.45;
 // How close to the room's wall the hips may come.
 constexpr double kNearestToWall = 1.0;
 // How long the change stays marked after the seam.
@@ -57,26 +56,6 @@ void PutOnStage(BodyMotion& motion, int seam) {
   for (BodyPose& pose : motion.poses) pose = forward.Apply(pose);
 }
 
-std::vector<glm::dvec3> FollowedWay(const BodyMotion& motion) {
-  const int count = static_cast<int>(motion.poses.size());
-  glm::dvec3 low = motion.poses.front()[Role::kHipCentre], high = low;
-  for (const BodyPose& pose : motion.poses) {
-    low = glm::min(low, pose[Role::kHipCentre]);
-    high = glm::max(high, pose[Role::kHipCentre]);
-  }
-  const glm::dvec3 half = (high - low) / 2.0;
-  if (half.x < kFreeRoom && half.z < kFreeRoom) return std::vector(motion.poses.size(), low + half);
-  std::vector<glm::dvec3> way;
-  for (int frame = 0; frame < count; ++frame) {
-    glm::dvec3 sum{0};
-    for (int k = -kFollowFrames; k <= kFollowFrames; ++k) {
-      sum += motion.poses[static_cast<std::size_t>(std::clamp(frame + k, 0, count - 1))][Role::kHipCentre];
-    }
-    way.push_back(sum / (2.0 * kFollowFrames + 1));
-  }
-  return way;
-}
-
 Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 
 }  // namespace
@@ -102,7 +81,7 @@ Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
     std::erase_if(panel.seams_, [&](int seam) { return seam >= longest; });
   }
   PutOnStage(panel.motion_, panel.Seam());
-  panel.followed_ = FollowedWay(panel.motion_);
+  panel.followed_ = FollowedWay(panel.motion_, kFollowFrames);
   return panel;
 }
 

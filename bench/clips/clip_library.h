@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/clips/open_clip.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "sim/choreography/move.h"
@@ -12,10 +13,10 @@ namespace etude {
 
 /// A motion that worlds can be made of: at 30 Hz, metres, Y up, feet on the floor.
 struct LibraryClip {
-  std::string name;    ///< "builtin:clap", or the file's name without folder and extension
-  std::string source;  ///< what the scenario or --clips named: "builtin:clap" or a path
+  std::string name;    ///< "builtin:clap", "01_01" (the file's name without folder and extension), "dance#Jump"
+  std::string source;  ///< what opens it again: "builtin:clap", a path, or "path.glb#Jump"
   BodyMotion motion;
-  std::optional<Move> move;  ///< the authored move, with its key poses; only built-in clips have one
+  std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
   std::string note;          ///< what loading had to repair ("dropped a leading T-pose", "1 unit = 5.65 cm")
 };
 
@@ -24,9 +25,10 @@ struct ClipLibrary {
   std::vector<LibraryClip> clips;
 };
 
-/// Loads every reference, in order: "builtin:NAME", "builtin:*", a path, or a glob ("mocap/*.bvh";
-/// `~/` is the home folder), relative to the current folder. Fails with the name of what cannot be found,
-/// read or understood. `place` is where the reference stands, for complaints.
-Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place);
+/// Loads every reference, in order: what ExpandReference knows; every animation of a glTF file is a clip of its own.
+/// Fails with the name of what cannot be found, read or understood. `place` is where the reference stands, for
+/// complaints.
+Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
+                              const OpenOptions& options = {});
 
 }  // namespace etude

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/clips/clip_file.h"
 #include "engine/base/result.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
@@ -21,15 +23,19 @@ struct OpenOptions {
 
 /// A clip as its file has it.
 struct SourceClip {
-  std::string name;  ///< "01_01", "Med_General#Dance": the file's name without folder and extension, and the animation
-  std::string source;  ///< what opens it again: a path, or "path.glb#Dance"
+  std::string name;    ///< "01_01", "Med_General#Dance": the file's name without folder and extension, and the
+                       ///< animation; "builtin:clap"
+  std::string source;  ///< what opens it again: "mocap/01_01.bvh", "path.glb#Dance", "builtin:clap"
+  ClipFormat format = ClipFormat::kBvh;
   Clip clip;
-  std::optional<Character> character;  ///< the file's own figure, when it has meshes; its skeleton is the clip's
+  /// The file's own figure, when it has meshes; its skeleton is the clip's. Shared by all clips of the file.
+  std::shared_ptr<const Character> character;
 };
 
-/// Reads every clip of a file: one of a BVH, all animations of a glTF, or the one behind '#'. A file name that itself
-/// holds a '#' is found first. Told by content, not by extension. Over 500 MB: refused before reading.
-Result<std::vector<SourceClip>> ReadClipFile(const std::string& reference);
+/// The clips of one file or built-in name (ExpandReference gives them): one of a BVH, all animations of a glTF, or the
+/// one behind '#', which may leave out what exporters put before it ("Jump" of "Armature|Jump"). Fails when there is
+/// none, saying what there is instead.
+Result<std::vector<SourceClip>> ReadClips(const std::string& reference);
 
 /// A clip with its roles found and its body's motion.
 struct OpenedClip {
@@ -38,6 +44,7 @@ struct OpenedClip {
   BodyConversion body;
 };
 
+/// Built-in clips are bodies already: metres, standing where they stand.
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options);
 
 }  // namespace etude

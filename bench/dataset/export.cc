@@ -140,6 +140,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options,
   run.seed = options.seed;
   run.trials = options.trials;
   run.clips = options.clips;
+  run.joint_map = options.joint_map;
   const auto suite = ReadSuite(run);
   if (!suite) return tl::unexpected(suite.error());
   const auto scenarios = PrepareAll(*suite);

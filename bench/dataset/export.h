@@ -16,6 +16,7 @@ struct ExportOptions {
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
+  std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
   std::string output;
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;

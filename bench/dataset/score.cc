@@ -27,10 +27,12 @@ Result<SuiteSetup> ReadTarget(const ScoreOptions& options) {
     run.seed = options.seed;
     run.trials = options.trials;
     run.clips = options.clips;
+    run.joint_map = options.joint_map;
     return ReadSuite(run);
   }
-  if (options.seed || options.trials || !options.clips.empty()) {
-    return Fail({manifest.string(), 0, 0}, "tells seed, trials and clips itself; leave out --seed, --trials, --clips");
+  if (options.seed || options.trials || !options.clips.empty() || !options.joint_map.empty()) {
+    return Fail({manifest.string(), 0, 0},
+                "tells seed, trials and clips itself; leave out --seed, --trials, --clips, --joint-map");
   }
   return ReadManifest(manifest);
 }

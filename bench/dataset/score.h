@@ -23,6 +23,7 @@ struct ScoreOptions {
   std::optional<std::uint64_t> seed;  ///< of scenario files; a manifest has its own
   std::optional<int> trials;
   std::vector<std::string> clips;
+  std::string joint_map;
   std::string command_line;
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;

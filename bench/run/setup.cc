@@ -39,6 +39,7 @@ Json EncodeSetup(const SuiteSetup& setup) {
                          {"seed", scenario.seed},
                          {"trials", scenario.trials},
                          {"clips", scenario.clips},
+                         {"joint_map", scenario.joint_map},
                          {"digest", scenario.digest}});
   }
   Json sources = Json::object();
@@ -61,6 +62,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
       setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(),
                                  scenario.at("seed").get<std::uint64_t>(), scenario.at("trials").get<int>(),
                                  scenario.at("clips").get<std::vector<std::string>>(),
+                                 scenario.value("joint_map", ""),
                                  scenario.at("digest").get<std::string>()});
     }
     if (json.contains("scored")) {
@@ -82,7 +84,15 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   PreparedScenario prepared;
   prepared.scenario_ = std::move(*named);
   prepared.scenario_.trials = setup.trials;
-  auto clips = LoadClips(setup.clips, {setup.file, 0, 0});
+  OpenOptions how;
+  if (!setup.joint_map.empty()) {
+    const auto text = suite.sources.find(setup.joint_map);
+    if (text == suite.sources.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", setup.joint_map);
+    auto roles = ReadJointMapFile(text->second, setup.joint_map);
+    if (!roles) return tl::unexpected(roles.error());
+    how.roles = std::move(*roles);
+  }
+  auto clips = LoadClips(setup.clips, {setup.file, 0, 0}, how);
   if (!clips) return tl::unexpected(clips.error());
   prepared.clips_ = std::make_unique<ClipLibrary>(std::move(*clips));
   prepared.setup_ = setup;

@@ -18,6 +18,7 @@ struct ScenarioSetup {
   std::uint64_t seed = 1;
   int trials = 1;
   std::vector<std::string> clips;  ///< references; the scenario's own, or those of --clips
+  std::string joint_map;           ///< a key of SuiteSetup::sources, "" = none
   std::string digest;              ///< of the texts that the scenario stands in
 };
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "bench/files/files.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -20,6 +21,15 @@ std::string SuiteName(const std::vector<std::string>& paths) {
   if (!fs::is_directory(path, error)) return path.stem().string();
   const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   return name.empty() || name == "." ? "suite" : name;
+}
+
+/// Keeps the text of a joint map among the sources, so that the manifest alone repeats the run.
+Result<void> ReadJointMap(const std::string& file, SourceTexts& texts) {
+  if (file.empty() || texts.contains(file)) return {};
+  auto text = ReadWholeFile(file);
+  if (!text) return tl::unexpected(text.error());
+  texts[file] = std::move(*text);
+  return {};
 }
 
 }  // namespace
@@ -74,8 +84,10 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
                     scenario.conditions.size(), scenario.methods.size(), trials, kMostCells);
       }
       const bool replaced = !options.clips.empty() && !scenario.clips.empty();
+      const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
+      if (auto read = ReadJointMap(joint_map, suite.sources); !read) return tl::unexpected(read.error());
       suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
-                                 replaced ? options.clips : scenario.clips, digest.Hex()});
+                                 replaced ? options.clips : scenario.clips, joint_map, digest.Hex()});
     }
     suite.sources.merge(texts);
   }

@@ -67,6 +67,7 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   const TaskKind& kind = *ReadTask(fields);
   scenario.task = kind.name;
   scenario.clips = fields.Texts("clips");
+  scenario.joint_map = fields.Text("joint_map", "");
   scenario.trials = fields.Integer("trials", 10, {1, kMostTrials});
   constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
   if (const auto seed = fields.OptionalWhole("seed", {0, kLargestSeed})) {

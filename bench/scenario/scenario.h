@@ -74,6 +74,7 @@ struct Scenario {
   std::string question;
   std::string task;
   std::vector<std::string> clips;  ///< references as written
+  std::string joint_map;           ///< file that teaches the joints of the clips (docs/clips.md), "" = none
   int trials = 1;
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;  ///< at least one

@@ -11,7 +11,7 @@ namespace {
 
 using enum Role;
 
-BodyPose Rebuild(const Character& character, const BodyPose& source, double scale) {
+BodyPose Rebuild(const Physique& character, const BodyPose& source, double scale) {
   BodyPose pose;
   pose[kHipCentre] = scale * source[kHipCentre];
   std::array<glm::dvec3, kRoleCount> directions{};
@@ -41,17 +41,17 @@ double FloorHeight(const BodyMotion& motion) {
 
 }  // namespace
 
-Character MakeCharacter(const BodyPose& pose, double standing_hip_height) {
+Physique MakePhysique(const BodyPose& pose, double standing_hip_height) {
   const double own_height = StandingHipHeight(pose);
   assert(own_height > 0);
-  Character character{.limb_lengths = {}, .standing_hip_height = standing_hip_height};
+  Physique character{.limb_lengths = {}, .standing_hip_height = standing_hip_height};
   for (const Bone& bone : AllBones()) {
     character.limb_lengths[Index(bone.child)] = BoneLength(pose, bone) * standing_hip_height / own_height;
   }
   return character;
 }
 
-BodyMotion PerformedBy(const Character& character, const BodyMotion& motion) {
+BodyMotion PerformedBy(const Physique& character, const BodyMotion& motion) {
   BodyMotion performed{.rate_hz = motion.rate_hz, .poses = {}};
   if (motion.poses.empty()) return performed;
   const double own_height = StandingHipHeight(motion.poses.front());

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "engine/base/names.h"
+#include "engine/formats/unique_names.h"
 
 namespace etude {
 namespace {
@@ -87,6 +89,7 @@ class HierarchyReader {
 
   Result<void> ReadEndSite(int parent, const Token& start, int depth) {
     if (auto ok = Expect("Site"); !ok) return ok;
+    scanner_.NameInLine();  // some exporters name the site; nobody reads it
     auto index = AddJoint(hierarchy_.skeleton.joints[parent].name + "_End", parent, start, depth);
     if (!index) return tl::unexpected(index.error());
     hierarchy_.skeleton.joints[*index].is_end_site = true;
@@ -96,7 +99,7 @@ class HierarchyReader {
     return Expect("}");
   }
 
-  Result<int> AddJoint(std::string name, int parent, const Token& place, int depth) {
+  Result<int> AddJoint(const std::string& name, int parent, const Token& place, int depth) {
     auto& joints = hierarchy_.skeleton.joints;
     if (depth > kDeepestNesting) {
       return Fail(scanner_.At(place), "joints nested deeper than {} levels", kDeepestNesting);
@@ -104,7 +107,7 @@ class HierarchyReader {
     if (joints.size() >= kMostJoints) {
       return Fail(scanner_.At(place), "more than {} joints and end sites", kMostJoints);
     }
-    joints.push_back({.name = std::move(name), .parent = parent, .rest = {}});
+    joints.push_back({.name = names_.Add(name), .parent = parent, .rest = {}});
     return static_cast<int>(joints.size()) - 1;
   }
 
@@ -143,6 +146,7 @@ class HierarchyReader {
 
   TextScanner& scanner_;
   BvhHierarchy hierarchy_;
+  UniqueNames names_;
 };
 
 }  // namespace

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 #include "engine/base/angles.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/unique_names.h"
+#include "engine/motion/edit.h"
 
 namespace etude {
 namespace {
@@ -26,13 +30,21 @@ EulerZxy ToEulerZxy(const glm::dquat& rotation) {
   return {std::atan2(-r(0, 1), r(1, 1)), x, std::atan2(-r(2, 0), r(2, 2))};
 }
 
-/// Values that would be printed as "-0.000000" become zero.
-glm::dvec3 WithoutMinusZeros(glm::dvec3 values) {
-  constexpr double kPrintedAsZero = 0.5e-6;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(values[i]) < kPrintedAsZero) values[i] = 0;
+/// What stands in the file: six decimals. Nearest whole number of them, never a minus zero.
+double Millionths(double value) { return std::round(value * 1e6) + 0.0; }
+glm::dvec3 Millionths(const glm::dvec3& v) { return {Millionths(v.x), Millionths(v.y), Millionths(v.z)}; }
+
+/// A joint's name in one line, without what begins and ends blocks.
+std::string Printable(std::string_view name) {
+  std::string printable(name);
+  for (char& c : printable) {
+    const bool is_control = static_cast<unsigned char>(c) < ' ' || c == '\x7F';
+    if (is_control || c == '{' || c == '}') c = '_';
   }
-  return values;
+  // Blanks around a name are nobody's.
+  const std::size_t first = printable.find_first_not_of(' ');
+  if (first == std::string::npos) return "unnamed";
+  return printable.substr(first, printable.find_last_not_of(' ') - first + 1);
 }
 
 class Writer {
@@ -43,11 +55,9 @@ class Writer {
       if (parent >= 0) {
         children_[parent].push_back(static_cast<int>(i));
       } else {
-        assert(root_ < 0 && "BVH holds one root");
         root_ = static_cast<int>(i);
       }
     }
-    assert(root_ >= 0);
   }
 
   std::string Write() {
@@ -71,27 +81,28 @@ class Writer {
 
   const etude::Joint& Joint(std::size_t index) const { return clip_.skeleton.joints[index]; }
 
+  /// In any frame, by as much as shows in the file.
   bool LeavesItsOffset(int joint) const {
-    for (const LocalPose& pose : clip_.frames) {
-      if (pose[joint].translation != Joint(joint).rest.translation) return true;
-    }
-    return false;
+    const glm::dvec3 offset = Millionths(Joint(joint).rest.translation);
+    return std::ranges::any_of(clip_.frames,
+                               [&](const LocalPose& pose) { return Millionths(pose[joint].translation) != offset; });
   }
 
   void WriteJoint(int index, int depth) {
     const etude::Joint& joint = Joint(index);
     const std::string indent(depth, '\t');
-    const bool is_end = joint.is_end_site && children_[index].empty();
+    const bool leaves_its_offset = LeavesItsOffset(index);
+    const bool is_end = joint.is_end_site && children_[index].empty() && !leaves_its_offset;
     if (is_end) {
       Print("{}End Site\n", indent);
     } else {
-      Print("{}{} {}\n", indent, index == root_ ? "ROOT" : "JOINT", joint.name);
+      Print("{}{} {}\n", indent, index == root_ ? "ROOT" : "JOINT", names_.Add(Printable(joint.name)));
     }
     Print("{}{{\n{}\tOFFSET ", indent, indent);
-    Print(joint.rest.translation);
-    text_ += '\n';
+    PrintNumbers(joint.rest.translation);
+    text_.back() = '\n';
     if (!is_end) {
-      const bool has_positions = index == root_ || LeavesItsOffset(index);
+      const bool has_positions = index == root_ || leaves_its_offset;
       columns_.push_back({index, has_positions});
       Print("{}\tCHANNELS {}Zrotation Xrotation Yrotation\n", indent,
             has_positions ? "6 Xposition Yposition Zposition " : "3 ");
@@ -100,21 +111,29 @@ class Writer {
     Print("{}}}\n", indent);
   }
 
-  void Print(const glm::dvec3& numbers) {
-    const glm::dvec3 n = WithoutMinusZeros(numbers);
-    Print("{:.6f} {:.6f} {:.6f}", n.x, n.y, n.z);
+  /// With a blank behind each.
+  void PrintNumbers(const glm::dvec3& numbers) {
+    for (int i = 0; i < 3; ++i) PrintNumber(Millionths(numbers[i]));
+  }
+
+  /// By hand: it is most of what writing a file takes.
+  void PrintNumber(double millionths) {
+    constexpr std::uint64_t kWhole = 1'000'000;
+    if (millionths < 0) text_ += '-';
+    const auto size = static_cast<std::uint64_t>(std::abs(millionths));
+    const fmt::format_int whole(size / kWhole);
+    // The leading one keeps the zeros behind it.
+    const fmt::format_int fraction(kWhole + size % kWhole);
+    text_.append(whole.data(), whole.size()).append(1, '.').append(fraction.data() + 1, fraction.size() - 1);
+    text_ += ' ';
   }
 
   void WriteFrame(const LocalPose& pose) {
     for (const Column& column : columns_) {
       const LocalTransform& local = pose[column.joint];
-      if (column.has_positions) {
-        Print(local.translation);
-        text_ += ' ';
-      }
+      if (column.has_positions) PrintNumbers(local.translation);
       const EulerZxy angles = ToEulerZxy(local.rotation);
-      Print(glm::dvec3(Degrees(angles.z), Degrees(angles.x), Degrees(angles.y)));
-      text_ += ' ';
+      PrintNumbers({Degrees(angles.z), Degrees(angles.x), Degrees(angles.y)});
     }
     text_.back() = '\n';
   }
@@ -123,11 +142,15 @@ class Writer {
   std::vector<std::vector<int>> children_;
   int root_ = -1;
   std::vector<Column> columns_;  ///< in the order written
+  UniqueNames names_;
   std::string text_;
 };
 
 }  // namespace
 
-std::string WriteBvh(const Clip& clip) { return Writer(clip).Write(); }
+std::string WriteBvh(Clip clip) {
+  assert(!clip.skeleton.joints.empty());
+  return Writer(WithWorldAxesAtRest(WithOneRoot(WithoutScales(std::move(clip))))).Write();
+}
 
 }  // namespace etude

@@ -10,7 +10,10 @@ namespace {
 
 constexpr double kLargestNumber = 1e9;
 
-bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool IsAllowed(double value) { return std::isfinite(value) && std::abs(value) <= kLargestNumber; }
+
+bool IsBlank(char c) { return c == ' ' || c == '\t'; }
+bool IsLineEnd(char c) { return c == '\n' || c == '\r'; }
 bool IsMark(char c) { return c == '{' || c == '}' || c == ':'; }
 
 }  // namespace
@@ -25,8 +28,9 @@ void TextScanner::SkipBlanks() {
 }
 
 bool TextScanner::SkipToText() {
-  for (SkipBlanks(); position_ < text_.size() && text_[position_] == '\n'; SkipBlanks()) {
-    line_start_ = ++position_;
+  for (SkipBlanks(); position_ < text_.size() && IsLineEnd(text_[position_]); SkipBlanks()) {
+    position_ += text_.substr(position_).starts_with("\r\n") ? 2 : 1;
+    line_start_ = position_;
     ++line_;
   }
   return position_ < text_.size();
@@ -42,23 +46,34 @@ Token TextScanner::Next() {
   if (!SkipToText()) return Take(0);
   if (IsMark(text_[position_])) return Take(1);
   std::size_t end = position_;
-  while (end < text_.size() && !IsBlank(text_[end]) && text_[end] != '\n' && !IsMark(text_[end])) ++end;
+  while (end < text_.size() && !IsBlank(text_[end]) && !IsLineEnd(text_[end]) && !IsMark(text_[end])) ++end;
   return Take(end - position_);
 }
 
 Token TextScanner::NextInLine() {
   SkipBlanks();
   std::size_t end = position_;
-  while (end < text_.size() && !IsBlank(text_[end]) && text_[end] != '\n') ++end;
+  while (end < text_.size() && !IsBlank(text_[end]) && !IsLineEnd(text_[end])) ++end;
   return Take(end - position_);
 }
 
 Token TextScanner::NameInLine() {
   SkipBlanks();
   std::size_t end = position_;
-  while (end < text_.size() && text_[end] != '\n' && text_[end] != '{') ++end;
+  while (end < text_.size() && !IsLineEnd(text_[end]) && text_[end] != '{') ++end;
   while (end > position_ && IsBlank(text_[end - 1])) --end;
   return Take(end - position_);
+}
+
+std::optional<double> TextScanner::TakeNumberInLine() {
+  SkipBlanks();
+  const char* const end_of_text = text_.data() + text_.size();
+  double value = 0;
+  const auto [end, error] = std::from_chars(text_.data() + position_, end_of_text, value);
+  const bool is_whole_word = end == end_of_text || IsBlank(*end) || IsLineEnd(*end);
+  if (error != std::errc() || !is_whole_word || !IsAllowed(value)) return std::nullopt;
+  position_ = static_cast<std::size_t>(end - text_.data());
+  return value;
 }
 
 Result<double> TextScanner::Number(const Token& token, std::string_view what) const {
@@ -67,7 +82,7 @@ Result<double> TextScanner::Number(const Token& token, std::string_view what) co
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  if (!is_number || !std::isfinite(value) || std::abs(value) > kLargestNumber) {
+  if (!is_number || !IsAllowed(value)) {
     return Fail(At(token), "found {} as {}; allowed: a number within ±{:g}", Quote(token.text), what, kLargestNumber);
   }
   return value;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,8 @@ struct Token {
 };
 
 /// Walks a text word by word and knows the line and column of each, for readers of plain-text
-/// formats whose complaints must point at what was found. Blanks are spaces, tabs and CR; a leading
-/// UTF-8 byte order mark is skipped. `text` must outlive the scanner and its tokens.
+/// formats whose complaints must point at what was found. Blanks are spaces and tabs; lines end with LF, CR LF or
+/// CR; a leading UTF-8 byte order mark is skipped. `text` must outlive the scanner and its tokens.
 class TextScanner {
  public:
   TextScanner(std::string_view text, std::string file);
@@ -27,6 +28,8 @@ class TextScanner {
   Token NextInLine();
   /// What is left of this line before any `{`, without blanks around it: a name may contain blanks.
   Token NameInLine();
+  /// The next word of this line if it is a number that `Number` takes; else none, and the word is still to come.
+  std::optional<double> TakeNumberInLine();
   /// Passes over blanks and line ends; false when nothing follows.
   bool SkipToText();
 

@@ -3,36 +3,55 @@
 namespace etude {
 namespace {
 
-glm::dmat4 ToMatrix(const GlobalTransform& global) {
-  glm::dmat4 matrix(global.axes);
-  matrix[3] = glm::dvec4(global.position, 1);
-  return matrix;
+/// An affine move p ↦ shift + axes · p.
+struct Move {
+  glm::dmat3 axes{0};
+  glm::dvec3 shift{0};
+};
+
+/// The inverse transpose but for a positive factor. Unlike it, this exists for flattened joints too.
+glm::dmat3 NormalAxes(const glm::dmat3& axes) {
+  const glm::dmat3 cofactors(glm::cross(axes[1], axes[2]), glm::cross(axes[2], axes[0]), glm::cross(axes[0], axes[1]));
+  const bool is_mirrored = glm::dot(axes[0], cofactors[0]) < 0;
+  return is_mirrored ? -cofactors : cofactors;
+}
+
+glm::dvec3 Turned(const glm::dmat3& normal_axes, const glm::dvec3& normal) {
+  const glm::dvec3 turned = normal_axes * normal;
+  const double length = glm::length(turned);
+  return length > 0 ? turned / length : normal;
 }
 
 }  // namespace
 
 DeformedMesh Deform(const SkinnedMesh& mesh, const std::vector<GlobalTransform>& globals) {
-  std::vector<glm::dmat4> moves;
-  moves.reserve(mesh.bindings.size());
+  std::vector<Move> moves;
+  std::vector<glm::dmat3> normal_moves;
   for (const SkinnedMesh::Binding& binding : mesh.bindings) {
-    moves.push_back(ToMatrix(globals[binding.joint]) * binding.inverse_bind);
+    const GlobalTransform& global = globals[binding.joint];
+    const glm::dmat3 inverse_axes(binding.inverse_bind);
+    moves.push_back({global.axes * inverse_axes, global.position + global.axes * glm::dvec3(binding.inverse_bind[3])});
+    normal_moves.push_back(NormalAxes(moves.back().axes));
   }
   DeformedMesh deformed;
   deformed.positions.reserve(mesh.vertices.size());
   deformed.normals.reserve(mesh.vertices.size());
   for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
-    glm::dmat4 move(0);
-    for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
-      if (vertex.weights[i] != 0) move += vertex.weights[i] * moves[vertex.bindings[i]];
+    if (vertex.weights[0] == 1) {  // most vertices of most meshes
+      const Move& move = moves[vertex.bindings[0]];
+      deformed.positions.push_back(move.shift + move.axes * vertex.position);
+      deformed.normals.push_back(Turned(normal_moves[vertex.bindings[0]], vertex.normal));
+      continue;
     }
-    deformed.positions.push_back(glm::dvec3(move * glm::dvec4(vertex.position, 1)));
-    // The cofactors are the inverse transpose but for a factor, and exist for flattened joints too.
-    const glm::dmat3 turn(move);
-    const glm::dmat3 cofactors(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]),
-                               glm::cross(turn[0], turn[1]));
-    const glm::dvec3 normal = cofactors * vertex.normal;
-    const double length = glm::length(normal);
-    deformed.normals.push_back(length > 0 ? normal / length : vertex.normal);
+    Move blend;
+    for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
+      if (vertex.weights[i] == 0) continue;
+      const Move& move = moves[vertex.bindings[i]];
+      blend.axes += vertex.weights[i] * move.axes;
+      blend.shift += vertex.weights[i] * move.shift;
+    }
+    deformed.positions.push_back(blend.shift + blend.axes * vertex.position);
+    deformed.normals.push_back(Turned(NormalAxes(blend.axes), vertex.normal));
   }
   return deformed;
 }

@@ -6,23 +6,31 @@
 
 namespace etude {
 
-/// The clip at another rate: SampleClip at k / rate_hz, from the first frame to the last that still lies within the
-/// clip. The first frame stays as it is; at the same rate nothing changes. `rate_hz` > 0.
+/// The clip at another rate: its poses at k / rate_hz (SampleFrame), from the first frame to the last that still lies
+/// within the clip. The first frame stays as it is; at the same rate nothing changes. `rate_hz` > 0; needs at least
+/// one frame.
 Clip Resample(const Clip& clip, double rate_hz);
 
 /// The frames of [from_s, to_s], seconds from the first frame; the nearest frame to either end is kept. Refused: a
-/// range that holds no frame or does not lie within the clip.
+/// range that ends before it begins, or whose nearest frames do not lie within the clip.
 Result<Clip> Trim(const Clip& clip, double from_s, double to_s);
 
 /// The mirror image of a clip: every transform is reflected in the plane x = 0, and joints named for one side get the
-/// other's name ("LeftArm" ↔ "RightArm", "upperarm.l" ↔ "upperarm.r", "L_Elbow", "lShldr", "Bip01 L Thigh"). Twice is
-/// the clip itself.
-Clip Mirror(const Clip& clip);
+/// other's name (WithSidesSwapped). Twice is the clip itself.
+Clip Mirror(Clip clip);
 /// The same of twenty joints: roles change sides.
 BodyMotion Mirror(const BodyMotion& motion);
 
 /// The same motion without scales, for formats that have none (BVH): joints stay exactly where they are in the world,
-/// translations may then change from frame to frame; rotations are those nearest to the scaled axes.
-Clip WithoutScales(const Clip& clip);
+/// translations may then change from frame to frame. Rotations are those nearest to the scaled axes (their polar
+/// part); a joint whose axes are flattened or mirrored keeps the rotation it has of its own.
+Clip WithoutScales(Clip clip);
+
+/// The same motion of a skeleton whose rest pose has no rotations: every joint's axes are the world's when it rests, as
+/// in BVH. Joints stay where they are in the world, in every frame and at rest. Needs unit scales.
+Clip WithWorldAxesAtRest(Clip clip);
+
+/// The same motion with a single root: several come under one that stands still at the origin.
+Clip WithOneRoot(Clip clip);
 
 }  // namespace etude

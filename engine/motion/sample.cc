@@ -6,20 +6,25 @@
 
 namespace etude {
 
-LocalPose SampleClip(const Clip& clip, double seconds) {
+LocalTransform Between(const LocalTransform& from, const LocalTransform& to, double part) {
+  return {.translation = glm::mix(from.translation, to.translation, part),
+          .rotation = glm::slerp(from.rotation, to.rotation, part),
+          .scale = glm::mix(from.scale, to.scale, part)};
+}
+
+LocalPose SampleFrame(const Clip& clip, double frame) {
   assert(!clip.frames.empty());
   const double last = static_cast<double>(clip.frames.size() - 1);
-  const double at = std::clamp(seconds * clip.rate_hz, 0.0, last);
+  const double at = std::clamp(frame, 0.0, last);
   const auto index = static_cast<std::size_t>(at);
   const double part = at - static_cast<double>(index);
   LocalPose pose = clip.frames[index];
   if (part == 0) return pose;
   const LocalPose& next = clip.frames[index + 1];
-  for (std::size_t i = 0; i < pose.size(); ++i) {
-    pose[i].translation = glm::mix(pose[i].translation, next[i].translation, part);
-    pose[i].rotation = glm::slerp(pose[i].rotation, next[i].rotation, part);
-  }
+  for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = Between(pose[i], next[i], part);
   return pose;
 }
+
+LocalPose SampleClip(const Clip& clip, double seconds) { return SampleFrame(clip, seconds * clip.rate_hz); }
 
 }  // namespace etude

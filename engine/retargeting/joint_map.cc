@@ -1,214 +1,200 @@
 #include "engine/retargeting/joint_map.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "engine/base/names.h"
-#include "engine/retargeting/joint_names.h"
+#include "engine/retargeting/limb_finder.h"
+#include "engine/retargeting/limbs.h"
+#include "engine/retargeting/map_file.h"
+#include "engine/retargeting/tips.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
 
-// Tips relative to the limb they end (an adult's, cm).
-constexpr double kHandPerForearm = 18.0 / 25.0;
-constexpr double kFootPerShank = 18.0 / 42.0;
-constexpr double kHeadPerTrunk = 25.0 / 50.0;
-// A tip is believed when its length is within these factors of the proportion above: CMU's fingers are
-// half as long as a hand, Boxing_Toes' feet 1.4 times as long as paper B's.
-constexpr double kShortestTip = 0.4;
-constexpr double kLongestTip = 1.6;
-
-struct Limb {
-  std::array<Role, 3> roles;
-  Role tip;
-  Side side;
-  bool is_arm;
-};
-
-constexpr std::array<Limb, 4> kLimbs = {{
-    {{kLeftShoulder, kLeftElbow, kLeftWrist}, kLeftHand, Side::kLeft, true},
-    {{kRightShoulder, kRightElbow, kRightWrist}, kRightHand, Side::kRight, true},
-    {{kLeftHip, kLeftKnee, kLeftAnkle}, kLeftFoot, Side::kLeft, false},
-    {{kRightHip, kRightKnee, kRightAnkle}, kRightFoot, Side::kRight, false},
-}};
+/// What a complaint says was seen: the first names of the file.
+std::string NamesSeen(const Skeleton& skeleton) {
+  constexpr std::size_t kShownNames = 60;
+  std::vector<std::string> seen;
+  for (const Joint& joint : skeleton.joints) {
+    if (!joint.is_end_site && seen.size() < kShownNames) seen.push_back(Quote(joint.name));
+  }
+  return "joints in the file: " + Join(seen);
+}
 
 class MapFinder {
  public:
-  MapFinder(const Skeleton& skeleton, const std::string& file) : skeleton_(skeleton), file_(file) {
-    for (const Joint& joint : skeleton.joints) {
-      rest_.push_back(joint.rest.translation + (joint.parent < 0 ? glm::dvec3(0) : rest_[joint.parent]));
-    }
-  }
+  MapFinder(const Skeleton& skeleton, const std::string& file)
+      : skeleton_(skeleton), file_(file), tree_(skeleton), names_(skeleton), places_(tree_) {}
 
-  Result<JointMap> Find() {
-    for (const Limb& limb : kLimbs) FindLimb(limb);
-    FindFirst(kShoulderCentre, NeckNames());
-    FindFirst(kHead, HeadNames());
-    if (auto ok = CheckNoneMissing(); !ok) return tl::unexpected(ok.error());
-    FindTrunk();
+  Result<JointMap> Find(const TaughtRoles* taught) {
+    if (taught != nullptr) {
+      if (auto ok = TakeTaught(*taught); !ok) return tl::unexpected(ok.error());
+    }
+    if (auto ok = FindLimbs(); !ok) return tl::unexpected(ok.error());
+    if (auto ok = FindPelvis(); !ok) return tl::unexpected(ok.error());
+    FindNeckAndHead();
+    FindSpine();
     if (auto ok = CheckTree(); !ok) return tl::unexpected(ok.error());
     if (auto ok = CheckSides(); !ok) return tl::unexpected(ok.error());
-    for (const Limb& limb : kLimbs) FindLimbTip(limb);
-    FindHeadTip();
-    return std::move(map_);
+    FindTips(places_, is_taught_);
+    return places_.map();
   }
 
  private:
-  int JointOf(Role role) const { return map_[role].joint; }
-  glm::dvec3 RestOf(Role role) const { return rest_[JointOf(role)]; }
-  void Set(Role role, int joint) { map_.points[Index(role)] = {.joint = joint}; }
-  const std::string& NameOf(Role role) const { return skeleton_.joints[JointOf(role)].name; }
-
-  bool DescendsFrom(int joint, int ancestor) const {
-    while (joint > ancestor) joint = skeleton_.joints[joint].parent;  // parents stand first
-    return joint == ancestor;
-  }
-
-  int CommonAncestor(int a, int b) const {
-    while (a != b) (a > b ? a : b) = skeleton_.joints[std::max(a, b)].parent;
-    return a;
-  }
-
-  /// The first scheme that names all three joints of the limb; roles stay unset when none does.
-  void FindLimb(const Limb& limb) {
-    for (const LimbNames& scheme : limb.is_arm ? ArmSchemes() : LegSchemes()) {
-      std::array<int, 3> found;
-      for (std::size_t i = 0; i < 3; ++i) found[i] = FindJoint(skeleton_, scheme.joints[i], limb.side);
-      if (std::ranges::find(found, -1) != found.end()) continue;
-      for (std::size_t i = 0; i < 3; ++i) Set(limb.roles[i], found[i]);
-      return;
+  Result<void> TakeTaught(const TaughtRoles& taught) {
+    for (const auto& [role, joint] : taught.joints) {
+      const int found = skeleton_.Find(joint.name);
+      if (found < 0) {
+        std::vector<std::string> names;
+        for (const Joint& known : skeleton_.joints) names.push_back(known.name);
+        const std::string nearest = NearestName(joint.name, names);
+        return Fail(joint.place, "{} has no joint named {}{}; {}", file_, Quote(joint.name),
+                    nearest.empty() ? "" : "; did you mean " + Quote(nearest) + "?", NamesSeen(skeleton_));
+      }
+      places_.Set(role, found);
+      is_taught_[Index(role)] = true;
     }
+    return {};
   }
 
-  void FindFirst(Role role, std::span<const std::string_view> names) {
-    for (std::string_view name : names) {
-      if (JointOf(role) < 0) Set(role, FindJoint(skeleton_, name));
-    }
-  }
-
-  Result<void> CheckNoneMissing() const {
+  Result<void> FindLimbs() {
     std::vector<std::string> missing;
-    const auto check = [&](Role role) {
-      if (JointOf(role) < 0) missing.emplace_back(RoleName(role));
-    };
-    check(kShoulderCentre);
-    check(kHead);
-    for (const Limb& limb : kLimbs) std::ranges::for_each(limb.roles, check);
-    if (missing.empty()) return {};
-
-    constexpr std::size_t kShownNames = 60;
-    std::vector<std::string> seen;
-    for (const Joint& joint : skeleton_.joints) {
-      if (!joint.is_end_site && seen.size() < kShownNames) seen.push_back(Quote(joint.name));
+    for (const Limb& limb : kLimbs) {
+      const std::array<int, 3> taught = {places_.JointOf(limb.roles[0]), places_.JointOf(limb.roles[1]),
+                                         places_.JointOf(limb.roles[2])};
+      const FoundLimb found = FindLimb(names_, tree_, limb.is_arm ? ArmSchemes() : LegSchemes(), limb.side, taught);
+      if (prefix_.empty()) prefix_ = found.prefix;
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (found.joints[i] >= 0) {
+          places_.Set(limb.roles[i], found.joints[i]);
+          continue;
+        }
+        missing.emplace_back(RoleName(limb.roles[i]));
+        // Beside joints of one scheme, the name that this scheme has for the missing one.
+        if (found.scheme != nullptr) missing.back() += fmt::format(" (a '{}')", found.scheme->joints[i]);
+      }
     }
-    return Fail({file_}, "no joint found for {}; joints in the file: {}", Join(missing), Join(seen));
+    if (missing.empty()) return {};
+    return Fail({file_}, "no joint found for {}; {}", Join(missing), NamesSeen(skeleton_));
   }
 
-  /// Hip centre and spine, from the build of the trunk.
-  void FindTrunk() {
-    const int pelvis = CommonAncestor(JointOf(kLeftHip), JointOf(kRightHip));
-    Set(kHipCentre, pelvis);
+  Result<void> FindPelvis() {
+    if (places_.Has(kHipCentre)) return {};
+    const int pelvis = tree_.CommonAncestor(places_.JointOf(kLeftHip), places_.JointOf(kRightHip));
+    if (pelvis < 0) {
+      return Fail({file_}, "{} and {}, the hips, hang from no common joint", Quote(places_.NameOf(kLeftHip)),
+                  Quote(places_.NameOf(kRightHip)));
+    }
+    places_.Set(kHipCentre, pelvis);
+    return {};
+  }
+
+  /// The first joint so named that `fits`, or −1; one with the limbs' prefix if there is any.
+  template <typename Fits>
+  int FindInMiddle(std::span<const std::string_view> role_names, Fits fits) const {
+    for (const std::string_view name : role_names) {
+      std::vector<NamedJoint> candidates = names_.Find(name);
+      std::ranges::stable_partition(candidates, [&](const NamedJoint& named) { return named.prefix == prefix_; });
+      const auto first = std::ranges::find_if(candidates, fits, &NamedJoint::joint);
+      if (first != candidates.end()) return first->joint;
+    }
+    return -1;
+  }
+
+  void FindNeckAndHead() {
+    const auto is_above_pelvis = [&](int joint) { return tree_.HangsFrom(joint, places_.JointOf(kHipCentre)); };
+    const int head = FindInMiddle(HeadNames(), is_above_pelvis);
+    if (!places_.Has(kHead) && head >= 0) places_.Set(kHead, head);
+    if (places_.Has(kShoulderCentre)) return;
+    // CMU's "Neck" lies on the chest joint that it hangs from, its "Neck1" at the neck's base. Limbs serve as the
+    // measure since their lengths do not depend on the rest pose.
+    const double tiny = 0.01 * glm::distance(places_.RestOf(kLeftShoulder), places_.RestOf(kLeftElbow));
+    const int neck = FindInMiddle(NeckNames(), [&](int joint) {
+      return is_above_pelvis(joint) && (head < 0 || tree_.HangsFrom(head, joint)) &&
+             glm::distance(tree_.RestOf(joint), tree_.RestOf(tree_.ParentOf(joint))) > tiny;
+    });
+    if (neck >= 0) return places_.Set(kShoulderCentre, neck);
+    const int carrier = tree_.CommonAncestor(places_.JointOf(kLeftShoulder), places_.JointOf(kRightShoulder));
+    places_.Compose(kShoulderCentre, std::max(carrier, 0),
+                    0.5 * (places_.RestOf(kLeftShoulder) + places_.RestOf(kRightShoulder)));
+  }
+
+  /// The joint nearest to half the way from the pelvis to the base of the neck.
+  void FindSpine() {
+    if (places_.Has(kSpine)) return;
     // Distances along the chain do not depend on the rest pose, which some files have folded up.
+    const int pelvis = places_.JointOf(kHipCentre);
+    const int neck = places_.JointOf(kShoulderCentre);
     std::vector<int> chain;
-    double length = 0;
-    for (int joint = JointOf(kShoulderCentre); joint > pelvis; joint = skeleton_.joints[joint].parent) {
+    std::vector<double> from_neck;
+    double way = 0;
+    glm::dvec3 last = places_.RestOf(kShoulderCentre);
+    for (int joint = places_.IsComposed(kShoulderCentre) ? neck : tree_.ParentOf(neck); joint >= pelvis;
+         joint = tree_.ParentOf(joint)) {
+      way += glm::distance(last, tree_.RestOf(joint));
+      last = tree_.RestOf(joint);
       chain.push_back(joint);
-      length += glm::length(skeleton_.joints[joint].rest.translation);
+      from_neck.push_back(way);
     }
-    double from_neck = 0;
-    double nearest = length;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      from_neck += glm::length(skeleton_.joints[chain[i - 1]].rest.translation);
-      const double distance = std::abs(from_neck - 0.5 * length);
-      if (distance >= nearest) continue;
+    double nearest = way;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const double distance = std::abs(from_neck[i] - 0.5 * way);
+      if (chain[i] == pelvis || distance >= nearest) continue;
       nearest = distance;
-      Set(kSpine, chain[i]);
+      places_.Set(kSpine, chain[i]);
     }
-    if (JointOf(kSpine) < 0) Compose(kSpine, pelvis, 0.5 * (RestOf(kShoulderCentre) + rest_[pelvis]));
+    if (!places_.Has(kSpine))
+      places_.Compose(kSpine, pelvis, 0.5 * (places_.RestOf(kShoulderCentre) + places_.RestOf(kHipCentre)));
+  }
+
+  Result<void> CheckHangs(Role child, Role parent) const {
+    if (tree_.HangsFrom(places_.JointOf(child), places_.JointOf(parent))) return {};
+    return Fail({file_}, "{} is played by {}, which does not descend from {}, the {}", RoleName(child),
+                Quote(places_.NameOf(child)), Quote(places_.NameOf(parent)), RoleName(parent));
   }
 
   Result<void> CheckTree() const {
-    const auto check = [&](Role child, Role parent) -> Result<void> {
-      if (JointOf(child) != JointOf(parent) && DescendsFrom(JointOf(child), JointOf(parent))) return {};
-      return Fail({file_}, "{} is played by {}, which does not descend from {}, the {}", RoleName(child),
-                  Quote(NameOf(child)), Quote(NameOf(parent)), RoleName(parent));
-    };
-    std::vector<Bone> pairs = {{kHipCentre, kShoulderCentre}, {kShoulderCentre, kHead}};
+    std::vector<Bone> pairs;
+    if (is_taught_[Index(kSpine)]) pairs.push_back({kHipCentre, kSpine});
+    if (!places_.IsComposed(kShoulderCentre)) pairs.push_back({kHipCentre, kShoulderCentre});
+    if (!places_.IsComposed(kShoulderCentre) && places_.Has(kHead)) pairs.push_back({kShoulderCentre, kHead});
     for (const Limb& limb : kLimbs) {
       pairs.push_back({kHipCentre, limb.roles[0]});
       pairs.push_back({limb.roles[0], limb.roles[1]});
-      pairs.push_back({limb.roles[1], limb.roles[2]});
+      if (!IsFree(places_, limb.roles[2])) pairs.push_back({limb.roles[1], limb.roles[2]});
+      if (is_taught_[Index(limb.tip)]) pairs.push_back({limb.roles[2], limb.tip});
     }
     for (const Bone& pair : pairs) {
-      if (auto ok = check(pair.child, pair.parent); !ok) return ok;
+      if (auto ok = CheckHangs(pair.child, pair.parent); !ok) return ok;
     }
     return {};
   }
 
   Result<void> CheckSides() const {
-    const glm::dvec3 across = RestOf(kLeftHip) - RestOf(kRightHip);
-    const double left = glm::dot(RestOf(kLeftHip) - RestOf(kHipCentre), across);
-    const double right = glm::dot(RestOf(kRightHip) - RestOf(kHipCentre), across);
+    const glm::dvec3 across = places_.RestOf(kLeftHip) - places_.RestOf(kRightHip);
+    const double left = glm::dot(places_.RestOf(kLeftHip) - places_.RestOf(kHipCentre), across);
+    const double right = glm::dot(places_.RestOf(kRightHip) - places_.RestOf(kHipCentre), across);
     if (left > 0 && right < 0) return {};
     return Fail({file_}, "{} and {} lie on the same side of {} in the rest pose; a left and a right hip are needed",
-                Quote(NameOf(kLeftHip)), Quote(NameOf(kRightHip)), Quote(NameOf(kHipCentre)));
-  }
-
-  /// A point fixed to `joint` that is at `rest` in the rest pose.
-  void Compose(Role role, int joint, const glm::dvec3& rest) {
-    map_.points[Index(role)] = {.joint = joint, .offset = rest - rest_[joint]};
-    map_.composed.push_back(role);
-  }
-
-  /// The farthest descendant of `top` (or `top` itself) from `base`, if any is at a believable distance.
-  std::optional<int> FarthestTip(int top, const glm::dvec3& base, double proportion) const {
-    std::optional<int> farthest;
-    double length = 0;
-    for (std::size_t i = top; i < rest_.size(); ++i) {
-      const double distance = glm::distance(rest_[i], base);
-      const bool believable = distance >= kShortestTip * proportion && distance <= kLongestTip * proportion;
-      if (!believable || distance <= length || !DescendsFrom(static_cast<int>(i), top)) continue;
-      farthest = static_cast<int>(i);
-      length = distance;
-    }
-    return farthest;
-  }
-
-  void FindLimbTip(const Limb& limb) {
-    const glm::dvec3 end = RestOf(limb.roles[2]);
-    const glm::dvec3 last_bone = end - RestOf(limb.roles[1]);
-    const double length = glm::length(last_bone) * (limb.is_arm ? kHandPerForearm : kFootPerShank);
-    if (auto tip = FarthestTip(JointOf(limb.roles[2]), end, length)) return Set(limb.tip, *tip);
-    const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward();
-    const double size = glm::length(direction);
-    Compose(limb.tip, JointOf(limb.roles[2]), size > 0 ? end + direction * (length / size) : end);
-  }
-
-  void FindHeadTip() {
-    const glm::dvec3 neck = RestOf(kShoulderCentre);
-    const glm::dvec3 trunk = neck - 0.5 * (RestOf(kLeftHip) + RestOf(kRightHip));
-    const int head = JointOf(kHead);
-    if (auto tip = FarthestTip(head, neck, glm::length(trunk) * kHeadPerTrunk)) return Set(kHead, *tip);
-    Compose(kHead, head, neck + trunk * kHeadPerTrunk);
-  }
-
-  glm::dvec3 RestForward() const {
-    return glm::cross(RestOf(kLeftHip) - RestOf(kRightHip), RestOf(kShoulderCentre) - RestOf(kHipCentre));
+                Quote(places_.NameOf(kLeftHip)), Quote(places_.NameOf(kRightHip)), Quote(places_.NameOf(kHipCentre)));
   }
 
   const Skeleton& skeleton_;
   const std::string& file_;
-  std::vector<glm::dvec3> rest_;  ///< every joint's place in the rest pose
-  JointMap map_;
+  const SkeletonTree tree_;
+  const JointNames names_;
+  std::string prefix_;  ///< of the limbs' names
+  std::array<bool, kRoleCount> is_taught_{};
+  RolePlaces places_;
 };
 
 }  // namespace
 
-Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles*) {
-  return MapFinder(skeleton, file).Find();
+Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught) {
+  return MapFinder(skeleton, file).Find(taught);
 }
 
 BodyPose Evaluate(const JointMap& map, const std::vector<GlobalTransform>& globals) {

@@ -28,18 +28,22 @@ struct JointMap {
 struct TaughtRoles;
 
 /// Finds the roles in a skeleton by the naming schemes of joint_names.h and by its build:
-/// - shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head by name;
+/// - shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head by name; among joints of one
+/// name
+///   those that hang together. Wrists and ankles may hang from a control outside the limbs. Where no neck is named it
+///   is *composed*: a point midway between the shoulders;
 /// - the hip centre is midway between the hips, whatever the file's root is (paper B's P₁); its point
 ///   here names the joint that carries both hips, `Evaluate` puts it midway;
 /// - the spine is the joint nearest to half the way from that joint to the base of the neck;
 /// - hands, feet and head are tips: the farthest end of the chain (fingers, toes, skull) whose distance
-///   from wrist, ankle or base of the neck is believable, else *composed* (ours): hand and head
+///   from wrist, ankle or base of the neck is believable, else composed (ours): hand and head
 ///   straight on from forearm and trunk, foot forward, in the proportions of paper B's body. Files
 ///   carry end sites at 0 cm and at 1.6 m.
 ///
-/// Refused: missing roles (listed with the names that are there), a knee not below its hip and the
-/// like, hips not on opposite sides of the joint that carries them.
-/// `taught` roles are taken as they are, before any name is looked for, and checked like the others.
+/// Refused: missing limbs (listed with the names that are there), hips without a common joint, a knee not below its hip
+/// and the like, hips not on opposite sides of the joint that carries them. Whether left is left shows when the body
+/// moves (ToBodyMotion). `taught` roles are taken as they are, before any name is looked for, and checked like the
+/// others; a joint that is not there is refused at its place in the joint-map file.
 Result<JointMap> FindJointMap(const Skeleton& skeleton, const std::string& file, const TaughtRoles* taught = nullptr);
 
 /// One frame of a clip as the twenty joints, in the file's unit and axes. `globals` is

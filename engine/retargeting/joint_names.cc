@@ -1,43 +1,77 @@
 #include "engine/retargeting/joint_names.h"
 
-#include <string>
+#include <algorithm>
 
 namespace etude {
 namespace {
 
 constexpr LimbNames kArmSchemes[] = {
-    {{"arm", "forearm", "hand"}},        // MotionBuilder: CMU, Mixamo, MASS, LAFAN1
-    {{"shoulder", "elbow", "wrist"}},    // Biovision, and CMU as converted for Poser
-    {{"uparm", "lowarm", "hand"}},       // Biovision's own samples
-    {{"upperarm", "lowerarm", "hand"}},  // Bandai-Namco, Unreal
+    {{"arm", "forearm", "hand"}},            // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
+    {{"shoulder", "elbow", "wrist"}},        // Biovision, CMU as converted for Poser, Xsens, SMPL, Kinect
+    {{"shoulder", "elbow", "hand"}},         // CMU as converted for Daz
+    {{"uparm", "lowarm", "hand"}},           // Biovision's own samples
+    {{"upperarm", "lowerarm", "wrist"}},     // KayKit, whose "hand" is a bone further
+    {{"upperarm", "lowerarm", "hand"}},      // Bandai-Namco, VRM, Unreal
+    {{"upperarm", "forearm", "hand"}},       // 3ds Max' biped, Blender's rigs
+    {{"upperarm", "lowerarm", "palm2"}},     // RobotExpressive of three.js
+    {{"shldr", "forearm", "hand"}},          // Poser
+    {{"shldrbend", "forearmbend", "hand"}},  // Daz Genesis
+    {{"humerus", "radius", "wrist"}},        // Acclaim: CMU's originals
 };
 
 constexpr LimbNames kLegSchemes[] = {
-    {{"upleg", "leg", "foot"}},
-    {{"hip", "knee", "ankle"}},
-    {{"upleg", "lowleg", "foot"}},
-    {{"upperleg", "lowerleg", "foot"}},
+    {{"upleg", "leg", "foot"}},          // MotionBuilder and its kin
+    {{"hip", "knee", "ankle"}},          // Biovision and its kin
+    {{"upleg", "lowleg", "foot"}},       // Biovision's own samples
+    {{"upperleg", "lowerleg", "foot"}},  // Bandai-Namco, VRM, KayKit, three.js, Xsens' segments
+    {{"thigh", "calf", "foot"}},         // 3ds Max' biped, Unreal
+    {{"thigh", "shin", "foot"}},         // Poser, Blender's rigs, Rokoko
+    {{"thighbend", "shin", "foot"}},     // Daz Genesis
+    {{"hip", "knee", "foot"}},           // mixed: seen in hand-made rigs
+    {{"leg", "shin", "foot"}},           // "leg" for the thigh: seen in hand-made rigs
+    {{"femur", "tibia", "foot"}},        // Acclaim
 };
 
-// CMU has both: its "Neck" (also "lowerneck") lies at the chest, its "Neck1" at the neck's base. Kinect, and our own
-// role, call that place the middle of the shoulders.
-constexpr std::string_view kNeckNames[] = {"neck1", "neck", "shouldercentre", "shouldercenter"};
+// Kinect, and our own role, call that place the middle of the shoulders.
+constexpr std::string_view kNeckNames[] = {"shouldercentre", "shouldercenter", "spineshoulder",
+                                           "neck",           "necklower",      "upperneck"};
 constexpr std::string_view kHeadNames[] = {"head"};
 
-/// Lower case, letters and digits only.
-std::string Plain(std::string_view name) {
-  std::string plain;
-  for (char c : name) {
-    if (c >= 'A' && c <= 'Z') plain += static_cast<char>(c - 'A' + 'a');
-    if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) plain += c;
-  }
-  return plain;
+constexpr std::string_view kTechnicalWords[] = {"jnt", "joint", "jt", "bone"};
+constexpr std::size_t kMostSuffixes = 2;
+constexpr std::size_t kLongestName = 64;
+constexpr std::size_t kMostFound = 16;
+
+bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
+bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// Whether a new word begins at `i`: "upLeg", "Bip01", "LHip" (where the next letter is small again).
+bool BeginsWord(std::string_view name, std::size_t i) {
+  if (i == 0) return true;
+  const char before = name[i - 1];
+  const char here = name[i];
+  if (IsDigit(here)) return !IsDigit(before);
+  if (!IsUpper(here)) return IsDigit(before) && IsLower(here);
+  return !IsUpper(before) || (i + 1 < name.size() && IsLower(name[i + 1]));
 }
 
-bool Matches(std::string_view joint, std::string_view plain_name) {
-  joint = joint.substr(joint.find_last_of(':') + 1);
-  // With and without the part before the first underscore: it may be a prefix, or "L_".
-  return Plain(joint) == plain_name || Plain(joint.substr(joint.find('_') + 1)) == plain_name;
+/// In lower case.
+std::vector<std::string> WordsOf(std::string_view name) {
+  std::vector<std::string> words;
+  bool is_inside = false;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const char c = name[i];
+    const bool is_part = IsLower(c) || IsUpper(c) || IsDigit(c);
+    if (is_part && (!is_inside || BeginsWord(name, i))) words.emplace_back();
+    if (is_part) words.back() += IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c;
+    is_inside = is_part;
+  }
+  return words;
+}
+
+bool IsTechnical(const std::string& word) {
+  return std::ranges::all_of(word, IsDigit) || std::ranges::find(kTechnicalWords, word) != std::end(kTechnicalWords);
 }
 
 }  // namespace
@@ -47,21 +81,53 @@ std::span<const LimbNames> LegSchemes() { return kLegSchemes; }
 std::span<const std::string_view> NeckNames() { return kNeckNames; }
 std::span<const std::string_view> HeadNames() { return kHeadNames; }
 
-int FindJoint(const Skeleton& skeleton, std::string_view name) {
+JointNames::JointNames(const Skeleton& skeleton) {
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-    const Joint& joint = skeleton.joints[i];
-    if (!joint.is_end_site && Matches(joint.name, name)) return static_cast<int>(i);
+    if (!skeleton.joints[i].is_end_site) AddReadings(skeleton.joints[i], static_cast<int>(i));
   }
-  return -1;
+  std::ranges::stable_sort(readings_, {}, [](const Reading& reading) { return reading.joint.suffixes; });
 }
 
-int FindJoint(const Skeleton& skeleton, std::string_view name, Side side) {
+void JointNames::AddReadings(const Joint& joint, int index) {
+  std::string_view name = joint.name;
+  name.remove_prefix(name.find_last_of(":|") + 1);
+  if (name.size() > kLongestName) return;
+  std::vector<std::string> words = WordsOf(name);
+  for (std::size_t suffixes = 0; !words.empty(); ++suffixes) {
+    std::string rest;
+    for (const std::string& word : words) rest += word;
+    std::string prefix;
+    std::size_t begin = 0;
+    for (const std::string& word : words) {
+      readings_.push_back({rest.substr(begin), {index, prefix, suffixes}});
+      if (!IsDigit(word.front())) prefix += word;
+      begin += word.size();
+    }
+    if (suffixes == kMostSuffixes || !IsTechnical(words.back())) return;
+    words.pop_back();
+  }
+}
+
+std::vector<NamedJoint> JointNames::FindAny(std::span<const std::string> forms) const {
+  std::vector<NamedJoint> found;
+  for (const Reading& reading : readings_) {
+    if (found.size() < kMostFound && std::ranges::find(forms, reading.name) != forms.end()) {
+      found.push_back(reading.joint);
+    }
+  }
+  return found;
+}
+
+std::vector<NamedJoint> JointNames::Find(std::string_view name, Side side) const {
   const std::string whole = side == Side::kLeft ? "left" : "right";
   const std::string letter = whole.substr(0, 1);
-  for (const std::string& form : {whole + std::string(name), letter + std::string(name), std::string(name) + letter}) {
-    if (const int joint = FindJoint(skeleton, form); joint >= 0) return joint;
-  }
-  return -1;
+  const std::string plain(name);
+  return FindAny(std::array{whole + plain, plain + whole, letter + plain, plain + letter});
+}
+
+std::vector<NamedJoint> JointNames::Find(std::string_view name) const {
+  const std::string plain(name);
+  return FindAny(std::array{plain, "c" + plain});
 }
 
 }  // namespace etude

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,15 +22,42 @@ struct LimbNames {
 std::span<const LimbNames> ArmSchemes();
 /// Legs: hip, knee, ankle.
 std::span<const LimbNames> LegSchemes();
-/// The base of the neck, most specific name first.
+/// The base of the neck. CMU's "Neck" lies at the chest: whoever uses these must look where a joint is.
 std::span<const std::string_view> NeckNames();
 std::span<const std::string_view> HeadNames();
 
-/// The joint of that name, or −1. Compared without case, blanks and signs, and without what stands in
-/// front of a colon or of the first underscore: "mixamorig:LeftArm" and "Character1_LeftArm" are
-/// "leftarm". End sites are not looked at.
-int FindJoint(const Skeleton& skeleton, std::string_view name);
-/// The same with a side, written "LeftArm", "L_Arm" or "Arm_L".
-int FindJoint(const Skeleton& skeleton, std::string_view name, Side side);
+/// A joint that bears a name.
+struct NamedJoint {
+  int joint = -1;
+  std::string prefix;        ///< the words before the name, without numbers: "mixamorig", "bip", nothing
+  std::size_t suffixes = 0;  ///< words left away behind it: 1 in "l_arm_JNT"
+};
+
+/// The joints of a skeleton by the words of their names. Words end at signs, blanks and where upper case or a number
+/// begins; case does not count. What stands before a colon or a bar, words in front and technical words behind
+/// ("JNT", "joint", "bone", a number) may be there or not: "mixamorig:LeftArm", "Character1_LeftArm", "l_arm_JNT" and
+/// "LeftArm_09" are all the left "arm"; "LeftForeArm" is not, for "fore" stands behind the side. A side is written
+/// "LeftArm", "L_Arm", "lArm", "ArmLeft", "Arm.L". End sites have no names of their own.
+class JointNames {
+ public:
+  explicit JointNames(const Skeleton& skeleton);
+
+  /// At most sixteen joints, those with the fewest suffixes first, then in the skeleton's order.
+  std::vector<NamedJoint> Find(std::string_view name, Side side) const;
+  /// Joints of the middle: "Neck", "J_Bip_C_Neck".
+  std::vector<NamedJoint> Find(std::string_view name) const;
+
+ private:
+  /// A way to read a joint's name.
+  struct Reading {
+    std::string name;
+    NamedJoint joint;
+  };
+
+  void AddReadings(const Joint& joint, int index);
+  std::vector<NamedJoint> FindAny(std::span<const std::string> forms) const;
+
+  std::vector<Reading> readings_;
+};
 
 }  // namespace etude

@@ -11,10 +11,11 @@ namespace etude {
 /// world's: what characters are bound to.
 Skeleton BodySkeleton(const BodyPose& rest);
 
-/// The local transforms that bring BodySkeleton(rest) into `pose`: each limb is turned from its rest direction by the
-/// shortest way, then about itself so that hips, chest and head face as their neighbours do, and elbows and knees bend
-/// about their hinge. Joints are where `pose` has them: a limb of another length than at rest shows in the
-/// translations, nothing is scaled. Continuous where the pose is.
+/// The local transforms that bring BodySkeleton(rest) into `pose`: hips and chest as their joints show them, each limb
+/// by the shortest way from where the one before has carried it, elbows and knees about their hinge: that gives the
+/// upper limb's twist when they are bent; a straight leg looks where its toes do, a straight arm hangs on the chest.
+/// The head faces as the chest does. Joints are where `pose` has them: a limb of another length than at rest shows in
+/// the translations, nothing is scaled. Continuous where people move.
 LocalPose PoseRig(const BodyPose& rest, const BodyPose& pose);
 
 /// A motion as a clip of BodySkeleton(rest) with turning joints: what other programs expect of BVH and glTF.

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
-#include "engine/formats/bvh.h"
-#include "engine/motion/sample.h"
+#include "engine/retargeting/body_sampler.h"
+#include "engine/retargeting/check_sides.h"
 
 namespace etude {
 namespace {
@@ -20,8 +19,8 @@ struct Unit {
   double metres;
 };
 
-// Neighbours differ by more than 2.1 m / 1.3 m, so at most one fits.
-constexpr double kSmallestStature = 1.3;
+// Neighbours differ by more than 2.1 m / 1.45 m, so at most one fits.
+constexpr double kSmallestStature = 1.45;
 constexpr double kLargestStature = 2.1;
 constexpr std::array<Unit, 6> kUnits = {{
     {"metre", 1.0},
@@ -34,26 +33,17 @@ constexpr std::array<Unit, 6> kUnits = {{
 constexpr double kDefaultStature = 1.70;
 
 constexpr double kLongestSeconds = 3600;
+constexpr double kMostPoses = 500'000;
 constexpr double kSmallestBody = 1e-6;  // in any unit: nothing to scale up
 
-/// Evaluates single frames of one clip.
-class Poser {
- public:
-  Poser(const Clip& clip, const JointMap& map) : clip_(clip), map_(map) {}
-
-  BodyPose At(double seconds) { return Pose(SampleClip(clip_, seconds)); }
-  BodyPose Frame(std::size_t index) { return Pose(clip_.frames[index]); }
-
- private:
-  BodyPose Pose(const LocalPose& local) {
-    ComputeGlobals(clip_.skeleton, local, globals_);
-    return Evaluate(map_, globals_);
-  }
-
-  const Clip& clip_;
-  const JointMap& map_;
-  std::vector<GlobalTransform> globals_;
-};
+/// The clip's joints at about a hundred times evenly over it, in the file's axes.
+std::vector<BodyPose> Glimpses(const Clip& clip, BodySampler& sampler) {
+  constexpr std::size_t kGlimpses = 100;
+  const std::size_t step = 1 + clip.frames.size() / kGlimpses;
+  std::vector<BodyPose> poses;
+  for (std::size_t i = 0; i < clip.frames.size(); i += step) poses.push_back(sampler.At(static_cast<double>(i)));
+  return poses;
+}
 
 double WorstGap(const BodyPose& a, const BodyPose& b) {
   double worst = 0;
@@ -61,17 +51,23 @@ double WorstGap(const BodyPose& a, const BodyPose& b) {
   return worst;
 }
 
-/// A T-pose that the motion does not begin with, but jumps away from: by far more than its next step,
-/// and by more than a hand's width.
-bool BeginsWithForeignTPose(const Clip& clip, Poser& poser) {
-  if (clip.frames.size() < 2) return false;
-  const BodyPose first = poser.Frame(0);
-  const BodyPose second = poser.Frame(1);
+/// How many frames at the start are one T-pose that the motion does not begin with, but jumps away from: by far more
+/// than its next step, and by more than a hand's width.
+std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up) {
+  constexpr double kStillPerStature = 1e-4;
   constexpr double kJumpPerStature = 0.05;
   constexpr double kJumpPerNextStep = 5;
+  const auto pose_at = [&](std::size_t frame) { return Upright(sampler.At(static_cast<double>(frame)), up); };
+  const std::size_t count = clip.frames.size();
+  const BodyPose first = pose_at(0);
+  if (!IsTPose(first)) return 0;
+  std::size_t next = 1;
+  while (next < count && WorstGap(first, pose_at(next)) < kStillPerStature * Stature(first)) ++next;
+  if (next == count) return 0;
+  const BodyPose second = pose_at(next);
   const double jump = WorstGap(first, second);
-  const double next_step = clip.frames.size() > 2 ? WorstGap(second, poser.Frame(2)) : 0;
-  return IsTPose(first) && jump > kJumpPerStature * Stature(first) && jump > kJumpPerNextStep * next_step;
+  const double next_step = next + 1 < count ? WorstGap(second, pose_at(next + 1)) : 0;
+  return jump > kJumpPerStature * Stature(first) && jump > kJumpPerNextStep * next_step ? next : 0;
 }
 
 /// The value below which `part` of all values lie.
@@ -89,46 +85,83 @@ std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measu
   return values;
 }
 
-double LowestFootPoint(const BodyPose& pose) {
-  return std::min({pose[kLeftFoot].y, pose[kRightFoot].y, pose[kLeftAnkle].y, pose[kRightAnkle].y});
+/// Of all joints, for people lie and sit; but for finger tips, which rigs place carelessly.
+double LowestPoint(const BodyPose& pose) {
+  double lowest = pose[kHipCentre].y;
+  for (const Role role : AllRoles()) {
+    if (role != kLeftHand && role != kRightHand) lowest = std::min(lowest, pose[role].y);
+  }
+  return lowest;
 }
 
-/// Files may be Z-up or mirrored; both would give wrong motions that look almost right.
-Result<void> CheckAxes(const std::vector<BodyPose>& poses, const std::string& file) {
-  glm::dvec3 up(0);
-  double toes_forward = 0;
-  for (const BodyPose& pose : poses) {
-    const glm::dvec3 body = pose[kHead] - 0.5 * (pose[kLeftAnkle] + pose[kRightAnkle]);
-    up += body / std::max(glm::length(body), kSmallestBody);
-    const glm::dvec3 toes = (pose[kLeftFoot] - pose[kLeftAnkle]) + (pose[kRightFoot] - pose[kRightAnkle]);
-    toes_forward += glm::dot(Facing(pose), toes);
-  }
-  up /= static_cast<double>(poses.size());
-  constexpr double kStanding = 0.9;
-  constexpr double kLying = 0.3;
-  if (std::abs(up.z) > kStanding && std::abs(up.y) < kLying) {
-    return Fail({file}, "the body stands along Z; only files with Y up are read");
-  }
-  if (toes_forward < 0) {
-    return Fail({file}, "the feet point backwards: left and right are swapped, or the axes are left-handed");
-  }
-  return {};
+bool IsFinite(const BodyPose& pose) {
+  return std::ranges::all_of(pose.joints,
+                             [](const glm::dvec3& joint) { return std::isfinite(glm::dot(joint, joint)); });
 }
 
-std::optional<Unit> FindUnit(double stature) {
+/// From frame `first` to the clip's end, upright.
+Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, std::size_t first, double rate_hz,
+                                        UpAxis up, const std::string& file) {
+  const auto frames = static_cast<double>(clip.frames.size() - 1 - first);
+  const double seconds = frames / clip.rate_hz;
+  if (seconds > kLongestSeconds) {
+    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s", seconds, kLongestSeconds);
+  }
+  if (seconds * rate_hz > kMostPoses) {
+    return Fail({file}, "{:.0f} s at {:g} Hz are over {:.0f} poses", seconds, rate_hz, kMostPoses);
+  }
+  constexpr double kRounding = 1e-6;  // of a frame: keeps the last one when the rates divide evenly
+  const auto count = static_cast<std::size_t>(seconds * rate_hz + kRounding) + 1;
+  std::vector<BodyPose> poses;
+  poses.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double frame = std::min(static_cast<double>(i) * clip.rate_hz / rate_hz, frames);
+    poses.push_back(Upright(sampler.At(static_cast<double>(first) + frame), up));
+    if (!IsFinite(poses.back())) return Fail({file}, "in frame {:.0f} joints lie beyond all measure", frame);
+  }
+  return poses;
+}
+
+/// In the file's unit: the rest pose's, which all clips of a file share, unless it is not made like the body that moves
+/// (some files leave all offsets to the frames).
+double FindStature(const BodyPose& rest, const std::vector<BodyPose>& poses) {
+  const double at_rest = Stature(rest);
+  const double moving = Percentile(OverFrames(poses, Stature), 0.5);
+  return at_rest > 0.5 * moving && at_rest < 2 * moving ? at_rest : moving;
+}
+
+void FindUnit(double stature, const std::optional<double>& given, BodyConversion& done) {
+  done.unit = given ? "given" : "unknown";
+  done.metres_per_unit = given.value_or(kDefaultStature / stature);
+  if (given) return;
   for (const Unit& unit : kUnits) {
     const double metres = stature * unit.metres;
-    if (metres >= kSmallestStature && metres <= kLargestStature) return unit;
+    if (metres < kSmallestStature || metres > kLargestStature) continue;
+    done.unit = unit.name;
+    done.metres_per_unit = unit.metres;
   }
-  return std::nullopt;
 }
 
-std::string Note(double metres_per_unit, const std::optional<Unit>& unit, const BodyConversion& done,
-                 const JointMap& map) {
-  std::string note = fmt::format("1 unit = {:.4g} cm", 100 * metres_per_unit);
-  note += unit ? fmt::format(" ({})", unit->name)
-               : fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature);
-  if (done.dropped_t_pose) note += "; dropped a leading T-pose";
+/// Puts the body on the floor, in metres.
+void Ground(std::vector<BodyPose>& poses, BodyConversion& done) {
+  // Not the very lowest: a single frame in which a marker was lost must not lift the whole clip.
+  constexpr double kLow = 0.05;
+  done.floor = Percentile(OverFrames(poses, LowestPoint), kLow);
+  for (BodyPose& pose : poses) {
+    for (glm::dvec3& joint : pose.joints) joint = (joint - glm::dvec3(0, done.floor, 0)) * done.metres_per_unit;
+  }
+}
+
+std::string Note(const BodyConversion& done, const JointMap& map, std::size_t t_poses, bool lies_along_z) {
+  std::string note = fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit);
+  note += done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
+                                 : fmt::format(" ({})", done.unit);
+  if (done.up == UpAxis::kZ) note += "; turned upright from Z up";
+  if (lies_along_z) note += "; the body lies along Z and does not travel: Y is taken for up";
+  if (t_poses > 0) note += "; dropped a leading T-pose";
+  if (t_poses > 1) note += fmt::format(" of {} frames", t_poses);
+  const double floor_cm = 100 * done.floor * done.metres_per_unit;
+  if (std::abs(floor_cm) >= 1) note += fmt::format("; the floor was at {:.0f} cm", floor_cm);
   if (!map.composed.empty()) {
     std::vector<std::string> names;
     for (Role role : map.composed) names.emplace_back(RoleName(role));
@@ -138,22 +171,6 @@ std::string Note(double metres_per_unit, const std::optional<Unit>& unit, const 
 }
 
 }  // namespace
-
-double Stature(const BodyPose& pose) {
-  const auto way = [&](std::initializer_list<Role> roles) {
-    double length = 0;
-    for (auto role = roles.begin(); role + 1 != roles.end(); ++role) {
-      length += glm::distance(pose[*role], pose[*(role + 1)]);
-    }
-    return length;
-  };
-  // Below the ankles and above the head's joint: 4 to 12 % of the stature in the files at hand.
-  constexpr double kMeasuredShare = 0.92;
-  const double left_leg = way({kLeftAnkle, kLeftKnee, kLeftHip});
-  const double right_leg = way({kRightAnkle, kRightKnee, kRightHip});
-  const double trunk_and_head = way({kHipCentre, kSpine, kShoulderCentre, kHead});
-  return (0.5 * (left_leg + right_leg) + trunk_and_head) / kMeasuredShare;
-}
 
 bool IsTPose(const BodyPose& pose) {
   const glm::dvec3 up(0, 1, 0);
@@ -171,45 +188,26 @@ bool IsTPose(const BodyPose& pose) {
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options) {
   if (clip.frames.empty()) return Fail({file}, "no frames; at least one is needed");
-  Poser poser(clip, map);
-  const double rate_hz = options.rate_hz;
+  BodySampler sampler(clip, map);
   BodyConversion done;
-  done.motion.rate_hz = rate_hz;
-  done.dropped_t_pose = BeginsWithForeignTPose(clip, poser);
+  const BodyPose rest = sampler.Rest();
+  const std::vector<BodyPose> glimpses = Glimpses(clip, sampler);
+  done.up = options.up.value_or(FindUpAxis(rest, glimpses));
+  constexpr double kLying = 0.9;
+  const bool lies_along_z = !options.up && done.up == UpAxis::kY && MeanBodyAxis(glimpses).z > kLying;
+  const std::size_t t_poses = options.drop_t_pose ? CountForeignTPose(clip, sampler, done.up) : 0;
+  done.dropped_t_pose = t_poses > 0;
 
-  const std::size_t first = done.dropped_t_pose ? 1 : 0;
-  const double start = static_cast<double>(first) / clip.rate_hz;
-  const double seconds = static_cast<double>(clip.frames.size() - 1 - first) / clip.rate_hz;
-  if (seconds > kLongestSeconds) {
-    return Fail({file}, "the clip lasts {:.0f} s; allowed: {:.0f} s", seconds, kLongestSeconds);
-  }
-  constexpr double kRounding = 1e-6;  // of a frame: keeps the last one when the rates divide evenly
-  const auto count = static_cast<std::size_t>(seconds * rate_hz + kRounding) + 1;
-  std::vector<BodyPose>& poses = done.motion.poses;
-  poses.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) poses.push_back(poser.At(start + static_cast<double>(i) / rate_hz));
-
-  if (auto ok = CheckAxes(poses, file); !ok) return tl::unexpected(ok.error());
-  const double stature = Percentile(OverFrames(poses, Stature), 0.5);
+  auto poses = Resampled(clip, sampler, t_poses, options.rate_hz, done.up, file);
+  if (!poses) return tl::unexpected(poses.error());
+  if (auto ok = CheckSides(*poses, map, file); !ok) return tl::unexpected(ok.error());
+  const double stature = FindStature(rest, *poses);
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
-  const std::optional<Unit> unit = FindUnit(stature);
-  done.metres_per_unit = unit ? unit->metres : kDefaultStature / stature;
-  // Not the very lowest: a single frame in which a marker was lost must not lift the whole clip.
-  constexpr double kLow = 0.05;
-  const double floor = Percentile(OverFrames(poses, LowestFootPoint), kLow);
-  for (BodyPose& pose : poses) {
-    for (glm::dvec3& joint : pose.joints) joint = (joint - glm::dvec3(0, floor, 0)) * done.metres_per_unit;
-  }
-  done.note = Note(done.metres_per_unit, unit, done, map);
+  FindUnit(stature, options.metres_per_unit, done);
+  Ground(*poses, done);
+  done.note = Note(done, map, t_poses, lies_along_z);
+  done.motion = {.rate_hz = options.rate_hz, .poses = std::move(*poses)};
   return done;
-}
-
-Result<BodyConversion> ReadBodyMotion(std::string_view bytes, const std::string& file) {
-  auto clip = ReadBvh(bytes, file);
-  if (!clip) return tl::unexpected(clip.error());
-  auto map = FindJointMap(clip->skeleton, file);
-  if (!map) return tl::unexpected(map.error());
-  return ToBodyMotion(*clip, *map, file);
 }
 
 }  // namespace etude

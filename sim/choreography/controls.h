@@ -17,7 +17,7 @@ enum class MiddleControl {
   kHipsDrop,   ///< metres below the hips' height on straight legs
   kHipsTurn,
   kHipsTilt,  ///< left hip up
-  kJump,      ///< metres by which hips and feet leave the floor
+  kJump,      ///< metres by which hips and feet leave the floor; below 0 the hips alone sink
   kTrunkBend,
   kTrunkSide,
   kTrunkTurn,

@@ -33,7 +33,7 @@ FootGoal StandingGoal(const Controls& controls, Side side) {
   const glm::dmat3 heading = RotationY(out * (Body::kHomeToeOut + controls.Of(side, kFootTurn)));
   const glm::dvec3 flat(0, Body::kToeHeight - Body::kAnkleHeight, Body::kFootReach);
   const glm::dvec3 spot(out * (Body::kHomeHalfWidth + controls.Of(side, kFootSide)),
-                        Body::kAnkleHeight + controls.Of(side, kFootLift) + controls[kJump],
+                        Body::kAnkleHeight + controls.Of(side, kFootLift) + std::max(0.0, controls[kJump]),
                         controls.Of(side, kFootAhead));
   const glm::dvec3 toe = spot + heading * flat;
   const glm::dvec3 to_toe = heading * (RotationX(heel) * flat);
@@ -78,8 +78,10 @@ double Freedom(const Controls& controls, Side side) { return std::clamp(controls
 Leg PlaceLeg(const Controls& controls, Side side, const glm::dmat3& pelvis, const glm::dvec3& hip) {
   const double free = Freedom(controls, side);
   const FootGoal standing = StandingGoal(controls, side), swinging = FreeGoal(controls, side, pelvis, hip);
-  glm::dvec3 ankle = glm::mix(standing.ankle, swinging.ankle, free);
-  glm::dvec3 to_toe = glm::mix(standing.to_toe, swinging.to_toe, free);
+  // A foot rises before it travels, so that it does not brush along the floor.
+  const double travelled = free * free;
+  glm::dvec3 ankle = glm::mix(standing.ankle, swinging.ankle, glm::dvec3(travelled, free, travelled));
+  glm::dvec3 to_toe = glm::mix(standing.to_toe, swinging.to_toe, travelled);
   to_toe *= glm::length(standing.to_toe) / glm::length(to_toe);
   // On its way from the one to the other it swings clear of the floor.
   constexpr double kClearance = 0.04;

@@ -8,25 +8,41 @@
 #include "sim/choreography/builtin_files.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/pose_reader.h"
+#include "sim/choreography/slow_demonstration.h"
 
 namespace etude {
 namespace {
 
-std::string_view NameOf(const EmbeddedText& file) { return file.name.substr(0, file.name.rfind('.')); }
+constexpr Range kTempoRange = {40, 240};
 
 /// Appends the first half's mirror image as the second half.
 void AppendMirrorImage(std::vector<PoseKey>& keys, double half) {
   const std::size_t count = keys.size();
-  for (std::size_t i = 0; i < count; ++i) keys.push_back({keys[i].beat + half, Mirrored(keys[i].controls)});
+  for (std::size_t i = 0; i < count; ++i) {
+    keys.push_back({keys[i].beat + half, Mirrored(keys[i].controls), keys[i].ease});
+  }
 }
 
-/// One performance, sampled so that the frame after the last one is the first: the loop has no seam.
-BodyMotion Sample(const MoveCurves& curves, double beats, double tempo_bpm) {
-  const double seconds = beats * 60.0 / tempo_bpm;
-  const auto frames = static_cast<int>(std::lround(seconds * kJudgedRateHz));
-  BodyMotion motion;
-  for (int i = 0; i < frames; ++i) motion.poses.push_back(PoseOf(curves.At(beats * i / frames)));
-  return motion;
+/// `tempo_range_bpm: [slowest, fastest]`, which holds the move's own tempo.
+void ReadTempoRange(Fields& fields, Move& move) {
+  const std::vector<double> range = fields.Numbers("tempo_range_bpm", kTempoRange);
+  move.slowest_bpm = range.empty() ? move.tempo_bpm : range.front();
+  move.fastest_bpm = range.empty() ? move.tempo_bpm : range.back();
+  if (range.empty()) return;
+  if (range.size() != 2 || move.tempo_bpm < range[0] || move.tempo_bpm > range[1]) {
+    fields.Complain(
+        fields.Raw("tempo_range_bpm")->place,
+        fmt::format("'tempo_range_bpm' must be [slowest, fastest] with the move's {} between them", move.tempo_bpm));
+  }
+}
+
+/// The move with its curves and motion made of its poses, at its tempo.
+Result<Move> Perform(Move move, MoveCurves::Style style, const Place& place) {
+  style.beat_seconds = 60 / move.tempo_bpm;
+  if (auto ok = CheckJumps(move.poses, move.beats, style.beat_seconds, place); !ok) return tl::unexpected(ok.error());
+  move.curves = MoveCurves(move.poses, move.beats, style);
+  move.motion = MotionOf(move);
+  return move;
 }
 
 }  // namespace
@@ -36,43 +52,69 @@ Result<Move> ParseMove(std::string_view yaml, const std::string& file) {
   if (!document) return tl::unexpected(document.error());
 
   Fields fields(*document, "a choreography file");
+  const bool is_act = document->Find("act") != nullptr;
   Move move;
-  move.name = fields.RequiredText("move");
-  move.tempo_bpm = fields.Number("tempo_bpm", 120, {40, 240});
+  move.name = fields.RequiredText(is_act ? "act" : "move");
+  move.tempo_bpm = fields.Number("tempo_bpm", 120, kTempoRange);
+  ReadTempoRange(fields, move);
   move.beats = fields.Number("beats", 8, {1, 64});
   const bool mirrored = fields.Boolean("second_half_mirrored", false);
+  // Nobody is asked to do an act right, so acts have no key poses.
+  if (is_act) move.loops = fields.Boolean("loops", true);
   const MoveCurves::Style style = {.overlap_beats = fields.Number("overlap_beats", 0.1, {0, 0.5}),
-                                   .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20})};
+                                   .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
+                                   .loops = move.loops};
   Node nothing;
   nothing.place = document->place;
   const Node* poses = fields.Raw("poses");
-  const Node* key_poses = fields.Raw("key_poses");
+  const Node* key_poses = is_act ? nullptr : fields.Raw("key_poses");
   if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
 
   const double authored_beats = mirrored ? 0.5 * move.beats : move.beats;
   auto keys = ReadPoses(poses ? *poses : nothing, authored_beats);
   if (!keys) return tl::unexpected(keys.error());
   if (mirrored) AppendMirrorImage(*keys, authored_beats);
-  auto targets = ReadKeyPoses(key_poses ? *key_poses : nothing, move.beats);
-  if (!targets) return tl::unexpected(targets.error());
-
-  move.key_poses = std::move(*targets);
-  move.curves = MoveCurves(*keys, move.beats, style);
-  move.motion = Sample(move.curves, move.beats, move.tempo_bpm);
-  return move;
+  if (!is_act) {
+    auto targets = ReadKeyPoses(key_poses ? *key_poses : nothing, move.beats);
+    if (!targets) return tl::unexpected(targets.error());
+    move.key_poses = std::move(*targets);
+  }
+  move.poses = std::move(*keys);
+  return Perform(std::move(move), style, document->place);
 }
 
-std::vector<std::string> BuiltinMoveNames() {
-  std::vector<std::string> names;
-  for (const EmbeddedText& file : BuiltinMoveFiles()) names.emplace_back(NameOf(file));
-  return names;
+Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place) {
+  Move other = move;
+  other.tempo_bpm = tempo_bpm;
+  return Perform(std::move(other), move.curves.style(), place);
 }
+
+BodyMotion MotionOf(const Move& move) {
+  const double seconds = move.beats * 60.0 / move.tempo_bpm;
+  const auto steps = static_cast<int>(std::lround(seconds * kJudgedRateHz));
+  // The frame after a loop's last one is its first; what does not loop ends in its last pose.
+  const int frames = move.loops ? steps : steps + 1;
+  BodyMotion motion;
+  for (int i = 0; i < frames; ++i) motion.poses.push_back(PoseOf(move.curves.At(move.beats * i / steps)));
+  return motion;
+}
+
+std::vector<std::string> BuiltinMoveNames() { return NamesOf(BuiltinMoveFiles()); }
+std::vector<std::string> BuiltinActNames() { return NamesOf(BuiltinActFiles()); }
 
 Result<Move> LoadBuiltinMove(const std::string& name) {
-  const auto files = BuiltinMoveFiles();
-  const auto file = std::ranges::find(files, name, NameOf);
-  if (file == files.end()) return Fail({}, "{}", UnknownName("move", name, BuiltinMoveNames()));
-  return ParseMove(file->text, "scenarios/choreography/moves/" + std::string(file->name));
+  const bool is_slow = name.starts_with(kSlowDemonstrationPrefix);
+  const std::string_view authored = std::string_view(name).substr(is_slow ? kSlowDemonstrationPrefix.size() : 0);
+  if (const EmbeddedText* file = FindFile(BuiltinMoveFiles(), authored)) {
+    auto move = ParseMove(file->text, "scenarios/choreography/moves/" + std::string(file->name));
+    return move && is_slow ? SlowDemonstration(*move) : move;
+  }
+  if (const EmbeddedText* file = FindFile(BuiltinActFiles(), name)) {
+    return ParseMove(file->text, "scenarios/choreography/acts/" + std::string(file->name));
+  }
+  std::vector<std::string> known = BuiltinMoveNames();
+  std::ranges::copy(BuiltinActNames(), std::back_inserter(known));
+  return Fail({}, "{}", UnknownName("move", name, known));
 }
 
 }  // namespace etude

@@ -25,20 +25,29 @@ struct KeyPose {
 struct Move {
   std::string name;  ///< "clap"
   double tempo_bpm = 120;
+  double slowest_bpm = 120;  ///< `tempo_range_bpm`: the songs that the move suits; its own tempo alone unless given
+  double fastest_bpm = 120;
   double beats = 8;   ///< length of one performance
-  bool loops = true;  ///< the end joins the start: true of every built-in move
+  bool loops = true;  ///< the end joins the start: true of every move, and of acts that can go on for ever
   std::vector<KeyPose> key_poses;
-  MoveCurves curves;  ///< the same performance before joints were made of it, over `beats` beats
-  BodyMotion motion;  ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
+  std::vector<PoseKey> poses;  ///< as authored, a mirrored half included; empty of a slow demonstration
+  MoveCurves curves;           ///< the same performance before joints were made of it, over `beats` beats
+  BodyMotion motion;           ///< one performance at `tempo_bpm`, 30 Hz, performed by the canonical body
 };
 
 /// The names of all built-in moves (choreography/moves), sorted.
 std::vector<std::string> BuiltinMoveNames();
 /// The names of the coach's acts (choreography/acts), sorted.
 std::vector<std::string> BuiltinActNames();
-/// The built-in move or act of that name; the error lists the known ones.
+/// The built-in move or act of that name, or a move's slow demonstration, "slow_clap" (slow_demonstration.h); the error
+/// lists the known ones.
 Result<Move> LoadBuiltinMove(const std::string& name);
-/// Reads one move from the text of a choreography file.
+/// The move danced to music of another tempo: the same beats, while flights take as long as gravity has them. Fails at
+/// `place` when they do not fit into the beats any more. `move` has poses.
+Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place);
+/// One performance, sampled at 30 Hz: what `Move::motion` holds.
+BodyMotion MotionOf(const Move& move);
+/// Reads one move or act from the text of a choreography file.
 Result<Move> ParseMove(std::string_view yaml, const std::string& file);
 
 }  // namespace etude

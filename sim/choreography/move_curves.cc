@@ -1,5 +1,6 @@
 #include "sim/choreography/move_curves.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,21 +31,41 @@ constexpr std::array<double, kControlCount> kLateness = [] {
 
 }  // namespace
 
-MoveCurves::MoveCurves(const std::vector<PoseKey>& keys, double beats, Style style) : style_(style) {
+MoveCurves::MoveCurves(const std::vector<PoseKey>& authored, double beats, Style style)
+    : style_(style), last_beat_(authored.back().beat) {
+  std::vector<PoseKey> keys = authored;
+  if (!style.loops) {
+    // A closed curve that rests in the last pose, and again in the first one, comes to a stop in both; nobody sees
+    // its way back.
+    keys.push_back({last_beat_ + 1, keys.back().controls});
+    keys.push_back({last_beat_ + 2, keys.front().controls});
+    beats = last_beat_ + 3;
+  }
   curves_.reserve(kControlCount);
   for (std::size_t i = 0; i < kControlCount; ++i) {
-    std::vector<PeriodicCurve::Key> values;
-    for (const PoseKey& key : keys) values.push_back({key.beat, key.controls.values[i]});
-    curves_.emplace_back(std::move(values), beats);
+    curves_.emplace_back(KeysOf(keys, i, beats, style.beat_seconds), beats);
   }
 }
 
+MoveCurves MoveCurves::Through(std::span<const Controls> bodies, double beats) {
+  MoveCurves curves;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    std::vector<PeriodicCurve::Key> keys;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+      keys.push_back({beats * static_cast<double>(k) / static_cast<double>(bodies.size()), bodies[k].values[i]});
+    }
+    curves.curves_.emplace_back(std::move(keys), beats);
+  }
+  return curves;
+}
+
 Controls MoveCurves::At(double beat) const {
+  const auto seen = [&](double at) { return style_.loops ? at : std::clamp(at, 0.0, last_beat_); };
   Controls controls;
   for (std::size_t i = 0; i < kControlCount; ++i) {
-    controls.values[i] = curves_[i].At(beat - style_.overlap_beats * kLateness[i]);
+    controls.values[i] = curves_[i].At(seen(beat - style_.overlap_beats * kLateness[i]));
   }
-  controls[MiddleControl::kHipsDrop] += style_.bounce * 0.5 * (1 + std::cos(2 * kPi * beat));
+  controls[MiddleControl::kHipsDrop] += style_.bounce * 0.5 * (1 + std::cos(2 * kPi * seen(beat)));
   return controls;
 }
 

@@ -1,5 +1,6 @@
 #include "sim/choreography/pose_reader.h"
 
+#include <array>
 #include <string>
 
 #include "engine/document/fields.h"
@@ -80,6 +81,18 @@ double ReadBeat(Fields& pose, double beats) {
   return beat.value_or(0);
 }
 
+Ease ReadEase(Fields& pose) {
+  constexpr std::array kEases = {std::pair("smooth", Ease::kSmooth), std::pair("linger", Ease::kLinger),
+                                 std::pair("rush", Ease::kRush), std::pair("snap", Ease::kSnap)};
+  std::vector<std::string> names;
+  for (const auto& [name, ease] : kEases) names.emplace_back(name);
+  const std::string chosen = pose.Choice("ease", names, "smooth");
+  for (const auto& [name, ease] : kEases) {
+    if (chosen == name) return ease;
+  }
+  return Ease::kSmooth;
+}
+
 KeyPose::Target ReadTarget(Fields& pose, const Node& node, std::string_view feature, double tolerance_deg) {
   constexpr Range kDegrees = {0, 180}, kTolerance = {1, 90};
   if (node.kind != Node::Kind::kMapping) {
@@ -101,6 +114,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
     Fields pose(item, "a pose");
     const double beat = ReadBeat(pose, beats);
     const double hold = pose.Number("hold_beats", 0, {0, beats});
+    const Ease ease = ReadEase(pose);
     const Controls controls = ReadControls(pose);
     if (!keys.empty() && beat <= keys.back().beat) {
       pose.Complain(item.place, fmt::format("beat {} does not come after the pose before it, which lasts to beat {}",
@@ -108,7 +122,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
     }
     if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));
     if (auto ok = pose.Finish(); !ok) return tl::unexpected(ok.error());
-    keys.push_back({beat, controls});
+    keys.push_back({beat, controls, ease});
     if (hold > 0) keys.push_back({beat + hold, controls});
   }
   return keys;

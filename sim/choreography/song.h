@@ -14,8 +14,9 @@ namespace etude {
 struct SongPart {
   std::string move;
   int times = 2;
-  double start_beat = 0;
-  double beats = 0;  ///< of all its repetitions
+  bool half_time = false;  ///< each of the move's beats takes two of the music's
+  double start_beat = 0;   ///< of the music, which begins with the song
+  double beats = 0;        ///< of the music, for all repetitions
 };
 
 /// A frame that belongs to a moment of the music (paper A, 3.4: the next move is slowed or sped up by it).
@@ -26,16 +27,16 @@ struct MusicTag {
 
 /// A choreography to a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored
 /// in scenarios/choreography/songs/*.yaml. Only moves that suit the tempo: agile ones fast songs, warm-up ones slow
-/// songs.
+/// songs, or fast ones in half time.
 struct Song {
   std::string name;
   double tempo_bpm = 120;
   std::vector<SongPart> parts;
-  std::vector<MusicTag> tags;  ///< the first frame of every repetition, in order
+  std::vector<MusicTag> tags;  ///< the frame nearest to the beginning of every repetition, in order
   BodyMotion motion;           ///< 30 Hz, from the ready stance to the ready stance, moves flowing into each other
 };
 
-/// Reads a song whose moves are the built-in ones.
+/// Reads a song whose moves are the built-in ones; it may last ten minutes.
 Result<Song> ParseSong(std::string_view yaml, const std::string& file);
 std::vector<std::string> BuiltinSongNames();
 Result<Song> LoadBuiltinSong(const std::string& name);

@@ -6,6 +6,7 @@
 #include "engine/base/angles.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/reach.h"
+#include "sim/choreography/smootherstep.h"
 #include "sim/choreography/stance.h"
 #include "sim/performer/session.h"
 
@@ -53,12 +54,6 @@ Controls Idle(const Habit& habit, double time) {
     controls.Of(side, SideControl::kArmForward) += Radians(2) * wave(4, 4.7);
   }
   return controls;
-}
-
-/// 0 to 1 with zero speed and acceleration at both ends.
-double Smootherstep(double t) {
-  t = std::clamp(t, 0.0, 1.0);
-  return t * t * t * (10 + t * (6 * t - 15));
 }
 
 /// A performance's clock, seconds: runs with time between 0 and `length`, gathers way in the blend

@@ -8,6 +8,8 @@
 #include "sim/render/kept_rooms.h"
 #include "sim/render/pixel_geometry.h"
 #include "sim/render/shaders.h"
+#include "sim/render/surface_batch.h"
+#include "sim/render/vertex_stream.h"
 
 namespace etude {
 namespace {
@@ -18,25 +20,37 @@ constexpr float kFarthest = 200;
 // A box as one triangle strip.
 constexpr GLsizei kStripLength = 14;
 
+// What draws one kind of body, and its shadow.
+struct BodyPrograms {
+  GLuint body = 0;
+  GLuint shadow = 0;
+};
+
 struct Programs {
   GLuint room = 0;
   GLuint backdrop = 0;
-  GLuint shadow = 0;
-  GLuint body = 0;
+  BodyPrograms capsules;
+  BodyPrograms surfaces;
 };
 
 Result<Programs> LinkAll(const GlContext& context) {
+  const std::vector<std::string> capsule{"start_and_radius", "end_and_label", "paint_in", "front_in"};
+  const std::vector<std::string> corner{"place_in", "normal_in", "paint_in"};
   Programs programs;
   const struct {
     GLuint& out;
     std::string vertex, fragment;
-  } wanted[] = {{programs.room, FullScreenVertexShader(), RoomFragmentShader()},
-                {programs.backdrop, FullScreenVertexShader(), BackdropFragmentShader()},
-                {programs.shadow, ShadowVertexShader(), ShadowFragmentShader()},
-                {programs.body, BodyVertexShader(), BodyFragmentShader()}};
+    std::vector<std::string> attributes;
+  } wanted[] = {
+      {programs.room, FullScreenVertexShader(), RoomFragmentShader(), {}},
+      {programs.backdrop, FullScreenVertexShader(), BackdropFragmentShader(), {}},
+      {programs.capsules.body, CapsuleVertexShader(), CapsuleFragmentShader(), capsule},
+      {programs.capsules.shadow, CapsuleShadowVertexShader(), CapsuleShadowFragmentShader(), capsule},
+      {programs.surfaces.body, SurfaceVertexShader(), SurfaceFragmentShader(), corner},
+      {programs.surfaces.shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
+  };
   for (const auto& want : wanted) {
-    const auto program =
-        context.LinkProgram(want.vertex, want.fragment, {"start_and_radius", "end_and_label", "paint_in", "front_in"});
+    const auto program = context.LinkProgram(want.vertex, want.fragment, want.attributes);
     if (!program) return tl::unexpected(program.error());
     want.out = *program;
   }
@@ -49,25 +63,11 @@ GLuint MakeVertexArray(const GlFunctions& gl) {
   return vertices;
 }
 
-// A buffer of capsules, read once per instance.
-GLuint MakeInstanceBuffer(const GlFunctions& gl, GLuint vertices) {
-  GLuint buffer = 0;
-  gl.GenBuffers(1, &buffer);
-  gl.BindVertexArray(vertices);
-  gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
-  const auto attribute = [&gl](GLuint index, int size, std::size_t offset) {
-    gl.EnableVertexAttribArray(index);
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): what GL calls a pointer is an offset into the buffer
-    const void* pointer = reinterpret_cast<const void*>(offset);
-    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(CapsuleInstance), pointer);
-    gl.VertexAttribDivisor(index, 1);
-  };
-  attribute(0, 4, offsetof(CapsuleInstance, start_and_radius));
-  attribute(1, 4, offsetof(CapsuleInstance, end_and_label));
-  attribute(2, 4, offsetof(CapsuleInstance, paint));
-  attribute(3, 3, offsetof(CapsuleInstance, front));
-  return buffer;
-}
+// All bodies of one kind.
+struct Bodies {
+  BodyPrograms programs;
+  VertexStream stream;
+};
 
 }  // namespace
 
@@ -75,10 +75,23 @@ struct Renderer::State {
   State(std::unique_ptr<GlContext> made, const Programs& linked)
       : context(std::move(made)),
         gl(context->functions()),
-        programs(linked),
+        backdrop(linked.backdrop),
         empty_vertices(MakeVertexArray(gl)),
-        capsule_vertices(MakeVertexArray(gl)),
-        capsule_buffer(MakeInstanceBuffer(gl, capsule_vertices)),
+        capsules{linked.capsules,
+                 {gl,
+                  sizeof(CapsuleInstance),
+                  kStripLength,
+                  {{4, offsetof(CapsuleInstance, start_and_radius)},
+                   {4, offsetof(CapsuleInstance, end_and_label)},
+                   {4, offsetof(CapsuleInstance, paint)},
+                   {3, offsetof(CapsuleInstance, front)}}}},
+        surfaces{linked.surfaces,
+                 {gl,
+                  sizeof(SurfaceCorner),
+                  0,
+                  {{3, offsetof(SurfaceCorner, place)},
+                   {3, offsetof(SurfaceCorner, normal)},
+                   {4, offsetof(SurfaceCorner, paint_and_label)}}}},
         targets(gl),
         rooms(gl, linked.room, empty_vertices) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -92,50 +105,61 @@ struct Renderer::State {
   }
 
   void DrawBackdrop(double brightness, bool all) {
-    Use(programs.backdrop, brightness);
+    Use(backdrop, brightness);
     targets.WriteOnly(true, all, all);
     gl.BindVertexArray(empty_vertices);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void Upload(const std::vector<CapsuleInstance>& capsules) {
-    gl.BindVertexArray(capsule_vertices);
-    gl.BindBuffer(GL_ARRAY_BUFFER, capsule_buffer);
-    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capsules.size() * sizeof(CapsuleInstance)), capsules.data(),
-                  GL_STREAM_DRAW);
+  void ThrowShadows(const Bodies& bodies, const Camera& camera, double brightness) {
+    const GLuint program = bodies.programs.shadow;
+    Use(program, brightness);
+    SetPixelGeometry(gl, program, camera);
+    for (const int onto_wall : {0, 1}) {
+      gl.Uniform1i(gl.GetUniformLocation(program, "onto_wall"), onto_wall);
+      bodies.stream.Draw();
+    }
   }
 
-  // Each capsule darkens on its own; where shadows overlap the darkest counts, not their product.
-  void DrawShadows(const Camera& camera, double brightness, bool all, GLsizei count) {
-    Use(programs.shadow, brightness);
-    SetPixelGeometry(gl, programs.shadow, camera);
+  // Each body darkens on its own; where shadows overlap the darkest counts, not their product.
+  void DrawShadows(const Camera& camera, double brightness, bool all) {
     targets.WriteOnly(true, all, false);
     gl.Enablei(GL_BLEND, 0);
-    for (const int onto_wall : {0, 1}) {
-      gl.Uniform1i(gl.GetUniformLocation(programs.shadow, "onto_wall"), onto_wall);
-      gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kStripLength, count);
+    if (!capsules.stream.IsEmpty()) ThrowShadows(capsules, camera, brightness);
+    if (!surfaces.stream.IsEmpty()) {
+      for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
+      ThrowShadows(surfaces, camera, brightness);
+      for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Disable(plane);
     }
     gl.Disablei(GL_BLEND, 0);
   }
 
-  void DrawBodies(const Camera& camera, double brightness, bool all, GLsizei count) {
-    Use(programs.body, brightness);
-    SetPixelGeometry(gl, programs.body, camera);
-    gl.Uniform1f(gl.GetUniformLocation(programs.body, "farthest"), kFarthest);
+  void Draw(const Bodies& bodies, const Camera& camera, double brightness) {
+    const GLuint program = bodies.programs.body;
+    Use(program, brightness);
+    SetPixelGeometry(gl, program, camera);
+    gl.Uniform1f(gl.GetUniformLocation(program, "farthest"), kFarthest);
+    bodies.stream.Draw();
+  }
+
+  void DrawBodies(const Camera& camera, double brightness, bool all) {
     targets.WriteOnly(true, all, all);
-    gl.Enable(GL_CULL_FACE);
     gl.Enable(GL_DEPTH_TEST);
-    gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kStripLength, count);
+    if (!capsules.stream.IsEmpty()) {
+      gl.Enable(GL_CULL_FACE);
+      Draw(capsules, camera, brightness);
+      gl.Disable(GL_CULL_FACE);
+    }
+    if (!surfaces.stream.IsEmpty()) Draw(surfaces, camera, brightness);
     gl.Disable(GL_DEPTH_TEST);
-    gl.Disable(GL_CULL_FACE);
   }
 
   std::unique_ptr<GlContext> context;
   const GlFunctions& gl;
-  Programs programs;
+  GLuint backdrop;
   GLuint empty_vertices;
-  GLuint capsule_vertices;
-  GLuint capsule_buffer;
+  Bodies capsules;
+  Bodies surfaces;
   FrameTargets targets;
   KeptRooms rooms;
 };
@@ -169,13 +193,10 @@ View Renderer::Render(const Room& room, const std::vector<Figure>& figures, cons
   state_->gl.BindTexture(GL_TEXTURE_2D, kept_room);
   state_->DrawBackdrop(room.brightness, all);
 
-  const std::vector<CapsuleInstance> capsules = MakeInstances(figures, camera.p_WC);
-  const auto count = static_cast<GLsizei>(capsules.size());
-  if (count > 0) {
-    state_->Upload(capsules);
-    if (room.casts_shadows) state_->DrawShadows(camera, room.brightness, all, count);
-    state_->DrawBodies(camera, room.brightness, all, count);
-  }
+  state_->capsules.stream.Upload(MakeInstances(figures, camera.p_WC));
+  state_->surfaces.stream.Upload(MakeCorners(figures, camera.p_WC));
+  if (room.casts_shadows) state_->DrawShadows(camera, room.brightness, all);
+  state_->DrawBodies(camera, room.brightness, all);
   return state_->targets.Read(targets);
 }
 

@@ -17,13 +17,14 @@ namespace etude {
 /// One colour for every Part, by its number.
 using PartColours = std::array<Rgb8, 16>;
 
-/// Triangles in the world, of one colour.
+/// Triangles in the world, of one colour. Both sides are drawn. Triangles with a corner or normal that is not finite,
+/// or a corner 1000 km away, are left out; what is nearer to the camera than 1 cm is cut off.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
   std::vector<glm::dvec3> normals;                      ///< unit, one per position
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  std::vector<Part> parts;                              ///< one per triangle: its number in label images
   Rgb8 colour;
-  Part part = Part::kTrunk;  ///< its number in label images
 };
 
 /// A person in the scene: capsules and the colour of each part, or surfaces, or both.
@@ -73,8 +74,9 @@ class Renderer {
 
   /// Draws `figures` (none = the background picture) in `room`, seen by `camera`. The same bytes every
   /// time in the pinned environment. Pixel geometry is `Project`'s, without smoothing of
-  /// edges. Pictures have 1 to `kLargestPicture` pixels a side. The camera stands above the floor and in
-  /// front of the wall; up to about 55° to the side, every pixel then shows floor, wall or a figure.
+  /// edges: a triangle has the pixels whose centres it covers. Pictures have 1 to `kLargestPicture` pixels a side. The
+  /// camera stands above the floor and in front of the wall; up to about 55° to the side, every pixel then shows floor,
+  /// wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
 
   /// The same picture with smooth edges, for people to look at: drawn at twice the size and averaged,

@@ -4,8 +4,8 @@
 
 namespace etude {
 
-// The GLSL programs. All of them work per pixel: a pixel's viewing ray meets planes and capsules in
-// closed form, so edges, labels and depths are exact and no mesh is needed.
+// The GLSL programs. Room and capsules work per pixel: a pixel's viewing ray meets planes and capsules in closed form,
+// so edges, labels and depths are exact. Surfaces are triangles, drawn as such.
 //
 // Frame E: the world's axes, with the origin at the camera's centre (keeps floats small).
 
@@ -15,11 +15,19 @@ std::string FullScreenVertexShader();
 std::string RoomFragmentShader();
 /// Copies the kept room into the picture.
 std::string BackdropFragmentShader();
+
 /// A box around each capsule, drawn only to find the pixels worth asking.
-std::string BodyVertexShader();
-std::string BodyFragmentShader();
+std::string CapsuleVertexShader();
+std::string CapsuleFragmentShader();
 /// The same box, thrown from the lamp onto the floor or the wall.
-std::string ShadowVertexShader();
-std::string ShadowFragmentShader();
+std::string CapsuleShadowVertexShader();
+std::string CapsuleShadowFragmentShader();
+
+/// The triangles of surfaces.
+std::string SurfaceVertexShader();
+std::string SurfaceFragmentShader();
+/// The same triangles, thrown from the lamp onto the floor or the wall.
+std::string SurfaceShadowVertexShader();
+std::string SurfaceShadowFragmentShader();
 
 }  // namespace etude

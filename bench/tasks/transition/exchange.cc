@@ -20,7 +20,7 @@ constexpr std::size_t kMostThrough = 16;
 constexpr std::size_t kLongestExcuse = 300;
 constexpr double kLimbTolerance = 0.02;  // metres
 
-Result<void> CheckLimbs(const BodyPose& pose, const Character& character, const std::string& path) {
+Result<void> CheckLimbs(const BodyPose& pose, const Physique& character, const std::string& path) {
   for (const Bone& bone : AllBones()) {
     const double length = BoneLength(pose, bone), own = character.limb_lengths[Index(bone.child)];
     if (std::abs(length - own) <= kLimbTolerance) continue;
@@ -30,7 +30,7 @@ Result<void> CheckLimbs(const BodyPose& pose, const Character& character, const 
   return {};
 }
 
-std::vector<BodyPose> ReadBetween(AnswerFields& fields, const Character& character) {
+std::vector<BodyPose> ReadBetween(AnswerFields& fields, const Physique& character) {
   std::vector<BodyPose> poses;
   for (const Json& entry : fields.List("between", 0, kMostBetween)) {
     const std::string path = fields.PathOf("between", poses.size());

@@ -23,7 +23,7 @@ std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
 
 Stage SetStage(const ClipLibrary& library) {
   Stage stage;
-  stage.character = MakeCharacter(PoseOf(Controls{}), kJudgedHipHeight);
+  stage.character = MakePhysique(PoseOf(Controls{}), kJudgedHipHeight);
   for (const LibraryClip& clip : library.clips) {
     stage.names.push_back(clip.name);
     stage.identities.push_back(clip.move ? MoveIdentity(clip.move->name) : clip.source);

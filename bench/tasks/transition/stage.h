@@ -12,7 +12,7 @@ namespace etude {
 /// A library of clips made ready for switching: all danced by one character whose hips stand at
 /// 0.90 m, tagged, and each with nature's own jumps to be compared with.
 struct Stage {
-  Character character;
+  Physique character;
   std::vector<std::string> names;       ///< as rows and videos show them
   std::vector<std::string> identities;  ///< equal for equal dances: the move's name, or the file
   std::vector<BodyMotion> motions;

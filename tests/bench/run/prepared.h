@@ -24,8 +24,13 @@ methods:
 
 inline SuiteSetup SmallSuite(const std::string& text = kSmallScenario) {
   SuiteSetup suite{.suite = "small", .seed = 1, .sources = {{"small.yaml", text}}, .scenarios = {}, .scored = {}};
-  suite.scenarios.push_back(
-      {.file = "small.yaml", .name = "small", .seed = 1, .trials = 3, .clips = {}, .digest = "of the text"});
+  suite.scenarios.push_back({.file = "small.yaml",
+                             .name = "small",
+                             .seed = 1,
+                             .trials = 3,
+                             .clips = {},
+                             .joint_map = "",
+                             .digest = "of the text"});
   return suite;
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/formats/bvh.h"
-#include "engine/retargeting/to_body.h"
 #include "tests/support/person.h"
+#include "tests/support/read_body.h"
 
 namespace etude {
 namespace {
@@ -48,7 +48,7 @@ TEST(FromBody, IsAClipThatIsUnderstoodAsTheBodyItWas) {
   const auto map = FindJointMap(person.skeleton, "person.bvh");
   ASSERT_TRUE(map) << ToString(map.error());
   const BodyMotion motion = ToBodyMotion(person, *map, "person.bvh")->motion;
-  const auto read = ReadBodyMotion(WriteBvh(ToClip(motion, "person")), "person.bvh");
+  const auto read = testing::ReadBody(WriteBvh(ToClip(motion, "person")), "person.bvh");
   ASSERT_TRUE(read) << ToString(read.error());
   ASSERT_EQ(read->motion.poses.size(), motion.poses.size());
   for (const Role role : AllRoles()) {

@@ -3,31 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
-
-#include "tests/support/person.h"
+#include "engine/retargeting/map_file.h"
+#include "tests/support/body_of_person.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
 using ::testing::ElementsAre;
+using testing::ExpectNear;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-
-Skeleton Renamed(Skeleton skeleton, const std::map<std::string, std::string>& parts) {
-  for (Joint& joint : skeleton.joints) {
-    for (const char* side : {"Left", "Right", ""}) {
-      const std::string_view prefix = side;
-      if (!joint.name.starts_with(prefix)) continue;
-      const auto part = parts.find(joint.name.substr(prefix.size()));
-      if (part == parts.end()) continue;
-      joint.name = std::string(prefix) + part->second;
-      break;
-    }
-  }
-  return skeleton;
-}
+using testing::RestBody;
 
 Skeleton Without(Skeleton skeleton, const std::string& name) {
   const int gone = skeleton.Find(name);
@@ -38,115 +24,52 @@ Skeleton Without(Skeleton skeleton, const std::string& name) {
   return skeleton;
 }
 
-BodyPose RestBody(const Skeleton& skeleton, const JointMap& map) {
-  std::vector<GlobalTransform> globals;
-  ComputeGlobals(skeleton, testing::AtRest(skeleton).frames[0], globals);
-  return Evaluate(map, globals);
-}
-
-void ExpectNear(const glm::dvec3& actual, const glm::dvec3& expected) {
-  EXPECT_LT(glm::distance(actual, expected), 1e-12) << "(" << actual.x << ", " << actual.y << ", " << actual.z << ")";
-}
-
-void ExpectThePerson(const Skeleton& skeleton) {
-  const auto map = FindJointMap(skeleton, "person.bvh");
-  ASSERT_TRUE(map) << ToString(map.error());
-  EXPECT_THAT(map->composed, IsEmpty());
-  const BodyPose body = RestBody(skeleton, *map);
-  ExpectNear(body[kHipCentre], {0, 90, 0});
-  ExpectNear(body[kSpine], {0, 115, 0});
-  ExpectNear(body[kShoulderCentre], {0, 140, 0});
-  ExpectNear(body[kHead], {0, 165, 0});
-  ExpectNear(body[kLeftShoulder], {18, 137, 0});
-  ExpectNear(body[kLeftElbow], {47, 137, 0});
-  ExpectNear(body[kLeftWrist], {72, 137, 0});
-  ExpectNear(body[kLeftHand], {90, 137, 0});
-  ExpectNear(body[kLeftHip], {9, 90, 0});
-  ExpectNear(body[kLeftKnee], {9, 47, 0});
-  ExpectNear(body[kLeftAnkle], {9, 5, 0});
-  ExpectNear(body[kLeftFoot], {9, 0, 18});
-  for (Role role : AllRoles()) {
-    const glm::dvec3& other = body[Mirrored(role)];
-    ExpectNear(body[role], {-other.x, other.y, other.z});
+/// Puts a joint before `child`, at the place of the child's parent.
+void InsertAbove(Skeleton& skeleton, const std::string& child, const std::string& name) {
+  const int at = skeleton.Find(child);
+  const int parent = skeleton.joints[at].parent;
+  skeleton.joints.insert(skeleton.joints.begin() + at, Joint{name, parent, {}, false});
+  for (std::size_t i = at + 1; i < skeleton.joints.size(); ++i) {
+    if (skeleton.joints[i].parent >= at) ++skeleton.joints[i].parent;
   }
-}
-
-TEST(JointMap, FindsTheTwentyRolesUnderEveryNamingScheme) {
-  const Skeleton person = testing::PersonSkeleton();
-  {
-    SCOPED_TRACE("MotionBuilder");
-    ExpectThePerson(person);
-  }
-  {
-    SCOPED_TRACE("Biovision");
-    ExpectThePerson(Renamed(person, {{"Shoulder", "Collar"},
-                                     {"Arm", "Shoulder"},
-                                     {"ForeArm", "Elbow"},
-                                     {"Hand", "Wrist"},
-                                     {"UpLeg", "Hip"},
-                                     {"Leg", "Knee"},
-                                     {"Foot", "Ankle"},
-                                     {"ToeBase", "Toes"},
-                                     {"Spine", "Chest"}}));
-  }
-  {
-    SCOPED_TRACE("Biovision's samples");
-    ExpectThePerson(Renamed(person, {{"Shoulder", "Collar"},
-                                     {"Arm", "UpArm"},
-                                     {"ForeArm", "LowArm"},
-                                     {"Leg", "LowLeg"},
-                                     {"ToeBase", "Toe"},
-                                     {"Spine", "Chest"}}));
-  }
-  Skeleton prefixed = person;
-  Skeleton lettered =
-      Renamed(person, {{"Arm", "UpperArm"}, {"ForeArm", "LowerArm"}, {"UpLeg", "UpperLeg"}, {"Leg", "LowerLeg"}});
-  for (std::size_t i = 0; i < person.joints.size(); ++i) {
-    prefixed.joints[i].name = "mixamorig:" + prefixed.joints[i].name;
-    std::string& name = lettered.joints[i].name;
-    if (name.starts_with("Left")) name = name.substr(4) + "_L";
-    if (name.starts_with("Right")) name = name.substr(5) + "_R";
-  }
-  {
-    SCOPED_TRACE("Mixamo's prefix");
-    ExpectThePerson(prefixed);
-  }
-  {
-    SCOPED_TRACE("side as a letter at the end");
-    ExpectThePerson(lettered);
-  }
-  for (Joint& joint : prefixed.joints) joint.name = "Character1_" + joint.name.substr(10);
-  {
-    SCOPED_TRACE("MASS's prefix");
-    ExpectThePerson(prefixed);
-  }
+  skeleton.joints[at + 1].parent = at;
 }
 
 TEST(JointMap, TakesCmusShoulderForTheCollarBoneAndItsSecondNeckForTheNeck) {
-  Skeleton cmu = Renamed(testing::PersonSkeleton(), {{"Neck", "Neck1"}});
-  // CMU's "Neck" lies at the chest, between chest and "Neck1".
-  Joint& neck1 = cmu.joints[cmu.Find("Neck1")];
-  const int spine = neck1.parent;
-  cmu.joints.insert(cmu.joints.begin() + cmu.Find("Neck1"), Joint{"Neck", spine, {}, false});
-  const int neck = cmu.Find("Neck");
-  for (std::size_t i = neck + 1; i < cmu.joints.size(); ++i) {
-    if (cmu.joints[i].parent >= neck) ++cmu.joints[i].parent;
-  }
-  cmu.joints[neck + 1].parent = neck;
-  ExpectThePerson(cmu);
+  Skeleton cmu = testing::PersonSkeleton();
+  cmu.joints[cmu.Find("Neck")].name = "Neck1";
+  InsertAbove(cmu, "Neck1", "Neck");  // where collars and chest meet
+  InsertAbove(cmu, "LeftUpLeg", "LHipJoint");
+  InsertAbove(cmu, "RightUpLeg", "RHipJoint");
+  testing::ExpectThePerson(cmu);
+}
+
+TEST(JointMap, TakesTheFirstOfTwoNecksThatStandAboveTheChest) {
+  Skeleton person = testing::PersonSkeleton();
+  InsertAbove(person, "Head", "Neck1");
+  person.joints[person.Find("Neck1")].rest.translation = {0, 4, 0};
+  person.joints[person.Find("Head")].rest.translation = {0, 6, 0};
+  testing::ExpectThePerson(person);
 }
 
 TEST(JointMap, RefusesAClipWithTheListOfMissingRolesAndOfItsJoints) {
   Skeleton horse = testing::PersonSkeleton();
   horse.joints[horse.Find("LeftForeArm")].name = "LeftForeHoof";
-  horse.joints[horse.Find("Head")].name = "Muzzle";
+  for (const char* name : {"RightUpLeg", "RightLeg", "RightFoot"}) horse.joints[horse.Find(name)].name = "Wheel";
   const auto map = FindJointMap(horse, "horse.bvh");
   ASSERT_FALSE(map);
-  EXPECT_THAT(
-      ToString(map.error()),
-      HasSubstr("horse.bvh: no joint found for head, left_shoulder, left_elbow, left_wrist; joints in the file: "
-                "'Hips', 'Spine', 'Neck', 'Muzzle', 'LeftShoulder'"));
+  EXPECT_THAT(ToString(map.error()),
+              HasSubstr("horse.bvh: no joint found for left_elbow (a 'forearm'), right_hip, right_knee, right_ankle; "
+                        "joints in the file: 'Hips', 'Spine', 'Neck', 'Head', 'LeftShoulder'"));
   EXPECT_THAT(map.error().message, HasSubstr("'LeftForeHoof'"));
+}
+
+TEST(JointMap, RefusesTwoHalvesWithoutACommonJoint) {
+  Skeleton halves = testing::PersonSkeleton();
+  halves.joints[halves.Find("RightUpLeg")].parent = -1;
+  const auto map = FindJointMap(halves, "halves.bvh");
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().message, "'LeftUpLeg' and 'RightUpLeg', the hips, hang from no common joint");
 }
 
 TEST(JointMap, RefusesAKneeThatDoesNotHangFromItsHip) {
@@ -259,6 +182,108 @@ TEST(JointMap, KeepsTheHipCentreMidwayWhenTheHipsThemselvesMove) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(person, clip.frames[0], globals);
   ExpectNear(Evaluate(*map, globals)[kHipCentre], {1, 90, 2});
+}
+
+/// The same skeleton in the same rest pose, as exporters of glTF write it: joints' frames are turned anyhow, sizes come
+/// from a node above, meshes are nodes as well and may bear a joint's name, and there is a second root.
+Skeleton AsGltfNodes(const Skeleton& person, double scale) {
+  Skeleton nodes;
+  nodes.joints.push_back({.name = "Camera", .parent = -1, .rest = {}});
+  nodes.joints.push_back({.name = "Armature",
+                          .parent = -1,
+                          .rest = {.translation = {0, 0, 0},
+                                   .rotation = testing::Turn(-std::numbers::pi / 2, {1, 0, 0}),
+                                   .scale = glm::dvec3(scale)}});
+  nodes.joints.push_back({.name = "LeftArm", .parent = 1, .rest = {}});  // a mesh
+  nodes.joints.push_back({.name = "Head", .parent = 0, .rest = {}});
+  const int first = static_cast<int>(nodes.joints.size());
+  const glm::dquat armature = nodes.joints[1].rest.rotation;
+  std::vector<glm::dquat> axes;  // of every joint, in the world
+  for (std::size_t i = 0; i < person.joints.size(); ++i) {
+    const Joint& joint = person.joints[i];
+    const glm::dquat above = joint.parent < 0 ? armature : axes[joint.parent];
+    const double angle = 0.7 * static_cast<double>(i);
+    axes.push_back(glm::angleAxis(angle, glm::normalize(glm::dvec3(1, std::sin(3 * angle), -0.5))));
+    nodes.joints.push_back({.name = joint.name,
+                            .parent = joint.parent < 0 ? 1 : joint.parent + first,
+                            .rest = {.translation = glm::conjugate(above) * joint.rest.translation,
+                                     .rotation = glm::conjugate(above) * axes.back()}});
+  }
+  return nodes;
+}
+
+TEST(JointMap, FindsThePersonAmongTheNodesOfAGltf) {
+  const Skeleton nodes = AsGltfNodes(testing::PersonSkeleton(), 0.01);
+  const auto map = FindJointMap(nodes, "person.glb");
+  ASSERT_TRUE(map) << ToString(map.error());
+  testing::ExpectThePersonsPlaces(RestBody(nodes, *map), 0.01);
+  EXPECT_NE((*map)[kLeftShoulder].joint, nodes.Find("LeftArm")) << "that is the mesh";
+}
+
+TEST(JointMap, ComposesPointsInTheFrameOfTurnedAndScaledJoints) {
+  Skeleton bare = testing::PersonSkeleton();
+  for (const char* name : {"LeftToeBase_End", "LeftToeBase", "RightToeBase_End", "RightToeBase", "LeftHand_End",
+                           "RightHand_End", "Head_End", "Head", "Neck"}) {
+    bare = Without(bare, name);
+  }
+  const Skeleton nodes = AsGltfNodes(bare, 0.01);
+  const auto map = FindJointMap(nodes, "bare.glb");
+  ASSERT_TRUE(map) << ToString(map.error());
+  EXPECT_THAT(map->composed, ElementsAre(kShoulderCentre, kLeftHand, kRightHand, kLeftFoot, kRightFoot, kHead));
+  const BodyPose body = RestBody(nodes, *map);
+  ExpectNear(body[kLeftHand], {0.90, 1.37, 0});
+  ExpectNear(body[kRightFoot], {-0.09, 0.05, 0.18});
+  ExpectNear(body[kShoulderCentre], {0, 1.37, 0});
+  ExpectNear(body[kHead], {0, 1.37 + 0.235, 0});  // half a trunk above
+  ExpectNear(body[kSpine], {0, 1.15, 0});
+}
+
+TEST(JointMap, ComposesPointsOfJointsWithoutSizeOnTheJointItself) {
+  Skeleton person = Without(testing::PersonSkeleton(), "LeftHand_End");
+  person.joints[person.Find("LeftHand")].rest.scale = {0, 0, 0};
+  const auto map = FindJointMap(person, "person.glb");
+  ASSERT_TRUE(map) << ToString(map.error());
+  ExpectNear(RestBody(person, *map)[kLeftHand], {72, 137, 0});
+}
+
+TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
+  Skeleton rig = testing::PersonSkeleton();
+  for (const char* side : {"Left", "Right"}) {
+    Joint& foot = rig.joints[rig.Find(side + std::string("Foot"))];
+    foot.parent = 0;
+    foot.rest.translation = {side == std::string("Left") ? 9 : -9, -90, 0};
+    rig.joints[rig.Find(side + std::string("ToeBase_End"))].rest.translation = {0, 0, -20};
+  }
+  const auto map = FindJointMap(rig, "rig.glb");
+  ASSERT_TRUE(map) << ToString(map.error());
+  EXPECT_THAT(map->composed, ElementsAre(kLeftFoot, kRightFoot)) << "what hangs from a control is no foot";
+  ExpectNear(RestBody(rig, *map)[kLeftAnkle], {9, 5, 0});
+  ExpectNear(RestBody(rig, *map)[kLeftFoot], {9, 5, 18});
+  // The control: another leg is no control.
+  Skeleton crossed = testing::PersonSkeleton();
+  crossed.joints[crossed.Find("RightFoot")].parent = crossed.Find("LeftLeg");
+  const auto refused = FindJointMap(crossed, "crossed.glb");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "right_ankle is played by 'RightFoot', which does not descend from 'RightLeg', the right_knee");
+}
+
+TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
+  Skeleton horse = testing::PersonSkeleton();
+  horse.joints[horse.Find("LeftForeArm")].name = "Hoof";
+  horse.joints[horse.Find("RightFoot")].name = "Wheel";
+  ASSERT_FALSE(FindJointMap(horse, "horse.bvh"));
+  const TaughtRoles taught{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kLeftHand, {"LeftHand", {}}}}};
+  const auto refused = FindJointMap(horse, "horse.bvh", &taught);
+  ASSERT_FALSE(refused) << "taught joints are checked as well";
+  EXPECT_EQ(refused.error().message,
+            "left_hand is played by 'LeftHand', which does not descend from 'LeftHand', the left_wrist");
+
+  const TaughtRoles better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
+  const auto map = FindJointMap(horse, "horse.bvh", &better);
+  ASSERT_TRUE(map) << ToString(map.error());
+  ExpectNear(RestBody(horse, *map)[kLeftElbow], {47, 137, 0});
+  ExpectNear(RestBody(horse, *map)[kHead], {0, 150, 0});
 }
 
 }  // namespace

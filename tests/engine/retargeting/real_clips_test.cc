@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "engine/formats/bvh.h"
-#include "engine/retargeting/to_body.h"
+#include "tests/support/read_body.h"
 
 namespace etude {
 namespace {
@@ -67,7 +67,7 @@ TEST_P(RealClips, ComeBackFromWritingToThePrintedPrecision) {
 }
 
 TEST_P(RealClips, BecomePeopleOfCommonHeightWithTheirFeetOnTheFloor) {
-  const auto body = ReadBodyMotion(bytes_, GetParam().file);
+  const auto body = testing::ReadBody(bytes_, GetParam().file);
   ASSERT_TRUE(body) << ToString(body.error());
   EXPECT_DOUBLE_EQ(body->metres_per_unit, GetParam().metres_per_unit);
   EXPECT_EQ(body->dropped_t_pose, GetParam().begins_with_t_pose);
@@ -85,7 +85,7 @@ TEST_P(RealClips, BecomePeopleOfCommonHeightWithTheirFeetOnTheFloor) {
 }
 
 TEST_P(RealClips, KeepLeftLeft) {
-  const auto body = ReadBodyMotion(bytes_, GetParam().file);
+  const auto body = testing::ReadBody(bytes_, GetParam().file);
   ASSERT_TRUE(body) << ToString(body.error());
   double toes_forward = 0;
   for (const BodyPose& pose : body->motion.poses) {

@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
-#include "engine/formats/bvh.h"
-#include "engine/motion/sample.h"
 #include "tests/support/person.h"
+#include "tests/support/read_body.h"
 
 namespace etude {
 namespace {
@@ -18,10 +17,8 @@ using ::testing::HasSubstr;
 using testing::LowerArms;
 using testing::Turn;
 
-Result<BodyConversion> Convert(const Clip& clip) {
-  const auto map = FindJointMap(clip.skeleton, "person.bvh");
-  if (!map) return tl::unexpected(map.error());
-  return ToBodyMotion(clip, *map, "person.bvh");
+Result<BodyConversion> Convert(const Clip& clip, const BodyOptions& options = {}) {
+  return testing::ToBody(clip, "person.bvh", options);
 }
 
 Skeleton Scaled(double factor) {
@@ -63,6 +60,19 @@ TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
   EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); dropped a leading T-pose");
   EXPECT_EQ(body->motion.poses.size(), 2u);  // frames 1 and 5 of 1…8
   EXPECT_FALSE(IsTPose(body->motion.poses[0]));
+}
+
+TEST(ToBodyMotion, DropsEveryFrameOfATPoseThatIsHeld) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 9, 30);
+  for (std::size_t i = 3; i < 9; ++i) LowerArms(clip, i);
+  const auto body = Convert(clip);
+  ASSERT_TRUE(body);
+  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); dropped a leading T-pose of 3 frames");
+  EXPECT_EQ(body->motion.poses.size(), 6u);
+  const auto whole = Convert(clip, {.drop_t_pose = false});
+  ASSERT_TRUE(whole);
+  EXPECT_FALSE(whole->dropped_t_pose);
+  EXPECT_EQ(whole->motion.poses.size(), 9u);
 }
 
 TEST(ToBodyMotion, KeepsATPoseThatTheMotionBeginsWith) {
@@ -132,18 +142,103 @@ TEST(ToBodyMotion, TellsWhichRolesItComposed) {
   EXPECT_THAT(body->note, HasSubstr("; not in the file, composed: left_hand"));
 }
 
-TEST(ToBodyMotion, RefusesFilesWithOtherAxes) {
-  Clip z_up = AtRest(testing::PersonSkeleton());
-  At(z_up, 0, "Hips").rotation = Turn(kPi / 2, {1, 0, 0});
-  const auto lying = Convert(z_up);
-  ASSERT_FALSE(lying);
-  EXPECT_EQ(ToString(lying.error()), "person.bvh: the body stands along Z; only files with Y up are read");
+TEST(ToBodyMotion, TakesTheUnitThatIsGiven) {
+  const auto body = Convert(AtRest(Scaled(1)), {.metres_per_unit = 0.02});
+  ASSERT_TRUE(body) << ToString(body.error());
+  EXPECT_EQ(body->unit, "given");
+  EXPECT_EQ(body->note, "1 unit = 2 cm (given)");
+  EXPECT_NEAR(Stature(body->motion.poses[0]), 2 * 1.60 / 0.92, 1e-12);
+}
 
+TEST(ToBodyMotion, GivesToysTheStatureOfAPerson) {
+  // A head as high as the rest, short legs, 1.2 units in all.
+  Skeleton toy = Scaled(0.01);
+  for (const char* name : {"LeftLeg", "RightLeg", "LeftFoot", "RightFoot"}) {
+    toy.joints[toy.Find(name)].rest.translation *= 0.4;
+  }
+  const auto body = Convert(AtRest(toy));
+  ASSERT_TRUE(body) << ToString(body.error());
+  EXPECT_NEAR(Stature(body->motion.poses[0]), 1.70, 1e-12);
+  EXPECT_NEAR(body->motion.poses[0][kLeftFoot].y, 0, 1e-12);
+  EXPECT_EQ(body->unit, "unknown");
+}
+
+TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 3);
+  const auto expected = Convert(clip);
+  // The same in a file with Z up: (x, y, z) is written (x, −z, y).
+  const glm::dquat to_z_up = Turn(kPi / 2, {1, 0, 0});
+  clip.skeleton.joints[0].rest = {to_z_up * clip.skeleton.joints[0].rest.translation, to_z_up};
+  for (LocalPose& frame : clip.frames) frame[0] = clip.skeleton.joints[0].rest;
+  const auto body = Convert(clip);
+  ASSERT_TRUE(expected && body) << ToString(body.error());
+  EXPECT_EQ(body->up, UpAxis::kZ);
+  EXPECT_EQ(expected->up, UpAxis::kY);
+  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); turned upright from Z up");
+  for (const Role role : AllRoles()) {
+    EXPECT_LT(glm::distance(body->motion.poses[2][role], expected->motion.poses[2][role]), 1e-12) << RoleName(role);
+  }
+  // Told otherwise, it lies on its back.
+  const auto lying = Convert(clip, {.up = UpAxis::kY});
+  ASSERT_TRUE(lying);
+  EXPECT_LT(lying->motion.poses[0][kHead].y, 0.2);
+}
+
+TEST(ToBodyMotion, TellsWhereItFoundTheFloor) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 2);
+  for (LocalPose& frame : clip.frames) frame[0].translation.y += 40;
+  const auto body = Convert(clip);
+  ASSERT_TRUE(body);
+  EXPECT_NEAR(body->floor, 40, 1e-12);
+  EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); the floor was at 40 cm");
+}
+
+TEST(ToBodyMotion, RefusesSwappedSides) {
   Skeleton mirrored = testing::PersonSkeleton();
   for (Joint& joint : mirrored.joints) joint.rest.translation.x *= -1;
   const auto swapped = Convert(AtRest(mirrored));
   ASSERT_FALSE(swapped);
-  EXPECT_THAT(swapped.error().message, HasSubstr("the feet point backwards"));
+  EXPECT_EQ(ToString(swapped.error()),
+            "person.bvh: the feet point backwards: left and right are swapped, or the axes are left-handed");
+
+  Skeleton mixed = testing::PersonSkeleton();
+  for (Joint& joint : mixed.joints) {
+    if (joint.name.ends_with("Shoulder")) joint.rest.translation.x *= -1;
+    if (joint.name.ends_with("Arm")) joint.rest.translation.x *= -1;
+    if (joint.name.ends_with("Hand")) joint.rest.translation.x *= -1;
+  }
+  const auto arms = Convert(AtRest(mixed));
+  ASSERT_FALSE(arms);
+  EXPECT_EQ(arms.error().message, "the left arm is on the side of the right leg; left and right are mixed up");
+}
+
+TEST(ToBodyMotion, RefusesKneesThatBendBackwardsWhereFeetAreComposed) {
+  Skeleton bare = testing::PersonSkeleton();
+  for (Joint& joint : bare.joints) {
+    if (joint.name.ends_with("ToeBase") || joint.name.ends_with("ToeBase_End")) joint.rest.translation = {0, 0, 0};
+  }
+  ASSERT_TRUE(Convert(AtRest(bare))) << "straight legs prove nothing";
+  for (const int sign : {1, -1}) {
+    Clip crouching = AtRest(bare);
+    for (const char* side : {"Left", "Right"}) {
+      At(crouching, 0, side + std::string("UpLeg")).rotation = Turn(-0.5 * sign, {1, 0, 0});
+      At(crouching, 0, side + std::string("Leg")).rotation = Turn(1.0 * sign, {1, 0, 0});
+    }
+    const auto body = Convert(crouching);
+    ASSERT_EQ(body.has_value(), sign > 0);
+    if (sign < 0) {
+      EXPECT_THAT(body.error().message, HasSubstr("the knees bend backwards"));
+    }
+  }
+}
+
+TEST(ToBodyMotion, UnderstandsPushUps) {
+  Clip clip = AtRest(testing::PersonSkeleton(), 5);
+  for (LocalPose& frame : clip.frames) frame[0].rotation = Turn(Radians(80), {1, 0, 0});
+  const auto body = Convert(clip);
+  ASSERT_TRUE(body) << ToString(body.error());
+  EXPECT_EQ(body->up, UpAxis::kY);
+  EXPECT_THAT(body->note, HasSubstr("the body lies along Z and does not travel: Y is taken for up"));
 }
 
 TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
@@ -155,32 +250,19 @@ TEST(ToBodyMotion, RefusesWhatGivesNoMotion) {
   ASSERT_FALSE(tiny);
   EXPECT_THAT(tiny.error().message, HasSubstr("it needs a size"));
 
+  const auto many = Convert(AtRest(testing::PersonSkeleton(), 400, 1), {.rate_hz = 1e6});
+  ASSERT_FALSE(many);
+  EXPECT_EQ(many.error().message, "399 s at 1e+06 Hz are over 500000 poses");
+
+  Clip flying = AtRest(testing::PersonSkeleton(), 2);
+  At(flying, 1, "Hips").translation.x = 1e300;
+  const auto gone = Convert(flying);
+  ASSERT_FALSE(gone);
+  EXPECT_THAT(gone.error().message, HasSubstr("beyond all measure"));
+
   const auto endless = Convert(AtRest(testing::PersonSkeleton(), 400, 0.1));
   ASSERT_FALSE(endless);
   EXPECT_EQ(endless.error().message, "the clip lasts 3990 s; allowed: 3600 s");
-}
-
-TEST(ReadBodyMotion, GoesFromBytesToABodyAndPassesComplaintsOn) {
-  const std::string text = WriteBvh(AtRest(testing::PersonSkeleton(), 31));
-  const auto body = ReadBodyMotion(text, "person.bvh");
-  ASSERT_TRUE(body) << ToString(body.error());
-  EXPECT_EQ(body->motion.poses.size(), 31u);
-  const auto broken = ReadBodyMotion(text.substr(0, 10), "person.bvh");
-  ASSERT_FALSE(broken);
-  EXPECT_EQ(broken.error().place.line, 2);
-}
-
-TEST(SampleClip, TurnsTheShortWayAndStaysWithinTheClip) {
-  Clip clip = AtRest(testing::PersonSkeleton(), 2, 10);
-  At(clip, 0, "LeftArm").rotation = Turn(0.2, {0, 0, 1});
-  At(clip, 1, "LeftArm").rotation = -Turn(0.6, {0, 0, 1});  // the same rotation, written with the other sign
-  At(clip, 1, "Hips").translation = {0, 105, 0};
-  const int arm = clip.skeleton.Find("LeftArm");
-  const LocalPose middle = SampleClip(clip, 0.05);
-  EXPECT_NEAR(std::abs(glm::dot(middle[arm].rotation, Turn(0.4, {0, 0, 1}))), 1, 1e-14);
-  EXPECT_NEAR(middle[0].translation.y, 100, 1e-12);
-  EXPECT_EQ(SampleClip(clip, -1)[0].translation.y, 95);
-  EXPECT_EQ(SampleClip(clip, 99)[0].translation.y, 105);
 }
 
 }  // namespace

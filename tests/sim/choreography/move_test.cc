@@ -105,42 +105,6 @@ TEST(BuiltinMoves, StartNearTheReadyStance) {
   }
 }
 
-TEST(BuiltinMoves, NeverMoveFasterThanADancer) {
-  constexpr double kFastest = 8.0;  // m/s: a quick punch of a trained amateur
-  for (const Move& move : AllMoves()) {
-    const auto& poses = move.motion.poses;
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      EXPECT_LT(WorstJointDistance(poses[i], poses[(i + 1) % poses.size()]) * kJudgedRateHz, kFastest) << move.name;
-    }
-  }
-}
-
-/// docs/metrics.md's foot slide of one foot's toe, cm/s, over one loop.
-double FootSlide(const BodyMotion& motion, Role toe) {
-  double sum = 0;
-  const std::size_t frames = motion.poses.size();
-  for (std::size_t i = 0; i < frames; ++i) {
-    const glm::dvec3 here = motion.poses[i][toe], there = motion.poses[(i + 1) % frames][toe];
-    const double height_cm = 100 * (here.y - CanonicalBody::kToeHeight);
-    const double speed_cmps = 100 * std::hypot(there.x - here.x, there.z - here.z) * motion.rate_hz;
-    sum += speed_cmps * glm::clamp(2 - std::exp2(height_cm / 2.5), 0.0, 1.0);
-  }
-  return sum / static_cast<double>(frames);
-}
-
-TEST(BuiltinMoves, KeepTheirFeetWhereTheyStand) {
-  for (const Move& move : AllMoves()) {
-    EXPECT_LT(FootSlide(move.motion, Role::kLeftFoot), 4) << move.name;
-    EXPECT_LT(FootSlide(move.motion, Role::kRightFoot), 4) << move.name;
-  }
-  // The control: a body that is shifted along slides.
-  BodyMotion shifted = AllMoves().front().motion;
-  for (std::size_t i = 0; i < shifted.poses.size(); ++i) {
-    shifted.poses[i] = FloorMove{.x = 0.01 * static_cast<double>(i)}.Apply(shifted.poses[i]);
-  }
-  EXPECT_GT(FootSlide(shifted, Role::kLeftFoot), 10);
-}
-
 TEST(BuiltinMoves, HandsMeetInAClap) {
   const auto clap = LoadBuiltinMove("clap");
   ASSERT_TRUE(clap);
@@ -196,9 +160,37 @@ TEST(ParseMove, TellsWhereAndWhatIsWrong) {
   EXPECT_THAT(ComplaintAbout("{beat: 1, neck", "{neck"), HasSubstr("needs a 'beat'"));
   EXPECT_THAT(ComplaintAbout("{beat: 1, neck", "{beat: 1, hold_beats: 1.5, neck"), HasSubstr("held beyond"));
   EXPECT_THAT(ComplaintAbout("LH: {degrees: 90, tolerance_deg: 5}", "tolerance_deg: 9"), HasSubstr("needs at least"));
+  EXPECT_THAT(ComplaintAbout("neck:", "ease: swiftly, neck:"), HasSubstr("snap"));
+  EXPECT_THAT(ComplaintAbout("jump_cm: 3", "jump_cm: 200"), HasSubstr("would take"));
+  EXPECT_THAT(ComplaintAbout("beats: 2", "beats: 2\ntempo_range_bpm: [90, 110]"), HasSubstr("120 between them"));
+  EXPECT_THAT(ComplaintAbout("beats: 2", "beats: 2\ntempo_range_bpm: [120]"), HasSubstr("[slowest, fastest]"));
   EXPECT_THAT(ComplaintAbout("beats: 2", "beats: 0"), HasSubstr("out of range"));
   EXPECT_THAT(ComplaintAbout("key_poses:", "key_pose:"), HasSubstr("key_poses"));
   EXPECT_THAT(ComplaintAbout("move: nod\n", ""), HasSubstr("move"));
+}
+
+TEST(ParseMove, SuitsItsOwnTempoUnlessARangeIsGiven) {
+  const auto move = ParseMove(kSmallMove, "nod.yaml");
+  ASSERT_TRUE(move);
+  EXPECT_EQ(move->slowest_bpm, 120);
+  EXPECT_EQ(move->fastest_bpm, 120);
+  const auto wide = ParseMove(std::string(kSmallMove) + "tempo_range_bpm: [90, 150]\n", "nod.yaml");
+  ASSERT_TRUE(wide) << ToString(wide.error());
+  EXPECT_EQ(wide->slowest_bpm, 90);
+  EXPECT_EQ(wide->fastest_bpm, 150);
+}
+
+TEST(ParseMove, ReachesAPoseAsItsEaseSays) {
+  const auto bend_before = [](const std::string& ease) {
+    std::string yaml(kSmallMove);
+    yaml.replace(yaml.find("neck:"), 5, "ease: " + ease + ", neck:");
+    const auto move = ParseMove(yaml, "nod.yaml");
+    EXPECT_TRUE(move) << ToString(move.error());
+    return move->curves.At(0.5)[MiddleControl::kNeckBend];
+  };
+  EXPECT_EQ(bend_before("snap"), 0);
+  EXPECT_LT(bend_before("rush"), bend_before("smooth"));
+  EXPECT_LT(bend_before("smooth"), bend_before("linger"));
 }
 
 TEST(ParseMove, MirrorsTheFirstHalf) {

@@ -10,11 +10,14 @@
 namespace etude {
 namespace {
 
+constexpr Ease kAllEases[] = {Ease::kSmooth, Ease::kLinger, Ease::kRush, Ease::kSnap, Ease::kStep};
+
+/// Keys with every ease.
 std::vector<PeriodicCurve::Key> RandomKeys(RandomStream& random) {
   std::vector<PeriodicCurve::Key> keys;
   double at = random.Uniform(0, 0.3);
   while (at < 4) {
-    keys.push_back({at, random.Normal()});
+    keys.push_back({at, random.Normal(), kAllEases[random.IndexBelow(std::size(kAllEases))]});
     at += random.Uniform(0.3, 1.0);
   }
   return keys;
@@ -59,6 +62,46 @@ TEST(PeriodicCurve, HasNoStepInItsFirstTwoDerivativesAtAnyKey) {
     }
   }
   EXPECT_GT(largest_bend, 10) << "the curves must bend for the comparison to mean anything";
+}
+
+TEST(PeriodicCurve, HasNoStepInItsFirstTwoDerivativesWhereASnapOrAStepStartsAndEnds) {
+  for (Ease ease : {Ease::kSnap, Ease::kStep}) {
+    const PeriodicCurve curve({{0, 1}, {1, 3, ease}, {2.5, 2}}, 4);
+    for (double share : {0.2, 0.5, 0.84}) {
+      const Derivatives left = OneSided(curve, share, -1e-4), right = OneSided(curve, share, 1e-4);
+      EXPECT_NEAR(left.slope, right.slope, 1e-3) << share;
+      EXPECT_NEAR(left.bend, right.bend, 0.2) << share;
+    }
+  }
+}
+
+TEST(PeriodicCurve, AnEaseChangesWhenAndNotWhere) {
+  const auto half_way = [](Ease ease) { return PeriodicCurve({{0, 0}, {1, 1, ease}, {2, 1}}, 4).At(0.5); };
+  EXPECT_NEAR(half_way(Ease::kSmooth), 0.5, 0.05);
+  EXPECT_GT(half_way(Ease::kLinger), 0.65) << "most of the way early";
+  EXPECT_LT(half_way(Ease::kRush), 0.35) << "most of the way late";
+  EXPECT_EQ(half_way(Ease::kSnap), 0) << "still waiting";
+  const PeriodicCurve step({{0, 0}, {1, 1, Ease::kStep}, {2, 1}}, 4);
+  EXPECT_EQ(step.At(0.19), 0);
+  EXPECT_NEAR(step.At(0.85), 1, 1e-12);
+}
+
+TEST(PeriodicCurve, NeverTurnsBackOnItsWayWhateverTheEase) {
+  for (Ease ease : kAllEases) {
+    const PeriodicCurve curve({{0, 0}, {0.7, 1, ease}, {1.9, 2, ease}, {3, 5, ease}}, 4);
+    for (double at = 0; at < 2.985; at += 0.01) ASSERT_GE(curve.At(at + 0.01), curve.At(at) - 1e-12) << at;
+  }
+}
+
+TEST(PeriodicCurve, TakesPrescribedDerivatives) {
+  constexpr double kGravity = 2.5, kHalf = 0.4;
+  const double top = 0.5 * kGravity * kHalf * kHalf, speed = kGravity * kHalf;
+  const PeriodicCurve curve({{0, 0},
+                             {1 - kHalf, 0, Ease::kSmooth, {{speed, -kGravity}}},
+                             {1, top, Ease::kSmooth, {{0, -kGravity}}},
+                             {1 + kHalf, 0, Ease::kSmooth, {{-speed, -kGravity}}}},
+                            3);
+  for (double t = -kHalf; t <= kHalf; t += 0.05) EXPECT_NEAR(curve.At(1 + t), top - 0.5 * kGravity * t * t, 1e-12);
 }
 
 TEST(PeriodicCurve, StaysWithinItsKeys) {

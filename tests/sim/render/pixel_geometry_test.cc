@@ -8,48 +8,10 @@
 namespace etude {
 namespace {
 
-struct Comparison {
-  int compared = 0;
-  int on_outlines = 0;     // differ, where the outline runs through the pixel's centre
-  int wrong_labels = 0;    // differ, and no outline explains it
-  double worst_depth = 0;  // metres, away from outlines
-};
-
-// Every third pixel of every third row. An outline within a 20th of a pixel excuses a difference.
-Comparison Compare(const View& view, const RayCaster& caster) {
-  constexpr double kMargin = 0.05;
-  Comparison result;
-  for (int y = 0; y < view.labels.height; y += 3) {
-    for (int x = 0; x < view.labels.width; x += 3) {
-      ++result.compared;
-      const double u = x + 0.5, v = y + 0.5;
-      const Sight expected = caster.Cast(u, v);
-      const double difference = std::abs(view.depth.At(x, y) - expected.depth);
-      const bool same_label = view.labels.At(x, y) == expected.label;
-      if (same_label && difference <= result.worst_depth) continue;
-      if (!caster.IsClear(u, v, kMargin)) {
-        ++result.on_outlines;
-      } else if (!same_label) {
-        ++result.wrong_labels;
-      } else {
-        result.worst_depth = difference;
-      }
-    }
-  }
-  return result;
-}
-
-std::vector<Camera> Cameras() {
-  Intrinsics skewed{.width = 501, .height = 377, .fx = 480, .fy = 455, .cx = 230.25, .cy = 201.5, .skew = 14};
-  Intrinsics close{.width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
-  return {LookAt({}, {-1.2, 1.4, 3.9}, {0, 0.95, 0}), LookAt(skewed, {2.1, 0.6, 3.0}, {0.1, 1.0, 0}),
-          LookAt(close, {0.4, 2.2, 0.9}, {0, 1.0, 0})};
-}
-
 TEST(Renderer, AgreesWithARayCasterOnEveryLabelAndDepth) {
   const auto renderer = Renderer::Create();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
-  for (const Camera& camera : Cameras()) {
+  for (const Camera& camera : TestCameras()) {
     const View view = (*renderer)->Render({}, {{Dancer(), PerformerColours()}}, camera, Targets::kAll);
     const Comparison result = Compare(view, {camera, Dancer()});
     EXPECT_GT(result.compared, 8000);
@@ -62,7 +24,7 @@ TEST(Renderer, AgreesWithARayCasterOnEveryLabelAndDepth) {
 TEST(Renderer, WouldBeCaughtBeingHalfAPixelOff) {
   const auto renderer = Renderer::Create();
   ASSERT_TRUE(renderer) << ToString(renderer.error());
-  Camera camera = Cameras().front();
+  Camera camera = TestCameras().front();
   const View view = (*renderer)->Render({}, {{Dancer(), PerformerColours()}}, camera, Targets::kAll);
   camera.intrinsics.cx += 0.5;
   EXPECT_GT(Compare(view, {camera, Dancer()}).wrong_labels, 50);

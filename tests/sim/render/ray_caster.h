@@ -14,10 +14,18 @@ struct Sight {
 };
 
 /// The renderer's second implementation: one ray at a time, in double precision, with sim/body's
-/// HitDistance instead of shaders.
+/// HitDistance and a ray-triangle test instead of shaders.
 class RayCaster {
  public:
-  RayCaster(const Camera& camera, std::vector<Capsule> shape) : camera_(camera), shape_(std::move(shape)) {}
+  RayCaster(const Camera& camera, std::vector<Capsule> shape, const std::vector<Surface>& surfaces = {})
+      : camera_(camera), shape_(std::move(shape)) {
+    for (const Surface& surface : surfaces) {
+      for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+        const auto& [a, b, c] = surface.triangles[i];
+        triangles_.push_back({surface.parts[i], surface.positions[a], surface.positions[b], surface.positions[c]});
+      }
+    }
+  }
 
   /// (u, v) in pixels, the centre of pixel (i, j) being (i + 0.5, j + 0.5).
   Sight Cast(double u, double v) const {
@@ -38,6 +46,12 @@ class RayCaster {
       nearest = distance;
       sight = {static_cast<std::uint32_t>(capsule.part), distance / stretch};
     }
+    for (const Triangle& triangle : triangles_) {
+      const double distance = triangle.Hit(camera_.p_WC, direction);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      sight = {static_cast<std::uint32_t>(triangle.part), distance / stretch};
+    }
     if (nearest == room && std::isfinite(room) && IsInShadow(camera_.p_WC + room * direction)) {
       sight.label = static_cast<std::uint32_t>(Part::kShadow);
     }
@@ -56,6 +70,24 @@ class RayCaster {
   }
 
  private:
+  struct Triangle {
+    Part part;
+    glm::dvec3 a, b, c;
+
+    // Möller and Trumbore 1997, both sides.
+    double Hit(const glm::dvec3& origin, const glm::dvec3& direction) const {
+      constexpr double kNowhere = std::numeric_limits<double>::infinity();
+      const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(direction, ac);
+      const double determinant = glm::dot(ab, p);
+      if (determinant == 0) return kNowhere;
+      const glm::dvec3 from_a = origin - a, q = glm::cross(from_a, ab);
+      const double u = glm::dot(from_a, p) / determinant, v = glm::dot(direction, q) / determinant;
+      if (u < 0 || v < 0 || u + v > 1) return kNowhere;
+      const double distance = glm::dot(ac, q) / determinant;
+      return distance > 0 ? distance : kNowhere;
+    }
+  };
+
   double RoomDistance(const glm::dvec3& direction) const {
     double nearest = std::numeric_limits<double>::infinity();
     if (direction.y < 0) nearest = std::min(nearest, -camera_.p_WC.y / direction.y);
@@ -69,11 +101,54 @@ class RayCaster {
     for (const Capsule& capsule : shape_) {
       if (HitDistance(capsule, point, to_lamp / distance) < distance) return true;
     }
+    for (const Triangle& triangle : triangles_) {
+      if (triangle.Hit(point, to_lamp / distance) < distance) return true;
+    }
     return false;
   }
 
   Camera camera_;
   std::vector<Capsule> shape_;
+  std::vector<Triangle> triangles_;
 };
+
+struct Comparison {
+  int compared = 0;
+  int on_outlines = 0;     // differ, where the outline runs through the pixel's centre
+  int wrong_labels = 0;    // differ, and no outline explains it
+  double worst_depth = 0;  // metres, away from outlines
+};
+
+/// Every third pixel of every third row. An outline within a 20th of a pixel excuses a difference.
+inline Comparison Compare(const View& view, const RayCaster& caster) {
+  constexpr double kMargin = 0.05;
+  Comparison result;
+  for (int y = 0; y < view.labels.height; y += 3) {
+    for (int x = 0; x < view.labels.width; x += 3) {
+      ++result.compared;
+      const double u = x + 0.5, v = y + 0.5;
+      const Sight expected = caster.Cast(u, v);
+      const double difference = std::abs(view.depth.At(x, y) - expected.depth);
+      const bool same_label = view.labels.At(x, y) == expected.label;
+      if (same_label && difference <= result.worst_depth) continue;
+      if (!caster.IsClear(u, v, kMargin)) {
+        ++result.on_outlines;
+      } else if (!same_label) {
+        ++result.wrong_labels;
+      } else {
+        result.worst_depth = difference;
+      }
+    }
+  }
+  return result;
+}
+
+/// A usual camera, one with all of its intrinsics crooked, one close by from above.
+inline std::vector<Camera> TestCameras() {
+  const Intrinsics skewed{.width = 501, .height = 377, .fx = 480, .fy = 455, .cx = 230.25, .cy = 201.5, .skew = 14};
+  const Intrinsics close{.width = 320, .height = 240, .fx = 300, .fy = 300, .cx = 160, .cy = 120};
+  return {LookAt({}, {-1.2, 1.4, 3.9}, {0, 0.95, 0}), LookAt(skewed, {2.1, 0.6, 3.0}, {0.1, 1.0, 0}),
+          LookAt(close, {0.4, 2.2, 0.9}, {0, 1.0, 0})};
+}
 
 }  // namespace etude

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 class DetectionExchange : public DetectionFixture {
  protected:
-  const std::unique_ptr<Task> task_ = *MakeTask(std::string("noise: 2\nevents: 6\n") + kFourMethods, FourMoves());
+  const std::unique_ptr<Task> task_ = *MakeTask(std::string("noise: 4\nevents: 6\n") + kFourMethods, FourMoves());
 
   /// What a method outside would say that found what this built-in one found.
   static Json AnswerOf(const CellResult& cell) {

@@ -1,111 +1,8 @@
+#include "sim/render/shader_pieces.h"
 #include "sim/render/shaders.h"
 
 namespace etude {
 namespace {
-
-constexpr const char* kVersion = "#version 330 core\n";
-
-// The pixel's ray and where it meets the empty room.
-constexpr const char* kRoomGeometry = R"glsl(
-uniform mat3 ray_of_pixel;  // (u, v, 1) -> direction in E, of length 1 along the viewing axis
-uniform vec3 eye;           // the camera's centre in the world
-uniform vec3 lamp;          // in the world
-uniform float wall_z;
-
-const float kInfinity = uintBitsToFloat(0x7f800000u);
-
-vec3 PixelRay() { return ray_of_pixel * vec3(gl_FragCoord.xy, 1.0); }
-
-struct RoomHit {
-  float depth;  // along the viewing axis; infinity when nothing is met
-  bool is_wall;
-};
-
-RoomHit MeetRoom(vec3 ray) {
-  float floor_depth = ray.y < 0.0 && eye.y > 0.0 ? -eye.y / ray.y : kInfinity;
-  float wall_depth = ray.z < 0.0 && eye.z > wall_z ? (wall_z - eye.z) / ray.z : kInfinity;
-  return RoomHit(min(floor_depth, wall_depth), wall_depth < floor_depth);
-}
-
-// The light of a room's surface: x = what is left in shadow, y = what the lamp adds.
-vec2 RoomLight(vec3 point, vec3 normal) {
-  vec3 to_lamp = lamp - point;
-  float square = dot(to_lamp, to_lamp);
-  float slant = max(dot(normal, to_lamp) / sqrt(square), 0.0);
-  return vec2(0.54, 1.05 * slant * 60.0 / (50.0 + square));
-}
-
-vec3 RoomNormal(bool is_wall) { return is_wall ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0); }
-)glsl";
-
-constexpr const char* kRoomPaint = R"glsl(
-uniform vec4 floor_tiles[64];
-uniform vec4 wall_tiles[64];
-uniform float pixel_angle;  // the width of a pixel at depth 1
-
-out vec4 room;
-
-int Wrap(float tile) { return int(tile - 8.0 * floor(tile / 8.0)); }
-
-// Hues stay between 140 and 240 degrees: people wear the others.
-vec3 SpotPaint(float tone, bool is_wall) {
-  float pick = fract(tone * 7.0);
-  if (!is_wall) return mix(vec3(0.26, 0.50, 0.62), vec3(0.34, 0.60, 0.64), pick);
-  if (pick < 0.34) return vec3(0.24, 0.58, 0.48);
-  if (pick < 0.67) return vec3(0.28, 0.48, 0.72);
-  return vec3(0.44, 0.74, 0.74);
-}
-
-vec3 Paint(vec2 place, bool is_wall, float blur) {
-  float size = is_wall ? 0.85 : 0.6;
-  vec2 tile = floor(place / size);
-  vec2 within = place / size - tile;
-  int index = Wrap(tile.x) + 8 * Wrap(tile.y);
-  vec4 pattern = is_wall ? wall_tiles[index] : floor_tiles[index];
-  blur /= size;
-
-  vec3 paint = is_wall ? mix(vec3(0.34, 0.62, 0.62), vec3(0.36, 0.56, 0.68), pattern.w)
-                       : mix(vec3(0.30, 0.42, 0.62), vec3(0.36, 0.48, 0.70), pattern.w);
-  float spot = 1.0 - smoothstep(-blur, blur, distance(within, pattern.xy) - pattern.z);
-  paint = mix(paint, SpotPaint(pattern.w, is_wall), pattern.z > 0.0 ? 0.85 * spot : 0.0);
-
-  float to_joint = min(min(within.x, 1.0 - within.x), min(within.y, 1.0 - within.y));
-  float joint = 1.0 - smoothstep(-blur, blur, to_joint - 0.008);
-  return paint * (1.0 - (is_wall ? 0.10 : 0.20) * joint);
-}
-
-void main() {
-  vec3 ray = PixelRay();
-  RoomHit hit = MeetRoom(ray);
-  if (hit.depth == kInfinity) {
-    room = vec4(0.30, 0.40, 0.50, kInfinity);
-    return;
-  }
-  vec3 point = eye + hit.depth * ray;
-  vec2 light = RoomLight(point, RoomNormal(hit.is_wall));
-  float blur = 0.7 * hit.depth * pixel_angle;
-  vec3 paint = Paint(hit.is_wall ? point.xy : point.xz, hit.is_wall, blur);
-  // A skirting board ends the wall.
-  if (hit.is_wall) paint *= 1.0 - 0.35 * (1.0 - smoothstep(-blur, blur, point.y - 0.09));
-  room = vec4(paint * (light.x + light.y), hit.depth);
-}
-)glsl";
-
-constexpr const char* kBackdrop = R"glsl(
-uniform sampler2D kept_room;
-uniform float brightness;
-
-layout(location = 0) out vec4 colour;
-layout(location = 1) out uint label;
-layout(location = 2) out float depth;
-
-void main() {
-  vec4 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0);
-  colour = vec4(room.rgb * brightness, 1.0);
-  label = 0u;
-  depth = room.a;
-}
-)glsl";
 
 // One instance per capsule; its box is a strip of 14 corners.
 constexpr const char* kBox = R"glsl(
@@ -167,7 +64,6 @@ void main() {
 )glsl";
 
 constexpr const char* kBody = R"glsl(
-uniform float brightness;
 uniform float farthest;
 
 flat in vec4 capsule_start;
@@ -239,21 +135,13 @@ void main() {
 
   vec3 skin = paint.rgb;
   if (paint.a > 0.5) skin = FacePaint(skin, point);
-  vec3 to_lamp = normalize(lamp - eye - point);
-  float facing = max(-dot(normal, normalize(ray)), 0.0);
-  float sky = 0.5 + 0.5 * normal.y;
-  float sun = max((dot(normal, to_lamp) + 0.2) / 1.2, 0.0);
-  float rim = (1.0 - facing) * (1.0 - facing) * (1.0 - facing);
-  float light = 0.36 + 0.18 * sky + 0.52 * sun;
-  colour = vec4((skin * light + 0.12 * rim * sky) * brightness, 1.0);
+  colour = LitPaint(skin, normal, point, ray);
   label = uint(capsule_end.w);
   gl_FragDepth = depth / farthest;
 }
 )glsl";
 
 constexpr const char* kShadow = R"glsl(
-uniform sampler2D kept_room;
-uniform float brightness;
 uniform bool onto_wall;
 
 flat in vec4 capsule_start;
@@ -279,39 +167,22 @@ void main() {
   RoomHit hit = MeetRoom(ray);
   if (hit.is_wall != onto_wall || hit.depth == kInfinity) discard;
   vec3 point = hit.depth * ray, lamp_E = lamp - eye;
-  // How deep the light's way runs inside the capsule: 0 at its skin, 1 at its axis.
   float gap = sqrt(SquaredDistance(point, lamp_E, capsule_start.xyz, capsule_end.xyz));
   float inside = 1.0 - gap / capsule_start.w;
   if (inside <= 0.0) discard;
 
-  // Softer the farther the shadow falls; the outermost edge is where the label ends.
+  // Softer the farther the shadow falls.
   float softness = clamp(0.2 * distance(point, capsule_start.xyz), 0.15, 0.6);
-  vec2 light = RoomLight(eye + point, RoomNormal(hit.is_wall));
-  float left_over = 1.0 - smoothstep(0.0, softness, inside) * light.y / (light.x + light.y);
-  vec3 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).rgb;
-  colour = vec4(room * (brightness * left_over), 1.0);
+  colour = RoomInShadow(hit, point, inside, softness);
   label = 1u;
 }
 )glsl";
 
-std::string Assemble(std::initializer_list<const char*> pieces) {
-  std::string source = kVersion;
-  for (const char* piece : pieces) source += piece;
-  return source;
-}
-
 }  // namespace
 
-std::string FullScreenVertexShader() {
-  return Assemble({R"glsl(
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
-)glsl"});
-}
-std::string RoomFragmentShader() { return Assemble({kRoomGeometry, kRoomPaint}); }
-std::string BackdropFragmentShader() { return Assemble({kBackdrop}); }
-std::string BodyVertexShader() { return Assemble({kBox, kBodyPlace}); }
-std::string BodyFragmentShader() { return Assemble({kRoomGeometry, kBody}); }
-std::string ShadowVertexShader() { return Assemble({kBox, kShadowPlace}); }
-std::string ShadowFragmentShader() { return Assemble({kRoomGeometry, kShadow}); }
+std::string CapsuleVertexShader() { return AssembleShader({kBox, kBodyPlace}); }
+std::string CapsuleFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kBody}); }
+std::string CapsuleShadowVertexShader() { return AssembleShader({kBox, kShadowPlace}); }
+std::string CapsuleShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }
 
 }  // namespace etude

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/clips/open_clip.h"
+#include "bench/clips/time_span.h"
+#include "engine/base/result.h"
+
+namespace etude {
+
+enum class MotionFormat { kBvh, kGlb, kTrc, kCsv };
+/// By the extension of a file's name.
+Result<MotionFormat> FormatOfName(const std::string& path);
+
+/// Who a converted motion shall be performed by.
+enum class Performer { kFile, kNone, kBear, kMannequin };
+
+struct ConvertOptions {
+  std::optional<TimeSpan> trim;
+  std::optional<double> rate_hz;  ///< the clip's own; of bodies 30 Hz
+  bool mirror = false;
+  bool ground = false;    ///< as a body: twenty joints, metres, Y up, feet on the floor
+  bool retarget = false;  ///< as a body with the canonical proportions
+  Performer performer = Performer::kFile;
+  OpenOptions open;
+};
+
+/// The bytes of the converted file, and what was done on the way, in plain words.
+struct Converted {
+  std::string bytes;
+  std::string note;
+};
+
+/// Converts the clips of one file: one, or for GLB any number. A clip keeps its own skeleton (and meshes, from glTF to
+/// GLB) unless a body is asked for: by `ground`, `retarget`, a performer, or a format that has nothing but joints.
+/// BVH becomes GLB in metres and Y up, which needs a unit: found by the roles, or told.
+Result<Converted> ConvertClips(std::vector<SourceClip> clips, MotionFormat format, const ConvertOptions& options);
+
+}  // namespace etude

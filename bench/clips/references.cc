@@ -1,0 +1,74 @@
+#include "bench/clips/references.h"
+
+#include <glob.h>
+
+#include <filesystem>
+
+#include "bench/clips/builtin_clip.h"
+#include "sim/choreography/song.h"
+
+namespace etude {
+namespace {
+
+std::vector<std::string> FilesMatching(const std::string& pattern) {
+  glob_t matches{};
+  const int status = ::glob(pattern.c_str(), GLOB_TILDE, nullptr, &matches);
+  std::vector<std::string> files;
+  for (std::size_t i = 0; status == 0 && i < matches.gl_pathc; ++i) files.emplace_back(matches.gl_pathv[i]);
+  ::globfree(&matches);
+  return files;
+}
+
+std::vector<std::string> BuiltinsOf(const std::string& reference) {
+  const std::string wanted = reference.substr(kBuiltinPrefix.size());
+  std::vector<std::string> names = wanted == "*"       ? BuiltinMoveNames()
+                                   : wanted == "acts"  ? BuiltinActNames()
+                                   : wanted == "songs" ? BuiltinSongNames()
+                                                       : std::vector<std::string>{wanted};
+  for (std::string& name : names) name.insert(0, kBuiltinPrefix);
+  return names;
+}
+
+std::vector<std::string> FilesOf(const std::string& reference) {
+  std::error_code ignored;
+  if (std::filesystem::exists(reference, ignored)) return {reference};  // brackets in it are no pattern then
+  if (std::vector<std::string> files = FilesMatching(reference); !files.empty()) return files;
+  const SplitReference split = Split(reference);
+  if (!split.animation) return {};
+  if (std::filesystem::exists(split.path, ignored)) return {reference};
+  std::vector<std::string> files = FilesMatching(split.path);
+  for (std::string& match : files) match += "#" + *split.animation;
+  return files;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> ExpandReference(const std::string& reference, const Place& place) {
+  const bool is_builtin = reference.starts_with(kBuiltinPrefix);
+  std::vector<std::string> found = is_builtin ? BuiltinsOf(reference) : FilesOf(reference);
+  if (found.empty()) {
+    return Fail(
+        place,
+        "no clip matches '{}'; allowed: builtin:NAME, a BVH or glTF file, file.glb#ANIMATION, or a pattern such "
+        "as 'mocap/*.bvh'",
+        reference);
+  }
+  if (found.size() > kMostClips) return Fail(place, "'{}' stands for more than {} clips", reference, kMostClips);
+  return found;
+}
+
+SplitReference Split(const std::string& reference) {
+  std::error_code ignored;
+  if (std::filesystem::exists(reference, ignored)) return {reference, std::nullopt};
+  // An animation's name may hold a '#' as well as a file's: what is left of one of them is there, or nothing is.
+  for (std::size_t hash = reference.rfind('#'); hash != std::string::npos && hash > 0;
+       hash = reference.rfind('#', hash - 1)) {
+    std::string path = reference.substr(0, hash);
+    if (std::filesystem::exists(path, ignored)) return {std::move(path), reference.substr(hash + 1)};
+  }
+  const std::size_t hash = reference.find('#');
+  if (hash == std::string::npos) return {reference, std::nullopt};
+  return {reference.substr(0, hash), reference.substr(hash + 1)};
+}
+
+}  // namespace etude

@@ -1,0 +1,62 @@
+// What a picture costs: of the empty room, of a person of capsules, of a character of some thousand triangles.
+#include <benchmark/benchmark.h>
+
+#include "sim/character/characters.h"
+#include "sim/character/posed.h"
+#include "sim/choreography/stance.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+namespace {
+
+constexpr Intrinsics kVga{};
+constexpr Intrinsics kHd{.width = 1280, .height = 720, .fx = 900, .fy = 900, .cx = 640, .cy = 360};
+
+std::vector<Figure> Nobody() { return {}; }
+std::vector<Figure> OfCapsules() { return {{BodyCapsules(StandingPose()), PerformerColours()}}; }
+std::vector<Figure> OfSurfaces() { return {PosedFigure(BearCharacter(), StandingPose())}; }
+
+// Of the clock on the wall, because unpinned, GL draws with threads of its own.
+void InMilliseconds(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+enum class Kind { kColour, kAll, kSmooth };
+
+void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intrinsics& intrinsics, Kind kind) {
+  const auto renderer = Renderer::Create();
+  if (!renderer) {
+    state.SkipWithError(renderer.error().message.c_str());
+    return;
+  }
+  const std::vector<Figure> figures = make();
+  const Camera camera = LookAt(intrinsics, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
+  const auto draw = [&] {
+    if (kind == Kind::kSmooth) {
+      benchmark::DoNotOptimize((*renderer)->RenderSmooth({}, figures, camera));
+    } else {
+      const Targets targets = kind == Kind::kAll ? Targets::kAll : Targets::kColour;
+      benchmark::DoNotOptimize((*renderer)->Render({}, figures, camera, targets));
+    }
+  };
+  draw();  // the first picture waits for shaders to be compiled
+  for (auto _ : state) draw();
+}
+BENCHMARK_CAPTURE(Picture, room_vga, Nobody, kVga, Kind::kColour)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, capsules_vga, OfCapsules, kVga, Kind::kColour)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, capsules_vga_all, OfCapsules, kVga, Kind::kAll)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, capsules_hd_smooth, OfCapsules, kHd, Kind::kSmooth)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, surfaces_hd_smooth, OfSurfaces, kHd, Kind::kSmooth)->Apply(InMilliseconds);
+
+// A character brought into a pose, before it is drawn.
+void Pose(benchmark::State& state) {
+  const Character bear = BearCharacter();
+  const BodyPose pose = StandingPose();
+  for (auto _ : state) benchmark::DoNotOptimize(PosedFigure(bear, pose));
+}
+BENCHMARK(Pose)->Apply(InMilliseconds);
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,76 @@
+#include "cli/clip_reading.h"
+
+#include <charconv>
+#include <filesystem>
+#include <utility>
+
+#include "bench/clips/references.h"
+#include "bench/files/files.h"
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+Result<double> ReadUnit(const std::string& text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {{"m", 1},       {"cm", 0.01},   {"mm", 0.001},
+                                                            {"in", 0.0254}, {"ft", 0.3048}, {"cmu", 0.0254 / 0.45}};
+  for (const auto& [name, metres] : kUnits) {
+    if (text == name) return metres;
+  }
+  double metres = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), metres);
+  constexpr double kSmallest = 1e-6, kLargest = 1e3;
+  if (error == std::errc() && end == text.data() + text.size() && metres >= kSmallest && metres <= kLargest) {
+    return metres;
+  }
+  return Fail({}, "--unit: {} is no unit; allowed: m, cm, mm, in, ft, cmu (5.64 cm), or how many metres one unit has",
+              Quote(text));
+}
+
+}  // namespace
+
+Result<OpenOptions> ReadOptions(const ClipReading& reading) {
+  OpenOptions options;
+  if (!reading.joint_map.empty()) {
+    const auto text = ReadWholeFile(reading.joint_map);
+    if (!text) return tl::unexpected(text.error());
+    auto roles = ReadJointMapFile(*text, reading.joint_map);
+    if (!roles) return tl::unexpected(roles.error());
+    options.roles = std::move(*roles);
+  }
+  if (!reading.unit.empty()) {
+    const auto metres = ReadUnit(reading.unit);
+    if (!metres) return tl::unexpected(metres.error());
+    options.body.metres_per_unit = *metres;
+  }
+  if (!reading.up.empty()) options.body.up = reading.up == "z" ? UpAxis::kZ : UpAxis::kY;
+  return options;
+}
+
+Result<std::optional<TimeSpan>> ReadTrim(const std::string& text) {
+  if (text.empty()) return std::optional<TimeSpan>();
+  const auto span = ParseTimeSpan(text);
+  if (!span) return Fail({}, "--trim: {}", span.error().message);
+  return std::optional(*span);
+}
+
+Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references) {
+  std::vector<std::string> all;
+  for (const std::string& reference : references) {
+    auto expanded = ExpandReference(reference, {});
+    if (!expanded) return tl::unexpected(expanded.error());
+    all.insert(all.end(), expanded->begin(), expanded->end());
+    if (all.size() > kMostClips) return Fail({}, "more than {} clips", kMostClips);
+  }
+  return all;
+}
+
+Result<void> CheckOutput(const std::string& path, bool overwrite) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
+  if (overwrite || !std::filesystem::exists(path, ignored)) return {};
+  return Fail({path, 0, 0}, "is there already; --overwrite replaces it");
+}
+
+}  // namespace etude

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/clips/convert.h"
+#include "bench/clips/open_clip.h"
+#include "cli/clip_commands.h"
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// --joint-map, --unit and --up.
+Result<OpenOptions> ReadOptions(const ClipReading& reading);
+
+/// --trim; nothing without it.
+Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
+
+/// What all references stand for, in order.
+Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references);
+
+/// Refuses to write over what is there already.
+Result<void> CheckOutput(const std::string& path, bool overwrite);
+
+}  // namespace etude

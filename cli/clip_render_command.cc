@@ -1,0 +1,127 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "bench/files/files.h"
+#include "cli/clip_commands.h"
+#include "cli/clip_reading.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "reports/clips/clip_film.h"
+#include "reports/clips/contact_sheet.h"
+
+namespace etude {
+namespace {
+
+struct Size {
+  int width = 0;
+  int height = 0;
+};
+
+/// "200x260"; `otherwise` without one.
+Result<Size> ReadSize(const std::string& text, const Size& otherwise) {
+  if (text.empty()) return otherwise;
+  constexpr int kSmallest = 16, kLargest = 2048;  // drawn twice as large, and shrunk
+  Size size;
+  int end = 0;
+  const bool is_size = std::sscanf(text.c_str(), "%5dx%5d%n", &size.width, &size.height, &end) == 2 &&
+                       end == static_cast<int>(text.size());
+  const auto fits = [](int side) { return side >= kSmallest && side <= kLargest; };
+  if (is_size && fits(size.width) && fits(size.height)) return size;
+  return Fail({}, "--size: '{}' is no size; allowed: WIDTHxHEIGHT in pixels, {} to {} each", text, kSmallest, kLargest);
+}
+
+std::optional<ActorKind> ActorNamed(const std::string& name) {
+  if (name == "own") return ActorKind::kOwn;
+  if (name == "bear") return ActorKind::kBear;
+  if (name == "mannequin") return ActorKind::kMannequin;
+  if (name == "body") return ActorKind::kBody;
+  return std::nullopt;
+}
+
+Viewpoint ViewNamed(const std::string& name) {
+  if (name == "front") return Viewpoint::kFront;
+  return name == "side" ? Viewpoint::kSide : Viewpoint::kThreeQuarter;
+}
+
+Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
+  const auto reading = ReadOptions(options.reading);
+  if (!reading) return tl::unexpected(reading.error());
+  const auto trim = ReadTrim(options.trim);
+  if (!trim) return tl::unexpected(trim.error());
+  const auto references = ExpandAll(options.clips);
+  if (!references) return tl::unexpected(references.error());
+  std::vector<ClipActor> actors;
+  for (const std::string& reference : *references) {
+    auto clips = ReadClips(reference);
+    if (!clips) return tl::unexpected(clips.error());
+    for (SourceClip& clip : *clips) {
+      auto part = TrimTo(clip.clip, *trim);
+      if (!part) return Fail({clip.source, 0, 0}, "{}", part.error().message);
+      clip.clip = std::move(*part);
+      auto opened = UnderstandClip(std::move(clip), *reading);
+      if (!opened) return tl::unexpected(opened.error());
+      auto actor = ClipActor::Make(std::move(*opened), ActorNamed(options.character));
+      if (!actor) return tl::unexpected(actor.error());
+      actors.push_back(std::move(*actor));
+    }
+  }
+  return actors;
+}
+
+Result<void> WriteSheet(const ClipRenderOptions& options) {
+  const auto size = ReadSize(options.size, {200, 260});
+  if (!size) return tl::unexpected(size.error());
+  auto actors = Cast(options);
+  if (!actors) return tl::unexpected(actors.error());
+  auto renderer = Renderer::Create();
+  if (!renderer) return tl::unexpected(renderer.error());
+  const bool alone = actors->size() == 1;
+  const int frames = options.frames > 0 ? options.frames : alone ? 12 : 8;
+  const int columns = options.columns > 0 ? options.columns : alone ? 6 : frames;
+  const SheetOptions sheet{ViewNamed(options.view), size->width, size->height, frames, columns};
+  const auto png = DrawContactSheet(std::move(*actors), sheet, **renderer);
+  if (!png) return tl::unexpected(png.error());
+  return WriteFileAtomically(options.output, *png);
+}
+
+/// False when Ctrl-C came.
+Result<bool> WriteFilm(const ClipRenderOptions& options) {
+  const auto size = ReadSize(options.size, {720, 720});
+  if (!size) return tl::unexpected(size.error());
+  if (size->width % 2 != 0 || size->height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
+  auto actors = Cast(options);
+  if (!actors) return tl::unexpected(actors.error());
+  if (actors->size() > 1) {
+    return Fail({}, "a film shows one clip, these are {}; a contact sheet (.png) shows all", actors->size());
+  }
+  auto renderer = Renderer::Create();
+  if (!renderer) return tl::unexpected(renderer.error());
+  const Interrupt interrupt;
+  const FilmOptions film{ViewNamed(options.view), size->width, size->height, interrupt.requested()};
+  return FilmClip(std::move(actors->front()), film, options.output, **renderer);
+}
+
+}  // namespace
+
+int ClipRenderCommand(const ClipRenderOptions& options) {
+  const std::string extension = std::filesystem::path(options.output).extension().string();
+  if (extension != ".png" && extension != ".mp4") {
+    return Complain({{options.output, 0, 0}, "is no picture's name; allowed: .png (a contact sheet), .mp4 (a film)"});
+  }
+  if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+  if (extension == ".png") {
+    if (auto written = WriteSheet(options); !written) return Complain(written.error());
+  } else {
+    const auto whole = WriteFilm(options);
+    if (!whole) return Complain(whole.error());
+    if (!*whole) {
+      Complain({{}, "stopped; nothing is kept"});
+      return kInterrupted;
+    }
+  }
+  fmt::print("{}\n", options.output);
+  return kSuccess;
+}
+
+}  // namespace etude

@@ -1,0 +1,240 @@
+#include "engine/formats/gltf_mesh.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+
+#include "engine/formats/gltf_skin.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostTriangles = 2'000'000;
+constexpr std::size_t kMostVertices = 2'000'000;
+constexpr std::size_t kMostBindings = 500'000;
+constexpr int kNone = -1;
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// A material of the file, or the default one: white.
+Material ReadMaterial(const tinygltf::Material& source) {
+  Material material{.name = source.name};
+  const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
+  for (int k = 0; k < 3; ++k) {
+    const double value = static_cast<std::size_t>(k) < factor.size() ? factor[static_cast<std::size_t>(k)] : 1.0;
+    material.colour[k] = std::clamp(value, 0.0, 1.0);
+  }
+  return material;
+}
+
+Triangles Assemble(const std::vector<std::uint32_t>& corners, int mode) {
+  Triangles triangles;
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+      triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    }
+  }
+  for (std::size_t i = 0; mode == TINYGLTF_MODE_TRIANGLE_STRIP && i + 2 < corners.size(); ++i) {
+    triangles.push_back({corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
+  }
+  for (std::size_t i = 0; mode == TINYGLTF_MODE_TRIANGLE_FAN && i + 2 < corners.size(); ++i) {
+    triangles.push_back({corners[i + 1], corners[i + 2], corners[0]});
+  }
+  return triangles;
+}
+
+/// Gives every triangle vertices of its own.
+void Unweld(SkinnedMesh& mesh) {
+  std::vector<SkinnedMesh::Vertex> vertices;
+  vertices.reserve(3 * mesh.triangles.size());
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& corner : triangle) {
+      vertices.push_back(mesh.vertices[corner]);
+      corner = static_cast<std::uint32_t>(vertices.size()) - 1;
+    }
+  }
+  mesh.vertices = std::move(vertices);
+}
+
+/// Makes normals unit; those of length 0 become the mean of their triangles', by area.
+void FinishNormals(SkinnedMesh& mesh) {
+  std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0));
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const glm::dvec3 origin = mesh.vertices[a].position;
+    const glm::dvec3 area = glm::cross(mesh.vertices[b].position - origin, mesh.vertices[c].position - origin);
+    for (const std::uint32_t corner : {a, b, c}) sums[corner] += area;
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    glm::dvec3& normal = mesh.vertices[i].normal;
+    if (IsUnit(glm::dot(normal, normal))) continue;
+    if (glm::length(normal) < 1e-9) normal = sums[i];
+    const double length = glm::length(normal);
+    normal = length > 0 ? normal / length : glm::dvec3(0, 1, 0);
+  }
+}
+
+class MeshReader {
+ public:
+  MeshReader(GltfFile& file, const GltfNodes& nodes, Character& character)
+      : file_(file), model_(file.model()), nodes_(nodes), character_(character) {}
+
+  Result<void> Read() {
+    for (const tinygltf::Material& material : model_.materials) character_.materials.push_back(ReadMaterial(material));
+    // In the order of the file's meshes, not of the nodes that they happen to hang on.
+    std::vector<int> nodes = nodes_.mesh_nodes;
+    std::ranges::stable_sort(nodes, {}, [&](int node) { return Node(node).mesh; });
+    for (const int node : nodes) {
+      if (auto ok = ReadNode(node); !ok) return ok;
+    }
+    return {};
+  }
+
+ private:
+  const tinygltf::Node& Node(int node) const { return model_.nodes[static_cast<std::size_t>(node)]; }
+
+  Result<void> ReadNode(int node) {
+    const std::string where = fmt::format("nodes[{}]", node);
+    const int index = Node(node).mesh;
+    if (auto ok = file_.CheckIndex(index, model_.meshes.size(), where + ".mesh"); !ok) return ok;
+    const bool has_skin = Node(node).skin != kNone;
+    auto bindings = ReadGltfBindings(file_, nodes_, node);
+    if (!bindings) return tl::unexpected(bindings.error());
+    const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
+    if (mesh.primitives.empty()) {
+      return file_.Refuse(fmt::format("meshes[{}].primitives", index), "found none; at least one is needed");
+    }
+    bindings_ += bindings->size() * mesh.primitives.size();  // every surface gets a copy
+    if (bindings_ > kMostBindings) {
+      return file_.Refuse(where, "with it surfaces hang on {} joints; allowed: {}", bindings_, kMostBindings);
+    }
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+      const std::string place = fmt::format("meshes[{}].primitives[{}]", index, i);
+      SkinnedMesh read;
+      read.name = mesh.name.empty() ? NodeName(node) : mesh.name;
+      read.bindings = *bindings;
+      if (auto ok = ReadPrimitive(mesh.primitives[i], has_skin, place, read); !ok) return ok;
+      if (read.triangles.empty()) continue;
+      if (!has_skin && IsMirrored(nodes_.skeleton, nodes_.joint_of[node])) TurnOver(read);
+      character_.meshes.push_back(std::move(read));
+    }
+    return {};
+  }
+
+  std::string NodeName(int node) const {
+    const int joint = nodes_.joint_of[node];
+    return joint < 0 ? Node(node).name : nodes_.skeleton.joints[joint].name;
+  }
+
+  Result<void> ReadPrimitive(const tinygltf::Primitive& primitive, bool has_skin, const std::string& where,
+                             SkinnedMesh& mesh) {
+    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+      return file_.Refuse(where + ".mode", "found {}; allowed: 0 to 6", primitive.mode);
+    }
+    if (primitive.mode < TINYGLTF_MODE_TRIANGLES || !primitive.attributes.contains("POSITION")) return {};
+    if (auto ok = ReadVertices(primitive, where, mesh); !ok) return ok;
+    if (auto ok = ReadTriangles(primitive, where, mesh); !ok) return ok;
+    if (has_skin) {
+      if (auto ok = ReadGltfWeights(file_, primitive, where, mesh); !ok) return ok;
+    }
+    const bool is_flat = !primitive.attributes.contains("NORMAL");
+    triangles_ += mesh.triangles.size();
+    vertices_ += is_flat ? 3 * mesh.triangles.size() : mesh.vertices.size();
+    if (vertices_ > kMostVertices || triangles_ > kMostTriangles) {
+      return file_.Refuse(where, "with it there are {} vertices and {} triangles; allowed: {} and {}", vertices_,
+                          triangles_, kMostVertices, kMostTriangles);
+    }
+    if (is_flat) Unweld(mesh);
+    FinishNormals(mesh);
+    return ReadMaterialIndex(primitive, where, mesh);
+  }
+
+  Result<void> ReadMaterialIndex(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
+    mesh.material = primitive.material;
+    if (primitive.material != kNone) {
+      return file_.CheckIndex(primitive.material, model_.materials.size(), where + ".material");
+    }
+    if (character_.materials.size() == model_.materials.size()) {
+      character_.materials.push_back(ReadMaterial(tinygltf::Material()));
+    }
+    mesh.material = static_cast<int>(character_.materials.size()) - 1;
+    return {};
+  }
+
+  Result<void> ReadVertices(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
+    auto positions = file_.Read(primitive.attributes.at("POSITION"), 3, GltfComponents::kAny, where + ".POSITION");
+    if (!positions) return tl::unexpected(positions.error());
+    if (positions->Count() > kMostVertices) {
+      return file_.Refuse(where, "found {} vertices; allowed: {}", positions->Count(), kMostVertices);
+    }
+    mesh.vertices.resize(positions->Count());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const double* p = (*positions)[i];
+      mesh.vertices[i].position = {p[0], p[1], p[2]};
+    }
+    const auto normal = primitive.attributes.find("NORMAL");
+    if (normal == primitive.attributes.end()) return {};
+    auto normals =
+        ReadGltfAttribute(file_, normal->second, 3, GltfComponents::kFloatOrNormalized, where + ".NORMAL", mesh);
+    if (!normals) return tl::unexpected(normals.error());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const double* n = (*normals)[i];
+      mesh.vertices[i].normal = {n[0], n[1], n[2]};
+    }
+    return {};
+  }
+
+  Result<void> ReadTriangles(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
+    std::vector<std::uint32_t> corners;
+    if (primitive.indices == kNone) {
+      corners.resize(mesh.vertices.size());
+      for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+    } else {
+      auto indices = file_.Read(primitive.indices, 1, GltfComponents::kUnsigned, where + ".indices");
+      if (!indices) return tl::unexpected(indices.error());
+      for (std::size_t i = 0; i < indices->values.size(); ++i) {
+        const double index = indices->values[i];
+        if (index >= static_cast<double>(mesh.vertices.size())) {
+          return file_.Refuse(where + ".indices", "found vertex {} in element {}; allowed: 0 to {}", index, i,
+                              mesh.vertices.size() - 1);
+        }
+        corners.push_back(static_cast<std::uint32_t>(index));
+      }
+    }
+    const bool is_list = primitive.mode == TINYGLTF_MODE_TRIANGLES;
+    if (corners.size() < 3 || (is_list && corners.size() % 3 != 0)) {
+      return file_.Refuse(where, "found {} corners; allowed: {}", corners.size(),
+                          is_list ? "multiples of 3" : "at least 3");
+    }
+    mesh.triangles = Assemble(corners, primitive.mode);
+    return {};
+  }
+
+  GltfFile& file_;
+  const tinygltf::Model& model_;
+  const GltfNodes& nodes_;
+  Character& character_;
+  std::size_t bindings_ = 0;
+  std::size_t vertices_ = 0;
+  std::size_t triangles_ = 0;
+};
+
+}  // namespace
+
+Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, Character& character) {
+  return MeshReader(file, nodes, character).Read();
+}
+
+bool IsMirrored(const Skeleton& skeleton, int joint) {
+  bool mirrored = false;
+  for (; joint >= 0; joint = skeleton.joints[joint].parent) {
+    const glm::dvec3& scale = skeleton.joints[joint].rest.scale;
+    if (scale.x * scale.y * scale.z < 0) mirrored = !mirrored;
+  }
+  return mirrored;
+}
+
+void TurnOver(SkinnedMesh& mesh) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
+}  // namespace etude

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/formats/gltf_file.h"
+#include "engine/formats/gltf_nodes.h"
+#include "engine/motion/character.h"
+
+namespace etude {
+
+/// The scene's surfaces and their colours, put into `character`, whose skeleton is the nodes'. One mesh per primitive
+/// that has triangles (lists, strips, fans; points and lines are passed over):
+/// - with a skin, one binding per joint of the skin; of several sets of joints the four greatest weights of a vertex
+/// are
+///   kept and made to sum to 1; a vertex without weight hangs on the skin's first joint;
+/// - without, one binding to its node;
+/// - without normals, faces get their own, as the specification demands.
+/// Colours are the materials' base colour factors; textures, vertex colours and morph targets are not read.
+Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, Character& character);
+
+/// Whether a joint's axes at rest are a mirror image, under which triangles turn over.
+bool IsMirrored(const Skeleton& skeleton, int joint);
+
+/// Changes which side of the triangles is the outside.
+void TurnOver(SkinnedMesh& mesh);
+
+}  // namespace etude

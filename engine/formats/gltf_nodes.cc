@@ -1,0 +1,269 @@
+#include "engine/formats/gltf_nodes.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/names.h"
+#include "engine/formats/unique_names.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostJoints = 1024;
+constexpr int kDeepestNesting = 128;
+constexpr double kLargestNumber = 1e9;
+constexpr int kNone = -1;
+
+/// Up to this much a matrix may miss a right angle, and a last row 0, 0, 0, 1: files hold floats.
+constexpr double kMatrixRounding = 1e-3;
+
+std::string NodeName(int node) { return fmt::format("nodes[{}]", node); }
+
+class NodeReader {
+ public:
+  explicit NodeReader(const GltfFile& file) : file_(file), model_(file.model()), count_(model_.nodes.size()) {}
+
+  Result<GltfNodes> Read() {
+    if (count_ == 0) return file_.Refuse("nodes", "found none; at least one is needed");
+    for (auto step : {&NodeReader::FindParents, &NodeReader::CheckNesting, &NodeReader::MarkScene,
+                      &NodeReader::MarkOutsiders, &NodeReader::MakeJoints}) {
+      if (auto ok = (this->*step)(); !ok) return tl::unexpected(ok.error());
+    }
+    return std::move(nodes_);
+  }
+
+ private:
+  const tinygltf::Node& At(int node) const { return model_.nodes[static_cast<std::size_t>(node)]; }
+
+  Result<void> FindParents() {
+    parents_.assign(count_, kNone);
+    for (int node = 0; node < static_cast<int>(count_); ++node) {
+      const std::vector<int>& children = At(node).children;
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        const std::string where = fmt::format("{}.children[{}]", NodeName(node), i);
+        if (auto ok = file_.CheckIndex(children[i], count_, where); !ok) return ok;
+        int& parent = parents_[children[i]];
+        if (parent != kNone) {
+          return file_.Refuse(where, "found node {}, a child of node {} already; allowed: one parent", children[i],
+                              parent);
+        }
+        parent = node;
+      }
+    }
+    return {};
+  }
+
+  Result<void> CheckNesting() {
+    for (int node = 0; node < static_cast<int>(count_); ++node) {
+      int depth = 1;
+      for (int above = parents_[node]; above != kNone; above = parents_[above]) {
+        if (above == node) return file_.Refuse(NodeName(node), "is its own ancestor; allowed: a tree");
+        if (++depth > kDeepestNesting) return TooDeep(node);
+      }
+    }
+    return {};
+  }
+
+  /// Either nested too deep or below a cycle: with more steps than nodes there is one.
+  Result<void> TooDeep(int node) const {
+    std::size_t steps = 0;
+    for (int above = parents_[node]; above != kNone; above = parents_[above]) {
+      if (++steps > count_) return file_.Refuse(NodeName(node), "hangs below its own descendants; allowed: a tree");
+    }
+    return file_.Refuse(NodeName(node), "nested deeper than {} levels", kDeepestNesting);
+  }
+
+  Result<void> MarkScene() {
+    is_joint_.assign(count_, false);
+    in_scene_.assign(count_, false);
+    std::vector<int> open;
+    if (model_.scenes.empty()) {
+      for (int node = 0; node < static_cast<int>(count_); ++node) {
+        if (parents_[node] == kNone) open.push_back(node);
+      }
+    } else {
+      const int scene = model_.defaultScene < 0 ? 0 : model_.defaultScene;
+      if (auto ok = file_.CheckIndex(scene, model_.scenes.size(), "scene"); !ok) return ok;
+      open = model_.scenes[static_cast<std::size_t>(scene)].nodes;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
+        if (auto ok = file_.CheckIndex(open[i], count_, where); !ok) return ok;
+        if (parents_[open[i]] != kNone) {
+          return file_.Refuse(where, "found node {}, a child of node {}; allowed: roots", open[i], parents_[open[i]]);
+        }
+      }
+    }
+    while (!open.empty()) {
+      const int node = open.back();
+      open.pop_back();
+      if (in_scene_[node]) continue;  // a root named twice
+      in_scene_[node] = true;
+      is_joint_[node] = true;
+      open.insert(open.end(), At(node).children.begin(), At(node).children.end());
+    }
+    return {};
+  }
+
+  Result<void> MarkOutsiders() {
+    std::vector<bool> is_bone(count_, false);
+    for (std::size_t i = 0; i < model_.skins.size(); ++i) {
+      const std::vector<int>& joints = model_.skins[i].joints;
+      for (std::size_t k = 0; k < joints.size(); ++k) {
+        const std::string where = fmt::format("skins[{}].joints[{}]", i, k);
+        if (auto ok = file_.CheckIndex(joints[k], count_, where); !ok) return ok;
+        is_bone[joints[k]] = true;
+        MarkWithAncestors(joints[k]);
+      }
+    }
+    for (std::size_t i = 0; i < model_.animations.size(); ++i) {
+      for (std::size_t k = 0; k < model_.animations[i].channels.size(); ++k) {
+        const int target = model_.animations[i].channels[k].target_node;
+        const std::string where = fmt::format("animations[{}].channels[{}].target.node", i, k);
+        if (auto ok = file_.CheckIndex(target, count_, where); !ok) return ok;
+        MarkWithAncestors(target);
+      }
+    }
+    for (int node = 0; node < static_cast<int>(count_); ++node) {
+      if (!in_scene_[node] || At(node).mesh == kNone) continue;
+      nodes_.mesh_nodes.push_back(node);
+      if (At(node).skin != kNone && At(node).children.empty() && !is_bone[node]) is_joint_[node] = false;
+    }
+    return {};
+  }
+
+  void MarkWithAncestors(int node) {
+    for (; node != kNone && !is_joint_[node]; node = parents_[node]) is_joint_[node] = true;
+  }
+
+  Result<void> MakeJoints() {
+    const auto joints = static_cast<std::size_t>(std::ranges::count(is_joint_, true));
+    if (joints == 0) return file_.Refuse("scenes", "found no nodes in the default one; at least one is needed");
+    if (joints > kMostJoints) return file_.Refuse("nodes", "found {} joints; allowed: {}", joints, kMostJoints);
+    nodes_.joint_of.assign(count_, kNone);
+    for (int node = 0; node < static_cast<int>(count_); ++node) {
+      if (!is_joint_[node]) continue;
+      // Its ancestors first, from the top down, where the file has them behind it.
+      std::vector<int> chain;
+      for (int above = node; above != kNone && nodes_.joint_of[above] == kNone; above = parents_[above]) {
+        chain.push_back(above);
+      }
+      for (auto next = chain.rbegin(); next != chain.rend(); ++next) {
+        if (auto ok = MakeJoint(*next); !ok) return ok;
+      }
+    }
+    return CheckGltfPose(file_, nodes_.skeleton, RestPose(nodes_.skeleton), "nodes");
+  }
+
+  Result<void> MakeJoint(int node) {
+    auto rest = ReadTransform(node);
+    if (!rest) return tl::unexpected(rest.error());
+    const std::string& name = At(node).name;
+    const int parent = parents_[node] == kNone ? kNone : nodes_.joint_of[parents_[node]];
+    nodes_.joint_of[node] = static_cast<int>(nodes_.skeleton.joints.size());
+    nodes_.skeleton.joints.push_back(
+        {.name = names_.Add(name.empty() ? fmt::format("node_{}", node) : name), .parent = parent, .rest = *rest});
+    return {};
+  }
+
+  Result<void> CheckNumbers(const std::vector<double>& numbers, std::size_t count, const std::string& where) const {
+    if (!numbers.empty() && numbers.size() != count) {
+      return file_.Refuse(where, "found {} numbers; allowed: {}", numbers.size(), count);
+    }
+    for (const double number : numbers) {
+      if (!(std::abs(number) <= kLargestNumber)) {
+        return file_.Refuse(where, "found {}; allowed: numbers within ±{:g}", number, kLargestNumber);
+      }
+    }
+    return {};
+  }
+
+  Result<LocalTransform> ReadTransform(int index) const {
+    const tinygltf::Node& node = At(index);
+    const std::string where = NodeName(index);
+    for (const auto& [numbers, count, name] :
+         {std::tuple(&node.matrix, 16, ".matrix"), std::tuple(&node.translation, 3, ".translation"),
+          std::tuple(&node.rotation, 4, ".rotation"), std::tuple(&node.scale, 3, ".scale")}) {
+      if (auto ok = CheckNumbers(*numbers, static_cast<std::size_t>(count), where + name); !ok) {
+        return tl::unexpected(ok.error());
+      }
+    }
+    if (!node.matrix.empty()) return Decompose(node.matrix, where + ".matrix");
+    LocalTransform local;
+    if (const auto& t = node.translation; !t.empty()) local.translation = {t[0], t[1], t[2]};
+    if (const auto& s = node.scale; !s.empty()) local.scale = {s[0], s[1], s[2]};
+    if (const auto& r = node.rotation; !r.empty()) {
+      if (std::ranges::all_of(r, [](double number) { return std::abs(number) < 1e-9; })) {
+        return file_.Refuse(where + ".rotation", "found a quaternion of length 0; allowed: unit quaternions");
+      }
+      local.rotation = RotationFrom(r.data());
+    }
+    return local;
+  }
+
+  Result<LocalTransform> Decompose(const std::vector<double>& m, const std::string& where) const {
+    const bool is_affine = std::abs(m[3]) < kMatrixRounding && std::abs(m[7]) < kMatrixRounding &&
+                           std::abs(m[11]) < kMatrixRounding && std::abs(m[15] - 1) < kMatrixRounding;
+    if (!is_affine) return file_.Refuse(where, "found a projection; allowed: a last row of 0, 0, 0, 1");
+    LocalTransform local;
+    local.translation = {m[12], m[13], m[14]};
+    glm::dmat3 axes(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    for (int k = 0; k < 3; ++k) {
+      local.scale[k] = glm::length(axes[k]);
+      if (local.scale[k] < 1e-9) return file_.Refuse(where, "flattens an axis; allowed: translation, rotation, scale");
+      axes[k] /= local.scale[k];
+    }
+    if (glm::determinant(axes) < 0) {  // a mirror image: of the three ways to write it, the first
+      local.scale.x = -local.scale.x;
+      axes[0] = -axes[0];
+    }
+    const double shear = std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
+                                   std::abs(glm::dot(axes[2], axes[0]))});
+    if (shear > kMatrixRounding) return file_.Refuse(where, "shears; allowed: translation, rotation, scale");
+    local.rotation = glm::normalize(glm::quat_cast(axes));
+    return local;
+  }
+
+  const GltfFile& file_;
+  const tinygltf::Model& model_;
+  const std::size_t count_;
+  std::vector<int> parents_;
+  std::vector<bool> in_scene_;
+  std::vector<bool> is_joint_;
+  UniqueNames names_;
+  GltfNodes nodes_;
+};
+
+}  // namespace
+
+Result<GltfNodes> ReadGltfNodes(const GltfFile& file) { return NodeReader(file).Read(); }
+
+Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const LocalPose& pose,
+                           const std::string& where) {
+  const auto is_within = [](const glm::dvec3& v) {
+    return std::abs(v.x) <= kLargestNumber && std::abs(v.y) <= kLargestNumber && std::abs(v.z) <= kLargestNumber;
+  };
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(skeleton, pose, globals);
+  for (std::size_t i = 0; i < globals.size(); ++i) {
+    const auto& [position, axes] = globals[i];
+    if (is_within(position) && is_within(axes[0]) && is_within(axes[1]) && is_within(axes[2])) continue;
+    return file.Refuse(where, "found joint {} beyond ±{:g} in the world", Quote(skeleton.joints[i].name),
+                       kLargestNumber);
+  }
+  return {};
+}
+
+bool IsUnit(double square_length) {
+  constexpr double kFloatRounding = 3e-7;
+  return std::abs(square_length - 1) < kFloatRounding;
+}
+
+glm::dquat RotationFrom(const double* xyzw) {
+  const glm::dquat rotation(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
+  return IsUnit(glm::dot(rotation, rotation)) ? rotation : glm::normalize(rotation);
+}
+
+}  // namespace etude

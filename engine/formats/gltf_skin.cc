@@ -1,0 +1,134 @@
+#include "engine/formats/gltf_skin.h"
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace etude {
+namespace {
+
+constexpr int kNone = -1;
+
+using Bindings = std::vector<SkinnedMesh::Binding>;
+
+/// The four greatest of a vertex's weights, in the order given where there are no more; sum 1.
+struct Influences {
+  std::array<int, 4> bindings{};
+  std::array<double, 4> weights{1, 0, 0, 0};
+};
+
+Influences Strongest(std::vector<std::pair<int, double>> all) {
+  if (all.size() > 4) {
+    std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.second > b.second; });
+    all.resize(4);
+  }
+  double sum = 0;
+  for (const auto& [binding, weight] : all) sum += weight;
+  Influences influences;
+  if (sum <= 0) return influences;
+  // Sums of floats are left alone, so that writing and reading change nothing.
+  constexpr double kRounding = 1e-6;
+  const double divisor = std::abs(sum - 1) < kRounding ? 1.0 : sum;
+  influences.weights = {};
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    influences.bindings[k] = all[k].first;
+    influences.weights[k] = all[k].second / divisor;
+  }
+  return influences;
+}
+
+}  // namespace
+
+Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int node) {
+  const tinygltf::Model& model = file.model();
+  const int index = model.nodes[static_cast<std::size_t>(node)].skin;
+  if (index == kNone) {
+    SkinnedMesh::Binding rigid;
+    rigid.joint = nodes.joint_of[node];
+    return Bindings{rigid};
+  }
+  if (auto ok = file.CheckIndex(index, model.skins.size(), fmt::format("nodes[{}].skin", node)); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(index)];
+  const std::string name = fmt::format("skins[{}]", index);
+  if (skin.joints.empty()) return file.Refuse(name + ".joints", "found none; at least one is needed");
+  Bindings bindings;
+  for (const int joint : skin.joints) bindings.push_back({nodes.joint_of[joint]});
+  if (skin.inverseBindMatrices == kNone) return bindings;
+  const std::string matrices_name = name + ".inverseBindMatrices";
+  auto matrices = file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name);
+  if (!matrices) return tl::unexpected(matrices.error());
+  if (matrices->Count() < bindings.size()) {
+    return file.Refuse(matrices_name, "found {}; {} joints need as many", matrices->Count(), bindings.size());
+  }
+  for (std::size_t i = 0; i < bindings.size(); ++i) {
+    const double* m = (*matrices)[i];
+    constexpr double kRounding = 1e-3;
+    const bool is_affine = std::abs(m[3]) < kRounding && std::abs(m[7]) < kRounding && std::abs(m[11]) < kRounding &&
+                           std::abs(m[15] - 1) < kRounding;
+    if (!is_affine) {
+      return file.Refuse(fmt::format("{}[{}]", matrices_name, i),
+                         "found a projection; allowed: a last row of 0, 0, 0, 1");
+    }
+    for (int column = 0; column < 4; ++column) {
+      for (int row = 0; row < 3; ++row) bindings[i].inverse_bind[column][row] = m[4 * column + row];
+    }
+  }
+  return bindings;
+}
+
+Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitive, const std::string& where,
+                             SkinnedMesh& mesh) {
+  std::vector<GltfNumbers> joints, weights;
+  for (int set = 0;; ++set) {
+    const auto joint = primitive.attributes.find(fmt::format("JOINTS_{}", set));
+    const auto weight = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
+    const bool has_joints = joint != primitive.attributes.end();
+    if (has_joints != (weight != primitive.attributes.end())) {
+      return file.Refuse(where, "found one of JOINTS_{0} and WEIGHTS_{0}; allowed: both or none", set);
+    }
+    if (!has_joints) break;
+    auto joint_numbers = ReadGltfAttribute(file, joint->second, 4, GltfComponents::kUnsigned, where + ".JOINTS", mesh);
+    if (!joint_numbers) return tl::unexpected(joint_numbers.error());
+    auto weight_numbers =
+        ReadGltfAttribute(file, weight->second, 4, GltfComponents::kFloatOrNormalized, where + ".WEIGHTS", mesh);
+    if (!weight_numbers) return tl::unexpected(weight_numbers.error());
+    joints.push_back(std::move(*joint_numbers));
+    weights.push_back(std::move(*weight_numbers));
+  }
+  if (joints.empty()) return file.Refuse(where, "found no JOINTS_0; its skin needs them");
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    std::vector<std::pair<int, double>> all;
+    for (std::size_t set = 0; set < joints.size(); ++set) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double joint = joints[set][i][k];
+        const double weight = weights[set][i][k];
+        if (weight == 0 && set > 0) continue;
+        if (weight < 0) return file.Refuse(where + ".WEIGHTS", "found {}; allowed: from 0", weight);
+        if (weight > 0 && joint >= static_cast<double>(mesh.bindings.size())) {
+          return file.Refuse(where + ".JOINTS", "found {} at vertex {}; allowed: 0 to {}", joint, i,
+                             mesh.bindings.size() - 1);
+        }
+        all.emplace_back(weight > 0 ? static_cast<int>(joint) : 0, weight);
+      }
+    }
+    const Influences strongest = Strongest(std::move(all));
+    mesh.vertices[i].bindings = strongest.bindings;
+    mesh.vertices[i].weights = strongest.weights;
+  }
+  return {};
+}
+
+Result<GltfNumbers> ReadGltfAttribute(GltfFile& file, int accessor, std::size_t width, GltfComponents allowed,
+                                      const std::string& where, const SkinnedMesh& mesh) {
+  auto numbers = file.Read(accessor, width, allowed, where);
+  if (numbers && numbers->Count() != mesh.vertices.size()) {
+    return file.Refuse(where, "found {} elements; POSITION has {}", numbers->Count(), mesh.vertices.size());
+  }
+  return numbers;
+}
+
+}  // namespace etude

@@ -1,0 +1,40 @@
+#include "engine/formats/gltf_text.h"
+
+#include <algorithm>
+
+namespace etude {
+namespace {
+
+/// How many bytes the UTF-8 character at the start of `text` has; 0 when there is none (RFC 3629).
+std::size_t CharacterBytes(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xC2 && first < 0xE0 ? 2 : (first >= 0xE0 && first < 0xF0 ? 3 : 4);
+  if (first < 0xC2 || first > 0xF4) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (byte(i) < 0x80 || byte(i) > 0xBF) return 0;
+  }
+  const unsigned second = byte(1);
+  const bool is_overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+  const bool is_beyond = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
+  return is_overlong || is_beyond ? 0 : length;
+}
+
+}  // namespace
+
+std::string GltfText(std::string_view name) {
+  std::string text;
+  while (!name.empty()) {
+    const std::size_t length = CharacterBytes(name);
+    if (length == 0 || name[0] == '\0') {
+      text += '?';
+    } else {
+      text += name.substr(0, length);
+    }
+    name.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return text;
+}
+
+}  // namespace etude

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace etude {
+
+/// Gives every joint a name of its own: programs, and our own joint maps, tell joints by their names.
+class UniqueNames {
+ public:
+  /// The name itself if it has not been given before, else the first free one of "<name>#2", "<name>#3", ….
+  std::string Add(const std::string& name);
+
+ private:
+  std::set<std::string> given_;
+};
+
+}  // namespace etude

@@ -1,0 +1,171 @@
+#include "engine/motion/edit.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "engine/motion/sample.h"
+#include "engine/motion/side_names.h"
+
+namespace etude {
+namespace {
+
+constexpr glm::dquat kNoTurn{1, 0, 0, 0};
+
+/// The image of a transform whose parent and child frames are both reflected: M T M with M = diag(−1, 1, 1).
+void Reflect(LocalTransform& local) {
+  local.translation.x = -local.translation.x;
+  local.rotation.y = -local.rotation.y;
+  local.rotation.z = -local.rotation.z;
+}
+
+bool HasScales(const LocalPose& pose) {
+  return std::ranges::any_of(pose, [](const LocalTransform& local) { return local.scale != glm::dvec3(1); });
+}
+
+/// The rotation nearest to a matrix, its polar part, by Newton's iteration (Higham 1986). None for a matrix that
+/// mirrors, or flattens so far that its inverse means nothing.
+std::optional<glm::dquat> NearestRotation(glm::dmat3 axes) {
+  const double size = std::sqrt(glm::dot(axes[0], axes[0]) + glm::dot(axes[1], axes[1]) + glm::dot(axes[2], axes[2]));
+  constexpr double kFlat = 1e-9;
+  if (!(glm::determinant(axes) > kFlat * size * size * size)) return std::nullopt;
+  axes /= std::cbrt(glm::determinant(axes));
+  // Quadratic once near; from the flattest matrix above in about forty halvings.
+  constexpr int kMostSteps = 60;
+  constexpr double kSame = 1e-15;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const glm::dmat3 next = 0.5 * (axes + glm::transpose(glm::inverse(axes)));
+    const glm::dmat3 change = next - axes;
+    axes = next;
+    if (glm::dot(change[0], change[0]) + glm::dot(change[1], change[1]) + glm::dot(change[2], change[2]) <
+        kSame * kSame) {
+      break;
+    }
+  }
+  return glm::normalize(glm::quat_cast(axes));
+}
+
+/// Where the joints of a skeleton are in one pose, told without scales.
+class ScaleRemover {
+ public:
+  explicit ScaleRemover(const Skeleton& skeleton) : skeleton_(skeleton), rotations_(skeleton.joints.size()) {}
+
+  void Apply(LocalPose& pose) {
+    ComputeGlobals(skeleton_, pose, globals_);
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      const int parent = skeleton_.joints[i].parent;
+      const glm::dquat above = parent < 0 ? kNoTurn : rotations_[parent];
+      const glm::dvec3 origin = parent < 0 ? glm::dvec3(0) : globals_[parent].position;
+      rotations_[i] = NearestRotation(globals_[i].axes).value_or(above * pose[i].rotation);
+      pose[i] = {.translation = glm::conjugate(above) * (globals_[i].position - origin),
+                 .rotation = glm::normalize(glm::conjugate(above) * rotations_[i])};
+    }
+  }
+
+ private:
+  const Skeleton& skeleton_;
+  std::vector<GlobalTransform> globals_;
+  std::vector<glm::dquat> rotations_;  ///< in the world
+};
+
+void SetRest(Skeleton& skeleton, const LocalPose& rest) {
+  for (std::size_t i = 0; i < rest.size(); ++i) skeleton.joints[i].rest = rest[i];
+}
+
+std::string UnusedName(const Skeleton& skeleton, std::string name) {
+  while (skeleton.Find(name) >= 0) name += '_';
+  return name;
+}
+
+}  // namespace
+
+Clip Resample(const Clip& clip, double rate_hz) {
+  assert(rate_hz > 0 && !clip.frames.empty());
+  if (rate_hz == clip.rate_hz) return clip;
+  Clip resampled{.name = clip.name, .skeleton = clip.skeleton, .rate_hz = rate_hz, .frames = {}};
+  const double frames_per_sample = clip.rate_hz / rate_hz;
+  constexpr double kRounding = 1e-6;  // of a sample: keeps the last one when the rates divide evenly
+  const auto count = static_cast<std::size_t>(clip.DurationSeconds() * rate_hz + kRounding) + 1;
+  resampled.frames.reserve(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    resampled.frames.push_back(SampleFrame(clip, static_cast<double>(k) * frames_per_sample));
+  }
+  return resampled;
+}
+
+Result<Clip> Trim(const Clip& clip, double from_s, double to_s) {
+  const double first = std::round(from_s * clip.rate_hz);
+  const double last = std::round(to_s * clip.rate_hz);
+  const bool is_within = first >= 0 && last < static_cast<double>(clip.frames.size());
+  if (!(is_within && from_s <= to_s)) {
+    return Fail({}, "cannot keep {} s to {} s; allowed: a range within the clip, which lasts {:.6g} s", from_s, to_s,
+                clip.DurationSeconds());
+  }
+  const auto begin = clip.frames.begin();
+  return Clip{.name = clip.name,
+              .skeleton = clip.skeleton,
+              .rate_hz = clip.rate_hz,
+              .frames = {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last) + 1}};
+}
+
+Clip Mirror(Clip clip) {
+  for (Joint& joint : clip.skeleton.joints) Reflect(joint.rest);
+  for (LocalPose& pose : clip.frames) std::ranges::for_each(pose, Reflect);
+  clip.skeleton = WithSidesSwapped(std::move(clip.skeleton));
+  return clip;
+}
+
+BodyMotion Mirror(const BodyMotion& motion) {
+  BodyMotion mirrored{.rate_hz = motion.rate_hz, .poses = {}};
+  mirrored.poses.reserve(motion.poses.size());
+  for (const BodyPose& pose : motion.poses) {
+    BodyPose& image = mirrored.poses.emplace_back();
+    for (const Role role : AllRoles()) image[Mirrored(role)] = glm::dvec3(-1, 1, 1) * pose[role];
+  }
+  return mirrored;
+}
+
+Clip WithoutScales(Clip clip) {
+  LocalPose rest = RestPose(clip.skeleton);
+  if (!HasScales(rest) && std::ranges::none_of(clip.frames, HasScales)) return clip;
+  ScaleRemover remover(clip.skeleton);
+  remover.Apply(rest);
+  for (LocalPose& pose : clip.frames) remover.Apply(pose);
+  SetRest(clip.skeleton, rest);
+  return clip;
+}
+
+Clip WithWorldAxesAtRest(Clip clip) {
+  std::vector<Joint>& joints = clip.skeleton.joints;
+  if (std::ranges::all_of(joints, [](const Joint& joint) { return joint.rest.rotation == kNoTurn; })) return clip;
+  // With R₀ a joint's axes at rest, in the world: the new frame is the old one turned by R₀⁻¹.
+  std::vector<glm::dquat> at_rest(joints.size());
+  const auto above = [&](std::size_t joint) {
+    return joints[joint].parent < 0 ? kNoTurn : at_rest[joints[joint].parent];
+  };
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    at_rest[i] = glm::normalize(above(i) * joints[i].rest.rotation);
+    joints[i].rest = {.translation = above(i) * joints[i].rest.translation};
+  }
+  for (LocalPose& pose : clip.frames) {
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      assert(pose[i].scale == glm::dvec3(1));
+      pose[i].translation = above(i) * pose[i].translation;
+      pose[i].rotation = above(i) * pose[i].rotation * glm::conjugate(at_rest[i]);
+    }
+  }
+  return clip;
+}
+
+Clip WithOneRoot(Clip clip) {
+  std::vector<Joint>& joints = clip.skeleton.joints;
+  if (std::ranges::count(joints, -1, &Joint::parent) == 1) return clip;
+  // Every index moves by one, and −1 becomes the new root's.
+  for (Joint& joint : joints) ++joint.parent;
+  joints.insert(joints.begin(), {.name = UnusedName(clip.skeleton, "root"), .parent = -1, .rest = {}});
+  for (LocalPose& pose : clip.frames) pose.insert(pose.begin(), LocalTransform{});
+  return clip;
+}
+
+}  // namespace etude

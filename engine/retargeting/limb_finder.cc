@@ -1,0 +1,102 @@
+#include "engine/retargeting/limb_finder.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace etude {
+namespace {
+
+// How good a find is; below: the number of joints that are named.
+constexpr int kAllNamed = 3;
+constexpr int kLooseChain = 4;
+constexpr int kChain = 5;
+
+int RateChain(const SkeletonTree& tree, const std::array<int, 3>& joints) {
+  const auto [upper, middle, end] = joints;
+  if (!tree.HangsFrom(middle, upper)) return kAllNamed;
+  if (tree.HangsFrom(end, middle)) return kChain;
+  return end != upper && end != middle && !tree.HangsFrom(end, upper) ? kLooseChain : kAllNamed;
+}
+
+using Candidates = std::array<std::vector<NamedJoint>, 3>;
+
+Candidates CandidatesOf(const JointNames& names, const LimbNames& scheme, Side side, const std::array<int, 3>& taught) {
+  Candidates candidates;
+  for (std::size_t i = 0; i < 3; ++i) {
+    candidates[i] = names.Find(scheme.joints[i], side);
+    if (taught[i] >= 0) candidates[i] = {{.joint = taught[i], .prefix = "", .suffixes = 0}};
+  }
+  if (taught == std::array{-1, -1, -1}) return candidates;
+  // A taught joint may be called anything, so prefixes no longer tell what belongs together.
+  for (auto& of_joint : candidates) {
+    for (NamedJoint& candidate : of_joint) candidate.prefix.clear();
+  }
+  return candidates;
+}
+
+/// Takes every candidate triple of one prefix and keeps the best.
+class Search {
+ public:
+  Search(const SkeletonTree& tree, FoundLimb& best) : tree_(tree), best_(best) {}
+
+  int rating() const { return rating_; }
+
+  void Try(const LimbNames& scheme, const Candidates& candidates) {
+    TryNames(scheme, candidates);
+    for (const NamedJoint& upper : candidates[0]) {
+      for (const NamedJoint& middle : candidates[1]) {
+        for (const NamedJoint& end : candidates[2]) {
+          if (upper.prefix != middle.prefix || upper.prefix != end.prefix) continue;
+          const std::array<int, 3> joints = {upper.joint, middle.joint, end.joint};
+          Keep(RateChain(tree_, joints), {joints, upper.prefix, &scheme});
+          if (rating_ == kChain) return;
+        }
+      }
+    }
+  }
+
+ private:
+  /// What there is by name, hanging together or not: for complaints.
+  void TryNames(const LimbNames& scheme, const Candidates& candidates) {
+    for (const auto& of_joint : candidates) {
+      for (const NamedJoint& candidate : of_joint) TryPrefix(scheme, candidates, candidate.prefix);
+    }
+  }
+
+  void TryPrefix(const LimbNames& scheme, const Candidates& candidates, const std::string& prefix) {
+    FoundLimb named{.joints = {-1, -1, -1}, .prefix = prefix, .scheme = &scheme};
+    int count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto first = std::ranges::find(candidates[i], prefix, &NamedJoint::prefix);
+      if (first == candidates[i].end()) continue;
+      named.joints[i] = first->joint;
+      ++count;
+    }
+    Keep(count, named);
+  }
+
+  void Keep(int rating, const FoundLimb& found) {
+    if (rating <= rating_) return;
+    rating_ = rating;
+    best_ = found;
+  }
+
+  const SkeletonTree& tree_;
+  FoundLimb& best_;
+  int rating_ = 0;
+};
+
+}  // namespace
+
+FoundLimb FindLimb(const JointNames& names, const SkeletonTree& tree, std::span<const LimbNames> schemes, Side side,
+                   const std::array<int, 3>& taught) {
+  FoundLimb best;
+  Search search(tree, best);
+  for (const LimbNames& scheme : schemes) {
+    search.Try(scheme, CandidatesOf(names, scheme, side, taught));
+    if (search.rating() == kChain) break;
+  }
+  return best;
+}
+
+}  // namespace etude

@@ -1,0 +1,128 @@
+#include "engine/retargeting/proportions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/retargeting/rotations.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+struct LegRoles {
+  Role hip, knee, ankle, foot;
+};
+constexpr std::array<LegRoles, 2> kLegs = {
+    {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}, {kRightHip, kRightKnee, kRightAnkle, kRightFoot}}};
+
+double LegLength(const BodyPose& pose) {
+  double sum = 0;
+  for (const LegRoles& leg : kLegs) {
+    sum += glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
+  }
+  return sum / kLegs.size();
+}
+
+/// Of a performer whose measured limbs stretch, the usual length.
+double UsualLegLength(const BodyMotion& motion) {
+  std::vector<double> lengths;
+  for (const BodyPose& pose : motion.poses) lengths.push_back(LegLength(pose));
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+/// The limb from `role`'s parent to it: as long as the target's, pointing as the performer's.
+glm::dvec3 NewLimb(const BodyPose& performer, const BodyPose& body, Role role) {
+  const Role parent = *ParentOf(role);
+  const glm::dvec3 limb = performer[role] - performer[parent], own = body[role] - body[parent];
+  const double length = glm::length(limb);
+  return length > 0 ? limb * (glm::length(own) / length) : own;
+}
+
+/// Every limb in its direction, the hip centre at its scaled place.
+BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double scale) {
+  BodyPose pose;
+  pose[kHipCentre] = scale * performer[kHipCentre];
+  for (const Role role : AllRoles()) {
+    if (role != kHipCentre) pose[role] = pose[*ParentOf(role)] + NewLimb(performer, body, role);
+  }
+  return pose;
+}
+
+/// How far the hips must sink for the leg to reach `ankle`. A foot in the air pulls nobody down.
+double NeededDrop(const BodyPose& pose, const LegRoles& leg, const glm::dvec3& ankle, double toe_height) {
+  constexpr double kStands = 0.05, kFlies = 0.15;  // metres of the toes above the floor
+  const double stands = 1 - Ramp(kStands, kFlies, toe_height);
+  const double reach = glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
+  const glm::dvec3 hip = pose[leg.hip];
+  const double aside = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
+  const double highest = ankle.y + std::sqrt(std::max(0.0, reach * reach - aside * aside));
+  return stands * std::max(0.0, hip.y - highest);
+}
+
+/// Two-bone inverse kinematics: brings the ankle to `ankle`, or as near as the leg reaches, the knee on the side where
+/// it was.
+void Reach(BodyPose& pose, const LegRoles& leg, const glm::dvec3& ankle) {
+  constexpr double kThere = 1e-9;
+  if (glm::distance(pose[leg.ankle], ankle) < kThere) return;
+  const glm::dvec3 hip = pose[leg.hip], thigh = pose[leg.knee] - hip, leg_before = pose[leg.ankle] - hip;
+  const double upper = glm::length(thigh), lower = glm::distance(pose[leg.knee], pose[leg.ankle]);
+  const glm::dvec3 foot = pose[leg.foot] - pose[leg.ankle];
+
+  const glm::dvec3 wanted = ankle - hip;
+  const double distance = std::clamp(glm::length(wanted), std::abs(upper - lower), upper + lower);
+  const glm::dquat turn = ShortestTurn(leg_before, wanted);
+  const glm::dvec3 along = glm::length(wanted) > 0 ? glm::normalize(wanted) : glm::normalize(thigh);
+
+  // The knee's side; a straight leg shows none and takes the one in front of the hips' line.
+  constexpr double kStraight = 0.02, kBent = 0.08;  // the knee off the hip–ankle line, in thighs
+  const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, along) * along; };
+  const glm::dvec3 seen = across(turn * thigh);
+  const glm::dvec3 front = across(glm::cross(along, pose[kLeftHip] - pose[kRightHip]));
+  const double trust = Ramp(kStraight * upper, kBent * upper, glm::length(seen));
+  const auto unit = [](const glm::dvec3& v) { return glm::length(v) > 0 ? glm::normalize(v) : glm::dvec3(0); };
+  const glm::dvec3 side = unit(glm::mix(unit(front), unit(seen), trust));
+
+  const double cosine =
+      distance > 0 ? (upper * upper + distance * distance - lower * lower) / (2 * upper * distance) : 0;
+  const double c = std::clamp(cosine, -1.0, 1.0);
+  pose[leg.knee] = hip + upper * (c * along + std::sqrt(1 - c * c) * side);
+  pose[leg.ankle] = hip + distance * along;
+  pose[leg.foot] = pose[leg.ankle] + foot;
+}
+
+void ShiftDown(BodyPose& pose, double drop) {
+  for (glm::dvec3& joint : pose.joints) joint.y -= drop;
+}
+
+}  // namespace
+
+BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body) {
+  BodyMotion retargeted{.rate_hz = motion.rate_hz, .poses = {}};
+  if (motion.poses.empty()) return retargeted;
+  const double usual = UsualLegLength(motion);
+  const double scale = usual > 0 ? LegLength(body) / usual : 1;
+  for (const BodyPose& performer : motion.poses) {
+    BodyPose pose = WithNewLimbs(performer, body, scale);
+    // Toes are what touches and what slides: they go to their scaled places, feet keep their slope.
+    std::array<glm::dvec3, kLegs.size()> ankles;
+    double drop = 0;
+    for (std::size_t i = 0; i < kLegs.size(); ++i) {
+      const LegRoles& leg = kLegs[i];
+      const glm::dvec3 toe = scale * performer[leg.foot];
+      ankles[i] = toe - (pose[leg.foot] - pose[leg.ankle]);
+      drop = std::max(drop, NeededDrop(pose, leg, ankles[i], toe.y));
+    }
+    ShiftDown(pose, drop);
+    for (std::size_t i = 0; i < kLegs.size(); ++i) Reach(pose, kLegs[i], ankles[i]);
+    retargeted.poses.push_back(pose);
+  }
+  return retargeted;
+}
+
+}  // namespace etude

@@ -1,0 +1,93 @@
+#include "engine/retargeting/tips.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/retargeting/limbs.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+// Tips relative to the limb they end (an adult's, cm).
+constexpr double kHandPerForearm = 18.0 / 25.0;
+constexpr double kFootPerShank = 18.0 / 42.0;
+constexpr double kHeadPerTrunk = 25.0 / 50.0;
+
+/// The lengths at which a tip is believed, relative to the proportion above.
+struct Believed {
+  double shortest;
+  double longest;
+};
+// CMU's fingers are half as long as a hand.
+constexpr Believed kBelievedHand{0.4, 1.6};
+// Boxing_Toes' feet are 1.4 times as long as paper B's, KayKit's toys stand on feet of 2.6 times that.
+constexpr Believed kBelievedFoot{0.4, 3.0};
+// A lone "Head" joint lies at the skull's base, at 0.2 of the trunk.
+constexpr Believed kBelievedHead{0.5, 1.6};
+
+/// The farthest descendant of `top` (or `top` itself) from `base` at a believable distance.
+std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dvec3& base, double proportion,
+                               const Believed& believed) {
+  std::optional<int> farthest;
+  double length = 0;
+  for (int i = top; i < tree.size(); ++i) {
+    const double distance = glm::distance(tree.RestOf(i), base);
+    const bool is_believed = distance >= believed.shortest * proportion && distance <= believed.longest * proportion;
+    if (!is_believed || distance <= length || (i != top && !tree.HangsFrom(i, top))) continue;
+    farthest = i;
+    length = distance;
+  }
+  return farthest;
+}
+
+glm::dvec3 RestForward(const RolePlaces& places) {
+  return glm::cross(places.RestOf(kLeftHip) - places.RestOf(kRightHip),
+                    places.RestOf(kShoulderCentre) - places.RestOf(kHipCentre));
+}
+
+void FindLimbTip(RolePlaces& places, const Limb& limb) {
+  const auto [upper, middle, last] = limb.roles;
+  const glm::dvec3 end = places.RestOf(last);
+  const glm::dvec3 last_bone = end - places.RestOf(middle);
+  const double length = glm::length(last_bone) * (limb.is_arm ? kHandPerForearm : kFootPerShank);
+  // What hangs from a control is no part of the body.
+  if (!IsFree(places, last)) {
+    const Believed& believed = limb.is_arm ? kBelievedHand : kBelievedFoot;
+    const auto tip = FarthestTip(places.tree(), places.JointOf(last), end, length, believed);
+    if (tip) return places.Set(limb.tip, *tip);
+  }
+  const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward(places);
+  const double size = glm::length(direction);
+  places.Compose(limb.tip, places.JointOf(last), size > 0 ? end + direction * (length / size) : end);
+}
+
+void FindHeadTip(RolePlaces& places) {
+  const glm::dvec3 neck = places.RestOf(kShoulderCentre);
+  const glm::dvec3 trunk = neck - 0.5 * (places.RestOf(kLeftHip) + places.RestOf(kRightHip));
+  if (!places.Has(kHead)) return places.Compose(kHead, places.JointOf(kShoulderCentre), neck + trunk * kHeadPerTrunk);
+  const int head = places.JointOf(kHead);
+  const auto tip = FarthestTip(places.tree(), head, neck, glm::length(trunk) * kHeadPerTrunk, kBelievedHead);
+  if (tip) return places.Set(kHead, *tip);
+  places.Compose(kHead, head, neck + trunk * kHeadPerTrunk);
+}
+
+}  // namespace
+
+void FindTips(RolePlaces& places, const std::array<bool, kRoleCount>& is_taught) {
+  for (const Limb& limb : kLimbs) {
+    if (!is_taught[Index(limb.tip)]) FindLimbTip(places, limb);
+  }
+  if (!is_taught[Index(kHead)]) FindHeadTip(places);
+}
+
+bool IsFree(const RolePlaces& places, Role end) {
+  const int joint = places.JointOf(end);
+  return std::ranges::none_of(kLimbs, [&](const Limb& limb) {
+    const int top = places.JointOf(limb.roles[0]);
+    return joint == top || places.tree().HangsFrom(joint, top);
+  });
+}
+
+}  // namespace etude

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// Which of a file's axes points upwards.
+enum class UpAxis { kY, kZ };
+
+/// A point of a file in the world: Y up. Z-up files are turned about X, so that right-handed stays right-handed and
+/// who faced −Y faces +Z.
+glm::dvec3 Upright(const glm::dvec3& point, UpAxis up);
+BodyPose Upright(BodyPose pose, UpAxis up);
+
+/// The unit direction from the feet to the head; zero for a body of no size.
+glm::dvec3 BodyAxis(const BodyPose& pose);
+/// Its mean over the poses: short where the body turns over.
+glm::dvec3 MeanBodyAxis(std::span<const BodyPose> poses);
+
+/// Finds the axis that a body stands along, from its rest pose and from what it does (ours). Both may mislead: some
+/// files are folded up at rest, and people lie down. So: a rest pose that stands along Z counts, unless the body moves
+/// standing along Y; one that does not stand leaves it to the motion; one that stands along Y while the body
+/// moves along Z may be either of somebody who lies or of a Z-up file, and only who stands travels sideways. In doubt,
+/// Y.
+UpAxis FindUpAxis(const BodyPose& rest, std::span<const BodyPose> poses);
+
+}  // namespace etude

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/clips/clip_file.h"
+#include "bench/clips/open_clip.h"
+#include "engine/base/result.h"
+#include "engine/motion/statistics.h"
+
+namespace etude {
+
+/// The figure that a file brings with it.
+struct FigureFacts {
+  std::size_t meshes = 0;
+  std::size_t triangles = 0;
+  std::vector<std::string> materials;
+};
+
+/// What the twenty joints of a clip tell.
+struct BodyFacts {
+  std::array<std::string, kRoleCount> joints;  ///< by Index(role): who plays it
+  std::vector<Role> composed;                  ///< roles that only ride on that joint
+  std::string unit;
+  double metres_per_unit = 0;
+  UpAxis up = UpAxis::kY;
+  double floor = 0;  ///< in the file's unit
+  bool dropped_t_pose = false;
+  std::string note;
+  MotionStatistics motion;
+};
+
+/// What `etude clip info` says of a clip; what cannot be known is left out, with the complaint.
+struct ClipFacts {
+  std::string name;
+  std::string source;
+  std::optional<ClipFormat> format;  ///< none: the file could not be read
+  std::size_t frames = 0;
+  double rate_hz = 0;
+  double duration_s = 0;
+  std::size_t joints = 0;  ///< without end sites
+  std::size_t end_sites = 0;
+  FigureFacts figure;
+  std::optional<BodyFacts> body;
+  std::optional<Error> complaint;
+};
+
+/// The facts of every clip behind a reference (as ExpandReference gives them). Never empty: a file without a clip is
+/// told of as well, and one that cannot be read by its complaint alone.
+std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options);
+/// Of a clip that is understood.
+ClipFacts FactsOf(const OpenedClip& clip);
+
+/// A paragraph for people. Roles that `before` had as well are not told again.
+std::string FactsAsText(const ClipFacts& facts, const ClipFacts* before = nullptr);
+/// One line under a picture: "BVH · 22.9 s at 120 Hz · 31 joints · 1.59 m tall · feet slide 0.6 cm/s · 1 unit = 5.644
+/// cm (CMU)".
+std::string FactsAsLine(const ClipFacts& facts);
+/// docs/schemas/clip-info.schema.json, one line.
+Result<std::string> FactsAsJson(const std::vector<ClipFacts>& facts);
+
+}  // namespace etude

@@ -1,0 +1,71 @@
+#include "reports/clips/contact_sheet.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "reports/clips/clip_facts.h"
+#include "reports/look.h"
+
+namespace etude {
+namespace {
+
+constexpr double kDetail = 2;
+constexpr int kMargin = 16;
+constexpr int kGap = 6;
+constexpr int kTitle = 46;  // room for a clip's name and facts above its pictures
+constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;
+
+int RowsOf(int pictures, int columns) { return (pictures + columns - 1) / columns; }
+
+void DrawTitle(Canvas& canvas, const ClipFacts& facts, double y, double room) {
+  canvas.DrawText({kMargin, y + 18}, facts.name, kNameSize, kInk, room, true);
+  canvas.DrawText({kMargin, y + 37}, FactsAsLine(facts), kFactsSize, kSoftInk, room);
+}
+
+}  // namespace
+
+Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer) {
+  std::vector<Shot> shots;
+  std::vector<std::vector<int>> frames;
+  Sight sight;
+  int columns = 1, height = kMargin;
+  for (ClipActor& actor : actors) {
+    shots.emplace_back(std::move(actor), options.from, 0);
+    frames.push_back(SpreadFrames(shots.back(), options.frames));
+    const int pictures = static_cast<int>(frames.back().size());
+    columns = std::max(columns, std::min(options.columns, pictures));
+    height += kTitle + RowsOf(pictures, options.columns) * (options.height + kGap) + kMargin;
+  }
+  // Titles need some room, however few pictures there are.
+  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, 640);
+  if (width > kLargestSheet || height > kLargestSheet) {
+    return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
+                width, height, kLargestSheet);
+  }
+  for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], sight);
+  const Studio studio(options.width, options.height, kDetail, sight);
+
+  Canvas canvas(width, height);
+  canvas.FillBox({0, 0, static_cast<double>(width), static_cast<double>(height)}, kBackdrop);
+  DrawLegend(canvas, width - kMargin, kMargin + 14);
+  double y = kMargin;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const double legend = i == 0 ? 160 : 0;
+    DrawTitle(canvas, FactsOf(shots[i].actor().clip()), y, width - 2 * kMargin - legend);
+    y += kTitle;
+    for (std::size_t k = 0; k < frames[i].size(); ++k) {
+      const int column = static_cast<int>(k) % options.columns, row = static_cast<int>(k) / options.columns;
+      const Box box{static_cast<double>(kMargin + column * (options.width + kGap)), y + row * (options.height + kGap),
+                    static_cast<double>(options.width), static_cast<double>(options.height)};
+      const int frame = frames[i][k];
+      shots[i].Draw(canvas, box, studio, renderer, frame);
+      canvas.DrawText({box.x + 10, box.y + 20}, fmt::format("{:.2f} s", shots[i].SecondsAt(frame)), kTimeSize, kSoftInk,
+                      box.width);
+    }
+    y += RowsOf(static_cast<int>(frames[i].size()), options.columns) * (options.height + kGap) + kMargin;
+  }
+  return canvas.Png();
+}
+
+}  // namespace etude

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "reports/clips/shot.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+struct SheetOptions {
+  Viewpoint from = Viewpoint::kThreeQuarter;
+  int width = 200;  ///< of one picture, pixels
+  int height = 260;
+  int frames = 12;   ///< pictures of each clip
+  int columns = 12;  ///< pictures beside each other
+};
+
+/// Larger sheets are refused, pixels a side.
+constexpr int kLargestSheet = 16'000;
+
+/// Draws clips below each other, each as pictures evenly spread over its time, all at one scale. The bytes of a PNG
+/// file.
+Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer);
+
+}  // namespace etude

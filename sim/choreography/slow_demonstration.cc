@@ -1,0 +1,93 @@
+#include "sim/choreography/slow_demonstration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace etude {
+namespace {
+
+constexpr double kHoldBeats = 1;
+
+/// Where in the move a demonstration is: the move's beat as a function of its own, standing still at the key poses.
+class Pauses {
+ public:
+  /// `stops` ascend strictly within (0, beats).
+  Pauses(std::vector<double> stops, double beats) : stops_(std::move(stops)), beats_(beats) {
+    double before = 0;
+    for (std::size_t i = 0; i <= stops_.size(); ++i) {
+      const double next = i < stops_.size() ? stops_[i] : beats;
+      // Two ramps meet between neighbouring stops; each takes half its length of the move.
+      ramp_ = std::min(ramp_, next - before);
+      before = next;
+    }
+  }
+
+  /// How much longer every stop makes the demonstration: the hold, and what the two ramps lose.
+  double PerStop() const { return kHoldBeats + ramp_; }
+  double Beats() const { return beats_ + PerStop() * static_cast<double>(stops_.size()); }
+  /// When the hold of a stop begins.
+  double HoldStart(std::size_t stop) const {
+    return stops_[stop] + PerStop() * static_cast<double>(stop) + 0.5 * ramp_;
+  }
+
+  double MoveBeat(double beat) const {
+    for (std::size_t i = stops_.size(); i-- > 0;) {
+      const double since = beat - HoldStart(i);
+      if (since >= kHoldBeats) return stops_[i] + Gathering(since - kHoldBeats);
+      if (since >= 0) return stops_[i];
+      if (since >= -ramp_) return stops_[i] - Gathering(-since);
+    }
+    return beat;
+  }
+
+ private:
+  /// How far one comes in `time` from standing still: the speed rises to 1 along a smoothstep of length `ramp_`.
+  double Gathering(double time) const {
+    if (time >= ramp_) return time - 0.5 * ramp_;
+    const double t = time / ramp_;
+    return ramp_ * t * t * t * (1 - 0.5 * t);
+  }
+
+  std::vector<double> stops_;
+  double beats_;
+  double ramp_ = 0.5;
+};
+
+}  // namespace
+
+Result<Move> SlowDemonstration(const Move& move) {
+  std::vector<double> stops;
+  for (const KeyPose& key_pose : move.key_poses) stops.push_back(key_pose.beat);
+  std::ranges::sort(stops);
+  if (stops.empty()) return Fail({}, "'{}' has no key poses to demonstrate", move.name);
+  if (stops.front() <= 0) return Fail({}, "'{}' has a key pose at beat 0; it must lie after it", move.name);
+  stops.erase(std::ranges::unique(stops).begin(), stops.end());
+  const Pauses pauses(stops, move.beats);
+
+  Move demonstration = move;
+  demonstration.name = std::string(kSlowDemonstrationPrefix) + move.name;
+  demonstration.tempo_bpm = 0.5 * move.tempo_bpm;
+  demonstration.slowest_bpm = demonstration.fastest_bpm = demonstration.tempo_bpm;
+  demonstration.beats = pauses.Beats();
+  for (KeyPose& key_pose : demonstration.key_poses) {
+    const auto stop = std::ranges::find(stops, key_pose.beat) - stops.begin();
+    key_pose.beat = pauses.HoldStart(static_cast<std::size_t>(stop));
+  }
+
+  // Read off densely: a hold becomes equal neighbours, between which curves stand exactly still.
+  constexpr double kPerBeat = 16;
+  const auto steps = static_cast<int>(std::ceil(kPerBeat * demonstration.beats));
+  std::vector<Controls> bodies;
+  for (int i = 0; i < steps; ++i) {
+    bodies.push_back(move.curves.At(pauses.MoveBeat(demonstration.beats * i / steps)));
+  }
+  demonstration.poses.clear();
+  demonstration.curves = MoveCurves::Through(bodies, demonstration.beats);
+  demonstration.motion = MotionOf(demonstration);
+  return demonstration;
+}
+
+}  // namespace etude

@@ -1,0 +1,143 @@
+#include "sim/choreography/song.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/base/names.h"
+#include "engine/document/fields.h"
+#include "sim/choreography/builtin_files.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/choreography/sequence.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kFewestMoves = 8, kMostMoves = 12;
+constexpr double kLongestSeconds = 600;
+/// The dancer waits that long for the music to come to the point, and stands again for as long.
+constexpr double kLeadBeats = 4;
+constexpr double kHalfTimePace = 0.5;
+
+double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1; }
+
+/// The part's move as danced to music of that tempo; fails when it does not suit it.
+Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
+  if (FindFile(BuiltinMoveFiles(), part.move) == nullptr) {
+    return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
+  }
+  const auto move = LoadBuiltinMove(part.move);
+  if (!move) return move;
+  const double danced_bpm = PaceOf(part) * tempo_bpm;
+  if (danced_bpm < move->slowest_bpm || danced_bpm > move->fastest_bpm) {
+    return Fail(place, "'{}' at {} beats a minute; it suits {} to {}{}", part.move, danced_bpm, move->slowest_bpm,
+                move->fastest_bpm, part.half_time ? "" : " ('half_time: true' halves it)");
+  }
+  return AtTempo(*move, danced_bpm, place);
+}
+
+Result<SongPart> ReadPart(const Node& item) {
+  Fields fields(item, "a part of a song");
+  SongPart part;
+  part.move = fields.RequiredText("move");
+  part.times = fields.Integer("times", 2, {2, 32});
+  part.half_time = fields.Boolean("half_time", false);
+  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  return part;
+}
+
+/// Reads the parts and lays them out one after the other, from beat `kLeadBeats` of the music on. `moves` gets the move
+/// of each.
+Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std::vector<Move>& moves) {
+  std::vector<SongPart> read;
+  std::set<std::string> names;
+  double beat = kLeadBeats;
+  for (const Node& item : parts.items) {
+    auto part = ReadPart(item);
+    if (!part) return tl::unexpected(part.error());
+    auto move = MoveOf(*part, tempo_bpm, item.Find("move")->place);
+    if (!move) return tl::unexpected(move.error());
+    part->start_beat = beat;
+    part->beats = part->times * move->beats / PaceOf(*part);
+    beat += part->beats;
+    const double seconds = (beat + kLeadBeats) * 60 / tempo_bpm;
+    if (seconds > kLongestSeconds) {
+      return Fail(item.place, "the song lasts {:.0f} s up to here; at most {}", seconds, kLongestSeconds);
+    }
+    names.insert(part->move);
+    read.push_back(std::move(*part));
+    moves.push_back(std::move(*move));
+  }
+  if (names.size() < kFewestMoves || names.size() > kMostMoves) {
+    return Fail(parts.place, "{} different moves; a song has {} to {}", names.size(), kFewestMoves, kMostMoves);
+  }
+  return read;
+}
+
+std::vector<Turn> TurnsOf(std::span<const SongPart> parts, std::span<const Move> moves) {
+  std::vector<Turn> turns = {{.start_beat = 0, .beats = kLeadBeats}};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    turns.push_back({parts[i].start_beat, parts[i].beats, &moves[i], PaceOf(parts[i])});
+  }
+  turns.push_back({.start_beat = turns.back().start_beat + turns.back().beats, .beats = kLeadBeats});
+  return turns;
+}
+
+BodyMotion MotionOf(std::span<const Turn> turns, double tempo_bpm) {
+  const double last_beat = turns.back().start_beat + turns.back().beats;
+  const double beats_per_frame = tempo_bpm / 60 / kJudgedRateHz;
+  const auto steps = static_cast<std::size_t>(std::ceil(last_beat / beats_per_frame - 1e-9));
+  BodyMotion motion;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double beat = std::min(static_cast<double>(i) * beats_per_frame, last_beat);
+    motion.poses.push_back(PoseOf(SequenceAt(turns, beat)));
+  }
+  return motion;
+}
+
+std::vector<MusicTag> TagsOf(const Song& song) {
+  std::vector<MusicTag> tags;
+  for (const SongPart& part : song.parts) {
+    for (int i = 0; i < part.times; ++i) {
+      const double music_s = (part.start_beat + i * part.beats / part.times) * 60 / song.tempo_bpm;
+      tags.push_back({static_cast<std::size_t>(std::lround(music_s * kJudgedRateHz)), music_s});
+    }
+  }
+  return tags;
+}
+
+}  // namespace
+
+Result<Song> ParseSong(std::string_view yaml, const std::string& file) {
+  const auto document = ParseYaml(yaml, file);
+  if (!document) return tl::unexpected(document.error());
+
+  Fields fields(*document, "a song");
+  Song song;
+  song.name = fields.RequiredText("song");
+  song.tempo_bpm = fields.Number("tempo_bpm", 120, {40, 240});
+  const Node* parts = fields.Raw("parts");
+  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  if (parts == nullptr || parts->kind != Node::Kind::kSequence) {
+    return Fail(parts ? parts->place : document->place, "'parts' must be a list of moves, found {}",
+                parts ? Describe(*parts) : "nothing");
+  }
+
+  std::vector<Move> moves;
+  auto read = ReadParts(*parts, song.tempo_bpm, moves);
+  if (!read) return tl::unexpected(read.error());
+  song.parts = std::move(*read);
+  song.motion = MotionOf(TurnsOf(song.parts, moves), song.tempo_bpm);
+  song.tags = TagsOf(song);
+  return song;
+}
+
+std::vector<std::string> BuiltinSongNames() { return NamesOf(BuiltinSongFiles()); }
+
+Result<Song> LoadBuiltinSong(const std::string& name) {
+  const EmbeddedText* file = FindFile(BuiltinSongFiles(), name);
+  if (file == nullptr) return Fail({}, "{}", UnknownName("song", name, BuiltinSongNames()));
+  return ParseSong(file->text, "scenarios/choreography/songs/" + std::string(file->name));
+}
+
+}  // namespace etude

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// One corner of a triangle as the surface shaders read it; frame E has the world's axes and the origin at the
+/// camera's centre.
+struct SurfaceCorner {
+  glm::vec3 place;  ///< in E
+  glm::vec3 normal;
+  glm::vec4 paint_and_label;  ///< RGB 0…1; A = the triangle's label
+};
+
+/// All triangles of all figures, three corners each. Triangles with a corner or normal that is not finite, or
+/// that lies beyond any scene, are left out.
+std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye);
+
+}  // namespace etude

@@ -1,0 +1,109 @@
+#include "sim/render/shader_pieces.h"
+#include "sim/render/shaders.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kCorner = R"glsl(
+in vec3 place_in;   // in E
+in vec3 normal_in;
+in vec4 paint_in;   // rgb; a = label
+
+uniform mat3 image_of_direction;  // E -> (u w, v w, w)
+uniform vec2 image_size;
+
+out vec3 normal;
+flat out vec4 paint;
+
+// `point` is homogeneous in E. Row 0 of the framebuffer is the picture's top row, so nothing needs to be flipped.
+// Hidden surfaces are told by the depth that each pixel writes; z only cuts off what is nearer than 1 cm, or beyond
+// infinity.
+void Place(vec4 point) {
+  vec3 image = image_of_direction * point.xyz;
+  gl_Position = vec4(2.0 * image.xy / image_size - image.z, image.z - 0.02 * point.w, image.z);
+  normal = normal_in;
+  paint = paint_in;
+}
+)glsl";
+
+constexpr const char* kPlace = R"glsl(
+void main() { Place(vec4(place_in, 1.0)); }
+)glsl";
+
+// Throwing a point from the lamp onto a plane is a division by its fall. Left to the division by w, it keeps triangles
+// flat, everything that is interpolated over them exact, and what hangs above the lamp beyond infinity.
+constexpr const char* kShadowPlace = R"glsl(
+uniform vec3 eye;
+uniform vec3 lamp;
+uniform float wall_z;
+uniform bool onto_wall;
+
+out vec3 caster;  // in E: what stands in the light
+
+void main() {
+  vec3 lamp_E = lamp - eye, from_lamp = place_in - lamp_E;
+  float reach = onto_wall ? lamp.z - wall_z : lamp.y;
+  float fall = onto_wall ? -from_lamp.z : -from_lamp.y;
+  vec3 thrown = lamp_E * fall + from_lamp * reach;
+  Place(vec4(thrown, fall));
+  caster = place_in;
+  gl_ClipDistance[0] = reach - fall;  // what lies behind the plane is in its shadow instead
+  // What falls behind the wall or under the floor is discarded pixel by pixel; nearly all of it is saved here.
+  vec3 place = thrown + eye * fall;
+  gl_ClipDistance[1] = (onto_wall ? place.y : place.z - wall_z * fall) + 0.01 * fall;
+}
+)glsl";
+
+constexpr const char* kSurface = R"glsl(
+uniform float farthest;
+
+in vec3 normal;
+flat in vec4 paint;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+layout(location = 2) out float depth;
+
+void main() {
+  vec3 ray = PixelRay();
+  depth = 1.0 / gl_FragCoord.w;
+  if (!(depth < MeetRoom(ray).depth && depth < farthest)) discard;
+  // Open surfaces show their back too. Upside down as the picture is drawn, GL takes backs for fronts.
+  vec3 outward = gl_FrontFacing ? -normal : normal;
+  colour = LitPaint(paint.rgb, outward / max(length(normal), 1e-6), depth * ray, ray);
+  label = uint(paint.a);
+  gl_FragDepth = depth / farthest;
+}
+)glsl";
+
+constexpr const char* kShadow = R"glsl(
+uniform bool onto_wall;
+
+in vec3 normal;
+in vec3 caster;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+
+void main() {
+  vec3 ray = PixelRay();
+  RoomHit hit = MeetRoom(ray);
+  if (hit.is_wall != onto_wall || hit.depth == kInfinity) discard;
+  vec3 point = hit.depth * ray;
+  // As a ball with this normal has it: softer where the body turns away from the lamp, which is at its outline. Less so
+  // than capsules, or each ear and cheek would show in the soft edge of the head.
+  float slant = dot(normal, normalize(lamp - eye - caster)) / max(length(normal), 1e-6);
+  float inside = 1.0 - sqrt(max(1.0 - slant * slant, 0.0));
+  colour = RoomInShadow(hit, point, inside, clamp(0.04 * distance(point, caster), 0.03, 0.12));
+  label = 1u;
+}
+)glsl";
+
+}  // namespace
+
+std::string SurfaceVertexShader() { return AssembleShader({kCorner, kPlace}); }
+std::string SurfaceFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kSurface}); }
+std::string SurfaceShadowVertexShader() { return AssembleShader({kCorner, kShadowPlace}); }
+std::string SurfaceShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }
+
+}  // namespace etude

@@ -1,0 +1,135 @@
+#include "bench/clips/open_clip.h"
+
+#include <gmock/gmock.h>
+
+#include "bench/clips/builtin_clip.h"
+#include "bench/clips/clip_library.h"
+#include "bench/clips/references.h"
+#include "sim/choreography/song.h"
+#include "tests/bench/clips/clip_folder.h"
+
+namespace etude {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class OpenClipTest : public ClipFolder {
+ protected:
+  void SetUp() override {
+    Write("numbers.bin", AnimationBytes());
+    dance_ = Write("dance.gltf", GltfWithAnimations("numbers.bin"));
+  }
+
+  std::vector<std::string> Expanded(const std::string& reference) {
+    const auto expanded = ExpandReference(reference, {});
+    EXPECT_TRUE(expanded) << reference;
+    return expanded ? *expanded : std::vector<std::string>{};
+  }
+  static std::string Complaint(const std::string& reference) {
+    const auto clips = ReadClips(reference);
+    EXPECT_FALSE(clips) << reference;
+    return clips ? "" : ToString(clips.error());
+  }
+
+  std::string dance_;
+};
+
+TEST_F(OpenClipTest, EveryAnimationIsAClipOfItsOwn) {
+  const auto clips = ReadClips(dance_);
+  ASSERT_TRUE(clips) << ToString(clips.error());
+  ASSERT_EQ(clips->size(), 2u);
+  EXPECT_EQ(clips->at(0).name, "dance#Armature|Jump");
+  EXPECT_EQ(clips->at(1).source, dance_ + "#Armature|Walk");
+  EXPECT_EQ(clips->at(0).character, nullptr) << "nodes without meshes are no figure";
+}
+
+TEST_F(OpenClipTest, AnAnimationIsChosenByNameOrByItsEnd) {
+  for (const std::string name : {"#Armature|Walk", "#Walk"}) {
+    const auto clips = ReadClips(dance_ + name);
+    ASSERT_TRUE(clips) << ToString(clips.error());
+    ASSERT_EQ(clips->size(), 1u);
+    EXPECT_EQ(clips->front().source, dance_ + "#Armature|Walk");
+  }
+  EXPECT_THAT(Complaint(dance_ + "#Armature|Wolk"), HasSubstr("did you mean 'Armature|Walk'? Allowed: Armature|Jump"));
+  EXPECT_THAT(Complaint(dance_ + "#"), HasSubstr("unknown animation ''"));
+}
+
+TEST_F(OpenClipTest, FilesWithoutMotionAndChoicesWithoutMeaningAreRefused) {
+  EXPECT_THAT(Complaint(Write("figure.gltf", GltfWith(""))), HasSubstr("holds no animation, only a figure (joints: 2"));
+  EXPECT_THAT(Complaint(Write("a.bvh", kTwoJoints) + "#Jump"), HasSubstr("a BVH file has one motion"));
+}
+
+TEST_F(OpenClipTest, AFileThatItselfHoldsASignIsThatFile) {
+  const std::string sharp = Write("take#2.bvh", kTwoJoints);
+  const auto clips = ReadClips(sharp);
+  ASSERT_TRUE(clips) << ToString(clips.error());
+  EXPECT_EQ(clips->front().name, "take#2");
+  Write("numbers[1].bvh", kTwoJoints);
+  EXPECT_THAT(Expanded(In("numbers[1].bvh")), ElementsAre(In("numbers[1].bvh")));
+}
+
+TEST_F(OpenClipTest, PatternsStandForFilesInOrderEachWithTheAnimation) {
+  const std::string a = Write("a.bvh", kTwoJoints), b = Write("b.bvh", kTwoJoints);
+  EXPECT_THAT(Expanded(In("*.bvh")), ElementsAre(a, b));
+  EXPECT_THAT(Expanded(In("d*.gltf#Walk")), ElementsAre(dance_ + "#Walk"));
+  const auto none = ExpandReference(In("*.fbx"), {.file = "s.yaml", .line = 3, .column = 9});
+  ASSERT_FALSE(none);
+  EXPECT_THAT(ToString(none.error()), HasSubstr("s.yaml:3:9: no clip matches '"));
+}
+
+TEST_F(OpenClipTest, BuiltinsAreMovesActsAndSongs) {
+  EXPECT_EQ(Expanded("builtin:*").size(), BuiltinMoveNames().size());
+  EXPECT_EQ(Expanded("builtin:acts").size(), BuiltinActNames().size());
+  ASSERT_EQ(Expanded("builtin:songs").size(), BuiltinSongNames().size());
+  const auto song = LoadBuiltinClip(BuiltinSongNames().front(), {});
+  ASSERT_TRUE(song);
+  EXPECT_FALSE(song->move) << "a song is no move that a recogniser was taught";
+  EXPECT_TRUE(LoadBuiltinClip("clap", {})->move);
+  EXPECT_TRUE(LoadBuiltinClip("wave", {}));
+  EXPECT_THAT(Complaint("builtin:clapp"), HasSubstr("did you mean 'clap'?"));
+}
+
+TEST_F(OpenClipTest, ABuiltinClipIsUnderstoodAsTheVeryBodyThatDancedIt) {
+  auto clips = ReadClips("builtin:boxing");
+  ASSERT_TRUE(clips);
+  const auto opened = UnderstandClip(std::move(clips->front()), {});
+  ASSERT_TRUE(opened);
+  const BodyMotion danced = LoadBuiltinMove("boxing")->motion;
+  ASSERT_EQ(opened->body.motion.poses.size(), danced.poses.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < danced.poses.size(); ++i) {
+    for (const Role role : AllRoles()) {
+      worst = std::max(worst, glm::distance(opened->body.motion.poses[i][role], danced.poses[i][role]));
+    }
+  }
+  EXPECT_LT(worst, 1e-9);
+}
+
+TEST_F(OpenClipTest, ALibraryTakesAllKindsInOrderAndNamesWhatItCannotUnderstand) {
+  const std::string real = "/usr/share/assimp/models/BVH/01_03.bvh";
+  const auto library = LoadClips({"builtin:clap", real, "builtin:wave"}, {});
+  ASSERT_TRUE(library) << ToString(library.error());
+  ASSERT_EQ(library->clips.size(), 3u);
+  EXPECT_EQ(library->clips[1].name, "01_03");
+  EXPECT_EQ(library->clips[1].source, real);
+  EXPECT_THAT(library->clips[1].note, HasSubstr("1 unit = 5.6"));
+  EXPECT_FALSE(library->clips[1].move);
+  const auto broken = LoadClips({"builtin:clap", dance_}, {});
+  ASSERT_FALSE(broken);
+  EXPECT_THAT(ToString(broken.error()), HasSubstr("dance.gltf#Armature|Jump: no joint found for left_shoulder"));
+}
+
+TEST_F(OpenClipTest, WhatIsTaughtComesBeforeWhatIsFound) {
+  const std::string real = "/usr/share/assimp/models/BVH/01_03.bvh";
+  const auto taught = ReadJointMapFile("roles:\n  left_hand: RightHand\n", "m.yaml");
+  ASSERT_TRUE(taught) << ToString(taught.error());
+  OpenOptions options;
+  options.roles = *taught;
+  const auto swapped = LoadClips({real}, {}, options);
+  ASSERT_FALSE(swapped) << "a left hand on the right arm";
+  EXPECT_THAT(ToString(swapped.error()), HasSubstr("left_hand is played by 'RightHand'"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,262 @@
+"""`etude clip`: what is in motion files, converted and rendered, on the clips of Debian's assimp-testmodels."""
+import csv
+import json
+import math
+import pathlib
+import struct
+import subprocess
+import sys
+import unittest
+import zlib
+
+from etude_case import ETUDE, EtudeCase
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from json_schema import complaints, load_schema  # noqa: E402
+
+MODELS = pathlib.Path("/usr/share/assimp/models")
+WALK = MODELS / "BVH" / "01_03.bvh"
+T_POSE_FIRST = MODELS / "BVH" / "01_01.bvh"
+NO_BODY = MODELS / "glTF2" / "simple_skin" / "simple_skin.gltf"
+NO_ANIMATION = MODELS / "glTF2" / "BoxTextured-glTF-Binary" / "BoxTextured.glb"
+
+
+def picture_size(png):
+    """Width and height of a PNG, its check sums verified."""
+    data = png.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG"
+    at, size = 8, None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
+        if kind == b"IHDR":
+            size = struct.unpack(">II", body[:8])
+        at += 12 + length
+    assert kind == b"IEND", "not whole"
+    return size
+
+
+class Clips(EtudeCase):
+    def works(self, *arguments):
+        result = self.etude("clip", *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        return result.stdout
+
+    def refuses(self, *arguments, says, leaves=None):
+        result = self.etude("clip", *arguments)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        lines = result.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 1, result.stderr)
+        for words in says:
+            self.assertIn(words, lines[0])
+        if leaves is not None:
+            self.assertFalse(pathlib.Path(leaves).exists(), "a refused command left a file")
+        return result.stdout
+
+    def info(self, *arguments, code=0):
+        result = self.etude("clip", "info", "--json", *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        told = json.loads(result.stdout)
+        self.assertEqual(complaints(told, load_schema("clip-info.schema.json")), [])
+        return told["clips"]
+
+    def places(self, clip, *options):
+        """Every joint's place in every frame, as the program's CSV has it."""
+        path = self.folder / "places.csv"
+        self.works("convert", clip, path, "--overwrite", *options)
+        with open(path) as table:
+            return [[float(cell) for cell in row[2:]] for row in list(csv.reader(table))[1:]]
+
+    def assert_same_places(self, a, b, tolerance):
+        self.assertEqual(len(a), len(b))
+        self.assertGreater(len(a), 10)
+        worst = max(abs(x - y) for first, second in zip(a, b) for x, y in zip(first, second))
+        self.assertLess(worst, tolerance)
+
+
+class Info(Clips):
+    def test_a_clip_is_told_of_in_words_and_as_json(self):
+        words = self.works("info", T_POSE_FIRST)
+        for part in ("2,752 frames at 120 Hz", "31 joints, 7 end sites", "(CMU)", "dropped a leading T-pose",
+                     "left_elbow = 'LeftForeArm'"):
+            self.assertIn(part, words)
+        [clip] = self.info(T_POSE_FIRST)
+        body = clip["body"]
+        self.assertEqual((clip["frames"], clip["rate_hz"], clip["format"]), (2752, 120, "BVH"))
+        self.assertTrue(1.5 < body["stature_m"] < 2.0)
+        self.assertLess(abs(body["lowest_foot_m"]), 0.1)
+        self.assertEqual(body["roles"]["left_elbow"], {"joint": "LeftForeArm", "composed": False})
+        self.assertTrue(0 < body["speed_median_m_s"] < body["speed_p95_m_s"] < body["speed_peak_m_s"] < 15)
+
+    def test_several_clips_and_builtin_ones(self):
+        clips = self.info(MODELS / "BVH" / "*.bvh", "builtin:*", "builtin:acts", "builtin:songs")
+        names = [clip["name"] for clip in clips]
+        self.assertEqual(names[:3], ["01_01", "01_03", "Boxing_Toes"])
+        for name in ("builtin:clap", "builtin:wave"):
+            self.assertIn(name, names)
+        self.assertEqual({clip["format"] for clip in clips[3:]}, {"built-in"})
+        for clip in clips:
+            self.assertTrue(1.5 < clip["body"]["stature_m"] < 2.0, clip["name"])
+
+    def test_what_is_no_body_is_told_of_all_the_same(self):
+        skin, box, broken, walk = self.info(NO_BODY, NO_ANIMATION, MODELS / "glTF2/RecursiveNodes/RecursiveNodes.gltf",
+                                            WALK, code=2)
+        self.assertIsNone(skin["body"])
+        self.assertIn("no joint found for left_shoulder", skin["complaint"])
+        self.assertGreater(skin["frames"], 1)
+        self.assertEqual((box["frames"], box["meshes"], box["triangles"]), (0, 1, 12))
+        self.assertIn("holds no animation", box["complaint"])
+        self.assertIsNone(broken["format"])
+        self.assertIn("its own ancestor", broken["complaint"])
+        self.assertIsNone(walk["complaint"])
+
+    def test_broken_files_are_told_in_one_line_each(self):
+        checked = 0
+        for path in sorted((MODELS / "glTF2").rglob("*.gl*")):
+            result = self.etude("clip", "info", path)
+            self.assertEqual(result.returncode, 2, path)
+            self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
+            checked += 1
+        self.assertGreater(checked, 20)
+
+    def test_what_cannot_be_found(self):
+        self.refuses("info", "nowhere.bvh", says=["no clip matches 'nowhere.bvh'; allowed: builtin:NAME"])
+        self.refuses("info", "builtin:clapp", says=["did you mean 'clap'?"])
+        self.refuses("info", f"{NO_BODY}#Jmp", says=["simple_skin.gltf: unknown animation 'Jmp'"])
+        self.refuses("info", WALK, "--unit", "ell", says=["--unit: 'ell' is no unit; allowed: m, cm"])
+        self.refuses("info", says=["clips is required", "etude clip info --help explains"])
+
+
+class Convert(Clips):
+    def test_bvh_to_bvh_changes_nothing_that_info_tells(self):
+        copy = self.folder / "01_03.bvh"
+        self.works("convert", WALK, copy)
+        before, after = self.info(WALK, copy)
+        for key in ("frames", "rate_hz", "joints", "end_sites"):
+            self.assertEqual(before[key], after[key], key)
+        self.assertEqual(before["body"]["roles"], after["body"]["roles"])
+        for key, value in before["body"].items():
+            if isinstance(value, float):
+                self.assertTrue(math.isclose(value, after["body"][key], rel_tol=1e-3, abs_tol=1e-4), key)
+
+    def test_bvh_to_glb_to_bvh_leaves_the_joints_where_they_are(self):
+        glb, bvh = self.folder / "walk.glb", self.folder / "walk.bvh"
+        self.works("convert", WALK, glb)
+        self.works("convert", glb, bvh)
+        places = self.places(WALK)
+        self.assert_same_places(places, self.places(glb), 1e-4)
+        self.assert_same_places(places, self.places(bvh), 1e-4)
+        with self.assertRaises(AssertionError, msg="the control"):
+            self.assert_same_places(places, self.places(WALK, "--mirror"), 1e-4)
+
+    def test_the_same_command_gives_the_same_bytes(self):
+        for name, *options in (("a.bvh", "--retarget"), ("a.glb", "--character", "bear"), ("a.trc",), ("a.csv",)):
+            first, second = self.folder / name, self.folder / ("b" + name)
+            for path in (first, second):
+                self.works("convert", WALK, path, *options)
+            self.assertEqual(first.read_bytes(), second.read_bytes(), name)
+
+    def test_trim_rate_and_mirror(self):
+        part = self.folder / "part.bvh"
+        self.works("convert", WALK, part, "--trim", "1:2", "--rate", "60", "--mirror")
+        [clip] = self.info(part)
+        self.assertEqual((clip["frames"], clip["rate_hz"]), (61, 60))
+        self.refuses("convert", WALK, part, "--trim", "1:2000", "--overwrite", says=["01_03.bvh: "])
+        self.refuses("convert", WALK, part, "--trim", "soon", "--overwrite", says=["--trim: 'soon' is no span of time"])
+
+    def test_everybody_dances_on_the_bear(self):
+        bear = self.folder / "bear.glb"
+        for clip in (WALK, "builtin:clap", "builtin:wave"):
+            self.works("convert", clip, bear, "--character", "bear", "--overwrite")
+            [told] = self.info(bear)
+            self.assertGreater(told["triangles"], 500)
+            self.assertEqual(told["body"]["unit"], "metre")
+            self.assertTrue(1.5 < told["body"]["stature_m"] < 1.8)
+
+    def test_nothing_is_replaced_or_half_written(self):
+        path = self.folder / "there.bvh"
+        path.write_text("mine")
+        self.refuses("convert", WALK, path, says=["there.bvh: is there already; --overwrite replaces it"])
+        self.assertEqual(path.read_text(), "mine")
+        self.refuses("convert", WALK, self.folder, says=["is a folder"])
+        fresh = self.folder / "new.bvh"
+        self.refuses("convert", WALK, self.folder / "new.fbx", says=[".bvh, .glb, .trc, .csv"])
+        self.refuses("convert", WALK, fresh, "--character", "bear", says=["only GLB holds a character"], leaves=fresh)
+        self.refuses("convert", NO_ANIMATION, fresh, says=["holds no animation"], leaves=fresh)
+        self.refuses("convert", "builtin:*", fresh, says=["one file is converted at a time"], leaves=fresh)
+        limited = subprocess.run(["sh", "-c", 'ulimit -f 8; trap "" XFSZ; exec "$0" clip convert "$1" "$2"', ETUDE, WALK,
+                                  fresh], capture_output=True, text=True, timeout=60)
+        self.assertEqual(limited.returncode, 2, limited.stderr)
+        self.assertIn("cannot write this file", limited.stderr)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["there.bvh"])
+
+
+class Render(Clips):
+    def test_a_sheet_has_a_row_of_pictures_per_clip_and_always_the_same_bytes(self):
+        sheet, again = self.folder / "a.png", self.folder / "b.png"
+        for path in (sheet, again):
+            self.works("render", WALK, "builtin:clap", "-o", path, "--frames", "3", "--size", "96x120")
+        self.assertEqual(sheet.read_bytes(), again.read_bytes())
+        width, height = picture_size(sheet)
+        self.assertGreaterEqual(width, 3 * 96)
+        self.assertGreater(height, 2 * 120)
+        self.works("render", WALK, "-o", again, "--frames", "3", "--size", "96x120", "--overwrite")
+        self.assertLess(picture_size(again)[1], height)
+
+    def test_every_figure_and_view_draws_something_else(self):
+        seen = set()
+        for options in (["--character", "bear"], ["--character", "mannequin"], ["--character", "body"],
+                        ["--character", "body", "--view", "front"], ["--character", "body", "--view", "side"]):
+            path = self.folder / "a.png"
+            self.works("render", WALK, "-o", path, "--frames", "1", "--overwrite", *options)
+            seen.add(path.read_bytes())
+        self.assertEqual(len(seen), 5)
+
+    def test_a_film(self):
+        film = self.folder / "clap.mp4"
+        self.works("render", "builtin:clap", "-o", film, "--size", "64x96", "--trim", "0:1")
+        data = film.read_bytes()
+        self.assertEqual(data[4:8], b"ftyp")
+        self.assertIn(b"moov", data)
+        self.refuses("render", "builtin:*", "-o", self.folder / "b.mp4", says=["a film shows one clip"],
+                     leaves=self.folder / "b.mp4")
+
+    def test_what_cannot_be_drawn(self):
+        path = self.folder / "a.png"
+        for arguments, says in (
+                ((NO_BODY, "-o", path), "no joint found"),
+                ((WALK, "-o", path, "--character", "own"), "has no figure of its own"),
+                ((WALK, "-o", path, "--size", "9x9"), "--size: '9x9' is no size"),
+                ((WALK, "-o", path, "--frames", "1000", "--columns", "100"), "the sheet would have"),
+                ((WALK, "-o", self.folder / "a.gif"), "allowed: .png (a contact sheet), .mp4 (a film)")):
+            self.refuses("render", *arguments, says=[says], leaves=path)
+
+
+class Map(Clips):
+    def test_a_map_that_was_written_is_read_back_as_the_same(self):
+        path = self.folder / "map.yaml"
+        self.assertIn("left_elbow       'LeftForeArm'", self.works("map", WALK, "-o", path))
+        again = self.folder / "again.yaml"
+        self.works("map", WALK, "--joint-map", path, "-o", again)
+        self.assertEqual(path.read_text(), again.read_text())
+        self.refuses("map", WALK, "-o", path, says=["--overwrite"])
+
+    def test_names_nobody_knows_are_taught_by_a_file(self):
+        odd = WALK.read_text()
+        for name, number in (("LeftForeArm", 1), ("RightForeArm", 2)):
+            odd = odd.replace(f"JOINT {name}\n", f"JOINT Q{number}\n")
+        clip = self.write("odd.bvh", odd)
+        template = self.folder / "odd.yaml"
+        self.refuses("map", clip, "-o", template, says=["no joint found for", "left_elbow", "'Q1'"])
+        self.assertIn("# left_elbow:", template.read_text())
+        self.assertIn("'Q1'", template.read_text())
+        taught = self.write("taught.yaml", "roles:\n  left_elbow: Q1\n  right_elbow: Q2\n")
+        self.assert_same_places(self.places(WALK), self.places(clip, "--joint-map", taught), 1e-9)
+        wrong = self.write("wrong.yaml", "roles:\n  left_elbw: Q1\n")
+        self.refuses("info", clip, "--joint-map", wrong, says=["wrong.yaml:2:3: ", "did you mean 'left_elbow'?"])
+
+
+if __name__ == "__main__":
+    unittest.main()

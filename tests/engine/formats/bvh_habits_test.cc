@@ -1,0 +1,121 @@
+// What exporters write beyond the letter of the format; none of it may change the motion.
+#include <gtest/gtest.h>
+
+#include "engine/formats/bvh.h"
+#include "tests/engine/formats/small_bvh.h"
+
+namespace etude {
+namespace {
+
+using testing::kSmallBvh;
+using testing::Replaced;
+
+std::string ReplacedEverywhere(std::string_view text, std::string_view from, std::string_view to) {
+  std::string out(text);
+  for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos; at += to.size()) {
+    out.replace(at, from.size(), to);
+  }
+  return out;
+}
+
+void ExpectTheSmallMotion(const std::string& text) {
+  const auto expected = ReadBvh(kSmallBvh, "small.bvh");
+  const auto clip = ReadBvh(text, "habit.bvh");
+  ASSERT_TRUE(clip) << ToString(clip.error());
+  EXPECT_EQ(clip->rate_hz, expected->rate_hz);
+  EXPECT_EQ(clip->frames, expected->frames);
+  EXPECT_EQ(RestPose(clip->skeleton), RestPose(expected->skeleton));
+}
+
+struct Habit {
+  const char* what;
+  const char* from;
+  const char* to;
+};
+
+constexpr Habit kHabits[] = {
+    {"nothing changed: the control", "HIERARCHY", "HIERARCHY"},
+    {"blank lines before everything", "HIERARCHY", "\n \t\n\nHIERARCHY"},
+    {"blank lines before the frames", ".0083333\n", ".0083333\n\n  \n"},
+    {"blank lines between the frames", "1 2 3 90 0 0 0 0 0\n", "1 2 3 90 0 0 0 0 0\n\n\n"},
+    {"blank lines after the frames", "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0 90 0 0\n\n\t\n"},
+    {"no blank line's end at the end", "0 90 0 0\n", "0 90 0 0"},
+    {"blanks around a frame", "1 2 3 90 0 0 0 0 0", "  1\t2  3 90 0 0 0 0 0 \t "},
+    {"Maya's End site", "End Site", "End site"},
+    {"a name behind End Site", "End Site", "End Site Arm Tip"},
+    {"the bracket on the joint's line", "JOINT Arm\n  {", "JOINT Arm {"},
+    {"the bracket glued to the name", "JOINT Arm\n  {", "JOINT Arm{"},
+    {"channels before the offset", "OFFSET 0 10 0\n    CHANNELS 3 Zrotation Yrotation Xrotation",
+     "CHANNELS 3 Zrotation Yrotation Xrotation\n    OFFSET 0 10 0"},
+    {"no blank behind a colon", "Frames: 2\nFrame Time: ", "Frames:2\nFrame Time:"},
+    {"a tab behind a colon", "Frames: 2\nFrame Time: ", "Frames:\t2\nFrame Time:\t"},
+    {"a frame time with an exponent", ".0083333", "8.3333333e-03"},
+    {"numbers with exponents and signs", "1 2 3 90 0 0", "+1 2.0e0 .3E+1 9e1 -0 0.000"},
+};
+
+TEST(BvhHabits, AreReadLikeTheLetterOfTheFormat) {
+  for (const Habit& habit : kHabits) {
+    SCOPED_TRACE(habit.what);
+    ExpectTheSmallMotion(Replaced(kSmallBvh, habit.from, habit.to));
+  }
+}
+
+TEST(BvhHabits, IncludeTheLineEndsOfEverySystem) {
+  for (const char* line_end : {"\n", "\r\n", "\r", "\r\r\n", " \r\n", "\t\r"}) {
+    ExpectTheSmallMotion(ReplacedEverywhere(kSmallBvh, "\n", line_end));
+    ExpectTheSmallMotion("\xEF\xBB\xBF" + ReplacedEverywhere(kSmallBvh, "\n", line_end));
+  }
+}
+
+TEST(BvhHabits, LeaveLinesCountedOnceUnderEverySystemsLineEnds) {
+  for (const char* line_end : {"\n", "\r\n", "\r"}) {
+    const std::string broken = Replaced(kSmallBvh, "1 2 3 0", "1 2 x 0");
+    const auto clip = ReadBvh(ReplacedEverywhere(broken, "\n", line_end), "broken.bvh");
+    ASSERT_FALSE(clip);
+    EXPECT_EQ(ToString(clip.error().place), "broken.bvh:20:5");
+  }
+}
+
+std::vector<std::string> NamesOf(const std::string& text) {
+  const auto clip = ReadBvh(text, "names.bvh");
+  std::vector<std::string> names;
+  if (!clip) return {ToString(clip.error())};
+  for (const Joint& joint : clip->skeleton.joints) names.push_back(joint.name);
+  return names;
+}
+
+TEST(BvhHabits, IncludeNamesWithBlanksColonsAndSigns) {
+  for (const std::string name :
+       {"Bip01 L Thigh", "mixamorig:LeftArm", "upperarm.l", "JOINT", "Hüfte", "a|b\\c", "\"quoted\""}) {
+    const std::string text = Replaced(kSmallBvh, "JOINT Arm", "JOINT " + name);
+    EXPECT_EQ(NamesOf(text), (std::vector<std::string>{"Hips", name, name + "_End"}));
+  }
+}
+
+TEST(BvhHabits, IncludeOneNameForSeveralJointsWhichCanStillBeTold) {
+  const std::string twins = Replaced(kSmallBvh, "    End Site\n",
+                                     "    JOINT Hips\n    { OFFSET 0 0 0 CHANNELS 0\n End Site\n { OFFSET 1 0 0 } }\n"
+                                     "    End Site\n    { OFFSET 2 0 0 }\n    End Site\n");
+  EXPECT_EQ(NamesOf(twins), (std::vector<std::string>{"Hips", "Arm", "Hips#2", "Hips#2_End", "Arm_End", "Arm_End#2"}));
+}
+
+TEST(BvhHabits, IncludeJointsWithoutOrWithFewChannels) {
+  // None at the arm, not even the word: it stands as it rests.
+  std::string text = Replaced(kSmallBvh, "    CHANNELS 3 Zrotation Yrotation Xrotation\n", "");
+  text = ReplacedEverywhere(text, "1 2 3 0 0 0 90 0 0", "1 2 3 0 0 0");
+  text = ReplacedEverywhere(text, "1 2 3 90 0 0 0 0 0", "1 2 3 90 0 0");
+  const auto none = ReadBvh(text, "none.bvh");
+  ASSERT_TRUE(none) << ToString(none.error());
+  EXPECT_EQ(none->frames[1][1], none->skeleton.joints[1].rest);
+  // Two rotations about the same frame's axes, in the order written.
+  text = Replaced(kSmallBvh, "CHANNELS 3 Zrotation Yrotation Xrotation", "CHANNELS 2 Xrotation Zrotation");
+  text = Replaced(Replaced(text, "90 0 0 0 0 0", "90 0 0 30 40"), "0 0 0 90 0 0", "0 0 0 0 90");
+  const auto two = ReadBvh(text, "two.bvh");
+  ASSERT_TRUE(two) << ToString(two.error());
+  const glm::dquat expected =
+      glm::angleAxis(glm::radians(30.0), glm::dvec3(1, 0, 0)) * glm::angleAxis(glm::radians(40.0), glm::dvec3(0, 0, 1));
+  EXPECT_NEAR(std::abs(glm::dot(two->frames[0][1].rotation, expected)), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace etude

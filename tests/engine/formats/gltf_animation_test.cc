@@ -1,0 +1,233 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tests/engine/formats/small_glb.h"
+
+namespace etude {
+namespace {
+
+using testing::Floats;
+using testing::Glb;
+using testing::Read;
+
+std::string Packed(const std::vector<float>& values) {
+  std::string bytes(values.size() * sizeof(float), '\0');
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  return bytes;
+}
+
+struct Curve {
+  std::string path;
+  std::string interpolation;
+  std::vector<float> times;
+  std::vector<float> values;
+};
+
+/// One node, called "Joint" and resting at (7, 8, 9), and one animation that drives it along these curves.
+std::string Animated(const std::vector<Curve>& curves, const std::string& name = "Move") {
+  std::string samplers, channels, accessors, views, binary;
+  const auto add = [&](const std::vector<float>& values, const std::string& type, std::size_t width) {
+    const std::string comma = views.empty() ? "" : ",";
+    views += comma + fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}}})", binary.size(), 4 * values.size());
+    accessors += comma + fmt::format(R"({{"bufferView":{},"componentType":5126,"count":{},"type":"{}"}})",
+                                     std::ranges::count(accessors, '{'), values.size() / width, type);
+    binary += Packed(values);
+  };
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const bool is_rotation = curves[i].path == "rotation";
+    add(curves[i].times, "SCALAR", 1);
+    add(curves[i].values, is_rotation ? "VEC4" : "VEC3", is_rotation ? 4 : 3);
+    const std::string comma = i == 0 ? "" : ",";
+    samplers += comma + fmt::format(R"({{"input":{},"output":{},"interpolation":"{}"}})", 2 * i, 2 * i + 1,
+                                    curves[i].interpolation);
+    channels += comma + fmt::format(R"({{"sampler":{},"target":{{"node":0,"path":"{}"}}}})", i, curves[i].path);
+  }
+  return Glb(fmt::format(R"({{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],
+"nodes":[{{"name":"Joint","translation":[7,8,9]}}],
+"animations":[{{"name":"{}","samplers":[{}],"channels":[{}]}}],
+"accessors":[{}],"bufferViews":[{}],"buffers":[{{"byteLength":{}}}]}})",
+                         name, samplers, channels, accessors, views, binary.size()),
+             binary);
+}
+
+/// The one joint's transforms, frame by frame, in the one clip.
+std::vector<LocalTransform> Frames(const Clip& clip) {
+  std::vector<LocalTransform> frames;
+  for (const LocalPose& pose : clip.frames) frames.push_back(pose.at(0));
+  return frames;
+}
+
+Clip OnlyClip(const std::string& bytes) {
+  const GltfContent content = Read(bytes);
+  EXPECT_EQ(content.clips.size(), 1u);
+  return content.clips.empty() ? Clip{} : content.clips[0];
+}
+
+void ExpectNear(const glm::dvec3& found, const glm::dvec3& expected, double tolerance = 1e-6) {
+  EXPECT_LT(glm::length(found - expected), tolerance) << "(" << found.x << ", " << found.y << ", " << found.z << ")";
+}
+
+void ExpectTurn(const glm::dquat& found, double radians, const glm::dvec3& axis) {
+  const glm::dquat expected = glm::angleAxis(radians, axis);
+  EXPECT_NEAR(std::abs(glm::dot(found, expected)), 1, 1e-7)
+      << "turned by " << glm::angle(found) << " instead of " << radians;
+}
+
+TEST(GltfAnimation, KeepsEvenlySpacedLinearKeysAsFrames) {
+  const Clip clip = OnlyClip(Animated({{"translation", "LINEAR", {0, 0.04f, 0.08f}, {0, 0, 0, 1, 2, 3, 4, 4, 4}}}));
+  EXPECT_EQ(clip.name, "Move");
+  EXPECT_EQ(clip.rate_hz, 25);
+  const auto frames = Frames(clip);
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[1].translation, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(frames[2].translation, glm::dvec3(4, 4, 4));
+}
+
+TEST(GltfAnimation, SamplesUnevenKeysAt60HzAlongStraightLines) {
+  const Clip clip = OnlyClip(Animated({{"translation", "LINEAR", {0, 0.5f, 2}, {0, 0, 0, 1, 0, 0, 1, 3, 0}}}));
+  EXPECT_EQ(clip.rate_hz, 60);
+  const auto frames = Frames(clip);
+  ASSERT_EQ(frames.size(), 121u);
+  ExpectNear(frames[15].translation, {0.5, 0, 0});  // at 0.25 s
+  ExpectNear(frames[75].translation, {1, 1.5, 0});  // at 1.25 s
+  EXPECT_EQ(frames[120].translation, glm::dvec3(1, 3, 0));
+}
+
+TEST(GltfAnimation, TurnsLinearRotationsAtConstantSpeedTheShortWay) {
+  const float half = std::sqrt(0.5f);
+  // To 90° about Z, written with the other sign: the short way is still 90°, not 270°.
+  const Clip clip =
+      OnlyClip(Animated({{"rotation", "LINEAR", {0, 1, 1.5f}, {0, 0, 0, 1, 0, 0, -half, -half, 0, 0, half, half}}}));
+  const auto frames = Frames(clip);
+  ASSERT_EQ(clip.rate_hz, 60);
+  ASSERT_EQ(frames.size(), 91u);
+  for (const int frame : {0, 10, 20, 30, 60, 75}) {
+    SCOPED_TRACE(frame);
+    ExpectTurn(frames[frame].rotation, std::min(frame / 60.0, 1.0) * std::numbers::pi / 2, {0, 0, 1});
+  }
+}
+
+TEST(GltfAnimation, HoldsStepsUntilTheNextKey) {
+  const Clip clip = OnlyClip(Animated({{"scale", "STEP", {0, 0.5f, 1}, {1, 1, 1, 2, 2, 2, 3, 3, 3}}}));
+  EXPECT_EQ(clip.rate_hz, 60);
+  const auto frames = Frames(clip);
+  ASSERT_EQ(frames.size(), 61u);
+  EXPECT_EQ(frames[29].scale, glm::dvec3(1));
+  EXPECT_EQ(frames[30].scale, glm::dvec3(2));
+  EXPECT_EQ(frames[59].scale, glm::dvec3(2));
+  EXPECT_EQ(frames[60].scale, glm::dvec3(3));
+}
+
+TEST(GltfAnimation, FollowsCubicSplinesWithTheirTangents) {
+  // x = t³ between its keys at 0 and 2 s: values 0 and 8, slopes 0 and 12. In-tangent, value, out-tangent per key.
+  const Clip clip = OnlyClip(Animated(
+      {{"translation", "CUBICSPLINE", {0, 2}, {99, 99, 99, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 99, 99, 99}}}));
+  const auto frames = Frames(clip);
+  ASSERT_EQ(frames.size(), 121u);
+  for (int frame = 0; frame <= 120; frame += 5)
+    ExpectNear(frames[frame].translation, {std::pow(frame / 60.0, 3), 0, 0});
+}
+
+TEST(GltfAnimation, MakesCubicSplineRotationsUnit) {
+  const float half = std::sqrt(0.5f);
+  const Clip clip = OnlyClip(Animated({{"rotation", "CUBICSPLINE", {0, 1}, {0, 0, 0, 0, 0,    0, 0,    1, 0, 0, 0, 0, 0,
+                                                                            0, 0, 0, 0, half, 0, half, 0, 0, 0, 0}}}));
+  for (const LocalTransform& frame : Frames(clip)) EXPECT_NEAR(glm::length(frame.rotation), 1, 2e-7);
+  // With tangents of zero it is half way at half time, by symmetry.
+  ExpectTurn(Frames(clip)[30].rotation, std::numbers::pi / 4, {0, 1, 0});
+}
+
+TEST(GltfAnimation, BeginsAtItsFirstKeyAndEndsAtItsLastOfAllChannels) {
+  const Clip clip =
+      OnlyClip(Animated({{"translation", "LINEAR", {2.1f, 2.2f}, {0, 0, 0, 1, 0, 0}},
+                         {"scale", "LINEAR", {2, 2.1f, 2.2f, 2.3f}, {1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4}}}));
+  EXPECT_EQ(clip.rate_hz, 10);
+  const auto frames = Frames(clip);
+  ASSERT_EQ(frames.size(), 4u);
+  EXPECT_EQ(frames[0].translation, glm::dvec3(0));  // held before its first key
+  EXPECT_EQ(frames[3].translation, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(frames[3].scale, glm::dvec3(4));
+}
+
+TEST(GltfAnimation, TakesTheRateFromWhatMoves) {
+  // Exporters give what stands still two keys, as steps.
+  const Clip clip = OnlyClip(Animated({{"scale", "STEP", {0, 0.1f}, {2, 2, 2, 2, 2, 2}},
+                                       {"translation", "LINEAR", {0, 0.05f, 0.1f}, {0, 0, 0, 1, 0, 0, 0, 0, 0}}}));
+  EXPECT_EQ(clip.rate_hz, 20);
+  EXPECT_EQ(Frames(clip)[1].scale, glm::dvec3(2));
+}
+
+TEST(GltfAnimation, KeepsARateThatIsNoWholeNumber) {
+  std::vector<float> times, values;
+  for (int k = 0; k < 100; ++k) {
+    times.push_back(static_cast<float>(k / 29.97));
+    values.insert(values.end(), {static_cast<float>(k), 0, 0});
+  }
+  const Clip clip = OnlyClip(Animated({{"translation", "LINEAR", times, values}}));
+  EXPECT_DOUBLE_EQ(clip.rate_hz, 29.97);
+  ASSERT_EQ(clip.frames.size(), 100u);
+  for (int k = 0; k < 100; ++k) EXPECT_NEAR(Frames(clip)[k].translation.x, k, 1e-4);
+}
+
+TEST(GltfAnimation, ReadsTheKeysOfALongRecordingAsTheyStand) {
+  // After ten minutes a float knows the time no better than to 60 µs.
+  std::vector<float> times, values;
+  for (int k = 0; k < 72'001; ++k) {
+    times.push_back(static_cast<float>(k / 120.0));
+    values.insert(values.end(), {static_cast<float>(k % 7), 0, 0});
+  }
+  const Clip clip = OnlyClip(Animated({{"translation", "LINEAR", times, values}}));
+  EXPECT_EQ(clip.rate_hz, 120);
+  ASSERT_EQ(clip.frames.size(), 72'001u);
+  for (std::size_t k = 0; k < clip.frames.size(); ++k) ASSERT_EQ(clip.frames[k][0].translation.x, k % 7) << k;
+}
+
+TEST(GltfAnimation, OfOneKeyIsOneFrame) {
+  const Clip clip = OnlyClip(Animated({{"translation", "LINEAR", {3}, {1, 2, 3}}}));
+  ASSERT_EQ(clip.frames.size(), 1u);
+  EXPECT_EQ(clip.frames[0][0].translation, glm::dvec3(1, 2, 3));
+}
+
+TEST(GltfAnimation, LeavesAtRestWhatHasNoChannel) {
+  const Clip clip = OnlyClip(Animated({{"scale", "LINEAR", {0, 1}, {1, 1, 1, 2, 2, 2}}}));
+  EXPECT_EQ(clip.frames[1][0].translation, glm::dvec3(7, 8, 9));
+  EXPECT_EQ(clip.skeleton.joints[0].name, "Joint");
+}
+
+TEST(GltfAnimation, IsNamedAsInTheFileOrNumbered) {
+  const std::string animation =
+      R"({"samplers":[{"input":5,"output":6}],"channels":[{"sampler":0,"target":{"node":1,"path":"rotation"}}])";
+  std::string json(testing::kSmallGltf);
+  const std::size_t at = json.find(R"({"name":"Bow")");
+  json.insert(at, animation + R"(,"name":"Bow"},)" + animation + "}," + animation + R"(,"name":"Bow_2"},)");
+  std::vector<std::string> names;
+  for (const Clip& clip : Read(Glb(json, testing::SmallBinary())).clips) names.push_back(clip.name);
+  EXPECT_THAT(names, ::testing::ElementsAre("Bow", "animation_1", "Bow_2", "Bow_3"));
+}
+
+TEST(GltfAnimation, OfMorphTargetsAloneIsLeftOut) {
+  std::string json(testing::kSmallGltf);
+  json.replace(json.find(R"("path":"rotation")"), 17, R"("path":"weights")");
+  EXPECT_TRUE(Read(Glb(json, testing::SmallBinary())).clips.empty());
+}
+
+TEST(GltfAnimation, UnderstandsNormalisedIntegers) {
+  std::string json(testing::kSmallGltf);
+  const std::string floats = R"({"bufferView":6,"componentType":5126,"count":3,"type":"VEC4"})";
+  json.replace(json.find(floats), floats.size(),
+               R"({"bufferView":6,"componentType":5122,"normalized":true,"count":3,"type":"VEC4"})");
+  std::string binary = testing::SmallBinary();
+  const std::string turns = testing::RawBytes<std::int16_t>({0, 0, 0, 32767, 23170, 0, 0, 23170, -32768, 0, 0, 0});
+  binary.replace(testing::kTurns, turns.size(), turns);
+  const Clip clip = OnlyClip(Glb(json, binary));
+  ASSERT_EQ(clip.frames.size(), 3u);
+  ExpectTurn(clip.frames[1][1].rotation, std::numbers::pi / 2, {1, 0, 0});
+  EXPECT_EQ(clip.frames[2][1].rotation, glm::dquat(0, -1, 0, 0));  // −32768 is −1 as well
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,253 @@
+// Files as they are found in the world: assimp's own test models, among them broken ones; and files that somebody broke
+// byte by byte.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "tests/engine/formats/small_glb.h"
+#include "tests/support/random_clip.h"
+
+namespace etude {
+namespace {
+
+using testing::Dice;
+
+const std::filesystem::path kModels = "/usr/share/assimp/models";
+
+std::string Bytes(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Result<GltfContent> ReadModel(const std::string& name, const std::string& bytes) {
+  return ReadGltf(bytes, name, [&](const std::string& uri) -> Result<std::string> {
+    const std::filesystem::path beside = (kModels / name).parent_path() / uri;
+    if (!std::filesystem::exists(beside)) return Fail({uri}, "no such file");
+    return Bytes(beside);
+  });
+}
+
+bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// What every file that was not refused must hold.
+void ExpectSane(const GltfContent& content) {
+  const Character& character = content.character;
+  const int joints = static_cast<int>(character.skeleton.joints.size());
+  ASSERT_GT(joints, 0);
+  for (int i = 0; i < joints; ++i) ASSERT_LT(character.skeleton.joints[i].parent, i);
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(character.skeleton, RestPose(character.skeleton), globals);
+  for (const SkinnedMesh& mesh : character.meshes) {
+    ASSERT_GE(mesh.material, 0);
+    ASSERT_LT(mesh.material, static_cast<int>(character.materials.size()));
+    for (const SkinnedMesh::Binding& binding : mesh.bindings) ASSERT_TRUE(binding.joint >= 0 && binding.joint < joints);
+    for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
+      ASSERT_NEAR(glm::length(vertex.normal), 1, 1e-6);
+      ASSERT_NEAR(vertex.weights[0] + vertex.weights[1] + vertex.weights[2] + vertex.weights[3], 1, 1e-6);
+      for (const int binding : vertex.bindings) ASSERT_LT(binding, static_cast<int>(mesh.bindings.size()));
+    }
+    for (const auto& triangle : mesh.triangles) {
+      for (const std::uint32_t corner : triangle) ASSERT_LT(corner, mesh.vertices.size());
+    }
+    const DeformedMesh deformed = Deform(mesh, globals);
+    for (const glm::dvec3& position : deformed.positions) ASSERT_TRUE(IsFinite(position));
+    for (const glm::dvec3& normal : deformed.normals) ASSERT_NEAR(glm::length(normal), 1, 1e-6);
+  }
+  for (const Clip& clip : content.clips) {
+    ASSERT_TRUE(std::isfinite(clip.rate_hz) && clip.rate_hz > 0);
+    ASSERT_FALSE(clip.frames.empty());
+    for (const LocalPose& pose : clip.frames) {
+      for (const LocalTransform& local : pose) ASSERT_NEAR(glm::length(local.rotation), 1, 1e-6);
+      ComputeGlobals(clip.skeleton, pose, globals);
+      for (const GlobalTransform& global : globals) ASSERT_TRUE(IsFinite(global.position));
+    }
+  }
+}
+
+/// Joints, meshes, triangles, clips.
+struct Counts {
+  std::size_t joints = 0, meshes = 0, triangles = 0, clips = 0;
+  friend bool operator==(const Counts&, const Counts&) = default;
+  friend std::ostream& operator<<(std::ostream& out, const Counts& counts) {
+    return out << counts.joints << " joints, " << counts.meshes << " meshes, " << counts.triangles << " triangles, "
+               << counts.clips << " clips";
+  }
+};
+
+Counts CountsOf(const GltfContent& content) {
+  Counts counts{content.character.skeleton.joints.size(), content.character.meshes.size(), 0, content.clips.size()};
+  for (const SkinnedMesh& mesh : content.character.meshes) counts.triangles += mesh.triangles.size();
+  return counts;
+}
+
+// clang-format off
+const std::map<std::string, Counts> kRead = {
+    {"glTF2/2CylinderEngine-glTF-Binary/2CylinderEngine.glb", {82, 115, 121496, 0}},
+    {"glTF2/BoxBadNormals-glTF-Binary/BoxBadNormals.glb", {2, 1, 12, 0}},
+    {"glTF2/BoxTexcoords-glTF/boxTexcoords.gltf", {3, 1, 12, 0}},
+    {"glTF2/BoxTextured-glTF-Binary/BoxTextured.glb", {2, 1, 12, 0}},
+    {"glTF2/BoxTextured-glTF-Embedded/BoxTextured.gltf", {2, 1, 12, 0}},
+    {"glTF2/BoxTextured-glTF-pbrSpecularGlossiness/BoxTextured.gltf", {2, 1, 12, 0}},
+    {"glTF2/BoxTextured-glTF/BoxTextured.gltf", {2, 1, 12, 0}},
+    {"glTF2/ClearCoat-glTF/ClearCoatTest.gltf", {33, 27, 37116, 0}},
+    {"glTF2/cameras/Cameras.gltf", {3, 1, 2, 0}},
+    {"glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf", {1, 1, 12, 0}},
+    {"glTF2/issue_3269/texcoord_crash.gltf", {5, 5, 10, 0}},
+    {"glTF2/simple_skin/simple_skin.gltf", {3, 1, 8, 1}},
+    {"glTF2/textureTransform/TextureTransformTest.gltf", {12, 12, 24, 0}},
+    // Broken only in what is not read.
+    {"glTF2/wrongTypes/badExtension.gltf", {2, 1, 12, 0}},
+    {"glTF2/wrongTypes/badObject.gltf", {2, 1, 12, 0}},
+    {"glTF2/wrongTypes/badString.gltf", {2, 1, 12, 0}},
+    {"glTF2/wrongTypes/badUint.gltf", {2, 1, 12, 0}},
+};
+
+const std::map<std::string, std::string> kRefused = {
+    {"glTF/BoxTextured-glTF-Binary/BoxTextured.glb", "found GLB version 1; allowed: 2"},
+    {"glTF/BoxTextured-glTF-Embedded/BoxTextured.gltf", "asset.version: found '1.0'; allowed: 2.0"},
+    {"glTF/BoxTextured-glTF-MaterialsCommon/BoxTextured.gltf", "asset.version: found '1.0'; allowed: 2.0"},
+    {"glTF/BoxTextured-glTF/BoxTextured.gltf", "asset.version: found '1.0'; allowed: 2.0"},
+    {"glTF/CesiumMilkTruck/CesiumMilkTruck.gltf", "not glTF 2.0: \"asset\" object not found"},
+    {"glTF/IncorrectVertexArrays/Cube_v1.gltf", "asset.version: found '1.0'; allowed: 2.0"},
+    {"glTF/TwoBoxes/TwoBoxes.gltf", "asset.version: found '1.0'; allowed: 2.0"},
+    {"glTF2/BoxTextured-glTF-techniqueWebGL/BoxTextured.gltf", "extensionsRequired: found 'KHR_technique_webgl'"},
+    {"glTF2/BoxWithInfinites-glTF-Binary/BoxWithInfinites.glb", "meshes[0].primitives[0].POSITION (accessors[2]): found -inf in element 0"},
+    {"glTF2/IncorrectVertexArrays/Cube.gltf", "meshes[1].primitives[0]: found 35 corners; allowed: multiples of 3"},
+    {"glTF2/IndexOutOfRange/AllIndicesOutOfRange.gltf", "indices: found vertex 65535 in element 0; allowed: 0 to 23"},
+    {"glTF2/IndexOutOfRange/IndexOutOfRange.gltf", "indices: found vertex 255 in element 0; allowed: 0 to 23"},
+    {"glTF2/MissingBin/BoxTextured.gltf", "BoxTextured0.bin: no such file"},
+    {"glTF2/RecursiveNodes/RecursiveNodes.gltf", "nodes[0]: is its own ancestor; allowed: a tree"},
+    {"glTF2/SchemaFailures/sceneWrongType.gltf", "BoxTextured0.bin: no such file"},
+    {"glTF2/TestNoRootNode/NoScene.gltf", "nodes: found none; at least one is needed"},
+    {"glTF2/TestNoRootNode/SceneWithoutNodes.gltf", "nodes: found none; at least one is needed"},
+    {"glTF2/draco/2CylinderEngine.gltf", "extensionsRequired: found 'KHR_draco_mesh_compression'"},
+    {"glTF2/wrongTypes/badArray.gltf", "meshes[0].primitives: found none; at least one is needed"},
+    {"glTF2/wrongTypes/badNumber.gltf", "not glTF 2.0: 'index' property is missing in NormalTextureInfo"},
+};
+// clang-format on
+
+/// The sixteen files of assimp's that show every way to draw: half of them, the lines and points, have no surface.
+Counts PrimitiveMode(int number) {
+  const bool has_surface = (number >= 4 && number <= 6) || number >= 11;
+  return has_surface ? Counts{1, 1, 2, 0} : Counts{1, 0, 0, 0};
+}
+
+TEST(GltfModels, OfAssimpAreReadOrRefusedWithAReason) {
+  ASSERT_TRUE(std::filesystem::exists(kModels)) << "not installed: package assimp-testmodels";
+  std::map<std::string, Counts> to_read = kRead;
+  for (int i = 0; i < 16; ++i) {
+    to_read[fmt::format("glTF2/glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_{:02}.gltf", i)] =
+        PrimitiveMode(i);
+  }
+  std::size_t found = 0;
+  for (const char* folder : {"glTF", "glTF2"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kModels / folder)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".gltf" && extension != ".glb") continue;
+      ++found;
+      const std::string name = std::filesystem::relative(entry.path(), kModels);
+      SCOPED_TRACE(name);
+      const auto content = ReadModel(name, Bytes(entry.path()));
+      if (const auto expected = to_read.find(name); expected != to_read.end()) {
+        ASSERT_TRUE(content) << ToString(content.error());
+        ExpectSane(*content);
+        EXPECT_EQ(CountsOf(*content), expected->second);
+      } else {
+        ASSERT_TRUE(kRefused.contains(name)) << "a file in neither list";
+        ASSERT_FALSE(content);
+        EXPECT_THAT(ToString(content.error()), ::testing::HasSubstr(kRefused.at(name)));
+      }
+    }
+  }
+  EXPECT_EQ(found, to_read.size() + kRefused.size());
+}
+
+std::string Mutated(std::string bytes, Dice& dice) {
+  constexpr std::string_view kJson = "{}[]:,-+.eE0123456789\"\\ntf\x00\x7F\x80\xFF";
+  for (std::uint32_t i = 0; i <= dice.Below(3); ++i) {
+    const std::size_t at = dice.Below(bytes.size());
+    const std::size_t length = dice.Below(20);
+    switch (dice.Below(6)) {
+      case 0:
+        bytes[at] = static_cast<char>(dice.Below(256));
+        break;
+      case 1:
+        bytes[at] = kJson[dice.Below(kJson.size())];
+        break;
+      case 2:
+        bytes.insert(at, 1, kJson[dice.Below(kJson.size())]);
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(dice.Below(bytes.size()), length));
+        break;
+      case 4:
+        for (std::size_t k = at; k < std::min(at + length, bytes.size()); ++k) bytes[k] = '\xFF';
+        break;
+      default:
+        bytes.erase(at, length);
+    }
+    if (bytes.empty()) bytes = "x";
+  }
+  return bytes;
+}
+
+/// As above, with the binary's length mended, so that what lies behind the header is reached.
+std::string MutatedGlb(const std::string& json, const std::string& binary, Dice& dice) {
+  return dice.Below(2) == 0 ? testing::Glb(Mutated(json, dice), binary) : testing::Glb(json, Mutated(binary, dice));
+}
+
+struct Outcomes {
+  int read = 0;
+  int refused = 0;
+
+  void Count(const Result<GltfContent>& content) {
+    if (!content) {
+      ++refused;
+      EXPECT_FALSE(content.error().message.empty());
+      EXPECT_EQ(ToString(content.error()).find('\n'), std::string::npos);
+      return;
+    }
+    ++read;
+    ExpectSane(*content);
+  }
+};
+
+TEST(GltfModels, NeverCrashOrGiveNonsenseWhenBytesOfASmallOneChange) {
+  Dice dice(3);
+  Outcomes outcomes;
+  const std::string json(testing::kSmallGltf), binary = testing::SmallBinary(), glb = testing::SmallGlb();
+  for (int i = 0; i < 3000; ++i) {
+    outcomes.Count(ReadGltf(i % 3 == 0 ? Mutated(glb, dice) : MutatedGlb(json, binary, dice), "mutated.glb", {}));
+    if (::testing::Test::HasFailure()) FAIL() << "in mutation " << i;
+  }
+  // Both ways were really taken.
+  EXPECT_GT(outcomes.read, 150);
+  EXPECT_GT(outcomes.refused, 1000);
+}
+
+TEST(GltfModels, NeverCrashOrGiveNonsenseWhenBytesOfARealOneChange) {
+  ASSERT_TRUE(std::filesystem::exists(kModels)) << "not installed: package assimp-testmodels";
+  Dice dice(4);
+  for (const std::string name :
+       {"glTF2/simple_skin/simple_skin.gltf", "glTF2/BoxTextured-glTF-Binary/BoxTextured.glb",
+        "glTF2/BoxTextured-glTF/BoxTextured.gltf", "glTF2/IncorrectVertexArrays/Cube.gltf",
+        "glTF2/cameras/Cameras.gltf", "glTF2/glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf",
+        "glTF/TwoBoxes/TwoBoxes.gltf"}) {
+    SCOPED_TRACE(name);
+    const std::string bytes = Bytes(kModels / name);
+    Outcomes outcomes;
+    for (int i = 0; i < 300; ++i) {
+      outcomes.Count(ReadModel(name, Mutated(bytes, dice)));
+      if (::testing::Test::HasFailure()) FAIL() << "in mutation " << i;
+    }
+    EXPECT_GT(outcomes.refused, 10);
+  }
+}
+
+}  // namespace
+}  // namespace etude

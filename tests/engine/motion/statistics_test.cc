@@ -1,0 +1,152 @@
+#include "engine/motion/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// A body of round lengths, standing on the floor.
+BodyPose Standing() {
+  BodyPose pose;
+  pose[kHipCentre] = {0, 0.9, 0};
+  pose[kSpine] = {0, 1.1, 0};
+  pose[kShoulderCentre] = {0, 1.4, 0};
+  pose[kHead] = {0, 1.6, 0};
+  for (const auto& [hip, knee, ankle, foot, x] : {std::tuple{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, 0.1},
+                                                  std::tuple{kRightHip, kRightKnee, kRightAnkle, kRightFoot, -0.1}}) {
+    pose[hip] = {x, 0.9, 0};
+    pose[knee] = {x, 0.5, 0};
+    pose[ankle] = {x, 0.1, 0};
+    pose[foot] = {x, 0, 0.15};
+  }
+  for (const auto& [role, x] : {std::pair{kLeftShoulder, 0.2}, std::pair{kLeftElbow, 0.5}, std::pair{kLeftWrist, 0.7},
+                                std::pair{kLeftHand, 0.8}}) {
+    pose[role] = {x, 1.4, 0};
+    pose[Mirrored(role)] = {-x, 1.4, 0};
+  }
+  return pose;
+}
+
+/// `change(pose, seconds)` alters the standing body of each frame.
+template <typename Change>
+BodyMotion Moving(int frames, Change change, double rate_hz = 30) {
+  BodyMotion motion{.rate_hz = rate_hz, .poses = {}};
+  for (int f = 0; f < frames; ++f) {
+    BodyPose pose = Standing();
+    change(pose, f / rate_hz);
+    motion.poses.push_back(pose);
+  }
+  return motion;
+}
+
+void Shift(BodyPose& pose, const glm::dvec3& by) {
+  for (glm::dvec3& joint : pose.joints) joint += by;
+}
+
+TEST(Stature, IsTheWayAlongTheLimbsOverItsShare) {
+  BodyPose pose = Standing();
+  EXPECT_NEAR(Stature(pose), (0.8 + 0.7) / 0.92, 1e-12);
+  // A body that sits down is as tall as before.
+  pose[kLeftKnee] = pose[kLeftHip] + glm::dvec3(0, 0, 0.4);
+  pose[kLeftAnkle] = pose[kLeftKnee] - glm::dvec3(0, 0.4, 0);
+  EXPECT_NEAR(Stature(pose), (0.8 + 0.7) / 0.92, 1e-12);
+}
+
+TEST(Describe, MeasuresABodyThatIsCarriedAlong) {
+  const MotionStatistics found = Describe(Moving(31, [](BodyPose& pose, double t) {
+    Shift(pose, {0.3 * t, 0.02, -0.4 * t});
+  }));
+  EXPECT_NEAR(found.stature_m, 1.5 / 0.92, 1e-12);
+  EXPECT_NEAR(found.travelled_m, 0.5, 1e-12);
+  EXPECT_NEAR(found.speed_median_m_s, 0.5, 1e-12);
+  EXPECT_NEAR(found.speed_p95_m_s, 0.5, 1e-12);
+  EXPECT_NEAR(found.speed_peak_m_s, 0.5, 1e-12);
+  EXPECT_NEAR(found.foot_slide_m_s, 0.5, 1e-12);
+  EXPECT_NEAR(found.lowest_foot_m, 0.02, 1e-12);
+}
+
+TEST(Describe, NamesTheFastestJointAndOrdersTheSpeeds) {
+  // The hand's speed grows by 0.1 m/s a frame, from 0.1 to 10.
+  const MotionStatistics found = Describe(Moving(101, [](BodyPose& pose, double t) {
+    const double f = std::round(30 * t);
+    pose[kRightHand].y += 0.1 / 30 * f * (f + 1) / 2;
+  }));
+  EXPECT_EQ(found.fastest, kRightHand);
+  EXPECT_NEAR(found.speed_peak_m_s, 10, 1e-9);
+  EXPECT_NEAR(found.speed_median_m_s, 5.05, 1e-9);
+  EXPECT_NEAR(found.speed_p95_m_s, 9.505, 1e-9);
+  EXPECT_EQ(found.travelled_m, 0);
+  EXPECT_EQ(found.foot_slide_m_s, 0);
+}
+
+TEST(Describe, GivesNoSpeedsForASingleFrame) {
+  const MotionStatistics found = Describe({.rate_hz = 30, .poses = {Standing()}});
+  EXPECT_EQ(found.speed_peak_m_s, 0);
+  EXPECT_EQ(found.speed_median_m_s, 0);
+  EXPECT_EQ(found.foot_slide_m_s, 0);
+  EXPECT_NEAR(found.stature_m, 1.5 / 0.92, 1e-12);
+}
+
+TEST(FootSlide, IsTheSpeedOfFeetOnTheFloorWhereverThatIs) {
+  for (const double floor : {0.0, -3.0, 0.7}) {
+    const auto slide = [&](BodyPose& pose, double t) { Shift(pose, {0.1 * t, floor, 0}); };
+    EXPECT_NEAR(FootSlide(Moving(20, slide)), 0.1, 1e-12);
+    EXPECT_NEAR(FootSlide(Moving(20, slide, 120)), 0.1, 1e-12);
+  }
+  // One of two feet.
+  EXPECT_NEAR(FootSlide(Moving(20, [](BodyPose& pose, double t) { pose[kLeftFoot].z += 0.1 * t; })), 0.05, 1e-12);
+}
+
+TEST(FootSlide, IsNothingWhereFeetStandWhileTheBodyMoves) {
+  EXPECT_EQ(FootSlide(Moving(20,
+                             [](BodyPose& pose, double t) {
+                               const BodyPose before = pose;
+                               Shift(pose, {t, 0, -2 * t});
+                               for (const Role foot : {kLeftFoot, kRightFoot}) pose[foot] = before[foot];
+                             })),
+            0);
+}
+
+TEST(FootSlide, CountsALiftedFootByItsHeight) {
+  // The first frame stands on the floor and moves nothing; from then on the feet slide at the height h.
+  for (const double height : {0.0, 0.01, 0.0125, 0.02, 0.025, 0.3}) {
+    const double slide = FootSlide(Moving(12, [&](BodyPose& pose, double t) {
+      if (t > 0) Shift(pose, {0.1 * (t - 1 / 30.0), height, 0});
+    }));
+    EXPECT_NEAR(slide, 0.1 * (10.0 / 11) * std::max(0.0, 2 - std::pow(2, height / 0.025)), 1e-12) << height;
+  }
+}
+
+/// A foot that swings forward by 0.6 m and 0.15 m high in every first half second, and stands in the second; the
+/// other half a second later.
+void Walk(BodyPose& pose, double t) {
+  const auto way = [](double seconds) {
+    const double step = std::floor(seconds);
+    const double swing = std::min(2 * (seconds - step), 1.0);
+    return 0.6 * (step + (1 - std::cos(kPi * swing)) / 2);
+  };
+  const auto height = [](double seconds) {
+    const double swing = std::min(2 * (seconds - std::floor(seconds)), 1.0);
+    return 0.15 * std::sin(kPi * swing);
+  };
+  pose[kLeftFoot] += glm::dvec3(0, height(t), way(t));
+  pose[kRightFoot] += glm::dvec3(0, height(t + 0.5), way(t + 0.5));
+}
+
+TEST(FootSlide, IsSmallInAWalkAndGrowsBySlidingOfTheWhole) {
+  const BodyMotion walk = Moving(121, Walk);
+  // Feet move while they leave the floor: 2 cm/s of a walk of 60 cm/s.
+  EXPECT_LT(FootSlide(walk), 0.02);
+  BodyMotion sliding = walk;
+  for (std::size_t f = 0; f < sliding.poses.size(); ++f) Shift(sliding.poses[f], {0, 0, -0.6 * f / 30.0});
+  EXPECT_GT(FootSlide(sliding), 0.2);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,116 @@
+#include "engine/retargeting/map_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/body_of_person.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(JointMapFile, NamesJointsByRole) {
+  const auto taught = ReadJointMapFile("roles:\n  left_elbow: LForeArm\n  head: 'Skull: top'\n", "map.yaml");
+  ASSERT_TRUE(taught) << ToString(taught.error());
+  ASSERT_EQ(taught->joints.size(), 2u);
+  EXPECT_EQ(taught->joints.at(kLeftElbow).name, "LForeArm");
+  EXPECT_EQ(taught->joints.at(kHead).name, "Skull: top");
+  EXPECT_EQ(taught->joints.at(kHead).place.line, 3);
+}
+
+TEST(JointMapFile, ComplainsWhereItIsWrong) {
+  struct Case {
+    const char* yaml;
+    const char* complaint;
+  };
+  for (const Case& wrong : {
+           Case{"roles:\n  left_elbo: LForeArm\n",
+                "map.yaml:2:3: unknown role 'left_elbo'; did you mean 'left_elbow'?"},
+           Case{"roles:\n  head: [a, b]\n", "map.yaml:2:9: 'head' must be a joint's name, found a list"},
+           Case{"roles: {}\n", "'roles' must name joints (left_elbow: LForeArm), found"},
+           Case{"roles: Hips\n", "map.yaml:1:8: 'roles' must name joints (left_elbow: LForeArm), found 'Hips'"},
+           Case{"joints:\n  head: Head\n", "unknown key of a joint map 'joints'"},
+           Case{"{}\n", "'roles' must name joints (left_elbow: LForeArm), found nothing"},
+           Case{"- head\n", "a joint map must be a mapping"},
+           Case{"roles: {head: Head, head: Neck}\n", "map.yaml:1:"},
+       }) {
+    const auto taught = ReadJointMapFile(wrong.yaml, "map.yaml");
+    ASSERT_FALSE(taught) << wrong.yaml;
+    EXPECT_THAT(ToString(taught.error()), HasSubstr(wrong.complaint));
+  }
+}
+
+TEST(JointMapFile, ComplainsAboutAJointThatTheClipDoesNotHave) {
+  const auto taught = ReadJointMapFile("roles:\n  left_elbow: LeftForArm\n", "map.yaml");
+  ASSERT_TRUE(taught);
+  const auto map = FindJointMap(testing::PersonSkeleton(), "person.bvh", &*taught);
+  ASSERT_FALSE(map);
+  EXPECT_THAT(ToString(map.error()),
+              HasSubstr("map.yaml:2:15: person.bvh has no joint named 'LeftForArm'; did you mean "
+                        "'LeftForeArm'?; joints in the file: 'Hips', 'Spine'"));
+}
+
+void ExpectRoundTrip(const Skeleton& skeleton) {
+  const auto map = FindJointMap(skeleton, "person.bvh");
+  ASSERT_TRUE(map) << ToString(map.error());
+  const std::string text = WriteJointMapFile(skeleton, *map);
+  const auto taught = ReadJointMapFile(text, "map.yaml");
+  ASSERT_TRUE(taught) << ToString(taught.error()) << "\n" << text;
+  EXPECT_EQ(taught->joints.size(), kRoleCount - map->composed.size());
+  const auto again = FindJointMap(skeleton, "person.bvh", &*taught);
+  ASSERT_TRUE(again) << ToString(again.error());
+  EXPECT_EQ(again->composed, map->composed);
+  for (const Role role : AllRoles()) {
+    EXPECT_EQ((*again)[role].joint, (*map)[role].joint) << RoleName(role);
+    EXPECT_EQ((*again)[role].offset, (*map)[role].offset) << RoleName(role);
+  }
+}
+
+TEST(JointMapFile, ReadBackGivesTheSameMap) {
+  ExpectRoundTrip(testing::PersonSkeleton());
+  Skeleton without_tips = testing::PersonSkeleton();
+  for (Joint& joint : without_tips.joints) {
+    if (joint.is_end_site) joint.rest.translation = {0, 0, 0};
+  }
+  ExpectRoundTrip(without_tips);
+}
+
+TEST(JointMapFile, HoldsNamesOfAnyCharacters) {
+  Skeleton person = testing::PersonSkeleton();
+  for (Joint& joint : person.joints) joint.name = "null: #\\\"\t{" + joint.name;
+  person.joints[person.Find("null: #\\\"\t{Hips")].name = "~";
+  ExpectRoundTrip(person);
+}
+
+TEST(JointMapFile, ListsWhatIsComposedAndWhatIsNotUsed) {
+  Skeleton person = testing::PersonSkeleton();
+  person.joints[person.Find("LeftHand_End")].rest.translation = {0, 0, 0};
+  const std::string text = WriteJointMapFile(person, *FindJointMap(person, "person.bvh"));
+  EXPECT_THAT(text, HasSubstr("\n  left_elbow: \"LeftForeArm\"\n"));
+  EXPECT_THAT(text, HasSubstr("\n  # left_hand: no joint; a point that rides on \"LeftHand\"\n"));
+  EXPECT_THAT(text, HasSubstr("\n#   \"LeftShoulder\"\n"));
+  EXPECT_THAT(text, Not(HasSubstr("#   \"LeftForeArm\"")));
+}
+
+TEST(JointMapFile, LeavesOutAJointThatBearsTheNameOfAnother) {
+  Skeleton person = testing::PersonSkeleton();
+  person.joints.insert(person.joints.begin(), Joint{"Head", -1, {}, false});
+  for (Joint& joint : person.joints) ++joint.parent;
+  person.joints[0].parent = person.joints[1].parent = -1;
+  person.joints[person.Find("Head_End")].name = "Head";
+  const auto map = FindJointMap(person, "person.bvh");
+  ASSERT_TRUE(map) << ToString(map.error());
+  const std::string text = WriteJointMapFile(person, *map);
+  EXPECT_THAT(text, HasSubstr("\n  # head: the joint \"Head\" that is not the first of this name\n"));
+  const auto taught = ReadJointMapFile(text, "map.yaml");
+  ASSERT_TRUE(taught);
+  const auto again = FindJointMap(person, "person.bvh", &*taught);
+  ASSERT_TRUE(again) << ToString(again.error());
+  EXPECT_EQ((*again)[kHead].joint, (*map)[kHead].joint);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,53 @@
+#include "engine/retargeting/rotations.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+
+void ExpectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-12); }
+
+TEST(ShortestTurn, TurnsAboutTheNormalOfBoth) {
+  const glm::dquat turn = ShortestTurn(2.0 * kX, 3.0 * kY);
+  ExpectNear(turn * kX, kY);
+  ExpectNear(turn * kZ, kZ);
+}
+
+TEST(ShortestTurn, IsAlsoExactForNearlyEqualAndNearlyOppositeDirections) {
+  for (const double angle : {1e-12, 1e-6, kPi - 1e-6, kPi}) {
+    const glm::dvec3 to(std::cos(angle), std::sin(angle), 0);
+    ExpectNear(ShortestTurn(kX, to) * kX, to);
+  }
+}
+
+TEST(ShortestTurn, OfNoDirectionIsNone) {
+  EXPECT_EQ(ShortestTurn(glm::dvec3(0), kX), glm::dquat(1, 0, 0, 0));
+  EXPECT_EQ(ShortestTurn(kX, glm::dvec3(0)), glm::dquat(1, 0, 0, 0));
+}
+
+TEST(Orientation, KeepsTheFirstAxisAndThePlane) {
+  const glm::dquat axes = Orientation(3.0 * kZ, kX + 5.0 * kZ);
+  ExpectNear(axes * kX, kZ);
+  ExpectNear(axes * kY, kX);
+}
+
+TEST(Orientation, OfParallelAxesIsAnyThatKeepsTheFirst) {
+  ExpectNear(Orientation(kY, 2.0 * kY) * kX, kY);
+  ExpectNear(Orientation(kY, glm::dvec3(0)) * kX, kY);
+}
+
+TEST(Ramp, IsFlatAtItsEndsAndHalfWayInTheMiddle) {
+  EXPECT_EQ(Ramp(2, 4, 1), 0);
+  EXPECT_EQ(Ramp(2, 4, 3), 0.5);
+  EXPECT_EQ(Ramp(2, 4, 5), 1);
+  EXPECT_NEAR(Ramp(2, 4, 2.001), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,66 @@
+#include "engine/retargeting/up_axis.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/angles.h"
+#include "tests/support/body_of_person.h"
+
+namespace etude {
+namespace {
+
+BodyPose Standing() {
+  const Skeleton person = testing::PersonSkeleton();
+  return testing::RestBody(person, *FindJointMap(person, "person.bvh"));
+}
+
+BodyPose Turned(BodyPose pose, double radians, const glm::dvec3& axis, const glm::dvec3& shift = {}) {
+  for (glm::dvec3& joint : pose.joints) joint = glm::angleAxis(radians, axis) * joint + shift;
+  return pose;
+}
+
+/// Standing along Z, facing −Y.
+BodyPose StandingAlongZ(const glm::dvec3& shift = {}) { return Turned(Standing(), kPi / 2, {1, 0, 0}, shift); }
+
+/// A folded rest pose: neither along Y nor Z.
+BodyPose Folded() { return Turned(Standing(), kPi / 2, {0, 0, 1}); }
+
+TEST(UpAxis, IsWhatTheRestPoseStandsAlongUnlessTheBodyMovesOtherwise) {
+  const std::vector<BodyPose> still_y = {Standing(), Standing()};
+  const std::vector<BodyPose> still_z = {StandingAlongZ(), StandingAlongZ()};
+  EXPECT_EQ(FindUpAxis(Standing(), still_y), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(StandingAlongZ(), still_z), UpAxis::kZ);
+  EXPECT_EQ(FindUpAxis(StandingAlongZ(), still_y), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(Standing(), still_z), UpAxis::kY) << "lies";
+  EXPECT_EQ(FindUpAxis(Folded(), still_z), UpAxis::kZ);
+  EXPECT_EQ(FindUpAxis(Folded(), still_y), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(Folded(), {&still_y[0], 1}), UpAxis::kY);
+}
+
+TEST(UpAxis, OfABodyThatTravelsStandingAlongZIsZ) {
+  const std::vector<BodyPose> walk = {StandingAlongZ(), StandingAlongZ({0, -60, 0}), StandingAlongZ({0, -120, 0})};
+  EXPECT_EQ(FindUpAxis(Standing(), walk), UpAxis::kZ);
+  // The control: whoever lies along Z may creep along Z.
+  const std::vector<BodyPose> creep = {StandingAlongZ(), StandingAlongZ({0, 0, 60}), StandingAlongZ({0, 0, 120})};
+  EXPECT_EQ(FindUpAxis(Standing(), creep), UpAxis::kY);
+}
+
+TEST(UpAxis, OfSomersaultsIsTheRestPoses) {
+  std::vector<BodyPose> over;
+  for (int i = 0; i < 24; ++i) over.push_back(Turned(Standing(), i * kPi / 12, {1, 0, 0}));
+  EXPECT_LT(glm::length(MeanBodyAxis(over)), 1e-12);
+  EXPECT_EQ(FindUpAxis(Standing(), over), UpAxis::kY);
+  EXPECT_EQ(FindUpAxis(StandingAlongZ(), over), UpAxis::kZ);
+  EXPECT_EQ(FindUpAxis(Folded(), over), UpAxis::kY) << "in doubt";
+}
+
+TEST(Upright, KeepsHandednessAndTurnsMinusYToPlusZ) {
+  const glm::dvec3 x = Upright({1, 0, 0}, UpAxis::kZ), y = Upright({0, 1, 0}, UpAxis::kZ),
+                   z = Upright({0, 0, 1}, UpAxis::kZ);
+  EXPECT_EQ(z, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(y, glm::dvec3(0, 0, -1));
+  EXPECT_EQ(glm::cross(x, y), z);
+  EXPECT_EQ(Upright({1, 2, 3}, UpAxis::kY), glm::dvec3(1, 2, 3));
+}
+
+}  // namespace
+}  // namespace etude

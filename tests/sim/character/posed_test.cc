@@ -1,0 +1,120 @@
+#include "sim/character/posed.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/base/angles.h"
+#include "engine/retargeting/rig.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/choreography/stance.h"
+
+namespace etude {
+namespace {
+
+// An arm along +X: the shoulder at the origin, the elbow 1 away, something without a role in the hand's place. Of three
+// triangles the first hangs from the shoulder, the second is shared, the last is carried by that something.
+Character Arm() {
+  Character arm;
+  const auto at = [](double x) { return LocalTransform{.translation = {x, 0, 0}}; };
+  arm.skeleton.joints = {{.name = "left_shoulder", .parent = -1, .rest = at(0)},
+                         {.name = "left_elbow", .parent = 0, .rest = at(1)},
+                         {.name = "glove", .parent = 1, .rest = at(1)}};
+  arm.materials = {{"skin", {0.5, 0, 2}}};
+  SkinnedMesh mesh;
+  for (int joint = 0; joint < 3; ++joint) {
+    mesh.bindings.push_back({joint, glm::translate(glm::dmat4(1), glm::dvec3(-joint, 0, 0))});
+  }
+  const auto add = [&mesh](double x, std::array<int, 4> bindings, std::array<double, 4> weights) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const glm::dvec3& corner : {glm::dvec3(0, 0, 0), glm::dvec3(0.2, 0, 0), glm::dvec3(0, 0.2, 0)}) {
+      mesh.vertices.push_back({corner + glm::dvec3(x, 0, 0), {0, 0, 1}, bindings, weights});
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  };
+  add(0.3, {0}, {1});
+  add(0.9, {0, 1}, {0.4, 0.6});
+  add(2.1, {2}, {1});
+  arm.meshes = {mesh};
+  return arm;
+}
+
+LocalPose BentArm(const Character& arm) {
+  LocalPose pose = RestPose(arm.skeleton);
+  pose[1].rotation = glm::angleAxis(Radians(90), glm::dvec3(0, 0, 1));
+  return pose;
+}
+
+void ExpectNear(const glm::dvec3& a, const glm::dvec3& b) {
+  EXPECT_NEAR(glm::distance(a, b), 0, 1e-12) << a.x << ' ' << a.y << ' ' << a.z;
+}
+
+TEST(PosedFigure, FollowsItsSkeleton) {
+  const Character arm = Arm();
+  const Figure figure = PosedFigure(arm, BentArm(arm));
+  EXPECT_TRUE(figure.shape.empty());
+  ASSERT_EQ(figure.surfaces.size(), 1u);
+  const Surface& sleeve = figure.surfaces[0];
+  EXPECT_EQ(sleeve.triangles, arm.meshes[0].triangles);
+  ExpectNear(sleeve.positions[1], {0.5, 0, 0});
+  ExpectNear(sleeve.positions[3], glm::mix(glm::dvec3(0.9, 0, 0), glm::dvec3(1, -0.1, 0), 0.6));
+  ExpectNear(sleeve.positions[7], {1, 1.3, 0});  // 1.3 beyond an elbow that points up
+  ExpectNear(sleeve.positions[8], {0.8, 1.1, 0});
+}
+
+TEST(PosedFigure, IsMovedIntoTheWorldWithItsNormals) {
+  const Character arm = Arm();
+  // Inches, Z up, stretched: a normal must go the inverse transposed way.
+  glm::dmat4 to_world = glm::translate(glm::dmat4(1), {0.5, 0.9, -1});
+  to_world = glm::rotate(to_world, Radians(-90), {1, 0.3, 0});
+  to_world = glm::scale(to_world, glm::dvec3(0.0254, 0.05, 0.1));
+  const Surface here = PosedFigure(arm, BentArm(arm)).surfaces[0];
+  const Surface there = PosedFigure(arm, BentArm(arm), to_world).surfaces[0];
+  for (std::size_t i = 0; i < here.positions.size(); ++i) {
+    ExpectNear(there.positions[i], glm::dvec3(to_world * glm::dvec4(here.positions[i], 1)));
+    EXPECT_NEAR(glm::length(there.normals[i]), 1, 1e-12);
+  }
+  for (const auto& [a, b, c] : there.triangles) {
+    const glm::dvec3& p = there.positions[a];
+    ExpectNear(glm::normalize(glm::cross(there.positions[b] - p, there.positions[c] - p)), there.normals[a]);
+  }
+}
+
+TEST(PosedFigure, LabelsEachTriangleByTheRoleThatMovesItMost) {
+  Character arm = Arm();
+  const auto parts = [&arm] { return PosedFigure(arm, RestPose(arm.skeleton)).surfaces[0].parts; };
+  EXPECT_EQ(parts(), (std::vector{Part::kLeftUpperArm, Part::kLeftForearm, Part::kLeftForearm}));
+  arm.skeleton.joints[2].name = "left_wrist";
+  EXPECT_EQ(parts(), (std::vector{Part::kLeftUpperArm, Part::kLeftForearm, Part::kLeftHand}));
+  for (Joint& joint : arm.skeleton.joints) joint.name = "Bone";
+  EXPECT_EQ(parts(), std::vector(3, Part::kTrunk));
+}
+
+TEST(PosedFigure, TurnsLinearColoursIntoThoseOfPictures) {
+  const Character arm = Arm();
+  // Half the light is 188 of 255; what is out of range is brought to its ends.
+  EXPECT_EQ(PosedFigure(arm, RestPose(arm.skeleton)).surfaces[0].colour, (Rgb8{188, 0, 255}));
+}
+
+TEST(PosedFigure, OfABodysPoseHasItsJointsThere) {
+  Character dots;
+  dots.skeleton = BodySkeleton(StandingPose());
+  dots.materials = {{}};
+  SkinnedMesh mesh;
+  for (const Role role : AllRoles()) {
+    const int joint = dots.skeleton.Find(std::string(RoleName(role)));
+    ASSERT_GE(joint, 0);
+    mesh.bindings.push_back({joint, glm::translate(glm::dmat4(1), -StandingPose()[role])});
+    mesh.vertices.push_back({StandingPose()[role], {0, 1, 0}, {static_cast<int>(Index(role))}, {1}});
+  }
+  dots.meshes = {mesh};
+  const BodyPose ready = PoseOf(ReadyStance());
+  const Figure figure = PosedFigure(dots, ready);
+  for (const Role role : AllRoles()) {
+    EXPECT_NEAR(glm::distance(figure.surfaces[0].positions[Index(role)], ready[role]), 0, 1e-9) << RoleName(role);
+  }
+  EXPECT_GT(glm::distance(ready[Role::kLeftHand], StandingPose()[Role::kLeftHand]), 0.05);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/motion/body.h"
+#include "sim/choreography/canonical_body.h"
+
+namespace etude {
+
+/// How far apart two poses are, metres: the joint that differs most.
+inline double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < kRoleCount; ++i) worst = std::max(worst, glm::distance(a.joints[i], b.joints[i]));
+  return worst;
+}
+
+/// A toe that counts as standing still.
+constexpr double kStillMmps = 5;
+
+/// The fastest that a toe moves along the floor while it is down, mm/s, and how many frames it is down.
+inline std::pair<double, int> FastestSlide(const BodyMotion& motion, Role toe) {
+  constexpr double kDown = 0.0005;
+  double fastest = 0;
+  int down = 0;
+  for (std::size_t i = 1; i < motion.poses.size(); ++i) {
+    const glm::dvec3 &before = motion.poses[i - 1][toe], &now = motion.poses[i][toe];
+    if (std::max(before.y, now.y) > CanonicalBody::kToeHeight + kDown) continue;
+    ++down;
+    fastest = std::max(fastest, 1000 * motion.rate_hz * std::hypot(now.x - before.x, now.z - before.z));
+  }
+  return {fastest, down};
+}
+
+}  // namespace etude
