@@ -6,7 +6,7 @@
 
 #include "engine/base/names.h"
 #include "engine/formats/bvh.h"
-#include "engine/formats/gltf.h"
+#include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/edit.h"

@@ -61,8 +61,7 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
     for (const Json& scenario : json.at("scenarios")) {
       setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(),
                                  scenario.at("seed").get<std::uint64_t>(), scenario.at("trials").get<int>(),
-                                 scenario.at("clips").get<std::vector<std::string>>(),
-                                 scenario.value("joint_map", ""),
+                                 scenario.at("clips").get<std::vector<std::string>>(), scenario.value("joint_map", ""),
                                  scenario.at("digest").get<std::string>()});
     }
     if (json.contains("scored")) {

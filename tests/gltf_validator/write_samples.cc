@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/formats/gltf.h"
+#include "engine/formats/gltf/gltf.h"
 #include "engine/retargeting/rig.h"
 #include "sim/character/characters.h"
 #include "sim/choreography/move.h"

@@ -17,7 +17,7 @@ LAYERS = ["engine", "sim", "bench", "reports", "cli"]
 DOORS = {
     "yaml-cpp/": ["engine/document"],
     "GL/": ["sim/render"],
-    "tiny_gltf.h": ["engine/formats"],
+    "tiny_gltf.h": ["engine/formats/gltf"],
     "OpenEXR/": ["sim/sensors"],
     "Imf": ["sim/sensors"],
     "png.h": ["sim/sensors"],

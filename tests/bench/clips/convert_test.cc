@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/formats/bvh.h"
-#include "engine/formats/gltf.h"
+#include "engine/formats/gltf/gltf.h"
 #include "engine/motion/statistics.h"
 #include "sim/choreography/move.h"
 #include "sim/choreography/stance.h"

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/formats/gltf_file.h"
-#include "engine/formats/gltf_nodes.h"
+#include "engine/formats/gltf/file.h"
+#include "engine/formats/gltf/nodes.h"
 #include "engine/motion/clip.h"
 
 namespace etude {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "tests/engine/formats/small_glb.h"
+#include "tests/engine/formats/gltf/small_glb.h"
 
 namespace etude {
 namespace {

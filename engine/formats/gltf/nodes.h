@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/formats/gltf_file.h"
+#include "engine/formats/gltf/file.h"
 #include "engine/motion/clip.h"
 
 namespace etude {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/engine/formats/small_glb.h"
+#include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/support/person.h"
 
 namespace etude {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/small_bvh.h"
-#include "tests/engine/formats/small_glb.h"
 
 namespace etude {
 namespace {

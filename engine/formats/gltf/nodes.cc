@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_nodes.h"
+#include "engine/formats/gltf/nodes.h"
 
 #include <tiny_gltf.h>
 

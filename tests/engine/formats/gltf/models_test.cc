@@ -9,7 +9,7 @@
 #include <iterator>
 #include <map>
 
-#include "tests/engine/formats/small_glb.h"
+#include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/support/random_clip.h"
 
 namespace etude {

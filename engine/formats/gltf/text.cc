@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_text.h"
+#include "engine/formats/gltf/text.h"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/formats/gltf.h"
+#include "engine/formats/gltf/gltf.h"
 
 namespace etude::testing {
 

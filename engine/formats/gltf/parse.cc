@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_parse.h"
+#include "engine/formats/gltf/parse.h"
 
 #include <tiny_gltf.h>
 
@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "engine/base/names.h"
-#include "engine/formats/gltf_container.h"
+#include "engine/formats/gltf/container.h"
 
 namespace etude {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "engine/base/result.h"
-#include "engine/formats/gltf.h"
+#include "engine/formats/gltf/gltf.h"
 
 namespace tinygltf {
 class Model;

@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_container.h"
+#include "engine/formats/gltf/container.h"
 
 #include <cstdint>
 

@@ -1,10 +1,10 @@
-#include "engine/formats/gltf_mesh.h"
+#include "engine/formats/gltf/mesh.h"
 
 #include <tiny_gltf.h>
 
 #include <algorithm>
 
-#include "engine/formats/gltf_skin.h"
+#include "engine/formats/gltf/skin.h"
 
 namespace etude {
 namespace {

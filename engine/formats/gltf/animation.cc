@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_animation.h"
+#include "engine/formats/gltf/animation.h"
 
 #include <tiny_gltf.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "engine/base/names.h"
-#include "engine/formats/gltf_curve.h"
+#include "engine/formats/gltf/curve.h"
 
 namespace etude {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_clip_writer.h"
+#include "engine/formats/gltf/clip_writer.h"
 
 #include <tiny_gltf.h>
 
@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "engine/formats/gltf_buffer.h"
-#include "engine/formats/gltf_text.h"
+#include "engine/formats/gltf/buffer.h"
+#include "engine/formats/gltf/text.h"
 
 namespace etude {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_file.h"
+#include "engine/formats/gltf/file.h"
 
 #include <tiny_gltf.h>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/formats/gltf_file.h"
+#include "engine/formats/gltf/file.h"
 
 namespace etude {
 

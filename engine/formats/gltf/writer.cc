@@ -4,11 +4,11 @@
 #include <sstream>
 #include <utility>
 
-#include "engine/formats/gltf.h"
-#include "engine/formats/gltf_buffer.h"
-#include "engine/formats/gltf_clip_writer.h"
-#include "engine/formats/gltf_mesh.h"
-#include "engine/formats/gltf_text.h"
+#include "engine/formats/gltf/buffer.h"
+#include "engine/formats/gltf/clip_writer.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/formats/gltf/mesh.h"
+#include "engine/formats/gltf/text.h"
 
 namespace etude {
 namespace {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/engine/formats/gltf/small_glb.h"
 #include "tests/engine/formats/small_bvh.h"
-#include "tests/engine/formats/small_glb.h"
 
 namespace etude {
 namespace {

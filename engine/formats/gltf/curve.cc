@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_curve.h"
+#include "engine/formats/gltf/curve.h"
 
 #include <tiny_gltf.h>
 
@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "engine/base/names.h"
-#include "engine/formats/gltf_nodes.h"
+#include "engine/formats/gltf/nodes.h"
 
 namespace etude {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tests/engine/formats/small_glb.h"
+#include "tests/engine/formats/gltf/small_glb.h"
 
 namespace etude {
 namespace {

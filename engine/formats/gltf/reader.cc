@@ -1,11 +1,11 @@
 #include <tiny_gltf.h>
 
-#include "engine/formats/gltf.h"
-#include "engine/formats/gltf_animation.h"
-#include "engine/formats/gltf_file.h"
-#include "engine/formats/gltf_mesh.h"
-#include "engine/formats/gltf_nodes.h"
-#include "engine/formats/gltf_parse.h"
+#include "engine/formats/gltf/animation.h"
+#include "engine/formats/gltf/file.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/formats/gltf/mesh.h"
+#include "engine/formats/gltf/nodes.h"
+#include "engine/formats/gltf/parse.h"
 
 namespace etude {
 namespace {

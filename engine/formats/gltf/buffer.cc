@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_buffer.h"
+#include "engine/formats/gltf/buffer.h"
 
 #include <tiny_gltf.h>
 

@@ -1,4 +1,4 @@
-#include "engine/formats/gltf_skin.h"
+#include "engine/formats/gltf/skin.h"
 
 #include <tiny_gltf.h>
 
