@@ -58,8 +58,11 @@ int ClipMapCommand(const ClipMapOptions& options) {
   const Skeleton& skeleton = clip.clip.skeleton;
   const auto map = FindJointMap(skeleton, options.clip, reading->roles ? &*reading->roles : nullptr);
   if (!map) {
-    if (auto saved = Save(options, EmptyMapFile(skeleton)); !saved) return Complain(saved.error());
-    if (!options.output.empty()) fmt::print("{}: to be filled in\n", options.output);
+    // Who has a map already mends that one, which may be the very file that would be written.
+    if (options.joint_map.empty() && !options.output.empty()) {
+      if (auto saved = Save(options, EmptyMapFile(skeleton)); !saved) return Complain(saved.error());
+      fmt::print("{}: to be filled in\n", options.output);
+    }
     return Complain(map.error());
   }
   PrintRoles(skeleton, *map);

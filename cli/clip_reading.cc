@@ -66,10 +66,14 @@ Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& refer
 }
 
 Result<void> CheckOutput(const std::string& path, bool overwrite) {
+  namespace fs = std::filesystem;
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
-  if (overwrite || !std::filesystem::exists(path, ignored)) return {};
+  const fs::file_status there = fs::symlink_status(path, ignored);
+  if (!fs::exists(there)) return {};
+  if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
+  // A device or a pipe would be replaced, not written to.
+  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) return Fail({path, 0, 0}, "is there, and is no file");
+  if (overwrite) return {};
   return Fail({path, 0, 0}, "is there already; --overwrite replaces it");
 }
 

@@ -99,7 +99,10 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   if (!renderer) return tl::unexpected(renderer.error());
   const Interrupt interrupt;
   const FilmOptions film{ViewNamed(options.view), size->width, size->height, interrupt.requested()};
-  return FilmClip(std::move(actors->front()), film, options.output, **renderer);
+  auto whole = FilmClip(std::move(actors->front()), film, options.output, **renderer);
+  // Ctrl-C reaches the encoder, too, whose end may be what is noticed first.
+  if (!whole && *interrupt.requested()) return false;
+  return whole;
 }
 
 }  // namespace

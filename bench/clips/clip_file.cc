@@ -51,7 +51,7 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
 std::string WhatElse(std::string_view bytes, const std::string& first_word) {
   const bool is_fbx = bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("; FBX");
   if (is_fbx) return "an FBX file, which Blender turns into glTF";
-  if (bytes.empty()) return "an empty file";
+  if (first_word.empty()) return "an empty file";
   return "a file that begins with " + Quote(first_word);
 }
 

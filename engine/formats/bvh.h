@@ -23,8 +23,8 @@ namespace etude {
 ///
 /// Refused, with line and column: whatever is not in the grammar, a second ROOT, a frame that is not
 /// one line with a number for every channel, another number of frames than announced, no frames, frame
-/// times outside 0.1 ms…10 s, nesting over 128, over 1,024 joints, frames that would take over 1 GB
-/// (an hour of 25 joints at 120 Hz), told before any of them is read.
+/// times outside 0.1 ms…10 s, nesting over 128, over 1,024 joints, names over 500 bytes, frames that would take over 1
+/// GB (an hour of 25 joints at 120 Hz), told before any of them is read.
 Result<Clip> ReadBvh(std::string_view bytes, const std::string& file);
 
 /// Writes a clip as BVH: the root and every joint that leaves its offset in some frame with three positions, every

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kDeepestNesting = 128;
 constexpr std::size_t kMostJoints = 1024;
+constexpr std::size_t kLongestName = 500;
 constexpr int kMostChannels = 6;
 
 constexpr std::array<std::string_view, kMostChannels> kChannelNames = {"Xposition", "Yposition", "Zposition",
@@ -55,6 +56,9 @@ class HierarchyReader {
   Result<void> ReadJoint(int parent, int depth) {
     const Token name = scanner_.NameInLine();
     if (name.text.empty()) return Unexpected(name, "a joint's name");
+    if (name.text.size() > kLongestName) {
+      return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: {}", name.text.size(), kLongestName);
+    }
     auto index = AddJoint(std::string(name.text), parent, name, depth);
     if (!index) return tl::unexpected(index.error());
     if (auto ok = Expect("{"); !ok) return ok;

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace etude {
 
-std::string WriteTrc(const BodyMotion& motion, std::string_view name) {
+std::string WriteTrc(const BodyMotion& motion, std::string name) {
+  // It stands in a table of lines and tabs.
+  std::ranges::replace_if(
+      name, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '_');
   constexpr double kMillimetres = 1000;
   const std::size_t frames = motion.poses.size();
   std::string text;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace etude {
 
@@ -24,7 +23,5 @@ LocalPose SampleFrame(const Clip& clip, double frame) {
   for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = Between(pose[i], next[i], part);
   return pose;
 }
-
-LocalPose SampleClip(const Clip& clip, double seconds) { return SampleFrame(clip, seconds * clip.rate_hz); }
 
 }  // namespace etude

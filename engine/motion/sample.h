@@ -14,7 +14,4 @@ LocalTransform Between(const LocalTransform& from, const LocalTransform& to, dou
 /// it is. Needs at least one frame.
 LocalPose SampleFrame(const Clip& clip, double frame);
 
-/// The same at `seconds` after the first frame.
-LocalPose SampleClip(const Clip& clip, double seconds);
-
 }  // namespace etude

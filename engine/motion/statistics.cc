@@ -70,7 +70,7 @@ double Stature(const BodyPose& pose) {
   return (0.5 * (left_leg + right_leg) + trunk_and_head) / kMeasuredShare;
 }
 
-MotionStatistics Describe(const BodyMotion& motion) {
+MotionStatistics ComputeStatistics(const BodyMotion& motion) {
   assert(!motion.poses.empty());
   MotionStatistics found;
   std::vector<double> statures;

@@ -21,7 +21,7 @@ struct MotionStatistics {
 };
 
 /// Needs at least one frame; of one frame all speeds are 0. A speed is the way from one frame to the next.
-MotionStatistics Describe(const BodyMotion& motion);
+MotionStatistics ComputeStatistics(const BodyMotion& motion);
 
 /// Mean over frames and feet of the toes' horizontal speed, weighted by how much they stand: the weight is
 /// clamp(2 − 2^(h / 2.5 cm), 0, 1) at height h above the floor (Zhang et al. 2018, "Mode-adaptive neural networks").

@@ -167,8 +167,13 @@ class MapFinder {
       if (!IsFree(places_, limb.roles[2])) pairs.push_back({limb.roles[1], limb.roles[2]});
       if (is_taught_[Index(limb.tip)]) pairs.push_back({limb.roles[2], limb.tip});
     }
+    if (is_taught_[Index(kHead)]) pairs.push_back({kHipCentre, kHead});
     for (const Bone& pair : pairs) {
       if (auto ok = CheckHangs(pair.child, pair.parent); !ok) return ok;
+    }
+    for (const Role role : {kSpine, kShoulderCentre, kHead}) {
+      if (IsFree(places_, role)) continue;
+      return Fail({file_}, "{} is played by {}, which is part of a limb", RoleName(role), Quote(places_.NameOf(role)));
     }
     return {};
   }

@@ -28,9 +28,9 @@ struct JointMap {
 struct TaughtRoles;
 
 /// Finds the roles in a skeleton by the naming schemes of joint_names.h and by its build:
-/// - shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head by name; among joints of one
-/// name
-///   those that hang together. Wrists and ankles may hang from a control outside the limbs. Where no neck is named it
+/// - shoulders, elbows, wrists, hips, knees, ankles, the base of the neck and the head by name; among
+///   joints of one name those that hang together.
+///   Wrists and ankles may hang from a control outside the limbs. Where no neck is named it
 ///   is *composed*: a point midway between the shoulders;
 /// - the hip centre is midway between the hips, whatever the file's root is (paper B's P₁); its point
 ///   here names the joint that carries both hips, `Evaluate` puts it midway;

@@ -1,35 +1,58 @@
 #include "engine/retargeting/joint_names.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace etude {
 namespace {
 
+// Where a scheme names the collar bone "shoulder" or a helper "hip", a more specific row must come before the one
+// that would take these for the joint.
 constexpr LimbNames kArmSchemes[] = {
-    {{"arm", "forearm", "hand"}},            // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
-    {{"shoulder", "elbow", "wrist"}},        // Biovision, CMU as converted for Poser, Xsens, SMPL, Kinect
-    {{"shoulder", "elbow", "hand"}},         // CMU as converted for Daz
-    {{"uparm", "lowarm", "hand"}},           // Biovision's own samples
-    {{"upperarm", "lowerarm", "wrist"}},     // KayKit, whose "hand" is a bone further
-    {{"upperarm", "lowerarm", "hand"}},      // Bandai-Namco, VRM, Unreal
-    {{"upperarm", "forearm", "hand"}},       // 3ds Max' biped, Blender's rigs
-    {{"upperarm", "lowerarm", "palm2"}},     // RobotExpressive of three.js
-    {{"shldr", "forearm", "hand"}},          // Poser
-    {{"shldrbend", "forearmbend", "hand"}},  // Daz Genesis
-    {{"humerus", "radius", "wrist"}},        // Acclaim: CMU's originals
+    {{"arm", "forearm", "hand"}},                // MotionBuilder: CMU, LAFAN1, Mixamo, MASS, Rokoko, DeepMotion
+    {{"arm", "elbow", "wrist"}},                 // "Shoulder" is the collar bone: MikuMikuDance in English
+    {{"upperarm", "elbow", "wrist"}},            // likewise
+    {{"arm", "elbow", "hand"}},                  // likewise
+    {{"upperarm", "elbow", "hand"}},             // likewise
+    {{"shoulder", "elbow", "wrist"}},            // Biovision, CMU as converted for Poser, Xsens, SMPL, Kinect
+    {{"shoulder", "elbow", "hand"}},             // CMU as converted for Daz
+    {{"uparm", "lowarm", "hand"}},               // Biovision's own samples
+    {{"upperarm", "lowerarm", "wrist"}},         // KayKit, whose "hand" is a bone further
+    {{"upperarm", "lowerarm", "hand"}},          // Bandai-Namco, VRM, Unreal
+    {{"upperarm", "forearm", "hand"}},           // 3ds Max' biped, Blender's rigs
+    {{"upperarm", "lowerarm", "palm2"}},         // RobotExpressive of three.js
+    {{"upperarm", "lowerarm", "palm"}},          // Quaternius
+    {{"upperarm", "lowerarm", "fist"}},          // likewise
+    {{"upperarm", "forearm", "wrist"}},          // mixed: seen in hand-made rigs
+    {{"bicep", "forearm", "hand"}},              // likewise
+    {{"arm", "forearm", "wrist"}},               // Talking With Hands, GENEA
+    {{"uarm", "farm", "hand"}},                  // OptiTrack's classic skeleton
+    {{"armstretch", "forearmstretch", "hand"}},  // Auto-Rig Pro
+    {{"shldr", "forearm", "hand"}},              // Poser
+    {{"shldrbend", "forearmbend", "hand"}},      // Daz Genesis
+    {{"humerus", "radius", "wrist"}},            // Acclaim: CMU's originals
 };
 
 constexpr LimbNames kLegSchemes[] = {
-    {{"upleg", "leg", "foot"}},          // MotionBuilder and its kin
-    {{"hip", "knee", "ankle"}},          // Biovision and its kin
-    {{"upleg", "lowleg", "foot"}},       // Biovision's own samples
-    {{"upperleg", "lowerleg", "foot"}},  // Bandai-Namco, VRM, KayKit, three.js, Xsens' segments
-    {{"thigh", "calf", "foot"}},         // 3ds Max' biped, Unreal
-    {{"thigh", "shin", "foot"}},         // Poser, Blender's rigs, Rokoko
-    {{"thighbend", "shin", "foot"}},     // Daz Genesis
-    {{"hip", "knee", "foot"}},           // mixed: seen in hand-made rigs
-    {{"leg", "shin", "foot"}},           // "leg" for the thigh: seen in hand-made rigs
-    {{"femur", "tibia", "foot"}},        // Acclaim
+    {{"upleg", "leg", "foot"}},                // MotionBuilder and its kin
+    {{"thigh", "knee", "ankle"}},              // "Hip" is a helper above the thigh
+    {{"thigh", "knee", "foot"}},               // likewise
+    {{"upleg", "knee", "ankle"}},              // likewise
+    {{"upleg", "knee", "foot"}},               // likewise
+    {{"leg", "knee", "ankle"}},                // MikuMikuDance in English
+    {{"hip", "knee", "ankle"}},                // Biovision and its kin
+    {{"upleg", "lowleg", "foot"}},             // Biovision's own samples
+    {{"upperleg", "lowerleg", "foot"}},        // Bandai-Namco, VRM, KayKit, three.js, Xsens' segments
+    {{"thigh", "calf", "foot"}},               // 3ds Max' biped, Unreal
+    {{"thigh", "shin", "foot"}},               // Poser, Blender's rigs, Rokoko
+    {{"thighbend", "shin", "foot"}},           // Daz Genesis
+    {{"hip", "knee", "foot"}},                 // mixed: seen in hand-made rigs
+    {{"leg", "shin", "foot"}},                 // "leg" for the thigh: seen in hand-made rigs
+    {{"upleg", "leg", "ankle"}},               // mixed: seen in hand-made rigs
+    {{"upperleg", "lowerleg", "ankle"}},       // likewise
+    {{"upperleg", "shin", "foot"}},            // likewise
+    {{"thighstretch", "legstretch", "foot"}},  // Auto-Rig Pro
+    {{"femur", "tibia", "foot"}},              // Acclaim
 };
 
 // Kinect, and our own role, call that place the middle of the shoulders.
@@ -70,8 +93,17 @@ std::vector<std::string> WordsOf(std::string_view name) {
   return words;
 }
 
+bool IsNumber(const std::string& word) { return std::ranges::all_of(word, IsDigit); }
+
+/// "upperarm01.L" is read like "upperarm.L.01": the number counts as a suffix.
+void PutSideBeforeNumber(std::vector<std::string>& words) {
+  constexpr std::string_view kSides[] = {"l", "r", "left", "right"};
+  if (words.size() < 3 || std::ranges::find(kSides, words.back()) == std::end(kSides)) return;
+  if (IsNumber(words[words.size() - 2])) std::swap(words[words.size() - 2], words.back());
+}
+
 bool IsTechnical(const std::string& word) {
-  return std::ranges::all_of(word, IsDigit) || std::ranges::find(kTechnicalWords, word) != std::end(kTechnicalWords);
+  return IsNumber(word) || std::ranges::find(kTechnicalWords, word) != std::end(kTechnicalWords);
 }
 
 }  // namespace
@@ -93,6 +125,7 @@ void JointNames::AddReadings(const Joint& joint, int index) {
   name.remove_prefix(name.find_last_of(":|") + 1);
   if (name.size() > kLongestName) return;
   std::vector<std::string> words = WordsOf(name);
+  PutSideBeforeNumber(words);
   for (std::size_t suffixes = 0; !words.empty(); ++suffixes) {
     std::string rest;
     for (const std::string& word : words) rest += word;
@@ -127,7 +160,7 @@ std::vector<NamedJoint> JointNames::Find(std::string_view name, Side side) const
 
 std::vector<NamedJoint> JointNames::Find(std::string_view name) const {
   const std::string plain(name);
-  return FindAny(std::array{plain, "c" + plain});
+  return FindAny(std::array{plain, "c" + plain, plain + "x"});  // VRoid's "C_Neck", Auto-Rig Pro's "neck.x"
 }
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "engine/motion/body.h"
 
@@ -20,5 +21,6 @@ inline constexpr std::array<Limb, 4> kLimbs = {{
     {{Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle}, Role::kLeftFoot, Side::kLeft, false},
     {{Role::kRightHip, Role::kRightKnee, Role::kRightAnkle}, Role::kRightFoot, Side::kRight, false},
 }};
+inline constexpr std::span<const Limb, 2> kLegs = std::span(kLimbs).last<2>();
 
 }  // namespace etude

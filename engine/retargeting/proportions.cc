@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "engine/base/smoothstep.h"
+#include "engine/retargeting/limbs.h"
 #include "engine/retargeting/rotations.h"
 
 namespace etude {
@@ -13,17 +14,16 @@ namespace {
 
 using enum Role;
 
-struct LegRoles {
-  Role hip, knee, ankle, foot;
-};
-constexpr std::array<LegRoles, 2> kLegs = {
-    {{kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot}, {kRightHip, kRightKnee, kRightAnkle, kRightFoot}}};
+/// Thigh and shank.
+double LegLength(const BodyPose& pose, const Limb& leg) {
+  const auto [hip, knee, ankle] = leg.roles;
+  return glm::distance(pose[hip], pose[knee]) + glm::distance(pose[knee], pose[ankle]);
+}
 
+/// Of both legs, the mean.
 double LegLength(const BodyPose& pose) {
   double sum = 0;
-  for (const LegRoles& leg : kLegs) {
-    sum += glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
-  }
+  for (const Limb& leg : kLegs) sum += LegLength(pose, leg);
   return sum / kLegs.size();
 }
 
@@ -55,45 +55,51 @@ BodyPose WithNewLimbs(const BodyPose& performer, const BodyPose& body, double sc
 }
 
 /// How far the hips must sink for the leg to reach `ankle`. A foot in the air pulls nobody down.
-double NeededDrop(const BodyPose& pose, const LegRoles& leg, const glm::dvec3& ankle, double toe_height) {
+double NeededDrop(const BodyPose& pose, const Limb& leg, const glm::dvec3& ankle, double toe_height) {
   constexpr double kStands = 0.05, kFlies = 0.15;  // metres of the toes above the floor
-  const double stands = 1 - Ramp(kStands, kFlies, toe_height);
-  const double reach = glm::distance(pose[leg.hip], pose[leg.knee]) + glm::distance(pose[leg.knee], pose[leg.ankle]);
-  const glm::dvec3 hip = pose[leg.hip];
+  const double stands = 1 - Smoothstep(kStands, kFlies, toe_height);
+  const double reach = LegLength(pose, leg);
+  const glm::dvec3 hip = pose[leg.roles[0]];
   const double aside = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
   const double highest = ankle.y + std::sqrt(std::max(0.0, reach * reach - aside * aside));
   return stands * std::max(0.0, hip.y - highest);
 }
 
-/// Two-bone inverse kinematics: brings the ankle to `ankle`, or as near as the leg reaches, the knee on the side where
-/// it was.
-void Reach(BodyPose& pose, const LegRoles& leg, const glm::dvec3& ankle) {
-  constexpr double kThere = 1e-9;
-  if (glm::distance(pose[leg.ankle], ankle) < kThere) return;
-  const glm::dvec3 hip = pose[leg.hip], thigh = pose[leg.knee] - hip, leg_before = pose[leg.ankle] - hip;
-  const double upper = glm::length(thigh), lower = glm::distance(pose[leg.knee], pose[leg.ankle]);
-  const glm::dvec3 foot = pose[leg.foot] - pose[leg.ankle];
-
-  const glm::dvec3 wanted = ankle - hip;
-  const double distance = std::clamp(glm::length(wanted), std::abs(upper - lower), upper + lower);
-  const glm::dquat turn = ShortestTurn(leg_before, wanted);
-  const glm::dvec3 along = glm::length(wanted) > 0 ? glm::normalize(wanted) : glm::normalize(thigh);
-
-  // The knee's side; a straight leg shows none and takes the one in front of the hips' line.
-  constexpr double kStraight = 0.02, kBent = 0.08;  // the knee off the hip–ankle line, in thighs
+/// The unit direction across the line `along`, from hip to ankle, on whose side the knee lies: the `thigh`'s. A
+/// straight leg shows none and takes the one in front of the hips.
+glm::dvec3 KneeSide(const BodyPose& pose, const glm::dvec3& thigh, const glm::dvec3& along) {
+  constexpr double kStraight = 0.02, kBent = 0.08;  // the knee off the line, in thighs
+  const double length = glm::length(thigh);
   const auto across = [&](const glm::dvec3& v) { return v - glm::dot(v, along) * along; };
-  const glm::dvec3 seen = across(turn * thigh);
-  const glm::dvec3 front = across(glm::cross(along, pose[kLeftHip] - pose[kRightHip]));
-  const double trust = Ramp(kStraight * upper, kBent * upper, glm::length(seen));
   const auto unit = [](const glm::dvec3& v) { return glm::length(v) > 0 ? glm::normalize(v) : glm::dvec3(0); };
-  const glm::dvec3 side = unit(glm::mix(unit(front), unit(seen), trust));
+  const glm::dvec3 seen = across(thigh);
+  const glm::dvec3 front = across(glm::cross(along, pose[kLeftHip] - pose[kRightHip]));
+  const double trust = Smoothstep(kStraight * length, kBent * length, glm::length(seen));
+  return unit(glm::mix(unit(front), unit(seen), trust));
+}
 
+/// Two-bone inverse kinematics: brings the ankle to `wanted`, or as near as the leg reaches, the knee on the side where
+/// it was. The foot keeps its slope.
+void Reach(BodyPose& pose, const Limb& leg, const glm::dvec3& wanted) {
+  constexpr double kThere = 1e-9;
+  const auto [hip, knee, ankle] = leg.roles;
+  if (glm::distance(pose[ankle], wanted) < kThere) return;
+  const glm::dvec3 thigh = pose[knee] - pose[hip], foot = pose[leg.tip] - pose[ankle];
+  const double upper = glm::length(thigh), lower = glm::distance(pose[knee], pose[ankle]);
+
+  const glm::dvec3 way = wanted - pose[hip];
+  const double distance = std::clamp(glm::length(way), std::abs(upper - lower), upper + lower);
+  const glm::dvec3 down(0, -1, 0);
+  const glm::dvec3 along = glm::length(way) > 0 ? glm::normalize(way) : upper > 0 ? glm::normalize(thigh) : down;
+  const glm::dvec3 side = KneeSide(pose, ShortestTurn(pose[ankle] - pose[hip], way) * thigh, along);
+
+  // The law of cosines.
   const double cosine =
-      distance > 0 ? (upper * upper + distance * distance - lower * lower) / (2 * upper * distance) : 0;
+      upper * distance > 0 ? (upper * upper + distance * distance - lower * lower) / (2 * upper * distance) : 0;
   const double c = std::clamp(cosine, -1.0, 1.0);
-  pose[leg.knee] = hip + upper * (c * along + std::sqrt(1 - c * c) * side);
-  pose[leg.ankle] = hip + distance * along;
-  pose[leg.foot] = pose[leg.ankle] + foot;
+  pose[knee] = pose[hip] + upper * (c * along + std::sqrt(1 - c * c) * side);
+  pose[ankle] = pose[hip] + distance * along;
+  pose[leg.tip] = pose[ankle] + foot;
 }
 
 void ShiftDown(BodyPose& pose, double drop) {
@@ -113,9 +119,9 @@ BodyMotion Retarget(const BodyMotion& motion, const BodyPose& body) {
     std::array<glm::dvec3, kLegs.size()> ankles;
     double drop = 0;
     for (std::size_t i = 0; i < kLegs.size(); ++i) {
-      const LegRoles& leg = kLegs[i];
-      const glm::dvec3 toe = scale * performer[leg.foot];
-      ankles[i] = toe - (pose[leg.foot] - pose[leg.ankle]);
+      const Limb& leg = kLegs[i];
+      const glm::dvec3 toe = scale * performer[leg.tip];
+      ankles[i] = toe - (pose[leg.tip] - pose[leg.roles[2]]);
       drop = std::max(drop, NeededDrop(pose, leg, ankles[i], toe.y));
     }
     ShiftDown(pose, drop);

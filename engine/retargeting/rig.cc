@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
+#include "engine/retargeting/limbs.h"
 #include "engine/retargeting/rotations.h"
 
 namespace etude {
@@ -12,43 +14,32 @@ namespace {
 
 using enum Role;
 
-/// Two bones with a hinge between them, and the end they carry.
-struct HingedLimb {
-  Role root, hinge, end, tip;
-  bool is_arm;
-  /// A direction of the upper bone in the middle of where it can point, in the axes of chest or hips. A straight limb
-  /// has the twist of a hanging one that is swung there and on by the shortest ways. At one direction that twist jumps,
-  /// the opposite one, which must lie where no limb goes: inward through the chest, backward through the hips.
-  glm::dvec3 middle;
-};
-
-constexpr std::array<HingedLimb, 4> kHingedLimbs = {{
-    {kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand, true, {0.71, 0, 0.71}},
-    {kRightShoulder, kRightElbow, kRightWrist, kRightHand, true, {-0.71, 0, 0.71}},
-    {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot, false, {0, -0.87, 0.5}},
-    {kRightHip, kRightKnee, kRightAnkle, kRightFoot, false, {0, -0.87, 0.5}},
-}};
+/// In the order of kLimbs: a direction of the upper bone in the middle of where it can point, in the axes of chest or
+/// hips. A straight limb has the twist of a hanging one that is swung there and on by the shortest ways. At one
+/// direction that twist jumps, the opposite one, which must lie where no limb goes: inward through the chest, backward
+/// through the hips.
+constexpr std::array<glm::dvec3, kLimbs.size()> kMiddles = {
+    {{0.71, 0, 0.71}, {-0.71, 0, 0.71}, {0, -0.87, 0.5}, {0, -0.87, 0.5}}};
 
 /// Bent less than the first, an elbow's or knee's plane is mostly noise; from the second on it alone gives the twist.
 constexpr double kStraight = Radians(10);
 constexpr double kBent = Radians(60);
 
-glm::dvec3 Limb(const BodyPose& pose, Role from, Role to) { return pose[to] - pose[from]; }
+glm::dvec3 Way(const BodyPose& pose, Role from, Role to) { return pose[to] - pose[from]; }
 
 /// How the parts stand in the world that more than one joint shows.
 struct Stand {
-  glm::dquat hips, chest;                             ///< X to the left, Y upward, Z forward
-  std::array<glm::dquat, kHingedLimbs.size()> upper;  ///< X along the upper bone, Y near the hinge's axis
+  glm::dquat hips, chest;                       ///< X to the left, Y upward, Z forward
+  std::array<glm::dquat, kLimbs.size()> upper;  ///< X along the upper bone, Y near the axis of elbow or knee
 };
 
 glm::dquat HipsOf(const BodyPose& pose) {
-  return Orientation(Limb(pose, kRightHip, kLeftHip), Limb(pose, kHipCentre, kSpine));
+  return Orientation(Way(pose, kRightHip, kLeftHip), Way(pose, kHipCentre, kSpine));
 }
 
 glm::dquat ChestOf(const BodyPose& pose) {
   // Upward exactly: shoulders rise with the arms, hips do not.
-  const glm::dquat up_first =
-      Orientation(Limb(pose, kSpine, kShoulderCentre), Limb(pose, kLeftShoulder, kRightShoulder));
+  const glm::dquat up_first = Orientation(Way(pose, kSpine, kShoulderCentre), Way(pose, kLeftShoulder, kRightShoulder));
   return up_first * glm::angleAxis(-kPi / 2, glm::dvec3(0, 0, 1));
 }
 
@@ -58,26 +49,26 @@ glm::dvec3 Towards(const glm::dvec3& axis, const glm::dvec3& normal, double show
   return length > 0 && shown > 0 ? glm::mix(axis, normal / length, shown) : axis;
 }
 
-glm::dquat UpperOf(const HingedLimb& limb, const glm::dquat& trunk, const BodyPose& pose) {
-  const glm::dvec3 upper = Limb(pose, limb.root, limb.hinge), lower = Limb(pose, limb.hinge, limb.end);
-  const glm::dvec3 tip = Limb(pose, limb.end, limb.tip);
+glm::dquat UpperOf(const Limb& limb, const glm::dvec3& middle, const glm::dquat& trunk, const BodyPose& pose) {
+  const auto [root, hinge, end] = limb.roles;
+  const glm::dvec3 upper = Way(pose, root, hinge), lower = Way(pose, hinge, end), tip = Way(pose, end, limb.tip);
   // Upper × lower points to the right when a hanging arm bends, to the left when a leg does.
   const glm::dvec3 hanging_axis(limb.is_arm ? -1 : 1, 0, 0);
-  const glm::dquat swing =
-      ShortestTurn(trunk * limb.middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), limb.middle);
+  const glm::dquat swing = ShortestTurn(trunk * middle, upper) * trunk * ShortestTurn(glm::dvec3(0, -1, 0), middle);
   glm::dvec3 axis = swing * hanging_axis;
   // The toes show where the knee looks, unless they point along the leg. Hands turn without their elbows.
   constexpr double kPointed = Radians(20), kAcross = Radians(50);
-  if (!limb.is_arm) axis = Towards(axis, glm::cross(tip, lower), Ramp(kPointed, kAcross, AngleBetween(lower, tip)));
-  axis = Towards(axis, glm::cross(upper, lower), Ramp(kStraight, kBent, AngleBetween(upper, lower)));
+  if (!limb.is_arm) {
+    axis = Towards(axis, glm::cross(tip, lower), Smoothstep(kPointed, kAcross, AngleBetween(lower, tip)));
+  }
+  axis = Towards(axis, glm::cross(upper, lower), Smoothstep(kStraight, kBent, AngleBetween(upper, lower)));
   return Orientation(upper, axis);
 }
 
 Stand StandOf(const BodyPose& pose) {
   Stand stand{.hips = HipsOf(pose), .chest = ChestOf(pose), .upper = {}};
-  for (std::size_t i = 0; i < kHingedLimbs.size(); ++i) {
-    const HingedLimb& limb = kHingedLimbs[i];
-    stand.upper[i] = UpperOf(limb, limb.is_arm ? stand.chest : stand.hips, pose);
+  for (std::size_t i = 0; i < kLimbs.size(); ++i) {
+    stand.upper[i] = UpperOf(kLimbs[i], kMiddles[i], kLimbs[i].is_arm ? stand.chest : stand.hips, pose);
   }
   return stand;
 }
@@ -88,20 +79,21 @@ std::array<glm::dquat, kRoleCount> Turns(const BodyPose& rest, const BodyPose& p
   std::array<glm::dquat, kRoleCount> turns;
   // Takes `above`'s turn, then goes by the shortest way to where the limb points.
   const auto follow = [&](const glm::dquat& above, Role begin, Role end) {
-    return ShortestTurn(above * Limb(rest, begin, end), Limb(pose, begin, end)) * above;
+    return ShortestTurn(above * Way(rest, begin, end), Way(pose, begin, end)) * above;
   };
   turns[Index(kHipCentre)] = to.hips * glm::conjugate(from.hips);
   const glm::dquat chest = to.chest * glm::conjugate(from.chest);
   turns[Index(kSpine)] = turns[Index(kShoulderCentre)] = chest;
   // Which way the head looks, no joint tells: it faces as the chest does.
   turns[Index(kHead)] = follow(chest, kShoulderCentre, kHead);
-  for (std::size_t i = 0; i < kHingedLimbs.size(); ++i) {
-    const HingedLimb& limb = kHingedLimbs[i];
+  for (std::size_t i = 0; i < kLimbs.size(); ++i) {
+    const auto [root, hinge, end] = kLimbs[i].roles;
+    const Role tip = kLimbs[i].tip;
     const glm::dquat upper = to.upper[i] * glm::conjugate(from.upper[i]);
-    const glm::dquat lower = follow(upper, limb.hinge, limb.end);
-    turns[Index(limb.root)] = upper;
-    turns[Index(limb.hinge)] = lower;
-    turns[Index(limb.end)] = turns[Index(limb.tip)] = follow(lower, limb.end, limb.tip);
+    const glm::dquat lower = follow(upper, hinge, end);
+    turns[Index(root)] = upper;
+    turns[Index(hinge)] = lower;
+    turns[Index(end)] = turns[Index(tip)] = follow(lower, end, tip);
   }
   return turns;
 }
@@ -115,24 +107,13 @@ void KeepSign(const LocalPose& before, LocalPose& frame) {
 
 }  // namespace
 
-Skeleton BodySkeleton(const BodyPose& rest) {
-  Skeleton skeleton;
-  for (const Role role : AllRoles()) {
-    const std::optional<Role> parent = ParentOf(role);
-    skeleton.joints.push_back({.name = std::string(RoleName(role)),
-                               .parent = parent ? static_cast<int>(Index(*parent)) : -1,
-                               .rest = {.translation = parent ? Limb(rest, *parent, role) : rest[role]}});
-  }
-  return skeleton;
-}
-
-LocalPose PoseRig(const BodyPose& rest, const BodyPose& pose) {
+LocalPose PoseRig(const BodyPose& pose, const BodyPose& rest) {
   const std::array<glm::dquat, kRoleCount> turns = Turns(rest, pose);
   LocalPose local(kRoleCount);
   for (const Role role : AllRoles()) {
     const std::optional<Role> parent = ParentOf(role);
     const glm::dquat back = parent ? glm::conjugate(turns[Index(*parent)]) : glm::dquat(1, 0, 0, 0);
-    local[Index(role)] = {.translation = parent ? back * Limb(pose, *parent, role) : pose[role],
+    local[Index(role)] = {.translation = parent ? back * Way(pose, *parent, role) : pose[role],
                           .rotation = glm::normalize(back * turns[Index(role)])};
   }
   return local;
@@ -142,7 +123,7 @@ Clip RigClip(const BodyMotion& motion, const BodyPose& rest, std::string name) {
   Clip clip{.name = std::move(name), .skeleton = BodySkeleton(rest), .rate_hz = motion.rate_hz, .frames = {}};
   clip.frames.reserve(motion.poses.size());
   for (const BodyPose& pose : motion.poses) {
-    LocalPose frame = PoseRig(rest, pose);
+    LocalPose frame = PoseRig(pose, rest);
     if (!clip.frames.empty()) KeepSign(clip.frames.back(), frame);
     clip.frames.push_back(std::move(frame));
   }

@@ -4,19 +4,16 @@
 
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
+#include "engine/motion/from_body.h"
 
 namespace etude {
-
-/// A skeleton of the twenty roles by name, rooted at the hip centre, whose rest pose is `rest` with all axes along the
-/// world's: what characters are bound to.
-Skeleton BodySkeleton(const BodyPose& rest);
 
 /// The local transforms that bring BodySkeleton(rest) into `pose`: hips and chest as their joints show them, each limb
 /// by the shortest way from where the one before has carried it, elbows and knees about their hinge: that gives the
 /// upper limb's twist when they are bent; a straight leg looks where its toes do, a straight arm hangs on the chest.
 /// The head faces as the chest does. Joints are where `pose` has them: a limb of another length than at rest shows in
 /// the translations, nothing is scaled. Continuous where people move.
-LocalPose PoseRig(const BodyPose& rest, const BodyPose& pose);
+LocalPose PoseRig(const BodyPose& pose, const BodyPose& rest);
 
 /// A motion as a clip of BodySkeleton(rest) with turning joints: what other programs expect of BVH and glTF.
 Clip RigClip(const BodyMotion& motion, const BodyPose& rest, std::string name);

@@ -37,9 +37,4 @@ glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y) {
   return glm::normalize(glm::quat_cast(glm::dmat3(along, glm::cross(out, along), out)));
 }
 
-double Ramp(double low, double high, double value) {
-  const double t = glm::clamp((value - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 }  // namespace etude

@@ -13,7 +13,4 @@ glm::dquat ShortestTurn(const glm::dvec3& from, const glm::dvec3& to);
 /// Where both are parallel or of no length, X is turned there by the shortest way.
 glm::dquat Orientation(const glm::dvec3& x, const glm::dvec3& y);
 
-/// 0 up to `low`, 1 from `high` on, smooth in between.
-double Ramp(double low, double high, double value);
-
 }  // namespace etude

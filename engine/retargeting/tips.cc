@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/base/angles.h"
 #include "engine/retargeting/limbs.h"
 
 namespace etude {
@@ -27,15 +28,16 @@ constexpr Believed kBelievedFoot{0.4, 3.0};
 // A lone "Head" joint lies at the skull's base, at 0.2 of the trunk.
 constexpr Believed kBelievedHead{0.5, 1.6};
 
-/// The farthest descendant of `top` (or `top` itself) from `base` at a believable distance.
+/// The farthest descendant of `top` (or `top` itself) from `base` at a believable distance, of those that `may_be` it.
+template <typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dvec3& base, double proportion,
-                               const Believed& believed) {
+                               const Believed& believed, MayBe may_be) {
   std::optional<int> farthest;
   double length = 0;
   for (int i = top; i < tree.size(); ++i) {
     const double distance = glm::distance(tree.RestOf(i), base);
     const bool is_believed = distance >= believed.shortest * proportion && distance <= believed.longest * proportion;
-    if (!is_believed || distance <= length || (i != top && !tree.HangsFrom(i, top))) continue;
+    if (!is_believed || distance <= length || (i != top && !tree.HangsFrom(i, top)) || !may_be(i)) continue;
     farthest = i;
     length = distance;
   }
@@ -55,7 +57,7 @@ void FindLimbTip(RolePlaces& places, const Limb& limb) {
   // What hangs from a control is no part of the body.
   if (!IsFree(places, last)) {
     const Believed& believed = limb.is_arm ? kBelievedHand : kBelievedFoot;
-    const auto tip = FarthestTip(places.tree(), places.JointOf(last), end, length, believed);
+    const auto tip = FarthestTip(places.tree(), places.JointOf(last), end, length, believed, [](int) { return true; });
     if (tip) return places.Set(limb.tip, *tip);
   }
   const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward(places);
@@ -68,7 +70,13 @@ void FindHeadTip(RolePlaces& places) {
   const glm::dvec3 trunk = neck - 0.5 * (places.RestOf(kLeftHip) + places.RestOf(kRightHip));
   if (!places.Has(kHead)) return places.Compose(kHead, places.JointOf(kShoulderCentre), neck + trunk * kHeadPerTrunk);
   const int head = places.JointOf(kHead);
-  const auto tip = FarthestTip(places.tree(), head, neck, glm::length(trunk) * kHeadPerTrunk, kBelievedHead);
+  // Eyes, jaws and ears hang from the head too, but forward or aside: the crown is straight on from the trunk.
+  constexpr double kAside = Radians(30);
+  const auto is_straight_on = [&](int joint) {
+    return joint == head || AngleBetween(places.tree().RestOf(joint) - places.RestOf(kHead), trunk) <= kAside;
+  };
+  const auto tip =
+      FarthestTip(places.tree(), head, neck, glm::length(trunk) * kHeadPerTrunk, kBelievedHead, is_straight_on);
   if (tip) return places.Set(kHead, *tip);
   places.Compose(kHead, head, neck + trunk * kHeadPerTrunk);
 }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/motion/statistics.h"
 #include "engine/retargeting/body_sampler.h"
 #include "engine/retargeting/check_sides.h"
 
@@ -152,14 +154,14 @@ void Ground(std::vector<BodyPose>& poses, BodyConversion& done) {
   }
 }
 
-std::string Note(const BodyConversion& done, const JointMap& map, std::size_t t_poses, bool lies_along_z) {
+std::string Note(const BodyConversion& done, const JointMap& map, bool lies_along_z) {
   std::string note = fmt::format("1 unit = {:.4g} cm", 100 * done.metres_per_unit);
   note += done.unit == "unknown" ? fmt::format(" (unknown unit, scaled to a stature of {:.2f} m)", kDefaultStature)
                                  : fmt::format(" ({})", done.unit);
   if (done.up == UpAxis::kZ) note += "; turned upright from Z up";
   if (lies_along_z) note += "; the body lies along Z and does not travel: Y is taken for up";
-  if (t_poses > 0) note += "; dropped a leading T-pose";
-  if (t_poses > 1) note += fmt::format(" of {} frames", t_poses);
+  if (done.dropped_frames > 0) note += "; dropped a leading T-pose";
+  if (done.dropped_frames > 1) note += fmt::format(" of {} frames", done.dropped_frames);
   const double floor_cm = 100 * done.floor * done.metres_per_unit;
   if (std::abs(floor_cm) >= 1) note += fmt::format("; the floor was at {:.0f} cm", floor_cm);
   if (!map.composed.empty()) {
@@ -171,6 +173,13 @@ std::string Note(const BodyConversion& done, const JointMap& map, std::size_t t_
 }
 
 }  // namespace
+
+glm::dmat4 WorldFromFile(const BodyConversion& body) {
+  const auto turned = [&](const glm::dvec3& axis) { return glm::dvec4(Upright(axis, body.up), 0); };
+  const glm::dmat4 upright(turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1}), glm::dvec4(0, 0, 0, 1));
+  const glm::dmat4 on_floor = glm::translate(glm::dmat4(1), glm::dvec3(0, -body.floor, 0));
+  return glm::scale(glm::dmat4(1), glm::dvec3(body.metres_per_unit)) * on_floor * upright;
+}
 
 bool IsTPose(const BodyPose& pose) {
   const glm::dvec3 up(0, 1, 0);
@@ -195,17 +204,16 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   done.up = options.up.value_or(FindUpAxis(rest, glimpses));
   constexpr double kLying = 0.9;
   const bool lies_along_z = !options.up && done.up == UpAxis::kY && MeanBodyAxis(glimpses).z > kLying;
-  const std::size_t t_poses = options.drop_t_pose ? CountForeignTPose(clip, sampler, done.up) : 0;
-  done.dropped_t_pose = t_poses > 0;
+  if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
-  auto poses = Resampled(clip, sampler, t_poses, options.rate_hz, done.up, file);
+  auto poses = Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file);
   if (!poses) return tl::unexpected(poses.error());
   if (auto ok = CheckSides(*poses, map, file); !ok) return tl::unexpected(ok.error());
   const double stature = FindStature(rest, *poses);
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   FindUnit(stature, options.metres_per_unit, done);
   Ground(*poses, done);
-  done.note = Note(done, map, t_poses, lies_along_z);
+  done.note = Note(done, map, lies_along_z);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(*poses)};
   return done;
 }

@@ -6,7 +6,6 @@
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
-#include "engine/motion/statistics.h"
 #include "engine/retargeting/joint_map.h"
 #include "engine/retargeting/up_axis.h"
 
@@ -25,8 +24,8 @@ struct BodyConversion {
   double metres_per_unit = 0;
   std::string unit;  ///< "centimetre", "CMU", …; "unknown" when none gave a human stature; "given"
   UpAxis up = UpAxis::kY;
-  double floor = 0;  ///< height of the floor in the file's unit, along its up axis
-  bool dropped_t_pose = false;
+  double floor = 0;                ///< height of the floor in the file's unit, along its up axis
+  std::size_t dropped_frames = 0;  ///< at the clip's beginning: a T-pose
   /// What was found out and repaired, in plain words: "1 unit = 5.64 cm (CMU); dropped a leading T-pose".
   std::string note;
   BodyMotion motion;
@@ -48,6 +47,9 @@ struct BodyConversion {
 /// swapped then, or the axes left-handed.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
+
+/// From the file's unit and axes to where ToBodyMotion has put the body: for what else the clip moves, its meshes.
+glm::dmat4 WorldFromFile(const BodyConversion& body);
 
 /// Whether the body stands with straight legs and both arms stretched out sideways.
 bool IsTPose(const BodyPose& pose);

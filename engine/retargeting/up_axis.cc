@@ -1,6 +1,7 @@
 #include "engine/retargeting/up_axis.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/motion/statistics.h"
 

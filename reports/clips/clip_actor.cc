@@ -1,9 +1,5 @@
 #include "reports/clips/clip_actor.h"
 
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-
-#include "engine/base/angles.h"
 #include "engine/motion/sample.h"
 #include "engine/retargeting/proportions.h"
 #include "sim/body/shape.h"
@@ -27,14 +23,6 @@ PartColours SidedColours() {
     colours[static_cast<std::size_t>(part)] = kRight;
   }
   return colours;
-}
-
-/// From the file's unit and axes to where ToBodyMotion has put its body.
-glm::dmat4 ToWorld(const BodyConversion& body) {
-  glm::dmat4 upright(1);
-  if (body.up == UpAxis::kZ) upright = glm::rotate(upright, -kPi / 2, glm::dvec3(1, 0, 0));
-  const glm::dmat4 on_floor = glm::translate(glm::dmat4(1), glm::dvec3(0, -body.floor, 0));
-  return glm::scale(glm::dmat4(1), glm::dvec3(body.metres_per_unit)) * on_floor * upright;
 }
 
 }  // namespace
@@ -77,9 +65,9 @@ Figure ClipActor::FigureAt(std::size_t frame) const {
 
 Figure ClipActor::OwnFigureAt(std::size_t frame) const {
   const Clip& clip = clip_.source.clip;
-  const double first = clip_.body.dropped_t_pose ? 1 / clip.rate_hz : 0;
-  const LocalPose pose = SampleClip(clip, first + static_cast<double>(frame) / motion_.rate_hz);
-  return PosedFigure(*character_, pose, ToWorld(clip_.body));
+  const double at =
+      static_cast<double>(clip_.body.dropped_frames) + static_cast<double>(frame) * clip.rate_hz / motion_.rate_hz;
+  return PosedFigure(*character_, SampleFrame(clip, at), WorldFromFile(clip_.body));
 }
 
 }  // namespace etude

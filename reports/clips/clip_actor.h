@@ -2,8 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "bench/clips/open_clip.h"
 #include "engine/motion/body.h"

@@ -40,9 +40,9 @@ BodyFacts FactsOfBody(const OpenedClip& clip) {
                   .metres_per_unit = body.metres_per_unit,
                   .up = body.up,
                   .floor = body.floor,
-                  .dropped_t_pose = body.dropped_t_pose,
+                  .dropped_t_pose = body.dropped_frames > 0,
                   .note = body.note,
-                  .motion = Describe(body.motion)};
+                  .motion = ComputeStatistics(body.motion)};
   for (const Role role : AllRoles()) {
     facts.joints[Index(role)] = clip.source.clip.skeleton.joints[clip.map[role].joint].name;
   }

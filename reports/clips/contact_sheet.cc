@@ -13,7 +13,9 @@ namespace {
 constexpr double kDetail = 2;
 constexpr int kMargin = 16;
 constexpr int kGap = 6;
-constexpr int kTitle = 46;  // room for a clip's name and facts above its pictures
+constexpr int kTitle = 46;       // room for a clip's name and facts above its pictures
+constexpr double kLegend = 160;  // room that the legend leaves beside the first clip's name
+constexpr int kNarrowest = 640;  // titles need some room, however few pictures there are
 constexpr double kNameSize = 16, kFactsSize = 12.5, kTimeSize = 12;
 
 int RowsOf(int pictures, int columns) { return (pictures + columns - 1) / columns; }
@@ -23,12 +25,25 @@ void DrawTitle(Canvas& canvas, const ClipFacts& facts, double y, double room) {
   canvas.DrawText({kMargin, y + 37}, FactsAsLine(facts), kFactsSize, kSoftInk, room);
 }
 
+/// A clip's pictures, in rows of `columns`, from `y` downwards.
+void DrawPictures(Canvas& canvas, const Shot& shot, const std::vector<int>& frames, const SheetOptions& options,
+                  double y, const Studio& studio, Renderer& renderer) {
+  for (int k = 0; k < static_cast<int>(frames.size()); ++k) {
+    const int frame = frames[static_cast<std::size_t>(k)];
+    const int column = k % options.columns, row = k / options.columns;
+    const Box box{static_cast<double>(kMargin + column * (options.width + kGap)), y + row * (options.height + kGap),
+                  static_cast<double>(options.width), static_cast<double>(options.height)};
+    shot.Draw(canvas, box, studio, renderer, frame);
+    canvas.DrawText({box.x + 10, box.y + 20}, fmt::format("{:.2f} s", shot.SecondsAt(frame)), kTimeSize, kSoftInk,
+                    box.width);
+  }
+}
+
 }  // namespace
 
 Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetOptions& options, Renderer& renderer) {
   std::vector<Shot> shots;
   std::vector<std::vector<int>> frames;
-  Sight sight;
   int columns = 1, height = kMargin;
   for (ClipActor& actor : actors) {
     shots.emplace_back(std::move(actor), options.from, 0);
@@ -37,12 +52,12 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
     columns = std::max(columns, std::min(options.columns, pictures));
     height += kTitle + RowsOf(pictures, options.columns) * (options.height + kGap) + kMargin;
   }
-  // Titles need some room, however few pictures there are.
-  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, 640);
+  const int width = std::max(2 * kMargin + columns * (options.width + kGap) - kGap, kNarrowest);
   if (width > kLargestSheet || height > kLargestSheet) {
     return Fail({}, "the sheet would have {} × {} pixels; allowed: {} a side: fewer clips, fewer or smaller pictures",
                 width, height, kLargestSheet);
   }
+  Sight sight;
   for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], sight);
   const Studio studio(options.width, options.height, kDetail, sight);
 
@@ -51,18 +66,10 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   DrawLegend(canvas, width - kMargin, kMargin + 14);
   double y = kMargin;
   for (std::size_t i = 0; i < shots.size(); ++i) {
-    const double legend = i == 0 ? 160 : 0;
+    const double legend = i == 0 ? kLegend : 0;
     DrawTitle(canvas, FactsOf(shots[i].actor().clip()), y, width - 2 * kMargin - legend);
     y += kTitle;
-    for (std::size_t k = 0; k < frames[i].size(); ++k) {
-      const int column = static_cast<int>(k) % options.columns, row = static_cast<int>(k) / options.columns;
-      const Box box{static_cast<double>(kMargin + column * (options.width + kGap)), y + row * (options.height + kGap),
-                    static_cast<double>(options.width), static_cast<double>(options.height)};
-      const int frame = frames[i][k];
-      shots[i].Draw(canvas, box, studio, renderer, frame);
-      canvas.DrawText({box.x + 10, box.y + 20}, fmt::format("{:.2f} s", shots[i].SecondsAt(frame)), kTimeSize, kSoftInk,
-                      box.width);
-    }
+    DrawPictures(canvas, shots[i], frames[i], options, y, studio, renderer);
     y += RowsOf(static_cast<int>(frames[i].size()), options.columns) * (options.height + kGap) + kMargin;
   }
   return canvas.Png();

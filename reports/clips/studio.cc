@@ -1,9 +1,9 @@
 #include "reports/clips/studio.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "engine/base/smoothstep.h"
 #include "reports/look.h"
 
 namespace etude {
@@ -24,12 +24,6 @@ constexpr glm::dvec3 kBackdropPaint{0.125, 0.142, 0.158};
 constexpr double kShadowLeaves = 0.55;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
-
-/// 0 up to `from`, 1 from `to`, smooth between.
-double SmoothStep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 /// How much of a pixel is covered by the lines of the grid across one axis.
 double LineCover(double x, double footprint) {
@@ -102,7 +96,7 @@ Studio::Studio(int width, int height, double detail, const Sight& sight) {
         const double reach = -kEye.y / way.y;
         const glm::dvec3 point = kEye + reach * way;
         ray.floor = {point.x, point.z};
-        ray.fade = 1 - SmoothStep(kFadeFrom, kFadeTo, glm::length(ray.floor));
+        ray.fade = 1 - Smoothstep(kFadeFrom, kFadeTo, glm::length(ray.floor));
         // Seen from above at a slant, a pixel covers more floor along the line of sight than across.
         ray.footprint = reach / inside.fx * std::sqrt(glm::length(way) / -way.y);
       }

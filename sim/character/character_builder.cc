@@ -1,18 +1,12 @@
 #include "sim/character/character_builder.h"
 
-#include <cmath>
 #include <utility>
 
-#include "engine/retargeting/rig.h"
+#include "engine/motion/from_body.h"
+#include "sim/character/srgb.h"
 
 namespace etude {
 namespace {
-
-/// IEC 61966-2-1.
-double ToLinear(std::uint8_t value) {
-  const double v = value / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 /// Per vertex, the mean of its triangles' normals, weighted by their areas.
 std::vector<glm::dvec3> Normals(const Piece& piece) {
@@ -43,7 +37,8 @@ int CharacterBuilder::AddMaterial(std::string name, Rgb8 colour) {
     mesh.bindings.push_back({static_cast<int>(Index(role)), inverse_bind});
   }
   character_.meshes.push_back(std::move(mesh));
-  character_.materials.push_back({std::move(name), {ToLinear(colour.r), ToLinear(colour.g), ToLinear(colour.b)}});
+  character_.materials.push_back(
+      {std::move(name), {LinearOfSrgb(colour.r), LinearOfSrgb(colour.g), LinearOfSrgb(colour.b)}});
   return material;
 }
 

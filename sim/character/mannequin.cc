@@ -36,7 +36,7 @@ const Tube kChest{.name = "chest",
 /// Leans with the head, about its base in the chest.
 const Tube kNeck{.name = "neck",
                  .chain = {kHead},
-                 .rings = {{-18, 4.8, 4.8, -0.8}, {-12, 4.6, 4.6, -0.6}, {-6, 4.5, 4.5}},
+                 .rings = {{-22, 4.9, 4.9, -1}, {-12, 4.6, 4.6, -0.6}, {-6, 4.5, 4.5}},
                  .first_cap_cm = 2,
                  .last_cap_cm = 1,
                  .around = 10};

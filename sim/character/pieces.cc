@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/base/angles.h"
-#include "engine/retargeting/rotations.h"
+#include "engine/base/smoothstep.h"
 #include "sim/choreography/rotations.h"
 
 namespace etude {
@@ -90,7 +90,7 @@ class TubeShape {
     for (std::size_t i = 1; i < tube_.chain.size(); ++i) {
       if (along <= starts_[i] - blend) break;
       vertex.joints = {tube_.chain[i - 1], tube_.chain[i]};
-      const double share = blend > 0 ? Ramp(starts_[i] - blend, starts_[i] + blend, along) : 1;
+      const double share = blend > 0 ? Smoothstep(starts_[i] - blend, starts_[i] + blend, along) : 1;
       vertex.weights = {1 - share, share};
     }
     return vertex;

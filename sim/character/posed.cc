@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/retargeting/rig.h"
+#include "sim/character/srgb.h"
 #include "sim/choreography/stance.h"
 
 namespace etude {
@@ -49,11 +50,42 @@ std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& 
   return parts;
 }
 
-// The curve of IEC 61966-2-1.
-std::uint8_t ToSrgb(double linear) {
-  const double clamped = std::clamp(linear, 0.0, 1.0);
-  const double curved = clamped <= 0.0031308 ? 12.92 * clamped : 1.055 * std::pow(clamped, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255 * curved));
+Figure FigureAt(const Character& character, const std::vector<GlobalTransform>& globals) {
+  Figure figure;
+  figure.surfaces.reserve(character.meshes.size());
+  for (const SkinnedMesh& mesh : character.meshes) {
+    DeformedMesh deformed = Deform(mesh, globals);
+    const glm::dvec3& colour = character.materials[mesh.material].colour;
+    figure.surfaces.push_back({.positions = std::move(deformed.positions),
+                               .normals = std::move(deformed.normals),
+                               .triangles = mesh.triangles,
+                               .parts = PartsOfTriangles(character.skeleton, mesh),
+                               .colour = {SrgbOfLinear(colour.r), SrgbOfLinear(colour.g), SrgbOfLinear(colour.b)}});
+  }
+  return figure;
+}
+
+// What hangs from a role's joint was made for the standing body: how much wider, longer and deeper `pose` wants it.
+// Limbs keep their shape; hips and chest are as wide as their joints are apart, however long the spine is.
+glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
+  static const BodyPose standing = StandingPose();
+  const auto ratio = [&](Role a, Role b) {
+    constexpr double kLeast = 0.2, kMost = 5;  // nobody has such limbs: broken measurements still make a figure
+    return std::clamp(glm::distance(pose[a], pose[b]) / glm::distance(standing[a], standing[b]), kLeast, kMost);
+  };
+  const auto trunk = [](double width, double length) { return glm::dvec3(width, length, 0.5 * (width + length)); };
+  using enum Role;
+  if (role == kHipCentre) {
+    const double width = ratio(kLeftHip, kRightHip);
+    return trunk(width, std::max(width, ratio(kHipCentre, kSpine)));  // some spines begin just above the hips
+  }
+  if (role == kSpine) return trunk(ratio(kLeftShoulder, kRightShoulder), ratio(kSpine, kShoulderCentre));
+  if (role == kShoulderCentre) return glm::dvec3(ratio(kLeftShoulder, kRightShoulder));
+  for (const Role end : AllRoles()) {
+    if (ParentOf(end) == role) return glm::dvec3(ratio(role, end));
+  }
+  // Where in the head its joint lies is a file's choice: a longer way there is not all size.
+  return glm::dvec3(std::sqrt(ratio(*ParentOf(role), role)));
 }
 
 }  // namespace
@@ -66,22 +98,18 @@ Figure PosedFigure(const Character& character, const LocalPose& pose, const glm:
     global.position = glm::dvec3(to_world * glm::dvec4(global.position, 1));
     global.axes = glm::dmat3(to_world) * global.axes;
   }
-  Figure figure;
-  figure.surfaces.reserve(character.meshes.size());
-  for (const SkinnedMesh& mesh : character.meshes) {
-    DeformedMesh deformed = Deform(mesh, globals);
-    const glm::dvec3& colour = character.materials[mesh.material].colour;
-    figure.surfaces.push_back({.positions = std::move(deformed.positions),
-                               .normals = std::move(deformed.normals),
-                               .triangles = mesh.triangles,
-                               .parts = PartsOfTriangles(character.skeleton, mesh),
-                               .colour = {ToSrgb(colour.r), ToSrgb(colour.g), ToSrgb(colour.b)}});
-  }
-  return figure;
+  return FigureAt(character, globals);
 }
 
 Figure PosedFigure(const Character& character, const BodyPose& pose) {
-  return PosedFigure(character, PoseRig(StandingPose(), pose));
+  std::vector<GlobalTransform> globals;
+  ComputeGlobals(character.skeleton, PoseRig(pose, StandingPose()), globals);
+  for (const Role role : AllRoles()) {
+    glm::dmat3& axes = globals[Index(role)].axes;
+    const glm::dvec3 size = SizeOf(role, pose);
+    for (int i = 0; i < 3; ++i) axes[i] *= size[i];
+  }
+  return FigureAt(character, globals);
 }
 
 }  // namespace etude

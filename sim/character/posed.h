@@ -10,7 +10,8 @@ namespace etude {
 /// a file's figure: the unit, axes and floor that ToBodyMotion has found).
 Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world = glm::dmat4(1));
 
-/// A character bound to BodySkeleton(StandingPose()), at a body's pose.
+/// A character bound to BodySkeleton(StandingPose()), at a body's pose. A body of other proportions is filled too: each
+/// part is as large as the limb that it clothes, hips and chest as wide as their joints are apart.
 Figure PosedFigure(const Character& character, const BodyPose& pose);
 
 }  // namespace etude

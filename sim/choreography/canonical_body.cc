@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
 #include "sim/choreography/leg.h"
 #include "sim/choreography/rotations.h"
 
@@ -29,11 +30,6 @@ ArmRoles ArmOf(Side side) {
 LegRoles LegOf(Side side) {
   if (side == Side::kLeft) return {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot};
   return {kRightHip, kRightKnee, kRightAnkle, kRightFoot};
-}
-
-double Smoothstep(double low, double high, double x) {
-  const double t = glm::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
 }
 
 /// Trunk and neck, upward from the hip centre. Returns the chest's orientation.

@@ -19,10 +19,10 @@ struct PoseKey {
 /// The keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two things
 /// are not left to the poses, because nobody would author them well enough:
 /// - a foot whose spot differs between two poses steps there: it is lifted, travels, and is down again before the pose;
-/// - a pose with a jump is the top of a flight that obeys gravity: its height says how far off take-off and landing
-/// are,
-///   and poses near it do not say how high the body is. Before and after, the hips dip: the knees throw the body up and
-///   catch it.
+/// - a pose with a jump is the top of a flight that obeys gravity: its height says how far
+///   off take-off and landing are, and poses near it do not say how high the body is.
+///   Before and after, the hips dip: the knees throw the
+///   body up and catch it.
 std::vector<PeriodicCurve::Key> KeysOf(const std::vector<PoseKey>& poses, std::size_t control, double beats,
                                        double beat_seconds);
 

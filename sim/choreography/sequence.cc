@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "sim/choreography/smootherstep.h"
+#include "engine/base/smoothstep.h"
 #include "sim/choreography/stance.h"
 
 namespace etude {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/reach.h"
-#include "sim/choreography/smootherstep.h"
 #include "sim/choreography/stance.h"
 #include "sim/performer/session.h"
 

@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+import os
 import pathlib
 import struct
 import subprocess
@@ -121,6 +122,10 @@ class Info(Clips):
             checked += 1
         self.assertGreater(checked, 20)
 
+    def test_patterns_of_any_length(self):
+        self.refuses("info", "/" * 5000, says=["no clip matches"])
+        self.refuses("info", "*/" * 5000, says=["no clip matches"])
+
     def test_what_cannot_be_found(self):
         self.refuses("info", "nowhere.bvh", says=["no clip matches 'nowhere.bvh'; allowed: builtin:NAME"])
         self.refuses("info", "builtin:clapp", says=["did you mean 'clap'?"])
@@ -165,6 +170,8 @@ class Convert(Clips):
         self.assertEqual((clip["frames"], clip["rate_hz"]), (61, 60))
         self.refuses("convert", WALK, part, "--trim", "1:2000", "--overwrite", says=["01_03.bvh: "])
         self.refuses("convert", WALK, part, "--trim", "soon", "--overwrite", says=["--trim: 'soon' is no span of time"])
+        for rate in ("nan", "inf", "0", "1001", "fast"):
+            self.refuses("convert", WALK, part, "--rate", rate, "--overwrite", says=[f"--rate: '{rate}' is no rate"])
 
     def test_everybody_dances_on_the_bear(self):
         bear = self.folder / "bear.glb"
@@ -181,6 +188,12 @@ class Convert(Clips):
         self.refuses("convert", WALK, path, says=["there.bvh: is there already; --overwrite replaces it"])
         self.assertEqual(path.read_text(), "mine")
         self.refuses("convert", WALK, self.folder, says=["is a folder"])
+        for name, make in (("pipe.bvh", os.mkfifo), ("link.bvh", lambda link: os.symlink("nowhere.bvh", link))):
+            make(self.folder / name)
+        self.refuses("convert", WALK, self.folder / "pipe.bvh", "--overwrite", says=["is there, and is no file"])
+        self.refuses("convert", WALK, self.folder / "link.bvh", says=["is there already"])
+        for name in ("pipe.bvh", "link.bvh"):
+            (self.folder / name).unlink()
         fresh = self.folder / "new.bvh"
         self.refuses("convert", WALK, self.folder / "new.fbx", says=[".bvh, .glb, .trc, .csv"])
         self.refuses("convert", WALK, fresh, "--character", "bear", says=["only GLB holds a character"], leaves=fresh)
@@ -256,6 +269,12 @@ class Map(Clips):
         self.assert_same_places(self.places(WALK), self.places(clip, "--joint-map", taught), 1e-9)
         wrong = self.write("wrong.yaml", "roles:\n  left_elbw: Q1\n")
         self.refuses("info", clip, "--joint-map", wrong, says=["wrong.yaml:2:3: ", "did you mean 'left_elbow'?"])
+
+    def test_a_map_that_does_not_do_is_not_replaced_by_an_empty_one(self):
+        text = "roles:\n  left_knee: RightLeg\n"
+        mine = self.write("mine.yaml", text)
+        self.refuses("map", WALK, "--joint-map", mine, "-o", mine, "--overwrite", says=["does not descend from"])
+        self.assertEqual(pathlib.Path(mine).read_text(), text)
 
 
 if __name__ == "__main__":

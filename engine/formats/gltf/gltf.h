@@ -16,7 +16,7 @@ namespace etude {
 /// per animation, on that same skeleton.
 struct GltfContent {
   Character character;
-  std::vector<Clip> clips;  ///< named as in the file; unnamed or doubled names are numbered
+  std::vector<Clip> clips;  ///< named as in the file, in one line; unnamed or doubled names are numbered
 };
 
 /// Gives the bytes of a file that a .gltf names, relative to the .gltf's own folder. `uri` has been checked: relative,
@@ -40,15 +40,16 @@ using FetchFile = std::function<Result<std::string>(const std::string& uri)>;
 ///
 /// Refused with one complaint that names the place in the JSON: what is not glTF 2.x, required extensions but those of
 /// looks and quantised meshes, indices out of range, accessors outside their buffers, cycles or nodes with two parents,
-/// huge counts (caps as for BVH: 1,024 joints, 128 levels, 200 MB of frames; 2 million triangles; 256 MB of files),
+/// huge counts (caps as for BVH: 1,024 joints, 128 levels, 200 MB of frames; 2 million triangles; 256 MB of files; 500
+/// bytes a name),
 /// times that do not ascend, numbers that are not finite or beyond ±10⁹, URIs that leave the file's folder.
 Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch);
 
 /// Writes a figure with its clips as one GLB: nodes, skins, materials, and LINEAR animations at the clips' rates.
 /// Numbers of surfaces and clips are rounded to floats; reading gives the same skeleton, surfaces and clips, and
 /// writing those the same bytes. Properties that stay at rest are not written, still ones as one key. Neighbouring
-/// meshes of one name on the same joints become one mesh of several primitives. Bytes of names that are no UTF-8 become
-/// '?'.
+/// meshes of one name on the same joints become one mesh of several primitives. Bytes of names that are no UTF-8 and
+/// control characters become '?'.
 ///
 /// Needs finite numbers, clips of the character's skeleton, valid indices; the joints that one mesh hangs on have a
 /// common root. A character without meshes is written too. Valid by Khronos' glTF validator.

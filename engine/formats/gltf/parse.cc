@@ -10,6 +10,7 @@
 
 #include "engine/base/names.h"
 #include "engine/formats/gltf/container.h"
+#include "engine/formats/gltf/text.h"
 
 namespace etude {
 namespace {
@@ -128,6 +129,27 @@ Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& fi
   return {};
 }
 
+/// Every clip copies the names of its joints: long ones would multiply.
+constexpr std::size_t kLongestName = 500;
+
+template <typename Named>
+Result<void> TidyNames(std::vector<Named>& all, std::string_view kind, const std::string& file) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].name.size() > kLongestName) {
+      return Fail({file}, "{}[{}].name: found {} bytes; allowed: {}", kind, i, all[i].name.size(), kLongestName);
+    }
+    all[i].name = GltfText(all[i].name);
+  }
+  return {};
+}
+
+Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
+  if (auto ok = TidyNames(model.nodes, "nodes", file); !ok) return ok;
+  if (auto ok = TidyNames(model.animations, "animations", file); !ok) return ok;
+  if (auto ok = TidyNames(model.meshes, "meshes", file); !ok) return ok;
+  return TidyNames(model.materials, "materials", file);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
@@ -162,6 +184,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
   }
+  if (auto ok = TidyAllNames(*model, file); !ok) return tl::unexpected(ok.error());
   return model;
 }
 

@@ -5,8 +5,8 @@
 
 namespace etude {
 
-/// A name as JSON can hold it, which is UTF-8: bytes that are none, and zeros, become '?'. Names from other formats may
-/// be anything.
+/// A name in one line of UTF-8, which is what JSON holds: other bytes and control characters become '?'. Names from
+/// other formats may be anything; those of glTF files reach terminals and tables.
 std::string GltfText(std::string_view name);
 
 }  // namespace etude

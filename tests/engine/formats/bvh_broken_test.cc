@@ -116,6 +116,16 @@ TEST(BrokenBvh, IsRefusedWithMoreJointsThanAnyBody) {
   EXPECT_EQ(ToString(clip.error()), "wide.bvh:1027:1: more than 1024 joints and end sites");
 }
 
+TEST(BrokenBvh, IsRefusedForNamesThatAreNone) {
+  const auto named = [](std::size_t length) {
+    return Replaced(kSmallBvh, "ROOT Hips", "ROOT " + std::string(length, 'x'));
+  };
+  EXPECT_TRUE(ReadBvh(named(500), "long.bvh"));
+  const auto clip = ReadBvh(named(501), "long.bvh");
+  ASSERT_FALSE(clip);
+  EXPECT_EQ(ToString(clip.error()), "long.bvh:2:6: a joint's name of 501 bytes; allowed: 500");
+}
+
 TEST(BrokenBvh, ShowsOnlyPrintableAndShortWordsInComplaints) {
   const auto clip = ReadBvh(std::string("\x01\xFF") + std::string(5000, 'x'), "binary.bvh");
   ASSERT_FALSE(clip);

@@ -61,5 +61,10 @@ TEST(Trc, HasTheHeadingsAndColumnsThatOpenSimWants) {
   }
 }
 
+TEST(Trc, KeepsItsFirstLineWhateverTheName) {
+  EXPECT_TRUE(
+      WriteTrc(Steps(), "a\nb\tc \xC3\xA9").starts_with("PathFileType\t4\t(X/Y/Z)\ta_b_c \xC3\xA9.trc\nDataRate"));
+}
+
 }  // namespace
 }  // namespace etude

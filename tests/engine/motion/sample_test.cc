@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/base/angles.h"
 #include "tests/support/random_clip.h"
 
@@ -28,13 +30,6 @@ TEST(SampleFrame, TurnsAtConstantSpeedAndShiftsAndScalesStraight) {
   EXPECT_LT(glm::distance(between.translation, {1.25, 1.5, 3}), 1e-15);
   EXPECT_LT(glm::distance(between.scale, {1.5, 1, 0.875}), 1e-15);
   EXPECT_NEAR(std::abs(glm::dot(between.rotation, glm::angleAxis(0.45, axis))), 1, 1e-15);
-}
-
-TEST(SampleClip, CountsInSeconds) {
-  Clip clip = testing::RandomClip(3);
-  clip.rate_hz = 4;
-  EXPECT_EQ(SampleClip(clip, 0.5), clip.frames[2]);
-  EXPECT_EQ(SampleClip(clip, 0.375), SampleFrame(clip, 1.5));
 }
 
 }  // namespace

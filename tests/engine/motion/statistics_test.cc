@@ -58,8 +58,8 @@ TEST(Stature, IsTheWayAlongTheLimbsOverItsShare) {
   EXPECT_NEAR(Stature(pose), (0.8 + 0.7) / 0.92, 1e-12);
 }
 
-TEST(Describe, MeasuresABodyThatIsCarriedAlong) {
-  const MotionStatistics found = Describe(Moving(31, [](BodyPose& pose, double t) {
+TEST(ComputeStatistics, MeasuresABodyThatIsCarriedAlong) {
+  const MotionStatistics found = ComputeStatistics(Moving(31, [](BodyPose& pose, double t) {
     Shift(pose, {0.3 * t, 0.02, -0.4 * t});
   }));
   EXPECT_NEAR(found.stature_m, 1.5 / 0.92, 1e-12);
@@ -71,9 +71,9 @@ TEST(Describe, MeasuresABodyThatIsCarriedAlong) {
   EXPECT_NEAR(found.lowest_foot_m, 0.02, 1e-12);
 }
 
-TEST(Describe, NamesTheFastestJointAndOrdersTheSpeeds) {
+TEST(ComputeStatistics, NamesTheFastestJointAndOrdersTheSpeeds) {
   // The hand's speed grows by 0.1 m/s a frame, from 0.1 to 10.
-  const MotionStatistics found = Describe(Moving(101, [](BodyPose& pose, double t) {
+  const MotionStatistics found = ComputeStatistics(Moving(101, [](BodyPose& pose, double t) {
     const double f = std::round(30 * t);
     pose[kRightHand].y += 0.1 / 30 * f * (f + 1) / 2;
   }));
@@ -85,8 +85,8 @@ TEST(Describe, NamesTheFastestJointAndOrdersTheSpeeds) {
   EXPECT_EQ(found.foot_slide_m_s, 0);
 }
 
-TEST(Describe, GivesNoSpeedsForASingleFrame) {
-  const MotionStatistics found = Describe({.rate_hz = 30, .poses = {Standing()}});
+TEST(ComputeStatistics, GivesNoSpeedsForASingleFrame) {
+  const MotionStatistics found = ComputeStatistics({.rate_hz = 30, .poses = {Standing()}});
   EXPECT_EQ(found.speed_peak_m_s, 0);
   EXPECT_EQ(found.speed_median_m_s, 0);
   EXPECT_EQ(found.foot_slide_m_s, 0);

@@ -105,6 +105,20 @@ TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
   ExpectNear(body[kHead], {0, 165, 0});
 }
 
+TEST(JointMap, TakesNoEyeForTheCrownOfTheHead) {
+  Skeleton daz = testing::PersonSkeleton();
+  const int head = daz.Find("Head"), crown = daz.Find("Head_End");
+  daz.joints[crown].name = "leftEye";
+  daz.joints[crown].rest.translation = {3, 7, 8};
+  const auto map = FindJointMap(daz, "daz.bvh");
+  ASSERT_TRUE(map) << ToString(map.error());
+  EXPECT_EQ((*map)[Role::kHead].joint, head);
+  EXPECT_THAT(map->composed, ::testing::Contains(Role::kHead));
+  // The control: straight on from the trunk it is the crown.
+  daz.joints[crown].rest.translation = {0, 15, 0};
+  EXPECT_EQ((*FindJointMap(daz, "daz.bvh"))[Role::kHead].joint, crown);
+}
+
 TEST(JointMap, ComposesFeetForwardAndASpineHalfWayWhenThereAreNone) {
   Skeleton bare = testing::PersonSkeleton();
   for (const char* name : {"LeftToeBase_End", "LeftToeBase", "RightToeBase_End", "RightToeBase"})
@@ -284,6 +298,18 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
   ASSERT_TRUE(map) << ToString(map.error());
   ExpectNear(RestBody(horse, *map)[kLeftElbow], {47, 137, 0});
   ExpectNear(RestBody(horse, *map)[kHead], {0, 150, 0});
+}
+
+TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {
+  Skeleton person = testing::PersonSkeleton();
+  person.joints[person.Find("Neck")].name = "Giraffe";  // without it, no neck is there for the head to hang from
+  for (const auto& [role, joint] : {std::pair(kHead, "RightLeg"), std::pair(kSpine, "LeftUpLeg")}) {
+    const TaughtRoles taught{{{role, {joint, {}}}}};
+    const auto refused = FindJointMap(person, "person.bvh", &taught);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              std::string(RoleName(role)) + " is played by '" + joint + "', which is part of a limb");
+  }
 }
 
 }  // namespace

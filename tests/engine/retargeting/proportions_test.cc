@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 #include "sim/choreography/move.h"
 #include "sim/choreography/stance.h"
@@ -154,6 +155,23 @@ TEST(RetargetedRealClip, OfAMeasuredBodyWithJitteringLimbsIsAsSteadyAsItsTarget)
     }
   }
   EXPECT_LT(WorstLength(Retarget(motion, Lanky()), Lanky()), 1e-9);
+}
+
+TEST(RetargetedBodyWithoutSomeLimbs, StaysFinite) {
+  BodyPose no_thighs = StandingPose(), no_legs = StandingPose();
+  for (const auto& [hip, knee, ankle] :
+       {std::tuple{kLeftHip, kLeftKnee, kLeftAnkle}, std::tuple{kRightHip, kRightKnee, kRightAnkle}}) {
+    no_thighs[knee] = no_thighs[hip];
+    no_legs[knee] = no_legs[ankle] = no_legs[hip];
+  }
+  const BodyMotion motion = MoveMotion("side_kick");
+  for (const BodyPose& body : {no_thighs, no_legs, BodyPose{}}) {
+    for (const BodyMotion& retargeted : {Retarget(motion, body), Retarget({.poses = {body, body}}, StandingPose())}) {
+      for (const BodyPose& pose : retargeted.poses) {
+        for (const glm::dvec3& joint : pose.joints) ASSERT_TRUE(std::isfinite(glm::dot(joint, joint)));
+      }
+    }
+  }
 }
 
 TEST(RetargetedEmptyMotion, StaysEmpty) { EXPECT_TRUE(Retarget({}, StandingPose()).poses.empty()); }

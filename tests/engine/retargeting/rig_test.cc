@@ -24,7 +24,7 @@ std::vector<GlobalTransform> Globals(const BodyPose& rest, const LocalPose& loca
 }
 
 double WorstJoint(const BodyPose& rest, const BodyPose& pose) {
-  const std::vector<GlobalTransform> globals = Globals(rest, PoseRig(rest, pose));
+  const std::vector<GlobalTransform> globals = Globals(rest, PoseRig(pose, rest));
   double worst = 0;
   for (const Role role : AllRoles()) {
     worst = std::max(worst, glm::distance(globals[Index(role)].position, pose[role]));
@@ -72,7 +72,7 @@ TEST(PoseRig, AtRestTurnsNothing) {
 
 TEST(PoseRig, TurnsOnlyTheRootWhenTheWholeBodyMoves) {
   const BodyPose rest = StandingPose();
-  const LocalPose local = PoseRig(rest, Moved(rest, kSomeTurn, {3, -1, 2}));
+  const LocalPose local = PoseRig(Moved(rest, kSomeTurn, {3, -1, 2}), rest);
   EXPECT_LT(AngleBetweenTurns(local[Index(kHipCentre)].rotation, kSomeTurn), 1e-7);
   for (const Role role : AllRoles()) {
     if (role == kHipCentre) continue;
@@ -102,7 +102,7 @@ TEST_P(PoseRigAtAHinge, GivesExactlyTheBend) {
   const BodyPose rest = AtAttention();
   for (const double degrees : {1.0, 20.0, 44.0, 90.0, 150.0}) {
     const glm::dquat bend = glm::angleAxis(Radians(degrees), GetParam().axis);
-    const LocalPose local = PoseRig(rest, Turned(rest, GetParam().joint, bend));
+    const LocalPose local = PoseRig(Turned(rest, GetParam().joint, bend), rest);
     for (const Role role : AllRoles()) {
       const glm::dquat expected = role == GetParam().joint ? bend : glm::dquat(1, 0, 0, 0);
       EXPECT_LT(AngleBetweenTurns(local[Index(role)].rotation, expected), 1e-7) << RoleName(role) << " at " << degrees;
@@ -119,7 +119,7 @@ TEST(PoseRig, SeesTheTwistOfAnUpperArmByItsBentElbow) {
   const BodyPose rest = StandingPose();
   const BodyPose bent = Turned(rest, kLeftElbow, glm::angleAxis(Radians(90), glm::dvec3(-1, 0, 0)));
   const glm::dquat twist = glm::angleAxis(Radians(50), glm::dvec3(0, 1, 0));
-  const LocalPose local = PoseRig(rest, Turned(bent, kLeftShoulder, twist));
+  const LocalPose local = PoseRig(Turned(bent, kLeftShoulder, twist), rest);
   EXPECT_LT(AngleBetweenTurns(local[Index(kLeftShoulder)].rotation, twist), 1e-7);
 }
 
@@ -128,7 +128,7 @@ TEST(PoseRig, GivesTheMirrorImageOfAMirrorImage) {
   const auto move = LoadBuiltinMove("boxing");
   ASSERT_TRUE(move) << ToString(move.error());
   for (const BodyPose& pose : move->motion.poses) {
-    const LocalPose local = PoseRig(rest, pose), mirrored = PoseRig(rest, MirrorImage(pose));
+    const LocalPose local = PoseRig(pose, rest), mirrored = PoseRig(MirrorImage(pose), rest);
     for (const Role role : AllRoles()) {
       const glm::dquat q = mirrored[Index(Mirrored(role))].rotation;
       const glm::dquat reflected(q.w, q.x, -q.y, -q.z);
@@ -184,7 +184,7 @@ TEST(PoseRig, StaysFiniteForABodyWithoutSize) {
   for (const BodyPose& pose : {point, folded}) {
     EXPECT_LT(WorstJoint(rest, pose), 1e-12);
     EXPECT_LT(WorstJoint(pose, rest), 1e-12);
-    for (const LocalTransform& local : PoseRig(rest, pose)) EXPECT_NEAR(glm::length(local.rotation), 1, 1e-12);
+    for (const LocalTransform& local : PoseRig(pose, rest)) EXPECT_NEAR(glm::length(local.rotation), 1, 1e-12);
   }
 }
 

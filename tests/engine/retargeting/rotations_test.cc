@@ -42,12 +42,5 @@ TEST(Orientation, OfParallelAxesIsAnyThatKeepsTheFirst) {
   ExpectNear(Orientation(kY, glm::dvec3(0)) * kX, kY);
 }
 
-TEST(Ramp, IsFlatAtItsEndsAndHalfWayInTheMiddle) {
-  EXPECT_EQ(Ramp(2, 4, 1), 0);
-  EXPECT_EQ(Ramp(2, 4, 3), 0.5);
-  EXPECT_EQ(Ramp(2, 4, 5), 1);
-  EXPECT_NEAR(Ramp(2, 4, 2.001), 0, 1e-6);
-}
-
 }  // namespace
 }  // namespace etude

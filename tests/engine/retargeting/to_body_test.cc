@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
+#include "engine/motion/statistics.h"
 #include "tests/support/person.h"
 #include "tests/support/read_body.h"
 
@@ -56,7 +57,7 @@ TEST(ToBodyMotion, DropsATPoseThatTheMotionJumpsAwayFrom) {
   for (std::size_t i = 1; i < 9; ++i) LowerArms(clip, i);
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
-  EXPECT_TRUE(body->dropped_t_pose);
+  EXPECT_EQ(body->dropped_frames, 1u);
   EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); dropped a leading T-pose");
   EXPECT_EQ(body->motion.poses.size(), 2u);  // frames 1 and 5 of 1…8
   EXPECT_FALSE(IsTPose(body->motion.poses[0]));
@@ -68,10 +69,11 @@ TEST(ToBodyMotion, DropsEveryFrameOfATPoseThatIsHeld) {
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
   EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); dropped a leading T-pose of 3 frames");
+  EXPECT_EQ(body->dropped_frames, 3u);
   EXPECT_EQ(body->motion.poses.size(), 6u);
   const auto whole = Convert(clip, {.drop_t_pose = false});
   ASSERT_TRUE(whole);
-  EXPECT_FALSE(whole->dropped_t_pose);
+  EXPECT_EQ(whole->dropped_frames, 0u);
   EXPECT_EQ(whole->motion.poses.size(), 9u);
 }
 
@@ -81,7 +83,7 @@ TEST(ToBodyMotion, KeepsATPoseThatTheMotionBeginsWith) {
   for (const Clip& clip : {lowering, AtRest(testing::PersonSkeleton(), 1), AtRest(testing::PersonSkeleton(), 9)}) {
     const auto body = Convert(clip);
     ASSERT_TRUE(body);
-    EXPECT_FALSE(body->dropped_t_pose);
+    EXPECT_EQ(body->dropped_frames, 0u);
     EXPECT_TRUE(IsTPose(body->motion.poses[0]));
   }
 }
@@ -91,7 +93,7 @@ TEST(ToBodyMotion, KeepsAFirstFrameThatIsNoTPoseHoweverFarTheNextOneIs) {
   LowerArms(clip, 0);
   const auto body = Convert(clip);
   ASSERT_TRUE(body);
-  EXPECT_FALSE(body->dropped_t_pose);
+  EXPECT_EQ(body->dropped_frames, 0u);
 }
 
 TEST(ToBodyMotion, ResamplesByTurningJointsSoThatLimbsKeepTheirLength) {
@@ -182,6 +184,31 @@ TEST(ToBodyMotion, TurnsZUpFilesUprightAndKeepsWhoFacesWhereAndWhatIsLeft) {
   const auto lying = Convert(clip, {.up = UpAxis::kY});
   ASSERT_TRUE(lying);
   EXPECT_LT(lying->motion.poses[0][kHead].y, 0.2);
+}
+
+TEST(WorldFromFile, PutsWhateverTheClipMovesWhereTheBodyIs) {
+  // Z up, in centimetres, 40 above the floor, after three frames of a T-pose.
+  Clip clip = AtRest(testing::PersonSkeleton(), 9);
+  const glm::dquat to_z_up = Turn(kPi / 2, {1, 0, 0});
+  clip.skeleton.joints[0].rest = {to_z_up * clip.skeleton.joints[0].rest.translation, to_z_up};
+  for (std::size_t i = 0; i < 9; ++i) {
+    const double walked = i < 3 ? 0 : 10.0 * double(i);
+    clip.frames[i][0] = {clip.skeleton.joints[0].rest.translation + glm::dvec3(walked, 3, 40), to_z_up};
+    if (i >= 3) LowerArms(clip, i);
+  }
+  const auto map = FindJointMap(clip.skeleton, "person.bvh");
+  const auto body = ToBodyMotion(clip, *map, "person.bvh");
+  ASSERT_TRUE(body) << ToString(body.error());
+  ASSERT_EQ(body->motion.poses.size(), 6u);
+  std::vector<GlobalTransform> globals;
+  for (std::size_t i = 0; i < 6; ++i) {
+    ComputeGlobals(clip.skeleton, clip.frames[body->dropped_frames + i], globals);
+    const BodyPose in_file = Evaluate(*map, globals);
+    for (const Role role : AllRoles()) {
+      const glm::dvec3 in_world(WorldFromFile(*body) * glm::dvec4(in_file[role], 1));
+      EXPECT_LT(glm::distance(in_world, body->motion.poses[i][role]), 1e-12) << RoleName(role) << " in frame " << i;
+    }
+  }
 }
 
 TEST(ToBodyMotion, TellsWhereItFoundTheFloor) {

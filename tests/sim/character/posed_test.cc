@@ -116,5 +116,29 @@ TEST(PosedFigure, OfABodysPoseHasItsJointsThere) {
   EXPECT_GT(glm::distance(ready[Role::kLeftHand], StandingPose()[Role::kLeftHand]), 0.05);
 }
 
+TEST(PosedFigure, FillsABodyOfOtherProportions) {
+  // Short legs, a long trunk, broad hips: corners half way along a thigh and where a hip sits in the pelvis.
+  BodyPose other = StandingPose();
+  for (glm::dvec3& joint : other.joints) joint *= glm::dvec3(1.5, joint.y < 0.95 ? 0.6 : 1.2, 1);
+  const auto half_thigh = [](const BodyPose& pose) { return 0.5 * (pose[Role::kLeftHip] + pose[Role::kLeftKnee]); };
+  Character marks;
+  marks.skeleton = BodySkeleton(StandingPose());
+  marks.materials = {{}};
+  SkinnedMesh mesh;
+  const auto mark = [&mesh](Role role, const glm::dvec3& at) {
+    const auto binding = static_cast<int>(mesh.bindings.size());
+    mesh.bindings.push_back({static_cast<int>(Index(role)), glm::translate(glm::dmat4(1), -StandingPose()[role])});
+    mesh.vertices.push_back({at, {0, 1, 0}, {binding}, {1}});
+  };
+  mark(Role::kLeftHip, half_thigh(StandingPose()));
+  mark(Role::kHipCentre, StandingPose()[Role::kLeftHip]);
+  mark(Role::kSpine, StandingPose()[Role::kShoulderCentre]);
+  marks.meshes = {mesh};
+  const std::vector<glm::dvec3> seen = PosedFigure(marks, other).surfaces[0].positions;
+  ExpectNear(seen[0], half_thigh(other));
+  ExpectNear(seen[1], other[Role::kLeftHip]);
+  ExpectNear(seen[2], other[Role::kShoulderCentre]);
+}
+
 }  // namespace
 }  // namespace etude

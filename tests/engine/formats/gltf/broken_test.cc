@@ -241,6 +241,26 @@ TEST(BrokenGltf, IsRefusedForMoreOrDeeperJointsThanAnyBodyHas) {
   EXPECT_THAT(Complaint(file(crowd + "{},{}")), HasSubstr("nodes: found 1025 joints; allowed: 1024"));
 }
 
+TEST(BrokenGltf, IsRefusedForLongNamesWhichEveryClipWouldCopy) {
+  const auto file = [](const char* from, std::size_t length) {
+    return Glb(Replaced(kSmallGltf, from, "\"name\":\"" + std::string(length, 'x')), SmallBinary());
+  };
+  for (const char* name : {R"("name":"Hips)", R"("name":"Bow)", R"("name":"Coat)", R"("name":"Fur)"}) {
+    EXPECT_EQ(Complaint(file(name, 500)), "read without complaint");
+    EXPECT_THAT(Complaint(file(name, 501)), HasSubstr("[0].name: found 501 bytes; allowed: 500"));
+  }
+}
+
+TEST(BrokenGltf, GetsNamesThatCommandNoTerminal) {
+  std::string json = Replaced(kSmallGltf, "Bow", R"(B\no\u001b[31m\u009bw é)");
+  json = Replaced(json, "Spine", R"(Spine\u0000)");
+  const auto content = ReadGltf(Glb(Replaced(json, "Fur", R"(\u007f)"), SmallBinary()), "test.glb", {});
+  ASSERT_TRUE(content) << ToString(content.error());
+  EXPECT_EQ(content->clips.front().name, "B?o?[31m??w é");
+  EXPECT_EQ(content->character.skeleton.joints[1].name, "Spine?");
+  EXPECT_EQ(content->character.materials.front().name, "?");
+}
+
 TEST(BrokenGltf, IsRefusedForMoreTrianglesThanAnyFigureHas) {
   const auto strip = [](std::size_t corners) {
     const std::string indices = fmt::format(R"("componentType":5121,"count":{},"type":"SCALAR")", corners);
