@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "engine/base/names.h"
 #include "sim/choreography/move.h"
+#include "sim/choreography/song.h"
 
 namespace etude {
 namespace {
@@ -19,13 +20,28 @@ void ListTasks() {
 }
 
 int ListClips() {
+  fmt::print("Moves (builtin:*):\n");
   for (const std::string& name : BuiltinMoveNames()) {
     const auto move = LoadBuiltinMove(name);
     if (!move) return Complain(move.error());
-    fmt::print("builtin:{:<14} {:g} beats at {:g} per minute, {:.1f} s, {} key poses\n", name, move->beats,
-               move->tempo_bpm, move->motion.DurationSeconds(), move->key_poses.size());
+    fmt::print("  builtin:{:<14} {:g} beats at {:g} ({:g}…{:g}) per minute, {:.1f} s, {} key poses\n", name,
+               move->beats, move->tempo_bpm, move->slowest_bpm, move->fastest_bpm, move->motion.DurationSeconds(),
+               move->key_poses.size());
   }
-  fmt::print("Your own: a .bvh file, or a pattern such as '~/mocap/*.bvh'.\n");
+  fmt::print("Acts of the coach (builtin:acts); builtin:slow_MOVE is a move shown slowly:\n");
+  for (const std::string& name : BuiltinActNames()) {
+    const auto act = LoadBuiltinMove(name);
+    if (!act) return Complain(act.error());
+    fmt::print("  builtin:{:<14} {:.1f} s{}\n", name, act->motion.DurationSeconds(), act->loops ? "" : ", once");
+  }
+  fmt::print("Songs (builtin:songs):\n");
+  for (const std::string& name : BuiltinSongNames()) {
+    const auto song = LoadBuiltinSong(name);
+    if (!song) return Complain(song.error());
+    fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song->parts.size(), song->tempo_bpm,
+               song->motion.DurationSeconds());
+  }
+  fmt::print("Your own: BVH and glTF files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
 }
 

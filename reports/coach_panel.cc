@@ -8,6 +8,8 @@
 
 #include "reports/followed_way.h"
 #include "reports/look.h"
+#include "sim/character/characters.h"
+#include "sim/character/posed.h"
 
 namespace etude {
 namespace {
@@ -65,6 +67,7 @@ Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
   const Place place{.file = "recording " + cell.row->Id()};
   if (!extras.is_object()) return Fail(place, "its extras are no JSON object");
   CoachPanel panel;
+  panel.bear_ = BearCharacter();
   panel.from_ = ClipInWords(TextOf(extras, "from"));
   panel.to_ = ClipInWords(TextOf(extras, "to"));
   panel.branch_ = TextOf(extras, "branch");
@@ -101,7 +104,7 @@ Camera CoachPanel::CameraAt(int frame, double width, double height) const {
 
 void CoachPanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const {
   const BodyPose& pose = motion_.poses[static_cast<std::size_t>(frame)];
-  const std::vector<Figure> coach{{BodyCapsules(pose), CoachColours()}};
+  const std::vector<Figure> coach{PosedFigure(bear_, pose)};
   const Camera camera = CameraAt(frame, panel.width * kDetail, panel.height * kDetail);
   canvas.DrawImage(renderer.Render(Room{}, coach, camera, Targets::kColour).colour, panel, kPanelRadius);
   DrawTag(canvas, panel, shown_before ? "The coach · shown again" : "The coach");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/motion/body.h"
+#include "engine/motion/character.h"
 #include "reports/canvas.h"
 #include "reports/cast.h"
 #include "sim/render/renderer.h"
@@ -28,6 +29,7 @@ class CoachPanel {
   Camera CameraAt(int frame, double width, double height) const;
   void DrawTimeline(Canvas& canvas, const Box& panel, int frame) const;
 
+  Character bear_;
   BodyMotion motion_;
   std::vector<glm::dvec3> followed_;  ///< what the camera follows, one per frame
   std::vector<int> seams_;            ///< in order; at least one

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/clips/builtin_clip.h"
+#include "bench/clips/references.h"
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/replay/compare_rows.h"
@@ -16,37 +19,54 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPackVersion = 1;
+constexpr int kPackVersion = 2;
 
-/// The clips of a scenario, in order: built-in ones by name, files with their bytes.
+/// The clips of a scenario, in order: built-in ones by name, others as files with their bytes, each file once.
 Result<Json> PackClips(const ClipLibrary& library) {
-  Json clips = Json::array();
+  Json clips = Json::array(), files = Json::array();
+  std::map<std::string, std::size_t> number_of;
   for (const LibraryClip& clip : library.clips) {
-    Json entry{{"source", clip.source}};
-    if (!clip.source.starts_with("builtin:")) {
-      auto bytes = ReadWholeFile(clip.source);
-      if (!bytes) return tl::unexpected(bytes.error());
-      entry["bytes"] = Json::binary({bytes->begin(), bytes->end()});
-    }
-    clips.push_back(std::move(entry));
-  }
-  return clips;
-}
-
-/// Puts the packed files into a folder each, so that they keep their names; gives the references to load them by.
-Result<std::vector<std::string>> UnpackClips(const Json& clips, const fs::path& folder) {
-  std::vector<std::string> references;
-  for (const Json& clip : clips) {
-    const std::string source = clip.at("source").get<std::string>();
-    if (!clip.contains("bytes")) {
-      references.push_back(source);
+    if (clip.source.starts_with(kBuiltinPrefix)) {
+      clips.push_back({{"source", clip.source}});
       continue;
     }
-    const fs::path path = folder / std::to_string(references.size()) / fs::path(source).filename();
-    const auto& bytes = clip.at("bytes").get_binary();
-    auto written = WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const SplitReference reference = Split(clip.source);
+    const auto [file, is_new] = number_of.emplace(reference.path, files.size());
+    if (is_new) {
+      auto bytes = ReadWholeFile(reference.path);
+      if (!bytes) return tl::unexpected(bytes.error());
+      const std::size_t first = bytes->find_first_not_of(" \t\r\n");
+      if (first != std::string::npos && (*bytes)[first] == '{') {
+        return Fail({reference.path, 0, 0},
+                    "a .gltf may need files beside it and is not packed; 'etude clip convert' "
+                    "makes a .glb of it");
+      }
+      files.push_back({{"name", fs::path(reference.path).filename().string()},
+                       {"bytes", Json::binary({bytes->begin(), bytes->end()})}});
+    }
+    clips.push_back({{"file", file->second}, {"animation", reference.animation.value_or("")}});
+  }
+  return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
+}
+
+/// Puts the packed files into a folder each, so that they keep their names; gives the references to load clips by.
+Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path& folder) {
+  std::vector<std::string> paths;
+  for (const Json& file : packed.at("files")) {
+    const fs::path name = fs::path(file.at("name").get<std::string>()).filename();
+    const auto& bytes = file.at("bytes").get_binary();
+    paths.push_back((folder / std::to_string(paths.size()) / name).string());
+    auto written = WriteFileAtomically(paths.back(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     if (!written) return tl::unexpected(written.error());
-    references.push_back(path.string());
+  }
+  std::vector<std::string> references;
+  for (const Json& clip : packed.at("clips")) {
+    if (clip.contains("source")) {
+      references.push_back(clip.at("source").get<std::string>());
+      continue;
+    }
+    const std::string animation = clip.at("animation").get<std::string>();
+    references.push_back(paths.at(clip.at("file").get<std::size_t>()) + (animation.empty() ? "" : "#" + animation));
   }
   return references;
 }
@@ -54,7 +74,7 @@ Result<std::vector<std::string>> UnpackClips(const Json& clips, const fs::path& 
 struct Pack {
   SuiteSetup suite;  ///< of one scenario
   Row row;
-  Json clips;
+  Json motions;  ///< what PackClips gives
 };
 
 Result<Pack> ReadPack(const std::string& file) {
@@ -71,7 +91,7 @@ Result<Pack> ReadPack(const std::string& file) {
     if (suite->scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite->scenarios.size());
     auto row = DecodeRow(json.at("row"), place);
     if (!row) return tl::unexpected(row.error());
-    return Pack{std::move(*suite), std::move(*row), json.at("clips")};
+    return Pack{std::move(*suite), std::move(*row), json.at("motions")};
   } catch (const Json::exception& error) {
     return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", error.what());
   }
@@ -103,7 +123,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
                   {"etude", run->program_version},
                   {"setup", EncodeSetup(suite)},
                   {"row", EncodeRow(*row)},
-                  {"clips", std::move(*clips)}};
+                  {"motions", std::move(*clips)}};
   const std::vector<std::uint8_t> bytes = Json::to_cbor(pack);
   return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
@@ -114,10 +134,10 @@ Result<CellCheck> ReplayPack(const std::string& file) {
   const auto folder = TemporaryFolder::Make("replay");
   if (!folder) return tl::unexpected(folder.error());
   try {
-    auto clips = UnpackClips(pack->clips, folder->path());
+    auto clips = UnpackClips(pack->motions, folder->path());
     if (!clips) return tl::unexpected(clips.error());
     pack->suite.scenarios.front().clips = std::move(*clips);
-  } catch (const Json::exception& error) {
+  } catch (const std::exception& error) {  // Json's, or a file that the pack does not have
     return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
   }
   const auto scenarios = PrepareAll(pack->suite);

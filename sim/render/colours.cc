@@ -31,8 +31,4 @@ PartColours PerformerColours() {
   return Dress({.skin = {232, 168, 128}, .top = {230, 92, 66}, .trousers = {150, 46, 88}, .shoes = {240, 186, 76}});
 }
 
-PartColours CoachColours() {
-  return Dress({.skin = {196, 132, 92}, .top = {244, 196, 84}, .trousers = {92, 70, 160}, .shoes = {236, 236, 240}});
-}
-
 }  // namespace etude

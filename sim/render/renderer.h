@@ -37,8 +37,6 @@ struct Figure {
 /// The colours of the captured performer: clothes and skin of warm hues (335° over red to 45°), at
 /// least 85° of hue away from anything in the room, because segmentation compares hues.
 PartColours PerformerColours();
-/// The colours of the coach, told apart from the performer at a glance.
-PartColours CoachColours();
 
 /// The room's wall is the plane z = kWallZ, endless and seen from its front only; the floor is y = 0.
 constexpr double kWallZ = -2.5;

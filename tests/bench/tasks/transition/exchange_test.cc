@@ -36,7 +36,7 @@ methods:
 
 class TransitionExchange : public TransitionFixture {
  protected:
-  const ClipLibrary library_ = {{Builtin("sway"), Builtin("clap"), Builtin("boxing"), Builtin("robot")}};
+  const ClipLibrary library_ = EveryMove();
   const std::unique_ptr<Task> task_ = *Make(kAllKinds, library_);
 
   int ClipNamed(const std::string& name) const {
@@ -77,11 +77,11 @@ class TransitionExchange : public TransitionFixture {
 TEST_F(TransitionExchange, TellsEveryDigitThatBuiltInMethodsSee) {
   const Json setting = *ReadJson(*WriteJson(*task_->Setting()->json), "setting");
   const Stage stage = SetStage(library_);
-  ASSERT_EQ(setting["clips"].size(), 4u);
+  ASSERT_EQ(setting["clips"].size(), library_.clips.size());
   EXPECT_EQ(setting["rate_hz"], 30);
   EXPECT_EQ(setting["joints"][3], "head");
   EXPECT_EQ(setting["parents"][3], "shoulder_centre");
-  for (std::size_t clip = 0; clip < 4; ++clip) {
+  for (std::size_t clip = 0; clip < library_.clips.size(); ++clip) {
     EXPECT_EQ(setting["clips"][clip]["name"], library_.clips[clip].name);
     EXPECT_EQ(setting["clips"][clip]["poses"], EncodePoses(stage.motions[clip].poses));
   }
@@ -156,10 +156,10 @@ TEST_F(TransitionExchange, ScoresAWorseAnswerWorse) {
   const Json late = {{"leave_frame", clip.size() - 1}, {"enter_frame", 0}};
   EXPECT_LT(ValueOf(*world->Judge(soon), "wait_s"), ValueOf(*world->Judge(late), "wait_s"));
 
-  Json stay = soon, leap = soon;  // the frame left is held for a frame; or the whole body leaps a metre to the side
+  Json stay = soon, leap = soon;  // the frame left is held for a frame; or the whole body leaps five metres to the side
   BodyPose pose = *ReadPose(clip[request], "");
   stay["between"] = {EncodePose(pose)};
-  for (glm::dvec3& joint : pose.joints) joint.x += 1;
+  for (glm::dvec3& joint : pose.joints) joint.x += 5;
   leap["between"] = {EncodePose(pose)};
   const auto calm = world->Judge(stay), wild = world->Judge(leap);
   EXPECT_GT(ValueOf(*wild, "jump_cm"), ValueOf(*calm, "jump_cm") + 50);
@@ -199,8 +199,8 @@ TEST_F(TransitionExchange, RefusesAWrongAnswerAndNamesThePlace) {
   EXPECT_EQ(complaint("/between/0/0", 1e30), "between[0][0]: 1e+30; allowed: -1000…1000");
   EXPECT_THAT(complaint("/between/1/9", clip[request][9].get<double>() + 0.3), HasSubstr("between[1]: head is 0."));
   EXPECT_EQ(complaint("/between", Json(std::vector<Json>(301, clip[0]))), "between: 301 entries; allowed: 0…300");
-  EXPECT_EQ(complaint("/through", {{{"clip", 9}, {"enter_frame", 0}, {"leave_frame", 9}}}),
-            "through[0].clip: 9; allowed: 0…3");
+  EXPECT_EQ(complaint("/through", {{{"clip", 99}, {"enter_frame", 0}, {"leave_frame", 9}}}),
+            "through[0].clip: 99; allowed: 0…" + std::to_string(library_.clips.size() - 1));
   EXPECT_EQ(complaint("/through", {{{"clip", 1}, {"enter_frame", 5}, {"leave_frame", 5}}}).substr(0, 36),
             "through[0].leave_frame: 5; allowed: ");
   EXPECT_EQ(complaint("/through", {{{"clip", 1}, {"enter_frame", 0}, {"leave_frame", 9}}}),

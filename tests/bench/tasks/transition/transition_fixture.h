@@ -32,7 +32,12 @@ methods:
     return {"builtin:" + name, "builtin:" + name, move->motion, *move, ""};
   }
 
-  static ClipLibrary SmallLibrary() { return {{Builtin("sway"), Builtin("clap"), Builtin("boxing")}}; }
+  static ClipLibrary EveryMove() {
+    ClipLibrary library;
+    for (const std::string& name : BuiltinMoveNames()) library.clips.push_back(Builtin(name));
+    return library;
+  }
+  static ClipLibrary SmallLibrary() { return {{Builtin("sway"), Builtin("stretch"), Builtin("clap")}}; }
 
   static Result<std::unique_ptr<Task>> Make(const std::string& yaml, const ClipLibrary& library) {
     auto node = ParseYaml(yaml, "scenario.yaml");
