@@ -8,6 +8,7 @@
 #include "bench/run/worker.h"
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
+#include "cli/validators.h"
 
 namespace etude {
 namespace {
@@ -187,10 +188,10 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
   command->add_option("--task", options->task, "ik, transition, detection or capture")->required();
   command->add_option("--time", options->time_s, "Seconds per problem")
-      ->check(CLI::Range(0.001, 1e6))
+      ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
   command->add_option("--memory", options->memory_mb, "MB of memory")
-      ->check(CLI::Range(1.0, 1e6))
+      ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
   command->callback([=, &action] {
     action = [=] { return CheckMethodCommand(options->command, options->task, options->time_s, options->memory_mb); };

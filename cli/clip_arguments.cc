@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/clip_commands.h"
+#include "cli/validators.h"
 
 namespace etude {
 namespace {
@@ -19,14 +20,6 @@ constexpr const char* kExamples =
     "  etude clip render builtin:clap -o clap.mp4             the bear, as a film\n"
     "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
     "  etude clip map odd.bvh -o odd.yaml                     to teach names: edit it, then --joint-map odd.yaml";
-
-/// By hand, for CLI::Range takes "nan".
-std::string CheckRate(const std::string& text) {
-  constexpr double kLowestHz = 1, kHighestHz = 1000;
-  double hz = 0;
-  if (CLI::detail::lexical_cast(text, hz) && hz >= kLowestHz && hz <= kHighestHz) return "";
-  return fmt::format("'{}' is no rate; allowed: {} to {} Hz", text, kLowestHz, kHighestHz);
-}
 
 void AddReading(CLI::App& command, ClipReading& reading) {
   command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
@@ -52,7 +45,7 @@ void DefineConvert(CLI::App& clip, Action& action) {
   command->add_option("output", options->output, "The file to write: .bvh, .glb, .trc (OpenSim) or .csv")->required();
   command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
   command->add_option("--rate", options->rate_hz, "Frames per second (default: the clip's; of bodies 30)")
-      ->check(CheckRate);
+      ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--mirror", options->mirror, "Left becomes right");
   command->add_flag("--ground", options->ground, "As a body: twenty joints, metres, Y up, feet on the floor");
   command->add_flag("--retarget", options->retarget, "As a body of the canonical proportions, 1.70 m tall");

@@ -1,5 +1,6 @@
 #include "bench/files/files.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -66,7 +67,13 @@ Result<std::string> ReadWholeFile(const std::filesystem::path& path) {
   }
   std::ifstream in(path, std::ios::binary);
   if (!in) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes;
+  bytes.reserve(error ? 0 : size);
+  std::array<char, 1 << 16> chunk{};
+  while (in.read(chunk.data(), chunk.size()) || in.gcount() > 0) {
+    bytes.append(chunk.data(), static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() > kLargestFile) return Fail(InFile(path), "grows while it is read");
+  }
   if (in.bad()) return Fail(InFile(path), "cannot read this file: {}", std::strerror(errno));
   return bytes;
 }

@@ -214,7 +214,7 @@ TEST_F(RenderedSurfaces, LeaveOutTrianglesThatAreNotFiniteOrEmpty) {
 TEST_F(RenderedSurfaces, GiveTheSameBytesAgainWithoutLabelsAndDepthToo) {
   const std::vector<Figure> figures = {OfSurfaces(Tessellate(Dancer(), PerformerColours(), 4))};
   const View first = Draw(figures);
-  Draw({{Dancer(), CoachColours()}});
+  Draw({{Dancer(), PerformerColours()}});
   EXPECT_TRUE(SameView(first, Draw(figures)));
   EXPECT_EQ(first.colour.pixels, renderer_->Render({}, figures, camera_, Targets::kColour).colour.pixels);
   renderer_ = std::move(*Renderer::Create());
