@@ -270,6 +270,27 @@ class Map(Clips):
         wrong = self.write("wrong.yaml", "roles:\n  left_elbw: Q1\n")
         self.refuses("info", clip, "--joint-map", wrong, says=["wrong.yaml:2:3: ", "did you mean 'left_elbow'?"])
 
+    def test_a_run_keeps_what_it_was_taught(self):
+        odd = self.write("odd.bvh", WALK.read_text().replace("JOINT LeftForeArm\n", "JOINT Q1\n"))
+        taught = pathlib.Path(self.write("taught.yaml", "roles:\n  left_elbow: Q1\n"))
+        scenario = self.write("t.yaml", f"""scenario: t
+question: Does it run?
+task: transition
+clips: [{odd}, 'builtin:sway']
+trials: 1
+methods: [{{name: cut, choice: now, join: cut}}]
+""")
+        refused = self.etude("run", scenario, "-o", self.out)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("no joint found for left_elbow", refused.stderr)
+        first = self.etude("run", scenario, "-o", self.out, "--joint-map", taught)
+        self.assertEqual(first.returncode, 0, first.stderr)
+        taught.unlink()  # the manifest holds its text
+        again = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "again")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        for name in ("manifest.json", "cells.jsonl"):
+            self.assertEqual((self.out / name).read_bytes(), (self.folder / "again" / name).read_bytes())
+
     def test_a_map_that_does_not_do_is_not_replaced_by_an_empty_one(self):
         text = "roles:\n  left_knee: RightLeg\n"
         mine = self.write("mine.yaml", text)

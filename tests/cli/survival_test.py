@@ -184,12 +184,13 @@ methods:
         self.assertIn("159 of 160 cells came out the same", result.stdout)
 
     def test_a_packed_cell_replays_without_anything_else(self):
-        clip = self.folder / "walk.bvh"
-        shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", clip)
+        bvh, glb = self.folder / "walk.bvh", self.folder / "clap.glb"
+        shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", bvh)
+        self.assertEqual(self.etude("clip", "convert", "builtin:clap", glb, "--character", "bear").returncode, 0)
         scenario = self.write("transition.yaml", f"""scenario: t
 question: Does it run?
 task: transition
-clips: ['builtin:clap', {clip}, 'builtin:sway']
+clips: ['{glb}#clap', {bvh}, 'builtin:sway']
 trials: 3
 methods:
   - {{name: cut, choice: now, join: cut}}
@@ -199,7 +200,8 @@ methods:
         pack = self.folder / "cell.etude"
         packed = self.etude("replay", self.out, "--cell", "t/-/001/fuzzy", "--pack", pack)
         self.assertEqual(packed.returncode, 0, packed.stderr)
-        clip.unlink()
+        bvh.unlink()
+        glb.unlink()
         shutil.rmtree(self.out)
         replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=60)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
