@@ -11,7 +11,6 @@
 
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
-#include "bench/process/pinned_environment.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
 #include "cli/progress_bar.h"
@@ -61,7 +60,6 @@ int ComplainOfFaults(const ScoreOptions& options, const PredictionFaults& faults
 }  // namespace
 
 int ExportCommand(const ExportOptions& given) {
-  if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   const Interrupt interrupt;
   ExportOptions options = given;
   options.stop = interrupt.requested();
@@ -80,7 +78,6 @@ int ExportCommand(const ExportOptions& given) {
 }
 
 int ScoreCommand(const ScoreOptions& given) {
-  if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   const Interrupt interrupt;
   ScoreOptions options = given;
   options.stop = interrupt.requested();

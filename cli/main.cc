@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 
+#include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "engine/base/names.h"
@@ -62,6 +63,12 @@ int ComplainOfArguments(const CLI::App& app, const CLI::ParseError& error) {
   return Complain(Error{{}, fmt::format("{} (etude {}--help explains)", message, words)});
 }
 
+/// Pages, sheets and films are drawn as fast as this machine can; all else must come out the same on any.
+bool DrawsForPeople(const CLI::App& app) {
+  if (app.got_subcommand("report")) return true;
+  return app.got_subcommand("clip") && app.get_subcommand("clip")->got_subcommand("render");
+}
+
 /// A standard stream that was closed by whoever started us would lend its number to the next file opened,
 /// and what is printed would land in there.
 void OpenStandardStreams() {
@@ -86,6 +93,9 @@ int Main(int argc, char** argv) {
     return app.exit(help_or_version);
   } catch (const CLI::ParseError& error) {
     return ComplainOfArguments(app, error);
+  }
+  if (!DrawsForPeople(app)) {
+    if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }
   return action();
 }

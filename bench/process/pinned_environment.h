@@ -11,8 +11,8 @@ namespace etude {
 /// process starts, which is why work is done in child processes.
 const std::vector<std::string>& PinnedEnvironment();
 
-/// Starts this very command anew in the pinned environment, unless it is in there already: pictures and numbers are
-/// then those of a run. Returns only when it is, or when that fails.
+/// Starts this very command anew in the pinned environment, unless it is in there already. Returns only when it is, or
+/// when that fails.
 Result<void> EnterPinnedEnvironment();
 
 }  // namespace etude

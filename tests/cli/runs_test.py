@@ -28,6 +28,27 @@ class Runs(EtudeCase):
             self.run_suite(path, "--jobs", jobs, out=folder)
         self.assert_same_results(*folders)
 
+    def test_functions_that_the_processor_chooses_change_no_byte(self):
+        scenario = self.write("t.yaml", """scenario: t
+question: Does it run?
+task: transition
+clips: ['builtin:sway', /usr/share/assimp/models/BVH/01_03.bvh]
+trials: 2
+methods: [{name: cut, choice: now, join: cut}]
+""")
+        # glibc's sin and exp differ in the last bit where the processor has fused multiply-add.
+        tunables = {"any": None, "plain": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4", "no-avx": "glibc.cpu.hwcaps=-AVX2"}
+        for name, value in tunables.items():
+            environment = {key: text for key, text in os.environ.items() if key != "GLIBC_TUNABLES"}
+            if value is not None:
+                environment["GLIBC_TUNABLES"] = value
+            for arguments in (["run", scenario, "-o", self.folder / name],
+                              ["clip", "convert", "/usr/share/assimp/models/BVH/01_03.bvh", self.folder / f"{name}.csv"]):
+                subprocess.run([ETUDE, *map(str, arguments)], env=environment, check=True, capture_output=True)
+        for name in ("plain", "no-avx"):
+            self.assert_same_results(self.folder / "any", self.folder / name)
+            self.assertEqual((self.folder / "any.csv").read_bytes(), (self.folder / f"{name}.csv").read_bytes())
+
     def test_another_seed_gives_other_worlds_and_the_control_differs(self):
         path = self.write("ik.yaml", IK)
         one = self.run_suite(path, out=self.folder / "one")
