@@ -4,13 +4,11 @@ import json
 import math
 import os
 import pathlib
-import struct
 import subprocess
 import sys
 import unittest
-import zlib
 
-from etude_case import ETUDE, EtudeCase
+from etude_case import ETUDE, EtudeCase, png_size
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from json_schema import complaints, load_schema  # noqa: E402
@@ -20,22 +18,6 @@ WALK = MODELS / "BVH" / "01_03.bvh"
 T_POSE_FIRST = MODELS / "BVH" / "01_01.bvh"
 NO_BODY = MODELS / "glTF2" / "simple_skin" / "simple_skin.gltf"
 NO_ANIMATION = MODELS / "glTF2" / "BoxTextured-glTF-Binary" / "BoxTextured.glb"
-
-
-def picture_size(png):
-    """Width and height of a PNG, its check sums verified."""
-    data = png.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", "no PNG"
-    at, size = 8, None
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
-        if kind == b"IHDR":
-            size = struct.unpack(">II", body[:8])
-        at += 12 + length
-    assert kind == b"IEND", "not whole"
-    return size
 
 
 class Clips(EtudeCase):
@@ -212,11 +194,11 @@ class Render(Clips):
         for path in (sheet, again):
             self.works("render", WALK, "builtin:clap", "-o", path, "--frames", "3", "--size", "96x120")
         self.assertEqual(sheet.read_bytes(), again.read_bytes())
-        width, height = picture_size(sheet)
+        width, height = png_size(sheet.read_bytes())
         self.assertGreaterEqual(width, 3 * 96)
         self.assertGreater(height, 2 * 120)
         self.works("render", WALK, "-o", again, "--frames", "3", "--size", "96x120", "--overwrite")
-        self.assertLess(picture_size(again)[1], height)
+        self.assertLess(png_size(again.read_bytes())[1], height)
 
     def test_every_figure_and_view_draws_something_else(self):
         seen = set()

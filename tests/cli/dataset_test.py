@@ -2,11 +2,9 @@
 import csv
 import json
 import shutil
-import struct
 import unittest
-import zlib
 
-from etude_case import IK, EtudeCase
+from etude_case import IK, EtudeCase, png_size
 
 CAPTURE = """scenario: film
 question: Can others read it?
@@ -17,23 +15,6 @@ trials: 1
 methods:
   - {name: dls, solver: damped-least-squares}
 """
-
-
-def png_size(data):
-    """The size of a PNG file, after checking every chunk and unpacking its pixels."""
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    at, pixels, size = 8, b"", None
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
-        if kind == b"IHDR":
-            size = struct.unpack(">II", body[:8])
-        if kind == b"IDAT":
-            pixels += body
-        at += 12 + length
-    assert len(zlib.decompress(pixels)) == size[1] * (1 + 3 * size[0])
-    return size
 
 
 class DataSets(EtudeCase):

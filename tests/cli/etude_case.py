@@ -2,10 +2,12 @@
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import tempfile
 import time
 import unittest
+import zlib
 
 ETUDE = os.environ["ETUDE"]
 
@@ -30,6 +32,23 @@ def cells_in_journal(folder):
         return max(0, (folder / "journal.jsonl").read_bytes().count(b"\n") - 1)  # the first line is its head
     except FileNotFoundError:
         return 0
+
+
+def png_size(data):
+    """The size of a PNG file, after checking every chunk and unpacking its pixels."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, pixels, size = 8, b"", None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
+        if kind == b"IHDR":
+            size = struct.unpack(">II", body[:8])
+        if kind == b"IDAT":
+            pixels += body
+        at += 12 + length
+    assert len(zlib.decompress(pixels)) == size[1] * (1 + 3 * size[0])
+    return size
 
 
 class EtudeCase(unittest.TestCase):
