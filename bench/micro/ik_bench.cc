@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/kinematics/ccd_sweep.h"
+#include "engine/kinematics/moment_sweep.h"
 #include "engine/kinematics/solvers.h"
 #include "engine/kinematics/tree.h"
 
@@ -51,6 +52,18 @@ BENCHMARK_CAPTURE(Sweep, ccd_adaptive, CcdJoint::kWhole, WeightRule::kAdaptive, 
 BENCHMARK_CAPTURE(Sweep, ccd_adaptive_per_dof, CcdJoint::kWhole, WeightRule::kAdaptive, WeightRefresh::kDof);
 BENCHMARK_CAPTURE(Sweep, hinges_fixed, CcdJoint::kHinges, WeightRule::kFixed, WeightRefresh::kSweep);
 BENCHMARK_CAPTURE(Sweep, hinges_adaptive, CcdJoint::kHinges, WeightRule::kAdaptive, WeightRefresh::kSweep);
+
+void MomentFormSweep(benchmark::State& state, WeightRule rule) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkProblem problem = MakeProblem(tree);
+  IkOptions options;
+  options.weights = rule;
+  MomentSweep ccd(tree, problem, options);
+  for (auto _ : state) benchmark::DoNotOptimize(ccd.Sweep());
+}
+BENCHMARK_CAPTURE(MomentFormSweep, fixed, WeightRule::kFixed);
+BENCHMARK_CAPTURE(MomentFormSweep, adaptive, WeightRule::kAdaptive);
+BENCHMARK_CAPTURE(MomentFormSweep, adaptive_power, WeightRule::kAdaptivePower);
 
 void Solve(benchmark::State& state, const char* solver, WeightRule rule) {
   const KinematicTree tree = MakeBodyTree({});
