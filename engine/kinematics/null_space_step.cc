@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kPositionScale = 0.30;  // metres that count as much as one radian
 constexpr int kPerEffector = 6;
-constexpr int kMostPasses = 6;
+constexpr int kMostPasses = 10;
+constexpr double kShare = 0.5;
 
 double Dot(const std::array<double, 6>& a, const std::array<double, 6>& b) {
   double sum = 0;
@@ -161,15 +162,20 @@ std::span<const double> NullSpaceStep::Solve(std::span<const double> angles, std
         for (int r = 0; r < kPerEffector; ++r) change_[lever.dof] += lever.column[r] * right_[kPerEffector * e + r];
       }
     }
-    bool is_within = true;
-    for (std::size_t i = 0; i < change_.size(); ++i) {
-      if (is_frozen_[i]) continue;
+    double worst = 0;
+    const auto beyond = [&](std::size_t i) {
       const double angle = angles[i] + change_[i];
-      if (angle >= ranges[i].lower && angle <= ranges[i].upper) continue;
-      is_within = false;
+      return std::max({0.0, ranges[i].lower - angle, angle - ranges[i].upper});
+    };
+    for (std::size_t i = 0; i < change_.size(); ++i) {
+      if (!is_frozen_[i]) worst = std::max(worst, beyond(i));
+    }
+    if (worst == 0) break;
+    for (std::size_t i = 0; i < change_.size(); ++i) {
+      if (is_frozen_[i] || beyond(i) < kShare * worst) continue;
+      const double angle = angles[i] + change_[i];
       Freeze(static_cast<int>(i), (angle < ranges[i].lower ? ranges[i].lower : ranges[i].upper) - angles[i]);
     }
-    if (is_within) break;
   }
   return change_;
 }
