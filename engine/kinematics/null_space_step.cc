@@ -11,12 +11,6 @@ constexpr int kPerEffector = 6;
 constexpr int kMostPasses = 10;
 constexpr double kShare = 0.5;
 
-double Dot(const std::array<double, 6>& a, const std::array<double, 6>& b) {
-  double sum = 0;
-  for (int i = 0; i < kPerEffector; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
 }  // namespace
 
 NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
@@ -42,8 +36,7 @@ NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const Effector
   factor_.resize(gram_.size());
 }
 
-void NullSpaceStep::Build(const TreeFrames& frames, std::span<const double> angles) {
-  cost_ = 0;
+void NullSpaceStep::Build(const TreeFrames& frames) {
   for (std::size_t e = 0; e < levers_.size(); ++e) {
     const EffectorTarget& target = targets_[e];
     const LimbFrame& now = frames.effectors[e];
@@ -61,7 +54,6 @@ void NullSpaceStep::Build(const TreeFrames& frames, std::span<const double> angl
       scaled_axes[k] = std::sqrt(information[k]) * now.axes[k];
       residual[3 + k] = information[k] > 0 ? glm::dot(scaled_axes[k], pull) / information[k] : 0;
     }
-    cost_ += 0.5 * Dot(residual, residual);
 
     std::size_t next = levers_[e].size();
     for (int j = tree_.effectors[e].joint; j >= 0; j = tree_.joints[j].parent) {
@@ -69,7 +61,7 @@ void NullSpaceStep::Build(const TreeFrames& frames, std::span<const double> angl
       const glm::dvec3 arm = now.position - frames.joints[j].position;
       for (int axis = joint.dof_count - 1; axis >= 0; --axis) {
         Column& column = levers_[e][--next].column;
-        const glm::dvec3 turn = DofAxis(joint, frames.bases[j], angles, axis);
+        const glm::dvec3& turn = frames.dof_axes[joint.first_dof + axis];
         const glm::dvec3 moves = position_scale * glm::cross(turn, arm);
         for (int k = 0; k < 3; ++k) {
           column[k] = moves[k];

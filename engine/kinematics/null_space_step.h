@@ -18,11 +18,8 @@ class NullSpaceStep {
  public:
   NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-  /// Linearises at `frames`, those of `angles`.
-  void Build(const TreeFrames& frames, std::span<const double> angles);
-
-  /// Half the weighted sum of squared residuals of the frames last built.
-  double Cost() const { return cost_; }
+  /// Linearises at `frames`, whose `dof_axes` are filled.
+  void Build(const TreeFrames& frames);
 
   /// The change of every angle, which keeps within `ranges`; empty when the equations cannot be solved.
   std::span<const double> Solve(std::span<const double> angles, std::span<const double> wanted,
@@ -47,7 +44,6 @@ class NullSpaceStep {
   std::vector<double> gram_, factor_;  ///< J Jᵀ over angles that are free, and its Cholesky factor; lower triangles
   std::vector<double> right_, change_;
   std::vector<char> is_frozen_;
-  double cost_ = 0;
   int rows_ = 0;
 };
 

@@ -29,6 +29,15 @@ struct JointRow {
   std::vector<AngleRange> limits_deg;  // one entry per degree of freedom
 };
 
+/// axes · R, the rotation by `angle` about coordinate axis `axis`.
+void TurnColumns(glm::dmat3& axes, int axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const glm::dvec3 x = axes[i], y = axes[j];
+  axes[i] = c * x + s * y;
+  axes[j] = c * y - s * x;
+}
+
 }  // namespace
 
 bool IsValid(const LimbLengths& lengths) {
@@ -118,6 +127,7 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
   assert(state.angles.size() == tree.limits.size());
   out.joints.resize(tree.joints.size());
   out.bases.resize(tree.joints.size());
+  out.dof_axes.resize(tree.limits.size());
   out.effectors.resize(tree.effectors.size());
   for (std::size_t i = 0; i < tree.joints.size(); ++i) {
     const TreeJoint& joint = tree.joints[i];
@@ -128,8 +138,12 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
     }
     const LimbFrame& above = out.joints[joint.parent];
     out.bases[i] = above.axes * joint.rest;
-    out.joints[i] = {above.position + above.axes * joint.offset,
-                     out.bases[i] * RotationXyz(JointAngles(joint, state.angles))};
+    glm::dmat3 axes = out.bases[i];
+    for (int k = 0; k < joint.dof_count; ++k) {
+      out.dof_axes[joint.first_dof + k] = axes[k];
+      TurnColumns(axes, k, state.angles[joint.first_dof + k]);
+    }
+    out.joints[i] = {above.position + above.axes * joint.offset, axes};
   }
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     const LimbFrame& limb = out.joints[tree.effectors[e].joint];

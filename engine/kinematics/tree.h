@@ -112,6 +112,8 @@ struct LimbFrame {
 struct TreeFrames {
   std::vector<LimbFrame> joints;  ///< of each joint, and the frame of its limb
   std::vector<glm::dmat3> bases;  ///< of each joint: its limb's frame before the joint turns (F_parent · rest)
+  /// Of each degree of freedom: the world's axis about which it turns what hangs below.
+  std::vector<glm::dvec3> dof_axes;
   std::vector<LimbFrame> effectors;
 };
 
