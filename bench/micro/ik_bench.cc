@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "engine/kinematics/ccd_sweep.h"
-#include "engine/kinematics/moment_sweep.h"
-#include "engine/kinematics/solvers.h"
+#include "engine/kinematics/solvers/ccd_sweep.h"
+#include "engine/kinematics/solvers/ik_solver.h"
+#include "engine/kinematics/solvers/moment_sweep.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {

@@ -20,9 +20,44 @@ bool AreUnit(const glm::dmat3& axes) {
 
 bool IsWeight(double weight) { return std::isfinite(weight) && weight >= 0 && weight <= kFarthest; }
 
+// Right angles to each other, and no mirror image.
+bool AreAFrame(const glm::dmat3& axes) { return AreUnit(axes) && std::abs(glm::determinant(axes) - 1) < 1e-5; }
+
 bool IsGood(const EffectorTarget& target) {
   return IsWeight(target.position_weight) && IsWeight(target.axis_weights.x) && IsWeight(target.axis_weights.y) &&
-         IsWeight(target.axis_weights.z) && IsSane(target.position) && AreUnit(target.axes);
+         IsWeight(target.axis_weights.z) && IsSane(target.position) && AreAFrame(target.axes);
+}
+
+// A point that a target fixes, and the limbs from the root to it.
+struct FixedPoint {
+  glm::dvec3 place;
+  std::vector<int> joints;  // from the point to the root
+  double last_limb = 0;     // from the last joint to the point
+};
+
+FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
+  FixedPoint point{target.position, {}, glm::length(effector.offset)};
+  const glm::dvec3& w = target.axis_weights;
+  if (w.x > 0 && w.y > 0 && w.z > 0) {  // a whole frame: the limb's upper end is known, too
+    point.place -= target.axes * effector.offset;
+    point.last_limb = 0;
+  }
+  for (int joint = effector.joint; joint >= 0; joint = tree.joints[joint].parent) point.joints.push_back(joint);
+  return point;
+}
+
+// The straight length of all limbs between two points; `other` empty: to the root.
+double LengthBetween(const KinematicTree& tree, const FixedPoint& point, const FixedPoint* other) {
+  double length = point.last_limb + (other != nullptr ? other->last_limb : 0);
+  const auto add_outside = [&](const FixedPoint& from, const FixedPoint* than) {
+    for (const int joint : from.joints) {
+      const bool is_shared = than != nullptr && std::ranges::find(than->joints, joint) != than->joints.end();
+      if (!is_shared && tree.joints[joint].parent >= 0) length += glm::length(tree.joints[joint].offset);
+    }
+  };
+  add_outside(point, other);
+  if (other != nullptr) add_outside(*other, &point);
+  return length;
 }
 
 }  // namespace
@@ -50,7 +85,8 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
   for (const Effector& effector : tree.effectors) {
     if (!IsSane(effector.offset) || glm::length(effector.offset) <= 0) return "a limb has no length";
   }
-  if (!IsSane(problem.start.root_position) || !AreUnit(problem.start.root_frame)) return "the root is no finite frame";
+  if (!IsSane(problem.start.root_position) || !AreAFrame(problem.start.root_frame))
+    return "the root is no finite frame";
   for (double angle : problem.start.angles) {
     if (!IsSane(angle)) return "a start angle is not finite";
   }
@@ -64,6 +100,22 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
   if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative";
   if (options.max_iterations < 1) return "the iteration limit is below 1";
   return {};
+}
+
+bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
+  constexpr double kRounding = 1e-9;  // metres
+  std::vector<FixedPoint> points;
+  for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+    if (problem.targets[e].position_weight <= 0) continue;
+    const FixedPoint point = FixedBy(tree, tree.effectors[e], problem.targets[e]);
+    const double from_root = glm::distance(point.place, problem.start.root_position);
+    if (from_root > LengthBetween(tree, point, nullptr) + kRounding) return true;
+    for (const FixedPoint& other : points) {
+      if (glm::distance(point.place, other.place) > LengthBetween(tree, point, &other) + kRounding) return true;
+    }
+    points.push_back(point);
+  }
+  return false;
 }
 
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options) {

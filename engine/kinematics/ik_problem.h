@@ -30,9 +30,26 @@ struct IkProblem {
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
+/// Settings of single solvers; `IkSolver::settings` tells whose they are. The defaults are tuned ones.
+struct IkTuning {
+  /// jacobian-transpose: multiplies the step length that is best to first order.
+  double gain = 1;
+  /// jacobian-pinv: μ of J⁺ = Jᵀ(JJᵀ + μI)⁻¹; 0 is paper B's formula.
+  double pinv_damping = 0;
+  /// damped-least-squares: the damping λ of its first step.
+  double first_damping = 1e-2;
+  /// ccd-anderson: how many former sweeps the extrapolation uses.
+  int memory = 5;
+  /// ccd-nullspace: sweeps before the first Gauss–Newton step.
+  int first_sweeps = 2;
+  /// ceres-lm: the trust region it begins with.
+  double first_radius = 10;
+};
+
 struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< CCD only
   WeightRefresh refresh = WeightRefresh::kSweep;
+  IkTuning tuning;
   bool limits = true;  ///< paper B, section 3.7.1; off: angles are free
   /// Paper B, section 3.7.2: no angle may leave its start angle by more than this (radians). Empty: no such bound.
   std::optional<double> angle_change_tolerance;
@@ -49,7 +66,8 @@ struct IkOptions {
 
 enum class IkStatus {
   kConverged,
-  kStalled,  ///< the angles do not move any more, and a goal is not reached
+  kStalled,      ///< the angles do not move any more, and a goal is not reached
+  kUnreachable,  ///< not converged, and no pose could be: `IsOutOfReach`; the angles are the nearest that were found
   kIterationLimit,
   kBadInput,  ///< nothing was computed; angles are zeros
 };
@@ -67,6 +85,7 @@ struct EffectorError {
 struct IkTraceEntry {
   double worst_position = 0;  ///< metres, the largest over the effectors
   double worst_axis = 0;      ///< radians, the largest mean axis angle over the effectors
+  std::vector<EffectorError> errors;
   std::vector<double> angles;
 };
 
@@ -83,6 +102,10 @@ struct IkSolution {
 /// or absurdly far (> 1,000 km), limbs of no length, limits whose lower end is above the upper, axes that are not unit
 /// vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+
+/// Whether the limbs are too short for the targets whatever the angles: an effector's target is farther from the root,
+/// or two effectors' targets from each other, than all limbs between them together. `false` promises nothing.
+bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 
 /// The range every angle may take: limits (when on) and the box of the angle-change tolerance, intersected. The box is
 /// laid around the start angle after that was moved into its limits, so that the intersection is never empty.

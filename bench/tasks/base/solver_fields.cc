@@ -1,19 +1,66 @@
 #include "bench/tasks/base/solver_fields.h"
 
+#include <algorithm>
+
+#include "engine/base/names.h"
+
 namespace etude {
+namespace {
+
+void ReadSetting(Fields& fields, const IkSetting& setting, IkTuning& tuning) {
+  if (const auto* integer = std::get_if<int IkTuning::*>(&setting.member)) {
+    int& value = tuning.**integer;
+    value = fields.Integer(setting.key, value, {setting.lowest, setting.largest});
+  } else {
+    double& value = tuning.*std::get<double IkTuning::*>(setting.member);
+    value = fields.Number(setting.key, value, {setting.lowest, setting.largest});
+  }
+}
+
+/// Keys that a method may have because of some other solver, and that mean nothing to this one.
+std::vector<std::string> KeysOfOthers(const IkSolver& solver) {
+  std::vector<std::string> keys;
+  if (!solver.uses_weights) keys = {"weights", "refresh"};
+  for (const IkSolver& other : AllIkSolvers()) {
+    for (const IkSetting& setting : other.settings) {
+      const bool is_own = std::ranges::find(solver.settings, setting.key, &IkSetting::key) != solver.settings.end();
+      if (!is_own && std::ranges::find(keys, setting.key) == keys.end()) keys.push_back(setting.key);
+    }
+  }
+  return keys;
+}
+
+}  // namespace
 
 const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options) {
   const IkSolver* solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), "ccd"));
   if (solver->uses_weights) {
     options.weights = *FindWeightRule(fields.Choice("weights", WeightRuleNames(), "adaptive"));
     options.refresh = *FindWeightRefresh(fields.Choice("refresh", WeightRefreshNames(), "sweep"));
-    return solver;
   }
-  for (const char* key : {"weights", "refresh"}) {
+  for (const IkSetting& setting : solver->settings) ReadSetting(fields, setting, options.tuning);
+  for (const std::string& key : KeysOfOthers(*solver)) {
     const Node* value = fields.Raw(key);
     if (value != nullptr) fields.Complain(value->place, fmt::format("solver '{}' has no '{}'", solver->name, key));
   }
   return solver;
+}
+
+std::vector<KeyInfo> IkSolverKeys() {
+  std::vector<KeyInfo> keys = {
+      {"solver", Join(IkSolverNames()), "ccd", "How the angles are found."},
+      {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes."},
+      {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them."}};
+  const IkTuning defaults;
+  for (const IkSolver& solver : AllIkSolvers()) {
+    for (const IkSetting& setting : solver.settings) {
+      const double fallback =
+          std::visit([&](auto member) { return static_cast<double>(defaults.*member); }, setting.member);
+      keys.push_back({setting.key, fmt::format("{}…{}", setting.lowest, setting.largest), fmt::format("{}", fallback),
+                      fmt::format("Of solver {}. {}", solver.name, setting.meaning)});
+    }
+  }
+  return keys;
 }
 
 }  // namespace etude

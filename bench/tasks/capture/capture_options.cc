@@ -100,15 +100,15 @@ std::vector<KeyInfo> CaptureConditionKeys() {
 }
 
 std::vector<KeyInfo> CaptureMethodKeys() {
-  return {
+  std::vector<KeyInfo> keys = {
       {"segmenter", Join(SegmenterNames()), "hue", "How the person is cut out of the pictures."},
       {"calibration", Join(CalibrationNames()), "dlt", "How a camera is computed from its calibration points."},
-      {"solver", Join(IkSolverNames()), "ccd", "How inverse kinematics finds the angles."},
-      {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes."},
-      {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them."},
       {"tolerance_deg", "0…360", "(no bound)", "How far an angle may leave the one seen in the images."},
       {"max_sweeps", "1…100000", "100", "The solver's steps per frame, at most."},
       {"oracle", "a list of " + Join(kOracles), "[]", "Stages replaced by the truth."}};
+  const std::vector<KeyInfo> solver_keys = IkSolverKeys();
+  keys.insert(keys.end(), solver_keys.begin(), solver_keys.end());
+  return keys;
 }
 
 }  // namespace etude

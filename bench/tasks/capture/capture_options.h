@@ -7,7 +7,7 @@
 #include "bench/tasks/base/task.h"
 #include "engine/cameras/dlt.h"
 #include "engine/document/fields.h"
-#include "engine/kinematics/solvers.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 #include "engine/vision/change_detection.h"
 
 namespace etude {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/kinematics/limb_lengths.h"
-#include "engine/kinematics/solvers.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
 

@@ -139,8 +139,7 @@ CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMe
     cell.status = Status::kOk;
     cell.reason.clear();
   } else {
-    cell.reason = fmt::format("{} after {} {}{}", DescribeErrors(errors), solution.iterations,
-                              method.solver->uses_weights ? "sweeps" : "steps",
+    cell.reason = fmt::format("{} after {} {}{}", DescribeErrors(errors), solution.iterations, method.solver->step,
                               solution.status == IkStatus::kStalled ? ", stalled" : "");
   }
   return cell;

@@ -83,14 +83,12 @@ std::vector<KeyInfo> IkConditionKeys() {
 }
 
 std::vector<KeyInfo> IkMethodKeys() {
-  return {
-      {"solver", Join(IkSolverNames()), "ccd", "How the angles are found."},
-      {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes."},
-      {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them."},
-      {"limits", "true, false", "true", "Whether joint limits are kept."},
-      {"tolerance_deg", "0…360", "(no bound)", "How far an angle may leave its start."},
-      {"tolerance_times_noise", "0…100", "(no bound)",
-       "The same in multiples of joint_noise_deg; paper B's reading: 1.2."}};
+  std::vector<KeyInfo> keys = IkSolverKeys();
+  keys.insert(keys.end(), {{"limits", "true, false", "true", "Whether joint limits are kept."},
+                           {"tolerance_deg", "0…360", "(no bound)", "How far an angle may leave its start."},
+                           {"tolerance_times_noise", "0…100", "(no bound)",
+                            "The same in multiples of joint_noise_deg; paper B's reading: 1.2."}});
+  return keys;
 }
 
 }  // namespace etude

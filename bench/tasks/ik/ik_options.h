@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "engine/kinematics/solvers.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "engine/kinematics/ccd.h"
+#include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/observed_tree.h"
 
 namespace etude {

@@ -8,7 +8,7 @@
 #include "bench/tasks/ik/ik_cell.h"
 #include "bench/tasks/ik/ik_task.h"
 #include "engine/base/angles.h"
-#include "engine/kinematics/solvers.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 #include "tests/bench/tasks/base/cell_values.h"
 
 namespace etude {

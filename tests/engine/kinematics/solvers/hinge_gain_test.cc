@@ -1,4 +1,4 @@
-#include "engine/kinematics/hinge_gain.h"
+#include "engine/kinematics/solvers/hinge_gain.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/kinematics/hinge_gain.h"
 #include "engine/kinematics/ik_problem.h"
+#include "engine/kinematics/solvers/hinge_gain.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {
@@ -29,7 +29,6 @@ class CcdSweep {
   std::span<const double> angles() const { return state_.angles; }
   /// The errors of the present angles, as forward kinematics gives them.
   std::span<const EffectorError> errors() const { return errors_; }
-  int fk_evaluations() const { return fk_evaluations_; }
 
  private:
   void UpdateFrames();
@@ -50,7 +49,6 @@ class CcdSweep {
   TreeFrames frames_;  // effectors are kept current while the joints below have turned, joints and bases are not
   std::vector<EffectorError> errors_;
   std::vector<EffectorWeights> weights_;
-  int fk_evaluations_ = 0;
 };
 
 }  // namespace etude

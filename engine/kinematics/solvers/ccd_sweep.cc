@@ -1,10 +1,10 @@
-#include "engine/kinematics/ccd_sweep.h"
+#include "engine/kinematics/solvers/ccd_sweep.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/kinematics/euler.h"
-#include "engine/kinematics/hinge_gain.h"
+#include "engine/kinematics/solvers/hinge_gain.h"
 
 namespace etude {
 
@@ -47,7 +47,6 @@ double CcdSweep::Sweep() {
 
 void CcdSweep::UpdateFrames() {
   ComputeFrames(tree_, state_, frames_);
-  ++fk_evaluations_;
   for (std::size_t e = 0; e < errors_.size(); ++e) errors_[e] = ErrorOf(frames_.effectors[e], problem_.targets[e]);
 }
 

@@ -1,14 +1,15 @@
-#include "engine/kinematics/damped_least_squares.h"
+#include "engine/kinematics/solvers/damped_least_squares.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "engine/kinematics/solvers/ik_run.h"
+
 namespace etude {
 namespace {
 
 constexpr double kPositionScale = 0.30;  // metres that count as much as one radian
-constexpr double kFirstDamping = 1e-2;
 constexpr double kSmallestDamping = 1e-9;
 constexpr double kLargestDamping = 1e6;
 constexpr double kDampingStep = 5;
@@ -89,11 +90,6 @@ class Linearised {
   Eigen::Matrix<double, Eigen::Dynamic, 3> rows_;  // ∂vector/∂angle, one line per angle
 };
 
-void Measure(const TreeFrames& frames, const IkProblem& problem, std::vector<EffectorError>& errors) {
-  errors.resize(problem.targets.size());
-  for (std::size_t e = 0; e < errors.size(); ++e) errors[e] = ErrorOf(frames.effectors[e], problem.targets[e]);
-}
-
 // angles + step, neither too far nor out of range. Returns the largest change.
 double TurnWithin(const std::vector<AngleRange>& ranges, const std::vector<double>& angles, const Eigen::VectorXd& step,
                   std::vector<double>& turned) {
@@ -109,42 +105,31 @@ double TurnWithin(const std::vector<AngleRange>& ranges, const std::vector<doubl
 }  // namespace
 
 IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  IkSolution solution;
-  if (!FindFault(tree, problem, options).empty()) {
-    solution.angles.assign(tree.limits.size(), 0.0);
-    return solution;
-  }
-  const std::vector<AngleRange> ranges = AllowedRanges(problem, options);
+  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
+  IkRun run(tree, problem, options);
   TreeState state = problem.start;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    state.angles[i] = std::clamp(state.angles[i], ranges[i].lower, ranges[i].upper);
-  }
+  state.angles = run.start_angles();
   TreeFrames frames = ComputeFrames(tree, state);
-  solution.fk_evaluations = 1;
   Linearised linearised(tree, problem);
   linearised.Build(frames, state.angles);
   double cost = linearised.Cost(frames);
-  double damping = kFirstDamping;
-  bool stalled = false;
-  WorstError worst;
+  double damping = options.tuning.first_damping;
+  std::vector<EffectorError> errors;
   const auto note = [&] {
-    Measure(frames, problem, solution.errors);
-    worst = FindWorst(solution.errors, problem.targets);
-    if (options.trace) solution.trace.push_back({worst.position, worst.axis, state.angles});
+    MeasureErrors(frames, problem.targets, errors);
+    run.Note(errors, state.angles);
   };
   note();
 
   TreeState trial = state;
   TreeFrames trial_frames = frames;
-  while (!worst.Within(options) && !stalled && solution.iterations < options.max_iterations) {
-    const double largest = TurnWithin(ranges, state.angles, linearised.Step(damping), trial.angles);
+  while (run.MustGoOn()) {
+    const double largest = TurnWithin(run.ranges(), state.angles, linearised.Step(damping), trial.angles);
     ComputeFrames(tree, trial, trial_frames);
-    ++solution.fk_evaluations;
-    ++solution.iterations;
     const double trial_cost = linearised.Cost(trial_frames);
-    stalled = largest < options.stall_change || damping > kLargestDamping;
+    if (largest < options.stall_change || damping > kLargestDamping) run.Stall();
     if (trial_cost < cost) {
-      stalled = stalled || cost - trial_cost < kSmallestGain * cost;
+      if (cost - trial_cost < kSmallestGain * cost) run.Stall();
       std::swap(state, trial);
       std::swap(frames, trial_frames);
       cost = trial_cost;
@@ -155,11 +140,7 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
     }
     note();
   }
-  solution.status = worst.Within(options) ? IkStatus::kConverged
-                    : stalled             ? IkStatus::kStalled
-                                          : IkStatus::kIterationLimit;
-  solution.angles = state.angles;
-  return solution;
+  return run.Finish(state.angles);
 }
 
 }  // namespace etude

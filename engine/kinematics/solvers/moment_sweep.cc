@@ -1,4 +1,4 @@
-#include "engine/kinematics/moment_sweep.h"
+#include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,6 @@ double MomentSweep::Sweep() {
 
 void MomentSweep::UpdateLimbs() {
   PlaceLimbs<double>(tree_, hinges_, limbs_);
-  ++fk_evaluations_;
   for (std::size_t e = 0; e < errors_.size(); ++e) {
     const SweepTree::Effector& effector = tree_.effectors[e];
     const LimbOf<double>& limb = limbs_[effector.joint];

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/kinematics/ik_problem.h"
-#include "engine/kinematics/sweep_kernel.h"
+#include "engine/kinematics/solvers/sweep_kernel.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {
@@ -27,7 +27,6 @@ class MomentSweep {
   std::vector<double> Angles() const;
   /// The errors of the present angles, as forward kinematics gives them.
   std::span<const EffectorError> errors() const { return errors_; }
-  int fk_evaluations() const { return fk_evaluations_; }
 
  private:
   void UpdateLimbs();
@@ -41,7 +40,6 @@ class MomentSweep {
   std::vector<GoalOf<double>> goals_;
   std::vector<Moments<double>> moments_;
   std::vector<EffectorError> errors_;
-  int fk_evaluations_ = 0;
 };
 
 }  // namespace etude

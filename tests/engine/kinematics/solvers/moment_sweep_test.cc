@@ -1,10 +1,10 @@
-#include "engine/kinematics/moment_sweep.h"
+#include "engine/kinematics/solvers/moment_sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "engine/kinematics/ccd_sweep.h"
+#include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "engine/kinematics/ik_problem.h"
+
+namespace etude {
+
+/// The book-keeping that all solvers share: the ranges of the angles, when to stop, the trace and the status. `tree`
+/// and `problem` must be free of faults (`FindFault`) and outlive this.
+///
+///     if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
+///     IkRun run(tree, problem, options);
+///     … run.start_angles() … run.Note(errors, angles);          // the start
+///     while (run.MustGoOn()) {
+///       … one iteration …
+///       run.Note(errors, angles);
+///       if (nothing moved) run.Stall();
+///     }
+///     return run.Finish(angles);
+class IkRun {
+ public:
+  IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+
+  const std::vector<AngleRange>& ranges() const { return ranges_; }
+  /// The problem's start angles, moved into their ranges.
+  const std::vector<double>& start_angles() const { return start_angles_; }
+
+  /// Books the start, at the first call, and then the outcome of each iteration: errors by forward kinematics of
+  /// `angles`, a list or a function that makes one, which is called for a trace only. `fk_evaluations`: how many
+  /// passes led here.
+  template <class Angles>
+  void Note(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
+    Book(errors, fk_evaluations);
+    if (!options_.trace) return;
+    IkTraceEntry& entry = solution_.trace.emplace_back();
+    entry.worst_position = worst_.position;
+    entry.worst_axis = worst_.axis;
+    entry.errors = solution_.errors;
+    if constexpr (requires { angles(); }) {
+      entry.angles = angles();
+    } else {
+      entry.angles.assign(angles.begin(), angles.end());
+    }
+  }
+
+  /// The angles cannot move any further.
+  void Stall() { has_stalled_ = true; }
+
+  bool HasConverged() const { return worst_.Within(options_); }
+  bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
+  /// The largest errors of the state booked last.
+  const WorstError& worst() const { return worst_; }
+  std::span<const EffectorError> errors() const { return solution_.errors; }
+  int iterations() const { return solution_.iterations; }
+
+  /// The solution with these angles, which were booked last. Ends the run.
+  IkSolution Finish(std::vector<double> angles);
+
+ private:
+  void Book(std::span<const EffectorError> errors, int fk_evaluations);
+
+  const KinematicTree& tree_;
+  const IkProblem& problem_;
+  const IkOptions options_;
+  const std::vector<AngleRange> ranges_;
+  std::vector<double> start_angles_;
+  WorstError worst_;
+  bool has_begun_ = false;
+  bool has_stalled_ = false;
+  IkSolution solution_;
+};
+
+/// What every solver answers to a faulty problem.
+IkSolution BadInput(const KinematicTree& tree);
+
+/// The errors of all effectors at these frames.
+void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
+
+}  // namespace etude
