@@ -46,18 +46,31 @@ FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const Ef
   return point;
 }
 
-// The straight length of all limbs between two points; `other` empty: to the root.
-double LengthBetween(const KinematicTree& tree, const FixedPoint& point, const FixedPoint* other) {
-  double length = point.last_limb + (other != nullptr ? other->last_limb : 0);
-  const auto add_outside = [&](const FixedPoint& from, const FixedPoint* than) {
-    for (const int joint : from.joints) {
-      const bool is_shared = than != nullptr && std::ranges::find(than->joints, joint) != than->joints.end();
-      if (!is_shared && tree.joints[joint].parent >= 0) length += glm::length(tree.joints[joint].offset);
-    }
-  };
-  add_outside(point, other);
-  if (other != nullptr) add_outside(*other, &point);
-  return length;
+// The limbs from `point` up to where they meet those of `other`: their straight length, and the joint they end at
+// (−1: there are none).
+struct Branch {
+  double length = 0;
+  int top = -1;
+};
+
+Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<const int> shared) {
+  Branch branch{point.last_limb, -1};
+  for (const int joint : point.joints) {
+    if (std::ranges::find(shared, joint) != shared.end() || tree.joints[joint].parent < 0) break;
+    branch.length += glm::length(tree.joints[joint].offset);
+    branch.top = joint;
+  }
+  return branch;
+}
+
+// How far two points can be from each other at most: all limbs between them stretched out.
+double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const FixedPoint& b) {
+  const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
+  if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
+  // Both branches leave the same limb, which is rigid.
+  const glm::dvec3& at_a = tree.joints[to_a.top].offset;
+  const glm::dvec3& at_b = tree.joints[to_b.top].offset;
+  return to_a.length + to_b.length - glm::length(at_a) - glm::length(at_b) + glm::distance(at_a, at_b);
 }
 
 }  // namespace
@@ -109,9 +122,9 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
     if (problem.targets[e].position_weight <= 0) continue;
     const FixedPoint point = FixedBy(tree, tree.effectors[e], problem.targets[e]);
     const double from_root = glm::distance(point.place, problem.start.root_position);
-    if (from_root > LengthBetween(tree, point, nullptr) + kRounding) return true;
+    if (from_root > BranchOf(tree, point, {}).length + kRounding) return true;
     for (const FixedPoint& other : points) {
-      if (glm::distance(point.place, other.place) > LengthBetween(tree, point, &other) + kRounding) return true;
+      if (glm::distance(point.place, other.place) > LongestBetween(tree, point, other) + kRounding) return true;
     }
     points.push_back(point);
   }

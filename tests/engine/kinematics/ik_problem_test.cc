@@ -1,0 +1,86 @@
+#include "engine/kinematics/ik_problem.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+constexpr int kRightFoot = 0, kLeftHand = 1, kRightHand = 2, kHead = 3;  // the body's effectors
+
+const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
+
+// The targets that a standing body meets, of which only `effectors` count, and only their positions.
+IkProblem PositionsOf(std::initializer_list<int> effectors) {
+  IkProblem problem = DisturbedProblem(Body(), StandingState(Body()), 0, 0);
+  for (EffectorTarget& target : problem.targets) {
+    target.position_weight = 0;
+    target.axis_weights = glm::dvec3(0);
+  }
+  for (const int e : effectors) problem.targets[e].position_weight = 1;
+  return problem;
+}
+
+TEST(OutOfReach, NoPoseOfTheTreeIs) {
+  for (int trial = 0; trial < 200; ++trial) {
+    EXPECT_FALSE(IsOutOfReach(Body(), DisturbedProblem(Body(), RandomPose(Body(), trial, 1), trial, 15))) << trial;
+  }
+}
+
+// Toe, ankle, knee, hip, across to the navel, up to the neck, head.
+constexpr double kRootToHead = 0.18 + 0.42 + 0.43 + 0.09 + 0.50 + 0.25;
+
+TEST(OutOfReach, IsWhatLiesBeyondAllLimbsFromTheRoot) {
+  IkProblem problem = PositionsOf({kHead});
+  problem.targets[kHead].position = {0, 0, kRootToHead - 1e-6};
+  EXPECT_FALSE(IsOutOfReach(Body(), problem));
+  problem.targets[kHead].position = {0, 0, kRootToHead + 1e-6};
+  EXPECT_TRUE(IsOutOfReach(Body(), problem));
+  problem.targets[kHead].position_weight = 0;
+  EXPECT_FALSE(IsOutOfReach(Body(), problem)) << "a position that does not count cannot be out of reach";
+}
+
+TEST(OutOfReach, CountsAWholeFramesLimbInItsOwnDirection) {
+  IkProblem problem = PositionsOf({kHead});
+  problem.targets[kHead].position = {0, 0, kRootToHead - 1e-6};
+  problem.targets[kHead].axis_weights = glm::dvec3(1);
+  problem.targets[kHead].axes = glm::dmat3(1);
+  EXPECT_FALSE(IsOutOfReach(Body(), problem)) << "the neck points away from the root";
+  problem.targets[kHead].axes = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1);
+  EXPECT_TRUE(IsOutOfReach(Body(), problem)) << "the neck's base is asked to be beyond the head";
+}
+
+// Both arms and the line between the shoulders, which cannot bend.
+constexpr double kHandToHand = 2 * (0.18 + 0.25 + 0.29) + 0.36;
+
+TEST(OutOfReach, AreHandsFartherFromEachOtherThanTheArmsAreLong) {
+  for (const double beyond : {-1e-6, 1e-6}) {
+    IkProblem problem = PositionsOf({kLeftHand, kRightHand});
+    const double half = 0.5 * (kHandToHand + beyond);
+    problem.targets[kLeftHand].position = {-half, 1, 0};
+    problem.targets[kRightHand].position = {half, 1, 0};
+    EXPECT_EQ(IsOutOfReach(Body(), problem), beyond > 0);
+    // Either alone is near enough to the root.
+    problem.targets[kRightHand].position_weight = 0;
+    EXPECT_FALSE(IsOutOfReach(Body(), problem));
+  }
+}
+
+TEST(Faults, AreAxesThatAreNoRotation) {
+  const IkProblem sound = PositionsOf({kRightFoot});
+  EXPECT_EQ(FindFault(Body(), sound, {}), "");
+  IkProblem mirrored = sound;
+  mirrored.targets[kRightFoot].axes[0] *= -1.0;
+  EXPECT_NE(FindFault(Body(), mirrored, {}), "");
+  IkProblem sheared = sound;
+  sheared.targets[kRightFoot].axes[0] =
+      glm::normalize(sheared.targets[kRightFoot].axes[0] + 0.1 * sheared.targets[kRightFoot].axes[1]);
+  EXPECT_NE(FindFault(Body(), sheared, {}), "");
+}
+
+}  // namespace
+}  // namespace etude

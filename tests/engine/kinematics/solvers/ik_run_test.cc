@@ -1,0 +1,103 @@
+#include "engine/kinematics/solvers/ik_run.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+struct Trial {
+  KinematicTree tree = MakeBodyTree({});
+  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 1, 0.5), 1, 15);
+  IkOptions options;
+};
+
+// All effectors as far off as this, metres and radians.
+std::vector<EffectorError> ErrorsOf(double position, double axis) {
+  return std::vector<EffectorError>(4, {position, glm::dvec3(axis)});
+}
+
+TEST(IkRun, CountsTheStartAsNoIteration) {
+  const Trial trial;
+  IkRun run(trial.tree, trial.problem, trial.options);
+  run.Note(ErrorsOf(0.5, 0.5), run.start_angles());
+  EXPECT_EQ(run.iterations(), 0);
+  run.Note(ErrorsOf(0.4, 0.5), run.start_angles(), 3);
+  const IkSolution solution = run.Finish(run.start_angles());
+  EXPECT_EQ(solution.iterations, 1);
+  EXPECT_EQ(solution.fk_evaluations, 4);
+  EXPECT_EQ(solution.errors[2].position, 0.4);
+}
+
+TEST(IkRun, GoesOnUntilBothGoalsAreReached) {
+  const Trial trial;
+  IkRun run(trial.tree, trial.problem, trial.options);
+  run.Note(ErrorsOf(0.5, 0.5), run.start_angles());
+  EXPECT_TRUE(run.MustGoOn());
+  run.Note(ErrorsOf(1e-4, 0.5), run.start_angles());
+  EXPECT_TRUE(run.MustGoOn()) << "the axes are off";
+  run.Note(ErrorsOf(1e-4, 1e-4), run.start_angles());
+  EXPECT_FALSE(run.MustGoOn());
+  EXPECT_EQ(run.Finish(run.start_angles()).status, IkStatus::kConverged);
+}
+
+TEST(IkRun, TellsAStallFromAnExhaustedBudget) {
+  Trial trial;
+  trial.options.max_iterations = 1;
+  IkRun spent(trial.tree, trial.problem, trial.options);
+  spent.Note(ErrorsOf(0.5, 0.5), spent.start_angles());
+  spent.Note(ErrorsOf(0.5, 0.5), spent.start_angles());
+  EXPECT_FALSE(spent.MustGoOn());
+  EXPECT_EQ(spent.Finish({}).status, IkStatus::kIterationLimit);
+
+  IkRun stalled(trial.tree, trial.problem, trial.options);
+  stalled.Note(ErrorsOf(0.5, 0.5), stalled.start_angles());
+  stalled.Stall();
+  EXPECT_FALSE(stalled.MustGoOn());
+  EXPECT_EQ(stalled.Finish({}).status, IkStatus::kStalled);
+}
+
+TEST(IkRun, CallsAFailureUnreachableWhenNoPoseCouldReach) {
+  Trial trial;
+  trial.problem.targets[3].position += glm::dvec3(0, 5, 0);
+  IkRun run(trial.tree, trial.problem, trial.options);
+  run.Note(ErrorsOf(5, 0.5), run.start_angles());
+  run.Stall();
+  EXPECT_EQ(run.Finish({}).status, IkStatus::kUnreachable);
+}
+
+TEST(IkRun, MovesTheStartIntoItsRanges) {
+  Trial trial;
+  trial.problem.start.angles[4] = trial.problem.limits[4].upper + 1;
+  EXPECT_EQ(IkRun(trial.tree, trial.problem, trial.options).start_angles()[4], trial.problem.limits[4].upper);
+  trial.options.limits = false;
+  EXPECT_EQ(IkRun(trial.tree, trial.problem, trial.options).start_angles()[4], trial.problem.limits[4].upper + 1);
+}
+
+TEST(IkRun, AsksForAnglesOnlyWhenTheyAreTraced) {
+  Trial trial;
+  int asked = 0;
+  const auto angles = [&] {
+    ++asked;
+    return trial.problem.start.angles;
+  };
+  IkRun untraced(trial.tree, trial.problem, trial.options);
+  untraced.Note(ErrorsOf(0.5, 0.5), angles);
+  EXPECT_TRUE(untraced.Finish({}).trace.empty());
+  EXPECT_EQ(asked, 0);
+
+  trial.options.trace = true;
+  IkRun traced(trial.tree, trial.problem, trial.options);
+  traced.Note(ErrorsOf(0.5, 0.25), angles);
+  const IkSolution solution = traced.Finish({});
+  EXPECT_EQ(asked, 1);
+  ASSERT_EQ(solution.trace.size(), 1u);
+  EXPECT_EQ(solution.trace[0].angles, trial.problem.start.angles);
+  EXPECT_EQ(solution.trace[0].worst_position, 0.5);
+  EXPECT_EQ(solution.trace[0].worst_axis, 0.25);
+  EXPECT_EQ(solution.trace[0].errors[3].position, 0.5);
+}
+
+}  // namespace
+}  // namespace etude
