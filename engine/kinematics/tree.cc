@@ -7,6 +7,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/kinematics/euler.h"
+#include "engine/kinematics/sine_cosine.h"
 
 namespace etude {
 namespace {
@@ -29,13 +30,15 @@ struct JointRow {
   std::vector<AngleRange> limits_deg;  // one entry per degree of freedom
 };
 
-/// axes · R, the rotation by `angle` about coordinate axis `axis`.
-void TurnColumns(glm::dmat3& axes, int axis, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+/// axes · R, the rotation by `angle` about coordinate axis `kAxis`. Returns the axis, which stays.
+template <int kAxis>
+glm::dvec3 TurnColumns(glm::dmat3& axes, double angle) {
+  constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
+  const auto [s, c] = ComputeSineCosine(angle);
   const glm::dvec3 x = axes[i], y = axes[j];
   axes[i] = c * x + s * y;
   axes[j] = c * y - s * x;
+  return axes[kAxis];
 }
 
 }  // namespace
@@ -137,12 +140,13 @@ void ComputeFrames(const KinematicTree& tree, const TreeState& state, TreeFrames
       continue;
     }
     const LimbFrame& above = out.joints[joint.parent];
-    out.bases[i] = above.axes * joint.rest;
-    glm::dmat3 axes = out.bases[i];
-    for (int k = 0; k < joint.dof_count; ++k) {
-      out.dof_axes[joint.first_dof + k] = axes[k];
-      TurnColumns(axes, k, state.angles[joint.first_dof + k]);
-    }
+    glm::dmat3 axes = above.axes * joint.rest;
+    out.bases[i] = axes;
+    const double* angles = state.angles.data() + joint.first_dof;
+    glm::dvec3* dof_axes = out.dof_axes.data() + joint.first_dof;
+    if (joint.dof_count > 0) dof_axes[0] = TurnColumns<0>(axes, angles[0]);
+    if (joint.dof_count > 1) dof_axes[1] = TurnColumns<1>(axes, angles[1]);
+    if (joint.dof_count > 2) dof_axes[2] = TurnColumns<2>(axes, angles[2]);
     out.joints[i] = {above.position + above.axes * joint.offset, axes};
   }
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {

@@ -37,28 +37,42 @@ std::optional<WeightRefresh> FindWeightRefresh(std::string_view name) {
   return FindIn<WeightRefresh>(WeightRefreshNames(), name);
 }
 
-bool IsAdaptive(WeightRule rule) {
-  return rule == WeightRule::kAdaptive || rule == WeightRule::kAdaptiveTuned || rule == WeightRule::kAdaptivePower;
-}
-
-EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles) {
-  const double e = distance * kCmPerMetre;
+WeightFormula FormulaOf(WeightRule rule) {
+  constexpr double kRoot = 31.622776601683793;  // 100^0.75, of centimetres in a metre
   switch (rule) {
     case WeightRule::kFixed:
-      return {kPerSquareCm, glm::dvec3(1)};
+      return {kPerSquareCm, 1, ErrorPower::kNone};
     case WeightRule::kFixedTuned:
-      return {0.0015 * kPerSquareCm, glm::dvec3(1)};
+      return {0.0015 * kPerSquareCm, 1, ErrorPower::kNone};
     case WeightRule::kAdaptive:
-      return {e * kPerSquareCm, axis_angles * Degrees(1)};
+      return {kCmPerMetre * kPerSquareCm, Degrees(1), ErrorPower::kOne};
     case WeightRule::kAdaptiveTuned:
-      return {0.003 * e * kPerSquareCm, axis_angles * Degrees(1)};
+      return {0.003 * kCmPerMetre * kPerSquareCm, Degrees(1), ErrorPower::kOne};
     case WeightRule::kAdaptivePower:
-      return {5e-5 * std::pow(e, 0.75) * kPerSquareCm,
-              {std::pow(axis_angles.x, 0.75), std::pow(axis_angles.y, 0.75), std::pow(axis_angles.z, 0.75)}};
+      return {5e-5 * kRoot * kPerSquareCm, 1, ErrorPower::kThreeQuarters};
     case WeightRule::kWangChen:
-      return {0.0007 * kPerSquareCm, glm::dvec3(1)};
+      return {0.0007 * kPerSquareCm, 1, ErrorPower::kNone};
   }
   return {};
+}
+
+bool IsAdaptive(WeightRule rule) { return FormulaOf(rule).power != ErrorPower::kNone; }
+
+EffectorWeights ComputeWeights(WeightRule rule, double distance, const glm::dvec3& axis_angles) {
+  const WeightFormula formula = FormulaOf(rule);
+  const auto power = [&formula](double error) {
+    switch (formula.power) {
+      case ErrorPower::kNone:
+        return 1.0;
+      case ErrorPower::kThreeQuarters:
+        return std::sqrt(error * std::sqrt(error));  // the same bits with every libm, unlike std::pow
+      case ErrorPower::kOne:
+        return error;
+    }
+    return 1.0;
+  };
+  return {formula.position * power(distance),
+          formula.axis * glm::dvec3(power(axis_angles.x), power(axis_angles.y), power(axis_angles.z))};
 }
 
 double WangChenFactor(const glm::dvec3& current, const glm::dvec3& desired) {

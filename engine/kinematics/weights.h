@@ -35,6 +35,19 @@ struct EffectorWeights {
   glm::dvec3 axes{1};   ///< w_o1, w_o2, w_o3
 };
 
+/// Which power of an error a weight grows with.
+enum class ErrorPower { kNone, kThreeQuarters, kOne };
+
+/// A rule as numbers: w_p = `position` · e^power, w_ok = `axis` · θ_k^power with e in metres and θ_k in radians.
+struct WeightFormula {
+  double position = 1;
+  double axis = 1;
+  ErrorPower power = ErrorPower::kNone;
+};
+
+/// Of `kWangChen` the part without ρ.
+WeightFormula FormulaOf(WeightRule rule);
+
 /// Whether the rule depends on errors. `kWangChen` does not: it depends on the joint that turns.
 bool IsAdaptive(WeightRule rule);
 

@@ -7,6 +7,21 @@
 #include "engine/kinematics/solvers/hinge_gain.h"
 
 namespace etude {
+namespace {
+
+// R · rotation, R the rotation by `angle` about a coordinate axis.
+glm::dmat3 TurnedAbout(int axis, double angle, glm::dmat3 rotation) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  for (int column = 0; column < 3; ++column) {
+    const double x = rotation[column][i], y = rotation[column][j];
+    rotation[column][i] = c * x - s * y;
+    rotation[column][j] = s * x + c * y;
+  }
+  return rotation;
+}
+
+}  // namespace
 
 CcdSweep::CcdSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, CcdJoint joint_kind)
     : tree_(tree),
@@ -23,13 +38,17 @@ CcdSweep::CcdSweep(const KinematicTree& tree, const IkProblem& problem, const Ik
       effectors_below_[joint].push_back(static_cast<int>(e));
     }
   }
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    state_.angles[i] = std::clamp(state_.angles[i], ranges_[i].lower, ranges_[i].upper);
-  }
-  UpdateFrames();
+  SetAngles(problem.start.angles);
+  Measure();
 }
 
 double CcdSweep::Sweep() {
+  const double change = Turn();
+  Measure();
+  return change;
+}
+
+double CcdSweep::Turn() {
   // The last FK has measured the errors that the weights of this sweep go by.
   for (std::size_t e = 0; e < weights_.size(); ++e) {
     weights_[e] = ComputeWeights(options_.weights, errors_[e].position, errors_[e].axis_angles);
@@ -41,13 +60,29 @@ double CcdSweep::Sweep() {
     const bool whole = joint_kind_ == CcdJoint::kWhole && tree_.joints[joint].dof_count > 1;
     largest = std::max(largest, whole ? TurnWhole(joint) : TurnAsHinges(joint));
   }
-  UpdateFrames();
   return largest;
 }
 
-void CcdSweep::UpdateFrames() {
+void CcdSweep::Measure() {
   ComputeFrames(tree_, state_, frames_);
   for (std::size_t e = 0; e < errors_.size(); ++e) errors_[e] = ErrorOf(frames_.effectors[e], problem_.targets[e]);
+}
+
+double CcdSweep::Merit() const {
+  double merit = 0;
+  for (std::size_t e = 0; e < weights_.size(); ++e) {
+    const EffectorTarget& target = problem_.targets[e];
+    merit += weights_[e].position * target.position_weight * errors_[e].position * errors_[e].position;
+    const glm::dvec3 chords = 2.0 * glm::sin(0.5 * errors_[e].axis_angles);
+    merit += glm::dot(weights_[e].axes * target.axis_weights, chords * chords);
+  }
+  return merit;
+}
+
+void CcdSweep::SetAngles(std::span<const double> angles) {
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    state_.angles[i] = std::clamp(angles[i], ranges_[i].lower, ranges_[i].upper);
+  }
 }
 
 void CcdSweep::UpdateWeightsBelow(int joint) {
@@ -109,18 +144,19 @@ double CcdSweep::TurnWhole(int joint) {
   const glm::dmat3& base = frames_.bases[joint];
   glm::dvec3 angles = JointAngles(limb, state_.angles);
   const glm::dvec3 before = angles;
+  glm::dmat3 rotation = RotationXyz(angles);
   for (int axis = 0; axis < limb.dof_count; ++axis) {
     if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
-    const glm::dmat3 rotation = RotationXyz(angles);
     const double turn = GainAbout(base[axis], joint).Optimum();
-    glm::dvec3 wanted(0);
-    wanted[axis] = turn;
-    angles = AnglesXyz(RotationXyz(wanted) * rotation);
+    const glm::dmat3 wanted = TurnedAbout(axis, turn, rotation);
+    const glm::dvec3 wanted_angles = AnglesXyz(wanted);
     for (int k = 0; k < 3; ++k) {
       const int dof = limb.first_dof + k;
-      angles[k] = k < limb.dof_count ? ClampAngle(angles[k], ranges_[dof]) : 0;
+      angles[k] = k < limb.dof_count ? ClampAngle(wanted_angles[k], ranges_[dof]) : 0;
     }
-    TurnBelow(joint, base * RotationXyz(angles) * glm::transpose(rotation) * glm::transpose(base));
+    const glm::dmat3 clipped = angles == wanted_angles ? wanted : RotationXyz(angles);
+    TurnBelow(joint, base * clipped * glm::transpose(rotation) * glm::transpose(base));
+    rotation = clipped;
   }
   double largest = 0;
   for (int k = 0; k < limb.dof_count; ++k) {

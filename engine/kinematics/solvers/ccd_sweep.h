@@ -26,12 +26,21 @@ class CcdSweep {
   /// of an angle, radians.
   double Sweep();
 
+  /// The two halves of `Sweep`: new angles, and what they lead to.
+  double Turn();
+  void Measure();
+
+  /// What turns lower: Σ w_p e² + Σ w_o |u_c − u_d|² of the pose measured last, by the weights of the last turn (by
+  /// those it ended with when they change on the way; `kWangChen` without ρ).
+  double Merit() const;
+  /// Puts every angle there, or to the nearest end of its range. Measures nothing.
+  void SetAngles(std::span<const double> angles);
+
   std::span<const double> angles() const { return state_.angles; }
   /// The errors of the present angles, as forward kinematics gives them.
   std::span<const EffectorError> errors() const { return errors_; }
 
  private:
-  void UpdateFrames();
   void UpdateWeightsBelow(int joint);
   HingeGain GainAbout(const glm::dvec3& axis, int joint) const;
   void TurnBelow(int joint, const glm::dmat3& rotation);

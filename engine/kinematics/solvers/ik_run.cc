@@ -1,5 +1,7 @@
 #include "engine/kinematics/solvers/ik_run.h"
 
+#include <limits>
+
 namespace etude {
 
 IkRun::IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)
@@ -21,7 +23,46 @@ void IkRun::Book(std::span<const EffectorError> errors, int fk_evaluations) {
   worst_ = FindWorst(errors, problem_.targets);
 }
 
+// An angle is never smaller than its chord, nor a sum than the root of the sum of squares.
+bool IkRun::MissesByFar(const TreeFrames& frames) const {
+  const double farthest = options_.position_goal * options_.position_goal;
+  for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
+    const EffectorTarget& target = problem_.targets[e];
+    const LimbFrame& now = frames.effectors[e];
+    const glm::dvec3 gap = target.position - now.position;
+    if (target.position_weight > 0 && glm::dot(gap, gap) >= farthest) return true;
+    double chords = 0, sum_goal = 0;
+    for (int k = 0; k < 3; ++k) {
+      if (target.axis_weights[k] <= 0) continue;
+      const glm::dvec3 chord = target.axes[k] - now.axes[k];
+      chords += glm::dot(chord, chord);
+      sum_goal += options_.axis_goal;
+    }
+    if (sum_goal > 0 && chords >= sum_goal * sum_goal) return true;
+  }
+  return false;
+}
+
+void IkRun::NoteMisses(int count) {
+  solution_.iterations += has_begun_ ? count : count - 1;
+  has_begun_ = true;
+  solution_.fk_evaluations += count;
+  Forget();
+}
+
+void IkRun::Forget() {
+  solution_.errors.clear();
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  worst_ = {kUnknown, kUnknown};
+}
+
 IkSolution IkRun::Finish(std::vector<double> angles) {
+  if (solution_.errors.empty()) {
+    TreeState state = problem_.start;
+    state.angles = angles;
+    MeasureErrors(ComputeFrames(tree_, state), problem_.targets, solution_.errors);
+    ++solution_.fk_evaluations;
+  }
   solution_.status = HasConverged()                  ? IkStatus::kConverged
                      : IsOutOfReach(tree_, problem_) ? IkStatus::kUnreachable
                      : has_stalled_                  ? IkStatus::kStalled

@@ -8,6 +8,9 @@
 
 namespace etude {
 
+/// The errors of all effectors at these frames.
+void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
+
 /// The book-keeping that all solvers share: the ranges of the angles, when to stop, the trace and the status. `tree`
 /// and `problem` must be free of faults (`FindFault`) and outlive this.
 ///
@@ -46,12 +49,32 @@ class IkRun {
     }
   }
 
+  /// The same by the frames of `angles`, for solvers that do not look at errors themselves: these are worked out only
+  /// where somebody sees them, in a trace, near the goals and at the end.
+  template <class Angles>
+  void NoteFrames(const TreeFrames& frames, const Angles& angles) {
+    if (!options_.trace && MissesByFar(frames)) {
+      NoteMisses();
+      return;
+    }
+    MeasureErrors(frames, problem_.targets, errors_);
+    Note(errors_, angles);
+  }
+
+  /// Books iterations that certainly miss the goals and whose errors nobody will see: not with a trace.
+  void NoteMisses(int count = 1);
+
+  /// Books a forward-kinematics pass beyond the one of each iteration.
+  void CountPass() { ++solution_.fk_evaluations; }
   /// The angles cannot move any further.
   void Stall() { has_stalled_ = true; }
 
+  /// The solution is not the state booked last.
+  void Forget();
+
   bool HasConverged() const { return worst_.Within(options_); }
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
-  /// The largest errors of the state booked last.
+  /// The largest errors of the state booked last, if it was booked with its errors.
   const WorstError& worst() const { return worst_; }
   std::span<const EffectorError> errors() const { return solution_.errors; }
   int iterations() const { return solution_.iterations; }
@@ -61,6 +84,7 @@ class IkRun {
 
  private:
   void Book(std::span<const EffectorError> errors, int fk_evaluations);
+  bool MissesByFar(const TreeFrames& frames) const;
 
   const KinematicTree& tree_;
   const IkProblem& problem_;
@@ -68,6 +92,7 @@ class IkRun {
   const std::vector<AngleRange> ranges_;
   std::vector<double> start_angles_;
   WorstError worst_;
+  std::vector<EffectorError> errors_;
   bool has_begun_ = false;
   bool has_stalled_ = false;
   IkSolution solution_;
@@ -75,8 +100,5 @@ class IkRun {
 
 /// What every solver answers to a faulty problem.
 IkSolution BadInput(const KinematicTree& tree);
-
-/// The errors of all effectors at these frames.
-void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
 
 }  // namespace etude

@@ -1,62 +1,30 @@
 #include "engine/kinematics/solvers/moment_sweep.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "engine/kinematics/solvers/sweep_kernel-inl.h"
+
 namespace etude {
-namespace {
 
-Rows<double> ToRows(const glm::dmat3& columns) {
-  Rows<double> rows;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) rows.m[r][c] = columns[c][r];
-  }
-  return rows;
-}
+namespace lanes = HWY_NAMESPACE;  // of the narrowest target: one double is one lane
 
-Triple<double> ToTriple(const glm::dvec3& v) { return {{v.x, v.y, v.z}}; }
+struct MomentSweep::State {
+  State(const KinematicTree& body, const IkProblem& asked, const IkOptions& options)
+      : formula(FormulaOf(options.weights)),
+        squared_position_goal(options.position_goal * options.position_goal),
+        axis_goal(options.axis_goal),
+        tree(body),
+        problem(tree, asked, AllowedRanges(asked, options)),
+        sweep(tree, body.dof_count()) {
+    lanes::LoadProblem(problem, 0, sweep);
+  }
 
-Hinge<double> MakeHinge(double angle, const AngleRange& range) {
-  const double middle = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
-  const double from_middle = std::clamp(angle, range.lower, range.upper) - middle;
-  const bool is_bounded = half < kPi;
-  return {std::cos(from_middle),
-          std::sin(from_middle),
-          std::cos(middle),
-          std::sin(middle),
-          is_bounded ? std::cos(half) : -2.0,
-          std::sin(half)};
-}
-
-}  // namespace
-
-SweepTree::SweepTree(const KinematicTree& tree) {
-  for (const TreeJoint& from : tree.joints) {
-    Joint& joint = joints.emplace_back();
-    joint.parent = from.parent;
-    joint.first_dof = from.first_dof;
-    joint.dof_count = from.dof_count;
-    joint.is_aligned = from.rest == glm::dmat3(1);
-    for (int r = 0; r < 3; ++r) {
-      joint.offset[r] = from.offset[r];
-      for (int c = 0; c < 3; ++c) joint.rest[r][c] = from.rest[c][r];
-    }
-  }
-  for (const etude::Effector& from : tree.effectors) {
-    effectors.push_back({from.joint, {from.offset.x, from.offset.y, from.offset.z}});
-  }
-  // By the number of joints between a joint and the leaves below it.
-  std::vector<int> height(joints.size(), -1);
-  for (const Effector& effector : effectors) height[effector.joint] = std::max(height[effector.joint], 0);
-  for (std::size_t n = joints.size() - 1; n > 0; --n) {
-    if (height[n] >= 0) height[joints[n].parent] = std::max(height[joints[n].parent], height[n] + 1);
-  }
-  for (int h = 0; h <= *std::ranges::max_element(height); ++h) {
-    for (std::size_t n = joints.size() - 1; n > 0; --n) {
-      if (height[n] == h) order.push_back(static_cast<int>(n));
-    }
-  }
-}
+  const WeightFormula formula;
+  const double squared_position_goal, axis_goal;
+  const SweepTree tree;
+  const SweepProblem problem;
+  lanes::SweepState<double> sweep;
+};
 
 bool MomentSweep::CanServe(const IkOptions& options) {
   const bool same_at_every_joint = options.refresh == WeightRefresh::kSweep || !IsAdaptive(options.weights);
@@ -64,59 +32,76 @@ bool MomentSweep::CanServe(const IkOptions& options) {
 }
 
 MomentSweep::MomentSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)
-    : problem_(problem),
-      rule_(options.weights),
-      ranges_(AllowedRanges(problem, options)),
-      tree_(tree),
-      limbs_(tree.joints.size()),
-      goals_(tree.effectors.size()),
-      moments_(tree.joints.size()),
-      errors_(tree.effectors.size()) {
-  for (std::size_t i = 0; i < ranges_.size(); ++i) hinges_.push_back(MakeHinge(problem.start.angles[i], ranges_[i]));
-  for (std::size_t e = 0; e < goals_.size(); ++e) {
-    goals_[e].axes = ToRows(problem.targets[e].axes);
-    goals_[e].position = ToTriple(problem.targets[e].position);
-  }
-  limbs_[0] = {ToRows(problem.start.root_frame), ToTriple(problem.start.root_position)};
-  UpdateLimbs();
+    : state_(std::make_unique<State>(tree, problem, options)) {
+  Measure();
 }
+
+MomentSweep::~MomentSweep() = default;
 
 double MomentSweep::Sweep() {
-  for (std::size_t e = 0; e < goals_.size(); ++e) {
-    const EffectorWeights weights = ComputeWeights(rule_, errors_[e].position, errors_[e].axis_angles);
-    goals_[e].position_weight = weights.position * problem_.targets[e].position_weight;
-    goals_[e].axis_weights = ToTriple(weights.axes * problem_.targets[e].axis_weights);
-  }
-  const double chord = SweepHinges<double>(tree_, limbs_, goals_, hinges_, moments_);
-  UpdateLimbs();
-  return std::sqrt(chord);
+  const double change = Turn();
+  Measure();
+  return change;
 }
 
-void MomentSweep::UpdateLimbs() {
-  PlaceLimbs<double>(tree_, hinges_, limbs_);
-  for (std::size_t e = 0; e < errors_.size(); ++e) {
-    const SweepTree::Effector& effector = tree_.effectors[e];
-    const LimbOf<double>& limb = limbs_[effector.joint];
-    LimbFrame frame;
-    for (int r = 0; r < 3; ++r) {
-      frame.position[r] = limb.position.v[r];
-      for (int c = 0; c < 3; ++c) {
-        frame.position[r] += limb.axes.m[r][c] * effector.offset[c];
-        frame.axes[c][r] = limb.axes.m[r][c];
-      }
-    }
-    errors_[e] = ErrorOf(frame, problem_.targets[e]);
+double MomentSweep::Turn() { return std::sqrt(lanes::SweepHinges(state_->tree, state_->formula, state_->sweep)); }
+
+void MomentSweep::Measure() { lanes::PlaceLimbs(state_->tree, state_->sweep); }
+
+double MomentSweep::Merit() const {
+  double merit = 0;
+  for (const lanes::GoalOf<double>& goal : state_->sweep.goals) {
+    merit += goal.position_pull * goal.squared_distance;
+    for (int k = 0; k < 3; ++k) merit += goal.axis_pulls[k] * goal.squared_chords[k];
   }
+  return merit;
+}
+
+void MomentSweep::ReadHalfTangents(std::span<double> out) const {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const lanes::HingeOf<double>& hinge = state_->sweep.hinges[i];
+    const double c = hinge.c * hinge.cos_middle + hinge.s * hinge.sin_middle;
+    const double s = hinge.s * hinge.cos_middle - hinge.c * hinge.sin_middle;
+    out[i] = c >= 0 ? s / (1 + c) : (1 - c) / s;  // the same, each where it keeps its digits
+  }
+}
+
+void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
+  for (std::size_t i = 0; i < half_tangents.size(); ++i) {
+    lanes::HingeOf<double>& hinge = state_->sweep.hinges[i];
+    const double t = half_tangents[i], scale = 1 / (1 + t * t);
+    const double wanted_c = (1 - t * t) * scale, wanted_s = 2 * t * scale;  // from the middle
+    const bool is_inside = wanted_c >= hinge.cos_half;
+    const double c = is_inside ? wanted_c : hinge.cos_half;
+    const double s = is_inside ? wanted_s : std::copysign(hinge.sin_half, t);
+    hinge.c = c * hinge.cos_middle - s * hinge.sin_middle;
+    hinge.s = s * hinge.cos_middle + c * hinge.sin_middle;
+  }
+}
+
+bool MomentSweep::MissesGoals() const {
+  return lanes::MissesGoals(state_->squared_position_goal, state_->axis_goal, state_->sweep);
 }
 
 std::vector<double> MomentSweep::Angles() const {
   std::vector<double> angles;
-  for (std::size_t i = 0; i < hinges_.size(); ++i) {
-    const double middle = 0.5 * (ranges_[i].lower + ranges_[i].upper);
-    const double angle = middle + std::atan2(hinges_[i].s, hinges_[i].c);
-    angles.push_back(std::clamp(angle, ranges_[i].lower, ranges_[i].upper));
+  for (std::size_t i = 0; i < state_->sweep.hinges.size(); ++i) {
+    const lanes::HingeOf<double>& hinge = state_->sweep.hinges[i];
+    angles.push_back(state_->problem.Angle(static_cast<int>(i), hinge.c, hinge.s));
   }
   return angles;
+}
+
+std::vector<EffectorError> MomentSweep::errors() const {
+  std::vector<EffectorError> errors;
+  for (std::size_t e = 0; e < state_->sweep.goals.size(); ++e) {
+    const lanes::GoalOf<double>& goal = state_->sweep.goals[e];
+    const int(&names)[3] = state_->tree.effectors[e].names;
+    EffectorError& error = errors.emplace_back();
+    error.position = std::sqrt(goal.squared_distance);
+    for (int k = 0; k < 3; ++k) error.axis_angles[names[k]] = lanes::AngleOfChord(goal.squared_chords[k]);
+  }
+  return errors;
 }
 
 }  // namespace etude

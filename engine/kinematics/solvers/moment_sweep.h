@@ -1,21 +1,22 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "engine/kinematics/ik_problem.h"
-#include "engine/kinematics/solvers/sweep_kernel.h"
 #include "engine/kinematics/tree.h"
 
 namespace etude {
 
 /// The sweeps of `CcdSweep` with `CcdJoint::kHinges` and weights refreshed every sweep, in moment form
-/// (sweep_kernel.h): the same angles to rounding, several times faster. Not for `WeightRule::kWangChen`, whose weights
+/// (sweep_kernel-inl.h): the same angles to rounding, five times faster. Not for `WeightRule::kWangChen`, whose weights
 /// differ from joint to joint. Takes its memory when made; `Sweep` allocates nothing. `tree` and `problem` must be free
 /// of faults (`FindFault`) and outlive this.
 class MomentSweep {
  public:
   MomentSweep(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+  ~MomentSweep();
 
   /// Whether moments can carry the weights that these options ask for.
   static bool CanServe(const IkOptions& options);
@@ -23,23 +24,29 @@ class MomentSweep {
   /// Turns every joint once, leaves to root. Returns the largest change of an angle (its chord), radians.
   double Sweep();
 
+  /// The two halves of `Sweep`: new angles, and what they lead to.
+  double Turn();
+  void Measure();
+
+  /// What turns lower: Σ w_p e² + Σ w_o |u_c − u_d|² of the pose measured last, by the weights of the last turn.
+  double Merit() const;
+  /// tan((q − middle) / 2) of every present angle; the middle is that of its range, or a free angle's start.
+  void ReadHalfTangents(std::span<double> out) const;
+  /// Puts every angle there, or to the nearest end of its range. Measures nothing.
+  void SetHalfTangents(std::span<const double> half_tangents);
+
+  /// Whether the pose measured last certainly misses the goals of the options: much cheaper than `errors`. When not,
+  /// errors decide.
+  bool MissesGoals() const;
+
   /// The present angles, radians.
   std::vector<double> Angles() const;
-  /// The errors of the present angles, as forward kinematics gives them.
-  std::span<const EffectorError> errors() const { return errors_; }
+  /// The errors of the pose measured last; axis angles are off by up to 10⁻¹² of themselves.
+  std::vector<EffectorError> errors() const;
 
  private:
-  void UpdateLimbs();
-
-  const IkProblem& problem_;
-  const WeightRule rule_;
-  const std::vector<AngleRange> ranges_;
-  const SweepTree tree_;
-  std::vector<Hinge<double>> hinges_;
-  std::vector<LimbOf<double>> limbs_;
-  std::vector<GoalOf<double>> goals_;
-  std::vector<Moments<double>> moments_;
-  std::vector<EffectorError> errors_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace etude

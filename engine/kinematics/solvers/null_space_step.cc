@@ -1,174 +1,185 @@
 #include "engine/kinematics/solvers/null_space_step.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstring>
+#include <ranges>
 
 namespace etude {
 namespace {
 
 constexpr double kPositionScale = 0.30;  // metres that count as much as one radian
-constexpr int kPerEffector = 6;
-constexpr int kMostPasses = 10;
-constexpr double kShare = 0.5;
+
+// The loops have fixed lengths and no aliases, so that compilers make vector code of them.
+
+double Dot(const double* a, const double* b) {
+  return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
+}
+
+// y = M s, M symmetric.
+void Multiply(const double* __restrict matrix, const double* __restrict s, double* __restrict y) {
+  for (int i = 0; i < 6; ++i) {
+    y[i] = (matrix[i] * s[0] + matrix[6 + i] * s[1]) + (matrix[12 + i] * s[2] + matrix[18 + i] * s[3]) +
+           (matrix[24 + i] * s[4] + matrix[30 + i] * s[5]);
+  }
+}
+
+// M −= scale · y yᵀ
+void TakeOff(const double* __restrict y, double scale, double* __restrict matrix) {
+  for (int r = 0; r < 6; ++r) {
+    const double share = scale * y[r];
+    for (int i = 0; i < 6; ++i) matrix[6 * r + i] -= share * y[i];
+  }
+}
+
+// to += from
+template <int kSize>
+void Add(const double* __restrict from, double* __restrict to) {
+  for (int i = 0; i < kSize; ++i) to[i] += from[i];
+}
+
+// to += scale · from
+void AddScaled(const double* __restrict from, double scale, double* __restrict to) {
+  for (int i = 0; i < 6; ++i) to[i] += scale * from[i];
+}
 
 }  // namespace
 
 NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
     : tree_(tree),
       targets_(targets),
-      levers_(tree.effectors.size()),
-      effectors_of_(tree.limits.size()),
-      residuals_(tree.effectors.size()),
-      right_(kPerEffector * tree.effectors.size()),
-      change_(tree.limits.size()),
-      is_frozen_(tree.limits.size()),
-      rows_(kPerEffector * static_cast<int>(tree.effectors.size())) {
-  for (std::size_t e = 0; e < levers_.size(); ++e) {
-    for (int j = tree.effectors[e].joint; j >= 0; j = tree.joints[j].parent) {
-      for (int axis = tree.joints[j].dof_count - 1; axis >= 0; --axis) {
-        levers_[e].push_back({tree.joints[j].first_dof + axis, {}});
-        effectors_of_[tree.joints[j].first_dof + axis].push_back(static_cast<int>(e));
-      }
-    }
-    std::ranges::reverse(levers_[e]);
+      hinges_(tree.limits.size()),
+      of_effectors_(std::make_unique_for_overwrite<Demand[]>(tree.effectors.size())),
+      demands_(std::make_unique_for_overwrite<Demand[]>(tree.joints.size())),
+      movements_(tree.joints.size()),
+      change_(tree.limits.size()) {
+  std::vector<int> height(tree.joints.size());
+  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
+    int& above = height[tree.joints[n].parent];
+    above = std::max(above, height[n] + 1);
   }
-  gram_.resize(static_cast<std::size_t>(rows_) * rows_);
-  factor_.resize(gram_.size());
-}
-
-void NullSpaceStep::Build(const TreeFrames& frames) {
-  for (std::size_t e = 0; e < levers_.size(); ++e) {
-    const EffectorTarget& target = targets_[e];
-    const LimbFrame& now = frames.effectors[e];
-    // In the effector's own frame the information of its axes, Σ w_k (1 − u_k u_kᵀ), is diagonal.
-    const glm::dvec3& w = target.axis_weights;
-    const glm::dvec3 information(w.y + w.z, w.x + w.z, w.x + w.y);
-    glm::dvec3 pull(0);
-    for (int k = 0; k < 3; ++k) pull += w[k] * glm::cross(now.axes[k], target.axes[k]);
-    const double position_scale = std::sqrt(target.position_weight) / kPositionScale;
-    const glm::dvec3 gap = position_scale * (target.position - now.position);
-    Column& residual = residuals_[e];
-    glm::dvec3 scaled_axes[3];
-    for (int k = 0; k < 3; ++k) {
-      residual[k] = gap[k];
-      scaled_axes[k] = std::sqrt(information[k]) * now.axes[k];
-      residual[3 + k] = information[k] > 0 ? glm::dot(scaled_axes[k], pull) / information[k] : 0;
-    }
-
-    std::size_t next = levers_[e].size();
-    for (int j = tree_.effectors[e].joint; j >= 0; j = tree_.joints[j].parent) {
-      const TreeJoint& joint = tree_.joints[j];
-      const glm::dvec3 arm = now.position - frames.joints[j].position;
-      for (int axis = joint.dof_count - 1; axis >= 0; --axis) {
-        Column& column = levers_[e][--next].column;
-        const glm::dvec3& turn = frames.dof_axes[joint.first_dof + axis];
-        const glm::dvec3 moves = position_scale * glm::cross(turn, arm);
-        for (int k = 0; k < 3; ++k) {
-          column[k] = moves[k];
-          column[3 + k] = glm::dot(scaled_axes[k], turn);
-        }
-      }
-    }
-  }
-  std::ranges::fill(gram_, 0.0);
-  for (std::size_t e = 0; e < levers_.size(); ++e) {
-    for (std::size_t f = 0; f <= e; ++f) {
-      // Paths from the root agree up to where they part.
-      for (std::size_t i = 0; i < std::min(levers_[e].size(), levers_[f].size()); ++i) {
-        if (levers_[e][i].dof != levers_[f][i].dof) break;
-        const Column &a = levers_[e][i].column, &b = levers_[f][i].column;
-        for (int r = 0; r < kPerEffector; ++r) {
-          double* row = &gram_[(kPerEffector * e + r) * rows_ + kPerEffector * f];
-          for (int c = 0; c < kPerEffector; ++c) row[c] += a[r] * b[c];
-        }
-      }
+  inwards_.reserve(tree.joints.size());
+  for (int h = 0; h < height[0]; ++h) {
+    for (std::size_t n = 1; n < tree.joints.size(); ++n) {
+      if (height[n] == h) inwards_.push_back(static_cast<int>(n));
     }
   }
 }
 
-bool NullSpaceStep::Factorise(double damping) {
-  for (int i = 0; i < rows_; ++i) {
-    double* row = &factor_[static_cast<std::size_t>(i) * rows_];
-    const double* from = &gram_[static_cast<std::size_t>(i) * rows_];
-    for (int j = 0; j <= i; ++j) {
-      const double* other = &factor_[static_cast<std::size_t>(j) * rows_];
-      double sum = from[j] + (i == j ? damping : 0);
-      for (int k = 0; k < j; ++k) sum -= row[k] * other[k];
-      if (i != j) {
-        row[j] = sum * other[j];
-      } else if (sum > 0) {
-        row[i] = 1 / std::sqrt(sum);  // the diagonal holds reciprocals
-      } else {
-        return false;
-      }
+double NullSpaceStep::Build(const TreeFrames& frames) {
+  const glm::dvec3 origin = frames.joints[0].position;
+  for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
+    const TreeJoint& joint = tree_.joints[n];
+    const glm::dvec3 place = frames.joints[n].position - origin;
+    for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
+      const glm::dvec3& axis = frames.dof_axes[d];
+      const glm::dvec3 shift = glm::cross(place, axis);
+      hinges_[d].screw = {axis.x, axis.y, axis.z, shift.x, shift.y, shift.z};
     }
   }
-  return true;
+  double squares = 0;
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    squares += Ask(targets_[e], frames.effectors[e], origin, of_effectors_[e]);
+  }
+  return squares;
 }
 
-void NullSpaceStep::Freeze(int dof, double change) {
-  is_frozen_[dof] = 1;
-  change_[dof] = change;
-  const std::vector<int>& effectors = effectors_of_[dof];
-  for (std::size_t n = 0; n < effectors.size(); ++n) {
-    const auto lever = [&](int e) -> const Column& { return std::ranges::find(levers_[e], dof, &Lever::dof)->column; };
-    const Column& a = lever(effectors[n]);
-    for (std::size_t m = 0; m <= n; ++m) {
-      const Column& b = lever(effectors[m]);
-      for (int r = 0; r < kPerEffector; ++r) {
-        double* row =
-            &gram_[static_cast<std::size_t>(kPerEffector * effectors[n] + r) * rows_ + kPerEffector * effectors[m]];
-        for (int c = 0; c < kPerEffector; ++c) row[c] -= a[r] * b[c];
-      }
-    }
+// Fills in what one effector asks, and returns its part of |e|².
+double NullSpaceStep::Ask(const EffectorTarget& target, const LimbFrame& now, const glm::dvec3& origin,
+                          Demand& demand) {
+  const double w = target.position_weight / (kPositionScale * kPositionScale);
+  const glm::dvec3& u = target.axis_weights;
+  const glm::dvec3 arm = now.position - origin;
+  const glm::dvec3 gap = target.position - now.position;
+  const glm::dvec3 pull = w * gap;
+  glm::dvec3 twist = glm::cross(arm, pull);
+  double squares = glm::dot(pull, gap);
+  for (int k = 0; k < 3; ++k) {
+    twist += u[k] * glm::cross(now.axes[k], target.axes[k]);
+    squares += 2 * u[k] * (1 - glm::dot(now.axes[k], target.axes[k]));
   }
+  // The square of shift + turn × arm with weight w, and of each axis the part of the turn that is across it.
+  const double straight = w * glm::dot(arm, arm) + u.x + u.y + u.z;
+  const glm::dvec3 lever = w * arm;
+  std::array<double, 36>& m = demand.matrix;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      const double along = lever[r] * arm[c] + u.x * now.axes[0][r] * now.axes[0][c] +
+                           u.y * now.axes[1][r] * now.axes[1][c] + u.z * now.axes[2][r] * now.axes[2][c];
+      m[6 * r + c] = m[6 * c + r] = (r == c ? straight : 0) - along;
+      m[6 * (3 + r) + 3 + c] = m[6 * (3 + c) + 3 + r] = r == c ? w : 0;
+    }
+    const int i = (r + 1) % 3, j = (r + 2) % 3;
+    m[6 * r + 3 + r] = m[6 * (3 + r) + r] = 0;
+    m[6 * i + 3 + j] = m[6 * (3 + j) + i] = -lever[r];
+    m[6 * j + 3 + i] = m[6 * (3 + i) + j] = lever[r];
+    demand.vector[r] = twist[r];
+    demand.vector[3 + r] = pull[r];
+  }
+  return squares;
+}
+
+// From the leaves to the root.
+void NullSpaceStep::Gather(double damping) {
+  std::memset(demands_.get(), 0, tree_.joints.size() * sizeof(Demand));  // a loop would cost as much as ten hinges
+  for (std::size_t e = 0; e < targets_.size(); ++e) {
+    Demand& demand = demands_[tree_.effectors[e].joint];
+    Add<36>(of_effectors_[e].matrix.data(), demand.matrix.data());
+    Add<6>(of_effectors_[e].vector.data(), demand.vector.data());
+  }
+  for (const int n : inwards_) {
+    const TreeJoint& joint = tree_.joints[n];
+    Demand& demand = demands_[n];
+    for (int d = joint.first_dof + joint.dof_count - 1; d >= joint.first_dof; --d) {
+      Hinge& hinge = hinges_[d];
+      Spatial y;
+      Multiply(demand.matrix.data(), hinge.screw.data(), y.data());
+      // sᵀΛs is not negative but by rounding.
+      hinge.scale = 1 / (damping + std::max(0.0, Dot(y.data(), hinge.screw.data())));
+      hinge.best = hinge.scale * (damping * hinge.pull + Dot(demand.vector.data(), hinge.screw.data()));
+      hinge.matrix_s = y;
+      double change = hinge.side == Side::kLower ? hinge.lower : hinge.upper;
+      if (hinge.side == Side::kFree) {
+        change = hinge.best;
+        TakeOff(y.data(), hinge.scale, demand.matrix.data());
+      }
+      AddScaled(y.data(), -change, demand.vector.data());
+    }
+    Demand& parent = demands_[joint.parent];
+    Add<36>(demand.matrix.data(), parent.matrix.data());
+    Add<6>(demand.vector.data(), parent.vector.data());
+  }
+}
+
+// From the root to the leaves. Returns whether a hinge has changed sides.
+bool NullSpaceStep::Spread() {
+  bool has_changed = false;
+  movements_[0].fill(0);
+  for (const int n : std::views::reverse(inwards_)) {
+    const TreeJoint& joint = tree_.joints[n];
+    Spatial movement = movements_[joint.parent];
+    for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
+      Hinge& hinge = hinges_[d];
+      const double best = hinge.best - hinge.scale * Dot(hinge.matrix_s.data(), movement.data());
+      const Side side = best < hinge.lower ? Side::kLower : best > hinge.upper ? Side::kUpper : Side::kFree;
+      has_changed |= side != hinge.side;
+      hinge.side = side;
+      change_[d] = std::clamp(best, hinge.lower, hinge.upper);
+      AddScaled(hinge.screw.data(), change_[d], movement.data());
+    }
+    movements_[n] = movement;
+  }
+  return has_changed;
 }
 
 std::span<const double> NullSpaceStep::Solve(std::span<const double> angles, std::span<const double> wanted,
                                              std::span<const AngleRange> ranges, double damping) {
-  std::ranges::fill(is_frozen_, 0);
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    for (std::size_t i = 0; i < change_.size(); ++i) {
-      if (!is_frozen_[i]) change_[i] = wanted[i] - angles[i];
-    }
-    for (std::size_t e = 0; e < levers_.size(); ++e) {
-      Column right = residuals_[e];
-      for (const Lever& lever : levers_[e]) {
-        for (int r = 0; r < kPerEffector; ++r) right[r] -= lever.column[r] * change_[lever.dof];
-      }
-      for (int r = 0; r < kPerEffector; ++r) right_[kPerEffector * e + r] = right[r];
-    }
-    if (!Factorise(damping)) return {};
-    for (int i = 0; i < rows_; ++i) {
-      const double* row = &factor_[static_cast<std::size_t>(i) * rows_];
-      for (int k = 0; k < i; ++k) right_[i] -= row[k] * right_[k];
-      right_[i] *= row[i];
-    }
-    for (int i = rows_ - 1; i >= 0; --i) {
-      right_[i] *= factor_[static_cast<std::size_t>(i) * rows_ + i];
-      for (int k = 0; k < i; ++k) right_[k] -= factor_[static_cast<std::size_t>(i) * rows_ + k] * right_[i];
-    }
-    for (std::size_t e = 0; e < levers_.size(); ++e) {
-      for (const Lever& lever : levers_[e]) {
-        if (is_frozen_[lever.dof]) continue;
-        for (int r = 0; r < kPerEffector; ++r) change_[lever.dof] += lever.column[r] * right_[kPerEffector * e + r];
-      }
-    }
-    double worst = 0;
-    const auto beyond = [&](std::size_t i) {
-      const double angle = angles[i] + change_[i];
-      return std::max({0.0, ranges[i].lower - angle, angle - ranges[i].upper});
-    };
-    for (std::size_t i = 0; i < change_.size(); ++i) {
-      if (!is_frozen_[i]) worst = std::max(worst, beyond(i));
-    }
-    if (worst == 0) break;
-    for (std::size_t i = 0; i < change_.size(); ++i) {
-      if (is_frozen_[i] || beyond(i) < kShare * worst) continue;
-      const double angle = angles[i] + change_[i];
-      Freeze(static_cast<int>(i), (angle < ranges[i].lower ? ranges[i].lower : ranges[i].upper) - angles[i]);
-    }
+  for (std::size_t d = 0; d < hinges_.size(); ++d) {
+    hinges_[d].pull = wanted[d] - angles[d];
+    hinges_[d].lower = ranges[d].lower - angles[d];
+    hinges_[d].upper = ranges[d].upper - angles[d];
   }
+  Gather(damping);
+  is_exact_ = !Spread();
   return change_;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -9,42 +10,71 @@
 
 namespace etude {
 
-/// Gauss–Newton steps towards targets that stay as near to a wanted pose as the targets allow: of all angle
-/// changes dq that meet the targets to first order, the one with the least |q + dq − q₀|, by
-///     dq = (q₀ − q) + Jᵀλ,   (J Jᵀ + μI) λ = e − J(q₀ − q),
-/// J the targets' Jacobian, e their residuals (positions in units of 0.30 m, axes in radians). Angles that would leave
-/// their range are frozen at its end and the rest is solved anew (an active set). Takes its memory when made.
+/// Gauss–Newton steps towards targets that stay as near to a wanted pose as the targets allow. A step is
+///
+///     argmin |J dq − e|² + μ |q + dq − q₀|²   subject to   lower ≤ q + dq ≤ upper,
+///
+/// J the Jacobian of the targets, e their residuals (positions in units of 0.30 m, axes in radians), q₀ the wanted
+/// angles, μ > 0 the damping. A small μ counts only where the targets leave a choice: in the null space of J.
+///
+/// J is never made. As in Featherstone's articulated-body algorithm, what all targets beyond a joint ask of the limb
+/// that carries the joint is one quadratic ½VᵀΛV − ηᵀV of that limb's movement V (its turn, and its shift at the root).
+/// It is gathered from the leaves inwards: limbs that meet add theirs; a hinge with screw s, whose angle is the best
+/// one for every V, takes Λs(Λs)ᵀ / (μ + sᵀΛs) off Λ. Outwards again from the root, which rests, the angles follow one
+/// by one. The cost grows with the number of hinges alone, whatever the tree and however many its effectors.
+///
+/// Bounds are kept by a primal-dual active set (Hintermüller, Ito and Kunisch 2002). On the way outwards every hinge
+/// compares the change that is best for it, as its limb moves now, with its range: one beyond an end stands at that end
+/// from the next call on, one at an end that would come back is free again. Every call is one such pass, there and
+/// back, so that the set settles while the steps converge, which costs fewer passes than to settle it at each step. Its
+/// answer is within the ranges always, and the optimum when no hinge has changed sides (`is_exact`): then the
+/// conditions of Karush, Kuhn and Tucker hold.
+///
+/// Takes its memory when made. `tree` and `targets` must outlive this.
 class NullSpaceStep {
  public:
   NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
-  /// Linearises at `frames`, whose `dof_axes` are filled.
-  void Build(const TreeFrames& frames);
+  /// Linearises at `frames`. Returns |e|².
+  double Build(const TreeFrames& frames);
 
-  /// The change of every angle, which keeps within `ranges`; empty when the equations cannot be solved.
+  /// The change of every angle, which keeps it within `ranges`; it must be in there now. `damping` = μ > 0.
   std::span<const double> Solve(std::span<const double> angles, std::span<const double> wanted,
                                 std::span<const AngleRange> ranges, double damping);
 
+  /// Whether the last answer is the optimum. Until it is, calls with the same arguments come nearer.
+  bool is_exact() const { return is_exact_; }
+
  private:
-  /// What one angle does to one effector: three rows of position, three of axes, in the effector's own frame.
-  using Column = std::array<double, 6>;
-  struct Lever {
-    int dof = 0;
-    Column column{};
+  using Spatial = std::array<double, 6>;  // a turn, and a shift of what is at the root
+  struct Demand {
+    std::array<double, 36> matrix;  // Λ
+    Spatial vector;                 // η
+  };
+  enum class Side : signed char { kLower, kFree, kUpper };
+  struct Hinge {
+    Spatial screw{};     // s: movement per radian
+    Spatial matrix_s{};  // Λs, as it was before this hinge took its part
+    double scale = 0;    // 1 / (μ + sᵀΛs)
+    double best = 0;     // the best change while the limb before it rests
+    double pull = 0;     // the change that leads to the wanted angle
+    double lower = 0, upper = 0;
+    Side side = Side::kFree;
   };
 
-  void Freeze(int dof, double change);
-  bool Factorise(double damping);
+  static double Ask(const EffectorTarget& target, const LimbFrame& now, const glm::dvec3& origin, Demand& demand);
+  void Gather(double damping);
+  bool Spread();
 
   const KinematicTree& tree_;
   std::span<const EffectorTarget> targets_;
-  std::vector<std::vector<Lever>> levers_;      ///< of each effector, from the root outwards
-  std::vector<std::vector<int>> effectors_of_;  ///< of each angle
-  std::vector<Column> residuals_;
-  std::vector<double> gram_, factor_;  ///< J Jᵀ over angles that are free, and its Cholesky factor; lower triangles
-  std::vector<double> right_, change_;
-  std::vector<char> is_frozen_;
-  int rows_ = 0;
+  std::vector<int> inwards_;                // joints, each after all beyond it; limbs that are apart take turns
+  std::vector<Hinge> hinges_;               // of each angle
+  std::unique_ptr<Demand[]> of_effectors_;  // of each effector
+  std::unique_ptr<Demand[]> demands_;       // of each limb
+  std::vector<Spatial> movements_;          // of each limb
+  std::vector<double> change_;
+  bool is_exact_ = false;
 };
 
 }  // namespace etude

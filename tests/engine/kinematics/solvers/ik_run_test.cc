@@ -99,5 +99,32 @@ TEST(IkRun, AsksForAnglesOnlyWhenTheyAreTraced) {
   EXPECT_EQ(solution.trace[0].errors[3].position, 0.5);
 }
 
+TEST(IkRun, ComesToTheSameByFramesAsByErrors) {
+  const Trial trial;
+  TreeState truth = RandomPose(trial.tree, 1, 0.5);
+  int near = 0, far = 0;
+  for (const double off : {1e-1, 1e-2, 3e-3, 1e-3, 5e-4, 3e-4, 1e-4, 1e-5, 0.0}) {
+    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+      TreeState state = truth;
+      state.angles[d] += off;
+      const TreeFrames frames = ComputeFrames(trial.tree, state);
+      std::vector<EffectorError> errors;
+      MeasureErrors(frames, trial.problem.targets, errors);
+      IkRun by_errors(trial.tree, trial.problem, trial.options), by_frames(trial.tree, trial.problem, trial.options);
+      by_errors.Note(errors, state.angles);
+      by_frames.NoteFrames(frames, state.angles);
+      (by_errors.HasConverged() ? near : far) += 1;
+      EXPECT_EQ(by_frames.HasConverged(), by_errors.HasConverged()) << off;
+      const IkSolution a = by_errors.Finish(state.angles), b = by_frames.Finish(state.angles);
+      EXPECT_EQ(a.status == IkStatus::kConverged, b.status == IkStatus::kConverged);
+      for (std::size_t e = 0; e < errors.size(); ++e) {
+        EXPECT_EQ(b.errors[e].position, a.errors[e].position);
+        EXPECT_EQ(b.errors[e].axis_angles, a.errors[e].axis_angles);
+      }
+    }
+  }
+  EXPECT_GT(std::min(near, far), 20) << "else one side was not looked at";
+}
+
 }  // namespace
 }  // namespace etude

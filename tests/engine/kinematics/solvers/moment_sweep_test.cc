@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/euler.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
@@ -11,8 +12,7 @@ namespace etude {
 namespace {
 
 /// The largest difference of an angle between both forms of the sweep, over poses and sweeps.
-double LargestDifference(WeightRule rule, bool limits, int sweeps) {
-  const KinematicTree tree = MakeBodyTree({});
+double LargestDifference(const KinematicTree& tree, WeightRule rule, bool limits, int sweeps) {
   double largest = 0;
   for (int trial = 0; trial < 20; ++trial) {
     const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 30);
@@ -36,9 +36,52 @@ double LargestDifference(WeightRule rule, bool limits, int sweeps) {
 TEST(MomentSweep, TurnsEveryAngleLikeTheSweepThatGoesFromEffectorToEffector) {
   for (const WeightRule rule :
        {WeightRule::kFixed, WeightRule::kFixedTuned, WeightRule::kAdaptive, WeightRule::kAdaptivePower}) {
-    EXPECT_LT(LargestDifference(rule, true, 10), 1e-9) << WeightRuleNames()[static_cast<int>(rule)];
-    EXPECT_LT(LargestDifference(rule, false, 10), 1e-9) << WeightRuleNames()[static_cast<int>(rule)];
+    EXPECT_LT(LargestDifference(MakeBodyTree({}), rule, true, 10), 1e-9) << WeightRuleNames()[static_cast<int>(rule)];
+    EXPECT_LT(LargestDifference(MakeBodyTree({}), rule, false, 10), 1e-9) << WeightRuleNames()[static_cast<int>(rule)];
   }
+}
+
+TEST(MomentSweep, KnowsTreesWhoseLimbsRestAskewAndCarryEffectorsAnywhere) {
+  KinematicTree tree = MakeBodyTree({});
+  for (TreeJoint& joint : tree.joints) joint.rest *= RotationXyz({0.3, -0.4, 0.2});
+  tree.effectors.push_back({"left_palm", Role::kLeftHand, kTreeLeftWrist, {0.05, 0.02, 0.1}});
+  tree.effectors.push_back({"chest", Role::kShoulderCentre, kTreeNavel, {0, 0.1, 0.4}});
+  tree.effectors.push_back({"elbow", Role::kRightElbow, kTreeRightElbow, {0.03, 0, 0.01}});
+  for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kAdaptivePower}) {
+    EXPECT_LT(LargestDifference(tree, rule, true, 10), 1e-9) << WeightRuleNames()[static_cast<int>(rule)];
+  }
+}
+
+TEST(MomentSweep, TellsErrorsLikeForwardKinematics) {
+  const KinematicTree tree = MakeBodyTree({});
+  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 5, 0.7), 5, 60);
+  problem.targets[1].axis_weights = {1, 0, 0.5};
+  const IkOptions options;
+  const MomentSweep moments(tree, problem, options);
+  const TreeFrames frames = ComputeFrames(tree, problem.start);
+  double largest_angle = 0;
+  for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+    const EffectorError exact = ErrorOf(frames.effectors[e], problem.targets[e]);
+    EXPECT_NEAR(moments.errors()[e].position, exact.position, 1e-12);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(moments.errors()[e].axis_angles[k], exact.axis_angles[k], 1e-11);
+      largest_angle = std::max(largest_angle, exact.axis_angles[k]);
+    }
+  }
+  EXPECT_GT(largest_angle, Radians(100)) << "angles beyond a right one must have been met";
+}
+
+TEST(MomentSweep, DoesNotMissGoalsThatItHasMet) {
+  const KinematicTree tree = MakeBodyTree({});
+  IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 6, 0.7), 6, 0);
+  const IkOptions options;
+  EXPECT_FALSE(MomentSweep(tree, problem, options).MissesGoals());
+  problem.targets[2].position.y += 0.0011;
+  EXPECT_TRUE(MomentSweep(tree, problem, options).MissesGoals()) << "0.11 cm";
+  problem.targets[2].position_weight = 0;
+  EXPECT_FALSE(MomentSweep(tree, problem, options).MissesGoals()) << "a position of no weight";
+  problem.targets[0].axes = AxisRotation({1, 0, 0}, Radians(0.2)) * problem.targets[0].axes;
+  EXPECT_TRUE(MomentSweep(tree, problem, options).MissesGoals());
 }
 
 TEST(MomentSweep, KeepsItsFramesOrthonormalOverThousandsOfSweeps) {

@@ -1,0 +1,190 @@
+#include "engine/kinematics/solvers/sweep_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+void Copy(const glm::dvec3& from, double (&to)[3]) {
+  for (int k = 0; k < 3; ++k) to[k] = from[k];
+}
+
+// Angles are counted from here, by less than half a turn: a free one from its start.
+double MiddleOf(const AngleRange& range, double start) {
+  const bool is_free = start - kPi > range.lower && start + kPi < range.upper;
+  return is_free ? start : 0.5 * (range.lower + range.upper);
+}
+
+SweepProblem::Range NumbersOf(const AngleRange& range, double middle) {
+  const double half = 0.5 * (range.upper - range.lower);
+  const bool is_bounded = half < kPi;
+  return {std::cos(middle), std::sin(middle), is_bounded ? std::cos(half) : -2, is_bounded ? std::sin(half) : 0};
+}
+
+SweepProblem::Goal GoalOf(const SweepTree::Effector& effector, const EffectorTarget& target, const glm::dvec3& root) {
+  SweepProblem::Goal goal{};
+  Copy(target.position - root, goal.position);
+  goal.position_weight = target.position_weight;
+  goal.position_share = target.position_weight > 0 ? 1 : 0;
+  int count = 0;
+  for (int k = 0; k < 3; ++k) count += target.axis_weights[k] > 0 ? 1 : 0;
+  for (int k = 0; k < 3; ++k) {
+    Copy(effector.signs[k] * target.axes[effector.names[k]], goal.axes[k]);
+    goal.axis_weights[k] = target.axis_weights[effector.names[k]];
+    goal.axis_shares[k] = goal.axis_weights[k] > 0 ? 1.0 / count : 0;
+  }
+  return goal;
+}
+
+bool SwapsAxes(const glm::dmat3& rotation) {
+  for (int c = 0; c < 3; ++c) {
+    for (int r = 0; r < 3; ++r) {
+      if (rotation[c][r] != 0 && std::abs(rotation[c][r]) != 1) return false;
+    }
+  }
+  return true;
+}
+
+// Which coordinate axis a unit vector along one is.
+struct NamedAxis {
+  int name = 0;
+  double sign = 1;
+};
+
+NamedAxis NameOf(const glm::dvec3& axis) {
+  const int name = axis.x != 0 ? 0 : axis.y != 0 ? 1 : 2;
+  return {name, axis[name]};
+}
+
+// A step and how many steps must come before it.
+struct PlacedStep {
+  SweepTree::Step step;
+  int height = 0;
+};
+
+std::vector<SweepTree::Step> StepsOf(const KinematicTree& tree) {
+  std::vector<int> height(tree.joints.size(), -1);  // of what lies beyond a joint; −1: no effector does
+  for (const Effector& effector : tree.effectors) height[effector.joint] = 0;
+  std::vector<PlacedStep> placed;
+  for (int n = static_cast<int>(tree.joints.size()) - 1; n > 0; --n) {
+    if (height[n] < 0) continue;
+    const TreeJoint& joint = tree.joints[n];
+    int next = height[n];
+    // The innermost axis is nearest to the leaves: turning it leaves the others' axes where they are.
+    for (int axis = joint.dof_count - 1; axis >= 0; --axis) {
+      placed.push_back(
+          {{.joint = n, .hinge = joint.first_dof + axis, .i = (axis + 1) % 3, .j = (axis + 2) % 3}, next++});
+    }
+    placed.push_back({{.joint = n}, next++});
+    height[joint.parent] = std::max(height[joint.parent], next);
+  }
+  std::ranges::stable_sort(placed, {}, &PlacedStep::height);
+  std::vector<SweepTree::Step> steps;
+  for (const PlacedStep& each : placed) steps.push_back(each.step);
+  return steps;
+}
+
+}  // namespace
+
+SweepTree::SweepTree(const KinematicTree& tree) : steps(StepsOf(tree)) {
+  NameAxes(tree);
+  PlaceAxes();
+  PlaceMoments();
+}
+
+void SweepTree::NameAxes(const KinematicTree& tree) {
+  std::vector<glm::dmat3> frames;  // of the sweep's limbs, in the tree's
+  for (const TreeJoint& from : tree.joints) {
+    Joint& joint = joints.emplace_back();
+    joint.parent = from.parent;
+    const glm::dmat3 into_parent = from.parent < 0 ? glm::dmat3(1) : glm::transpose(frames[from.parent]);
+    const glm::dmat3 rest = into_parent * from.rest;
+    joint.is_aligned = SwapsAxes(rest);
+    frames.push_back(joint.is_aligned && from.parent >= 0 ? glm::transpose(rest) : glm::dmat3(1));
+    Copy(into_parent * from.offset, joint.offset);
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) joint.rest[r][c] = rest[c][r];
+    }
+  }
+  for (Step& step : steps) {
+    if (step.hinge < 0 || !joints[step.joint].is_aligned) continue;
+    const NamedAxis i = NameOf(glm::transpose(frames[step.joint])[step.i]);
+    const NamedAxis j = NameOf(glm::transpose(frames[step.joint])[step.j]);
+    step.i = i.sign * j.sign > 0 ? i.name : j.name;  // the way round of a turn follows its axes' signs
+    step.j = i.sign * j.sign > 0 ? j.name : i.name;
+  }
+  for (const etude::Effector& from : tree.effectors) {
+    Effector& effector = effectors.emplace_back();
+    effector.joint = from.joint;
+    Copy(glm::transpose(frames[from.joint]) * from.offset, effector.offset);
+    for (int k = 0; k < 3; ++k) {
+      const NamedAxis axis = NameOf(frames[from.joint][k]);
+      effector.names[k] = axis.name;
+      effector.signs[k] = axis.sign;
+    }
+  }
+}
+
+// Nothing is overwritten: a sweep needs the axes as they were before every turn.
+void SweepTree::PlaceAxes() {
+  const auto place_base = [this](Joint& joint) {
+    joint.base_axes = axis_count;
+    for (int k = 0; k < 3; ++k) joint.axes[k] = axis_count++;
+  };
+  place_base(joints[0]);
+  for (std::size_t n = steps.size(); n-- > 0;) {
+    Step& step = steps[n];
+    Joint& joint = joints[step.joint];
+    if (step.hinge < 0) {
+      place_base(joint);
+      continue;
+    }
+    step.from = joint.axes[step.i];
+    step.towards = joint.axes[step.j];
+    step.turned = axis_count;
+    joint.axes[step.i] = axis_count++;
+    joint.axes[step.j] = axis_count++;
+  }
+}
+
+// A limb's moments become its parent's where they are, unless they are added to others.
+void SweepTree::PlaceMoments() {
+  for (Effector& effector : effectors) {
+    Joint& joint = joints[effector.joint];
+    effector.is_first = joint.moments < 0;
+    if (effector.is_first) joint.moments = moments_count++;
+  }
+  for (const Step& step : steps) {
+    if (step.hinge >= 0) continue;
+    Joint& joint = joints[step.joint];
+    Joint& parent = joints[joint.parent];
+    joint.is_first = parent.moments < 0;
+    if (joint.is_first) parent.moments = joint.moments;
+  }
+}
+
+SweepProblem::SweepProblem(const SweepTree& tree, const IkProblem& problem, std::vector<AngleRange> allowed_ranges)
+    : ranges(std::move(allowed_ranges)) {
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double start = problem.start.angles[i];
+    middles.push_back(MiddleOf(ranges[i], start));
+    range_numbers.push_back(NumbersOf(ranges[i], middles[i]));
+    const double angle = std::clamp(start, ranges[i].lower, ranges[i].upper);
+    cosines.push_back(std::cos(angle));
+    sines.push_back(std::sin(angle));
+  }
+  for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+    goals.push_back(GoalOf(tree.effectors[e], problem.targets[e], problem.start.root_position));
+  }
+  for (int k = 0; k < 3; ++k) Copy(problem.start.root_frame[k], root_axes[k]);
+}
+
+double SweepProblem::Angle(int dof, double cosine, double sine) const {
+  const Range& range = range_numbers[dof];
+  const double from_middle = std::atan2(sine * range.cos_middle - cosine * range.sin_middle,
+                                        cosine * range.cos_middle + sine * range.sin_middle);
+  return std::clamp(middles[dof] + from_middle, ranges[dof].lower, ranges[dof].upper);
+}
+
+}  // namespace etude

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/kinematics/ik_problem.h"
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+
+/// A tree as a sweep reads it (sweep_kernel-inl.h): plain numbers and a list of steps, the same for every problem.
+/// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Where a limb's
+/// rest frame is its parent's with axes swapped, as everywhere on the body, the sweep names the limb's axes after the
+/// parent's, so that nothing is left to do from limb to limb.
+struct SweepTree {
+  struct Joint {
+    int parent = -1;
+    int moments = -1;         ///< where the moments of its limb are
+    bool is_first = false;    ///< its limb hands its moments on to its parent's, which has none before that
+    bool is_aligned = false;  ///< `rest` is the identity
+    int base_axes = 0;        ///< where the first of three axes is: the limb's before the joint turns
+    int axes[3] = {};         ///< where the limb's axes are
+    double rest[3][3] = {};   ///< rows: from the limb's frame into the parent limb's, when all angles are zero
+    double offset[3] = {};    ///< from the parent's joint, in the parent limb's frame
+  };
+  struct Effector {
+    int joint = 0;
+    bool is_first = false;  ///< of its limb
+    double offset[3] = {};
+    int names[3] = {};     ///< of each axis of the sweep's: which of the tree's it is
+    double signs[3] = {};  ///< and whether it points the same way, ±1
+  };
+  /// One hinge of a joint turns, or, after all of these, the joint's limb meets its parent's.
+  struct Step {
+    int joint = 0;
+    int hinge = -1;             ///< −1: meets its parent
+    int i = 0, j = 0;           ///< the hinge turns axis i towards axis j
+    int from = 0, towards = 0;  ///< where these axes are before the turn
+    int turned = 0;             ///< where they are after it, one after the other
+  };
+
+  std::vector<Joint> joints;
+  std::vector<Effector> effectors;
+  /// Each joint's after those of all joints beyond it, limbs without effectors left out. Limbs that do not depend on
+  /// each other take turns, so that a processor can work on several at once.
+  std::vector<Step> steps;
+  int axis_count = 0;
+  int moments_count = 0;
+
+  explicit SweepTree(const KinematicTree& tree);
+
+ private:
+  void NameAxes(const KinematicTree& tree);
+  void PlaceAxes();
+  void PlaceMoments();
+};
+
+/// A problem as a sweep reads it: angles as (cos, sin), places from the root's. `problem` must be free of faults.
+struct SweepProblem {
+  /// The range of an angle, as cosines and sines of its middle and of half its width. `cos_half` is −2 when every angle
+  /// is allowed.
+  struct Range {
+    double cos_middle, sin_middle, cos_half, sin_half;
+  };
+  /// The goal of an effector. A share is 1 / the number of axes that count, 0 for those that do not.
+  struct Goal {
+    double axes[3][3];  ///< of each axis: its coordinates
+    double position[3];
+    double position_weight, axis_weights[3];
+    double position_share, axis_shares[3];
+  };
+
+  std::vector<AngleRange> ranges;
+  std::vector<double> middles;  ///< of the ranges, or the start where an angle is free: angles are counted from there
+  std::vector<Range> range_numbers;
+  std::vector<double> cosines, sines;  ///< of the start angles, moved into their ranges
+  std::vector<Goal> goals;
+  double root_axes[3][3];  ///< of each axis: its coordinates
+
+  SweepProblem(const SweepTree& tree, const IkProblem& problem, std::vector<AngleRange> allowed_ranges);
+
+  /// An angle of this problem, within its range.
+  double Angle(int dof, double cosine, double sine) const;
+};
+
+}  // namespace etude

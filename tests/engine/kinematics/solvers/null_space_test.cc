@@ -1,0 +1,187 @@
+#include "engine/kinematics/solvers/null_space.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/kinematics/solvers/damped_least_squares.h"
+#include "engine/kinematics/solvers/null_space_step.h"
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
+
+// 10⁻³ cm and 10⁻³°.
+IkOptions Tight() {
+  IkOptions options;
+  options.position_goal = 1e-5;
+  options.axis_goal = Radians(1e-3);
+  options.max_iterations = 1000;
+  return options;
+}
+
+// What became of many trials.
+struct Tally {
+  int solved = 0, outside = 0;
+  double hidden = 0;  // root of the mean squared angle to the truth, in units of the noise
+  double iterations = 0;
+};
+
+Tally Solve(int trials, double pose_range, double noise_deg, bool is_cold = false) {
+  Tally tally;
+  double squares = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const TreeState truth = RandomPose(Body(), trial, pose_range);
+    IkProblem problem = DisturbedProblem(Body(), truth, trial, noise_deg);
+    for (std::size_t d = 0; is_cold && d < truth.angles.size(); ++d) {
+      problem.start.angles[d] = 0.5 * (Body().limits[d].lower + Body().limits[d].upper);
+    }
+    const IkSolution solution = SolveNullSpace(Body(), problem, Tight());
+    tally.solved += solution.status == IkStatus::kConverged;
+    tally.iterations += solution.iterations;
+    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+      const double angle = solution.angles[d], off = angle - truth.angles[d];
+      squares += off * off;
+      tally.outside += !(angle >= Body().limits[d].lower && angle <= Body().limits[d].upper);
+    }
+  }
+  tally.hidden = std::sqrt(squares / (trials * Body().dof_count())) / Radians(noise_deg);
+  tally.iterations /= trials;
+  return tally;
+}
+
+TEST(NullSpace, SolvesFindsHiddenAnglesAndKeepsLimits) {
+  for (const double pose_range : {0.5, 1.0}) {
+    const Tally tally = Solve(400, pose_range, 15);
+    EXPECT_GE(tally.solved, 399) << pose_range;
+    EXPECT_EQ(tally.outside, 0) << pose_range;
+    EXPECT_LE(tally.hidden, 0.45) << pose_range;
+    EXPECT_LE(tally.iterations, 7) << pose_range;
+  }
+}
+
+TEST(NullSpace, NeedsFewStepsFromAWarmStart) {
+  const Tally tally = Solve(100, 1.0, 2);
+  EXPECT_EQ(tally.solved, 100);
+  EXPECT_LE(tally.iterations, 3.5);
+}
+
+TEST(NullSpace, SolvesHardProblems) {
+  const Tally noisy = Solve(200, 1.0, 30);
+  EXPECT_GE(noisy.solved, 198);
+  EXPECT_EQ(noisy.outside, 0);
+  const Tally cold = Solve(200, 1.0, 30, true);
+  EXPECT_GE(cold.solved, 194);
+  EXPECT_EQ(cold.outside, 0);
+}
+
+// The largest change that a further step towards the start would make: none at the nearest solution.
+double LeftToGain(const IkProblem& problem, const IkSolution& solution) {
+  TreeState state = problem.start;
+  state.angles = solution.angles;
+  NullSpaceStep step(Body(), problem.targets);
+  step.Build(ComputeFrames(Body(), state));
+  double largest = 0;
+  for (int more = 0; more < 40; ++more) {
+    largest = 0;
+    for (const double c : step.Solve(solution.angles, problem.start.angles, problem.limits, 1e-7)) {
+      largest = std::max(largest, std::abs(c));
+    }
+    if (step.is_exact()) break;
+  }
+  return largest;
+}
+
+TEST(NullSpace, FindsTheNearestSolutionToTheStart) {
+  int nearest = 0, nearest_of_other = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);
+    nearest += LeftToGain(problem, SolveNullSpace(Body(), problem, Tight())) < Radians(1);
+    nearest_of_other += LeftToGain(problem, SolveDampedLeastSquares(Body(), problem, Tight())) < Radians(1);
+  }
+  EXPECT_GE(nearest, 48);
+  EXPECT_LE(nearest_of_other, 25) << "a solver that does not look for it must show";
+}
+
+TEST(NullSpace, DoesNotCareForTheOrderOfEffectors) {
+  KinematicTree reordered = Body();
+  std::ranges::rotate(reordered.effectors, reordered.effectors.begin() + 1);
+  std::swap(reordered.effectors[0], reordered.effectors[1]);
+  for (int trial = 0; trial < 20; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+    IkProblem other = problem;
+    std::ranges::rotate(other.targets, other.targets.begin() + 1);
+    std::swap(other.targets[0], other.targets[1]);
+    const IkSolution a = SolveNullSpace(Body(), problem, Tight()), b = SolveNullSpace(reordered, other, Tight());
+    EXPECT_EQ(a.iterations, b.iterations);
+    for (std::size_t d = 0; d < a.angles.size(); ++d) EXPECT_NEAR(a.angles[d], b.angles[d], 1e-7) << trial;
+  }
+}
+
+TEST(NullSpace, StretchesALimbTowardsATargetOutOfReach) {
+  KinematicTree arm;
+  arm.joints.push_back({.name = "root", .role = Role::kHipCentre});
+  for (int n = 1; n < 4; ++n) {
+    arm.joints.push_back({.name = "joint", .role = Role::kHipCentre, .parent = n - 1, .offset = {0, 0, 0.5}});
+    arm.joints.back().first_dof = arm.dof_count();
+    arm.joints.back().dof_count = 3;
+    arm.limits.insert(arm.limits.end(), 3, {-2, 2});
+  }
+  arm.effectors.push_back({"tip", Role::kHead, 3, {0, 0, 0.5}});
+  IkProblem problem{StandingState(arm), {{.position = {2, 1, 3}, .axis_weights = glm::dvec3(0)}}, arm.limits};
+  const IkSolution solution = SolveNullSpace(arm, problem, Tight());
+  EXPECT_EQ(solution.status, IkStatus::kUnreachable);
+  // The first limb has no joint below it and stands; the others are three, half a metre each.
+  const double nearest = glm::length(glm::dvec3(2, 1, 3) - glm::dvec3(0, 0, 0.5)) - 1.5;
+  EXPECT_NEAR(solution.errors[0].position, nearest, 1e-6);
+}
+
+TEST(NullSpace, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
+  int unsolved = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+    for (EffectorTarget& target : problem.targets) target.position *= 1.05;
+    const IkSolution solution = SolveNullSpace(Body(), problem, Tight());
+    if (solution.status == IkStatus::kConverged) continue;
+    ++unsolved;
+    EXPECT_NE(solution.status, IkStatus::kIterationLimit) << trial;
+    for (std::size_t d = 0; d < solution.angles.size(); ++d) {
+      EXPECT_TRUE(solution.angles[d] >= Body().limits[d].lower && solution.angles[d] <= Body().limits[d].upper);
+    }
+    // No longer run finds a nearer pose from here.
+    const auto squares = [&](std::span<const double> angles) {
+      TreeState state = problem.start;
+      state.angles.assign(angles.begin(), angles.end());
+      return NullSpaceStep(Body(), problem.targets).Build(ComputeFrames(Body(), state));
+    };
+    IkProblem from_there = problem;
+    from_there.start.angles = solution.angles;
+    const double found = squares(solution.angles);
+    EXPECT_LT(found, squares(problem.start.angles));
+    EXPECT_GT(squares(SolveDampedLeastSquares(Body(), from_there, Tight()).angles), 0.95 * found) << trial;
+  }
+  EXPECT_GE(unsolved, 10) << "else nothing was checked";
+}
+
+TEST(NullSpace, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
+  KinematicTree tree = Body();
+  for (TreeJoint& joint : tree.joints) joint.offset *= 1e5;
+  for (const double weight : {1e-300, 1e-9, 1e6}) {
+    IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 3, 1.0), 3, 30);
+    for (EffectorTarget& target : problem.targets) target.position_weight = weight;
+    problem.targets[0].position = {1e6, -1e6, 1e6};
+    const IkSolution solution = SolveNullSpace(tree, problem, Tight());
+    EXPECT_NE(solution.status, IkStatus::kBadInput);
+    for (const double angle : solution.angles) EXPECT_TRUE(std::isfinite(angle)) << weight;
+    for (const EffectorError& error : solution.errors) EXPECT_TRUE(std::isfinite(error.position)) << weight;
+  }
+}
+
+}  // namespace
+}  // namespace etude
