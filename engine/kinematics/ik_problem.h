@@ -40,8 +40,9 @@ struct IkTuning {
   double first_damping = 1e-2;
   /// ccd-anderson: how many former sweeps the extrapolation uses.
   int memory = 5;
-  /// ccd-nullspace: sweeps before the first Gauss–Newton step.
-  int first_sweeps = 2;
+  /// ccd-nullspace: sweeps before the first Gauss–Newton step. None by default: its damped steps do better from the
+  /// start than from a pose whose angles sweeps have driven into their limits.
+  int first_sweeps = 0;
   /// ceres-lm: the trust region it begins with.
   double first_radius = 10;
 };

@@ -27,6 +27,11 @@ DOORS = {
     "xxhash.h": ["engine/base"],
     "nlohmann/": ["bench", "reports"],
     "boost/": ["bench/statistics"],
+    "hwy/": ["engine/kinematics/solvers"],
+    "ceres/": ["engine/kinematics/solvers"],
+    "glog/": ["engine/kinematics/solvers"],
+    "kdl/": ["bench/micro"],
+    "Simbody.h": ["bench/micro"],
 }
 # What a header may include from outside: small, or only names.
 LIGHT_HEADERS = ("glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")

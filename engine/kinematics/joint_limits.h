@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+
+/// How far the joints of `MakeBodyTree` may turn: the tree's own limits, or a column of paper B's table 3.1.
+enum class LimitSet {
+  /// The limits that `MakeBodyTree` gives its tree, which measurements were made with. Against the table, its left
+  /// hip's abduction (30°) and adduction (45°) and its wrists' radial (30°) and ulnar (20°) deviation are exchanged.
+  kAdult,
+  kAaos,        ///< American Academy of Orthopaedic Surgeons
+  kKendall,     ///< Kendall and McCreary; what they do not give is taken from the first column, as in the next two
+  kHoppenfeld,  ///< Hoppenfeld
+  kAma,         ///< American Medical Association
+};
+
+/// The names of scenario files: "adult", "aaos", "kendall", "hoppenfeld", "ama".
+const std::vector<std::string>& LimitSetNames();
+std::optional<LimitSet> FindLimitSet(std::string_view name);
+
+/// The range of every degree of freedom of the body's tree, radians, for `IkProblem::limits`. Table 3.1 names
+/// movements of a body in the anatomical position: standing, palms forward. *Ours*: which axis of the tree each of them
+/// is, the left side being the right one's mirror image:
+/// - X bends and stretches (hips, knees, ankles, trunk, neck, shoulders, elbows, wrists), Y leads sideways (abduction,
+///   the wrist's radial abduction, trunk and neck to a side), Z turns about the limb. The foot's inversion turns its
+///   toes inward, which is Y; the ankle at the root has no such axis.
+/// - The left hip is climbed, and its angles turn the pelvis about the thigh: X is abduction (negative), Y outer
+///   (negative) and inner rotation, Z flexion (negative). Alone, each moves as far as on the right; together they are
+///   not taken in the right hip's order.
+/// - |Y| ends at 80°, where the three angles of a joint are still regular: it shortens the shoulder's abduction.
+/// - The shoulder's adduction, of which the table says nothing, is `adult`'s; pro- and supination have no axis in the
+///   tree.
+std::vector<AngleRange> JointLimits(LimitSet set);
+
+}  // namespace etude

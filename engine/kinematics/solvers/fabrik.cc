@@ -1,0 +1,109 @@
+#include "engine/kinematics/solvers/fabrik.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/kinematics/euler.h"
+#include "engine/kinematics/solvers/fabrik_pass.h"
+#include "engine/kinematics/solvers/hinge_gain.h"
+#include "engine/kinematics/solvers/ik_run.h"
+
+namespace etude {
+namespace {
+
+constexpr double kSmallestLever = 1e-9;  // metres
+
+// Turns the joints so that the limbs come to lie as a FabrikPass laid them.
+class Follower {
+ public:
+  Follower(const KinematicTree& tree, std::span<const AngleRange> ranges, const FabrikPass& pass)
+      : tree_(tree), ranges_(ranges), pass_(pass), led_(tree.joints.size()) {
+    for (int limb = static_cast<int>(tree.joints.size()) - 1; limb > 0; --limb) {
+      if (pass.tips(limb).empty()) continue;
+      for (int j = limb; j > 0; j = tree.joints[j].parent) led_[j].push_back(limb);
+    }
+    for (std::vector<int>& limbs : led_) std::ranges::reverse(limbs);
+  }
+
+  // Sets `angles`, which are those of `frames`.
+  void Follow(const TreeFrames& frames, std::vector<double>& angles) {
+    limbs_ = frames.joints;
+    for (int j = 1; j < static_cast<int>(led_.size()); ++j) {
+      if (!led_[j].empty()) TurnJoint(j, std::span(led_[j]).first(1), angles);
+    }
+    for (int j = 1; j < static_cast<int>(led_.size()); ++j) TurnJoint(j, led_[j], angles);
+  }
+
+ private:
+  // Turns each hinge of a joint to the angle that brings the tips of the `judged` limbs nearest to where they were
+  // laid.
+  void TurnJoint(int j, std::span<const int> judged, std::vector<double>& angles) {
+    const TreeJoint& joint = tree_.joints[j];
+    const glm::dmat3 base = limbs_[joint.parent].axes * joint.rest;
+    const glm::dvec3 pivot = limbs_[j].position;
+    for (int axis = 0; axis < joint.dof_count; ++axis) {
+      const glm::dvec3 turn = DofAxis(joint, base, angles, axis);
+      HingeGain gain;
+      double lever = 0;
+      for (const int limb : judged) {
+        const LimbFrame& now = limbs_[limb];
+        const LimbFrame& laid = pass_.limbs()[limb];
+        for (const FabrikPass::Tip& tip : pass_.tips(limb)) {
+          const glm::dvec3 from = now.position + now.axes * tip.offset - pivot;
+          gain.Add(1, from, laid.position + laid.axes * tip.offset - pivot, turn);
+          lever = std::max(lever, glm::length(glm::cross(turn, from)));
+        }
+      }
+      if (lever < kSmallestLever) continue;  // it moves none of them
+      double& angle = angles[joint.first_dof + axis];
+      const AngleRange& range = ranges_[joint.first_dof + axis];
+      const double best = angle + gain.OptimumWithin({range.lower - angle, range.upper - angle});
+      const double turned = std::clamp(best, range.lower, range.upper) - angle;
+      angle += turned;
+      const glm::dmat3 rotation = AxisRotation(turn, turned);
+      for (const int limb : led_[j]) {
+        limbs_[limb].position = pivot + rotation * (limbs_[limb].position - pivot);
+        limbs_[limb].axes = rotation * limbs_[limb].axes;
+      }
+    }
+  }
+
+  const KinematicTree& tree_;
+  std::span<const AngleRange> ranges_;
+  const FabrikPass& pass_;
+  std::vector<std::vector<int>> led_;  // by each joint: the limbs it moves that lead to a target, its own first
+  std::vector<LimbFrame> limbs_;       // as they are now
+};
+
+}  // namespace
+
+IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
+  IkRun run(tree, problem, options);
+  TreeState state = problem.start;
+  state.angles = run.start_angles();
+  TreeFrames frames;
+  std::vector<EffectorError> errors;
+  const auto note = [&] {
+    ComputeFrames(tree, state, frames);
+    MeasureErrors(frames, problem.targets, errors);
+    run.Note(errors, state.angles);
+  };
+  note();
+
+  FabrikPass pass(tree, problem.targets);
+  Follower follower(tree, run.ranges(), pass);
+  std::vector<double> before;
+  while (run.MustGoOn()) {
+    before = state.angles;
+    pass.Run(frames);
+    follower.Follow(frames, state.angles);
+    double largest = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) largest = std::max(largest, std::abs(state.angles[i] - before[i]));
+    if (largest < options.stall_change) run.Stall();
+    note();
+  }
+  return run.Finish(std::move(state.angles));
+}
+
+}  // namespace etude

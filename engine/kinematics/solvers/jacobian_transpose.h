@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/kinematics/ik_problem.h"
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+
+/// The Jacobian's transpose in place of its inverse (Wolovich and Elliott 1984; paper B, section 3.5): the errors dX
+/// pull at the limbs like forces, and every angle yields to its torque, ΔΘ = α JᵀdX. *Ours*: the step length
+///     α = gain · ⟨dX, JJᵀdX⟩ / ⟨JJᵀdX, JJᵀdX⟩
+/// makes |dX − J ΔΘ| least for a gain of 1 (Buss 2004), and to first order every gain between 0 and 2 makes it fall;
+/// `IkTuning::gain`. Angles at an end of their range whose torque points out of it take no part; no step turns an angle
+/// by more than 0.6 rad; stepped angles are clamped. Cheap steps, but thousands of them: errors that the limbs feel
+/// weakly fade slowly. Stalls where JᵀdX = 0, as in a limb stretched towards its target (figure 3.8).
+/// `IkOptions::weights` and `refresh` do not apply. One iteration is one step; each costs one forward-kinematics pass.
+IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/kinematics/ik_problem.h"
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+
+/// A chain of limbs along Z, its first joint 1 m from the root. With one degree of freedom a joint it lies in the plane
+/// of Y and Z, where positive angles turn Z towards −Y.
+inline KinematicTree Arm(const std::vector<double>& lengths, int dofs) {
+  KinematicTree arm;
+  arm.joints = {{.name = "root", .role = Role::kShoulderCentre}};
+  double above = 1;
+  for (const double length : lengths) {
+    arm.joints.push_back({.name = "joint",
+                          .role = Role::kLeftElbow,
+                          .parent = static_cast<int>(arm.joints.size()) - 1,
+                          .offset = {0, 0, above},
+                          .first_dof = arm.dof_count(),
+                          .dof_count = dofs});
+    arm.limits.insert(arm.limits.end(), static_cast<std::size_t>(dofs), {-kPi, kPi});
+    above = length;
+  }
+  arm.effectors = {{"tip", Role::kLeftHand, static_cast<int>(lengths.size()), {0, 0, above}}};
+  return arm;
+}
+
+/// Reach for a place, from some angles; the tip's axes do not matter.
+inline IkProblem Reach(const KinematicTree& arm, std::vector<double> start, const glm::dvec3& place) {
+  IkProblem problem{StandingState(arm), {EffectorTarget{.position = place, .axis_weights = glm::dvec3(0)}}, arm.limits};
+  problem.start.angles = std::move(start);
+  return problem;
+}
+
+/// Where the tip of an arm of two hinges is, by plane trigonometry.
+inline glm::dvec3 TwoHingeTip(double upper, double lower, double first, double second) {
+  return {0, -upper * std::sin(first) - lower * std::sin(first + second),
+          1 + upper * std::cos(first) + lower * std::cos(first + second)};
+}
+
+/// The elbow's angle that puts the tip `distance` from the first joint: the law of cosines.
+inline double ElbowAngle(double upper, double lower, double distance) {
+  return std::acos((distance * distance - upper * upper - lower * lower) / (2 * upper * lower));
+}
+
+/// Goals far below what any solver needs, so that angles can be compared.
+inline IkOptions Exactly() {
+  IkOptions options;
+  options.position_goal = 1e-10;
+  options.max_iterations = 5000;
+  return options;
+}
+
+}  // namespace etude

@@ -1,0 +1,119 @@
+#include "engine/kinematics/solvers/ccd_anderson.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/kinematics/solvers/ccd.h"
+#include "engine/kinematics/solvers/ccd_sweep.h"
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
+
+IkProblem Problem(int trial, double noise_deg = 15) {
+  return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, noise_deg);
+}
+
+IkOptions Options(WeightRule rule) {
+  IkOptions options;
+  options.weights = rule;
+  options.max_iterations = 3000;
+  return options;
+}
+
+template <class Solve>
+int MedianSweeps(Solve solve, const IkOptions& options) {
+  std::vector<int> sweeps;
+  for (int trial = 0; trial < 15; ++trial) sweeps.push_back(solve(Body(), Problem(trial), options).iterations);
+  std::ranges::sort(sweeps);
+  return sweeps[sweeps.size() / 2];
+}
+
+TEST(CcdAnderson, NeedsFarFewerSweepsThanPlainOnes) {
+  const auto ratio = [](const IkOptions& options) {
+    return 1.0 * MedianSweeps(SolveCcdHinges, options) / MedianSweeps(SolveCcdAnderson, options);
+  };
+  EXPECT_GT(ratio(Options(WeightRule::kFixedTuned)), 4);
+  EXPECT_GT(ratio(Options(WeightRule::kAdaptivePower)), 3);
+  // Weights that moments cannot carry.
+  EXPECT_GT(ratio(Options(WeightRule::kWangChen)), 3);
+  IkOptions at_every_dof = Options(WeightRule::kAdaptivePower);
+  at_every_dof.refresh = WeightRefresh::kDof;
+  EXPECT_GT(ratio(at_every_dof), 2);
+}
+
+TEST(CcdAnderson, GainsFromMemory) {
+  IkOptions options = Options(WeightRule::kFixedTuned);
+  options.tuning.memory = 1;
+  const int little = MedianSweeps(SolveCcdAnderson, options);
+  options.tuning.memory = 5;
+  EXPECT_LT(MedianSweeps(SolveCcdAnderson, options), little);
+}
+
+/// The largest turn of a plain sweep from these angles.
+double NextTurn(IkProblem problem, const std::vector<double>& angles, const IkOptions& options) {
+  problem.start.angles = angles;
+  return CcdSweep(Body(), problem, options, CcdJoint::kHinges).Sweep();
+}
+
+TEST(CcdAnderson, RestsWherePlainSweepsRest) {
+  for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kAdaptivePower, WeightRule::kWangChen}) {
+    IkOptions options = Options(rule);
+    options.position_goal = options.axis_goal = 0;  // on to the fixed point
+    options.stall_change = 1e-8;
+    for (int trial = 0; trial < 3; ++trial) {
+      const IkProblem problem = Problem(trial);
+      const IkSolution solution = SolveCcdAnderson(Body(), problem, options);
+      EXPECT_EQ(solution.status, IkStatus::kStalled) << WeightRuleNames()[static_cast<int>(rule)];
+      EXPECT_LT(NextTurn(problem, solution.angles, options), 1e-6);
+      EXPECT_GT(NextTurn(problem, problem.start.angles, options), 1e-2) << "else any pose would do";
+    }
+  }
+}
+
+TEST(CcdAnderson, NeverRaisesWhatSweepsLower) {
+  IkOptions options = Options(WeightRule::kFixedTuned);
+  options.trace = true;
+  int dropped = 0;
+  for (int trial = 0; trial < 5; ++trial) {
+    const IkSolution solution = SolveCcdAnderson(Body(), Problem(trial, 30), options);
+    double last = std::numeric_limits<double>::infinity();
+    for (const IkTraceEntry& entry : solution.trace) {
+      double merit = 0;
+      for (const EffectorError& error : entry.errors) {
+        merit += 0.0015 * 1e4 * error.position * error.position;
+        for (int k = 0; k < 3; ++k) merit += 2 - 2 * std::cos(error.axis_angles[k]);
+      }
+      EXPECT_LE(merit, last * (1 + 1e-9) + 1e-14);
+      last = merit;
+    }
+    // One pass for the start, one a sweep, and one more for each that was dropped.
+    dropped += solution.fk_evaluations - solution.iterations - 1;
+  }
+  EXPECT_GT(dropped, 0) << "no extrapolation had to be dropped: nothing was tested";
+}
+
+// There tan((q − middle) / 2) has its pole.
+TEST(CcdAnderson, TurnsAFreeAngleByHalfATurn) {
+  IkOptions options = Options(WeightRule::kFixedTuned);
+  options.limits = false;
+  const int neck_twist = Body().joints[kTreeNeck].first_dof + 2;
+  for (const double more : {0.0, 1e-12, 1e-6, 1e-3}) {
+    IkProblem problem = Problem(0, 0);
+    problem.start.angles[neck_twist] += kPi - more;
+    const IkSolution solution = SolveCcdAnderson(Body(), problem, options);
+    EXPECT_EQ(solution.status, IkStatus::kConverged) << more;
+    EXPECT_LE(solution.iterations, 3) << "one sweep finds it";
+    EXPECT_NEAR(std::abs(solution.angles[neck_twist] - problem.start.angles[neck_twist]), kPi, 1e-2);
+  }
+}
+
+}  // namespace
+}  // namespace etude

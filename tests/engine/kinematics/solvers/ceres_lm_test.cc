@@ -1,0 +1,116 @@
+#include "engine/kinematics/solvers/ceres_lm.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/kinematics/solvers/damped_least_squares.h"
+#include "tests/engine/kinematics/posed_tree.h"
+
+namespace etude {
+namespace {
+
+const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
+
+IkProblem Problem(int trial, double noise_deg) {
+  return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, noise_deg);
+}
+
+/// What it says it minimises.
+double Sum(const IkProblem& problem, const std::vector<double>& angles) {
+  TreeState state = problem.start;
+  state.angles = angles;
+  const TreeFrames frames = ComputeFrames(Body(), state);
+  double sum = 0;
+  for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+    const EffectorTarget& target = problem.targets[e];
+    const double gap = glm::distance(frames.effectors[e].position, target.position) / 0.30;
+    sum += target.position_weight * gap * gap;
+    for (int k = 0; k < 3; ++k) {
+      const double chord = glm::distance(frames.effectors[e].axes[k], target.axes[k]);
+      sum += target.axis_weights[k] * chord * chord;
+    }
+  }
+  return sum;
+}
+
+// A wrong Jacobian would still come home, by many small steps.
+TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
+  for (const glm::dvec3& weights : {glm::dvec3(1), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
+    IkOptions options;
+    options.position_goal = options.axis_goal = 1e-9;
+    for (int trial = 0; trial < 5; ++trial) {
+      IkProblem problem = Problem(trial, 5);
+      for (EffectorTarget& target : problem.targets) {
+        target.axis_weights = weights;
+        target.position_weight = 2;
+      }
+      const IkSolution solution = SolveCeresLm(Body(), problem, options);
+      EXPECT_EQ(solution.status, IkStatus::kConverged);
+      EXPECT_LE(solution.iterations, 10);
+    }
+  }
+}
+
+TEST(CeresLm, FindsTheMinimumThatDampedLeastSquaresFindsWhereTargetsContradict) {
+  for (const glm::dvec3& weights : {glm::dvec3(1), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
+    IkProblem problem = Problem(1, 3);
+    for (EffectorTarget& target : problem.targets) target.axis_weights = weights;
+    problem.targets[0].position.y -= 0.10;
+    problem.targets[3].position.y += 0.40;
+    IkOptions options;
+    options.limits = false;
+    options.max_iterations = 2000;
+    const double ours = Sum(problem, SolveDampedLeastSquares(Body(), problem, options).angles);
+    const double found = Sum(problem, SolveCeresLm(Body(), problem, options).angles);
+    EXPECT_GT(found, 1e-3) << "contradictions leave something";
+    EXPECT_NEAR(found, ours, 1e-3 * ours);
+  }
+}
+
+TEST(CeresLm, LeavesAnglesThatCannotMove) {
+  IkProblem problem = Problem(2, 3);
+  const int knee = Body().joints[kTreeRightKnee].first_dof;
+  problem.limits[knee].lower = problem.limits[knee].upper = problem.start.angles[knee];
+  const IkSolution solution = SolveCeresLm(Body(), problem, {});
+  EXPECT_EQ(solution.angles[knee], problem.start.angles[knee]);
+  EXPECT_NE(solution.angles, problem.start.angles);
+
+  IkOptions frozen;
+  frozen.angle_change_tolerance = 0;
+  const IkSolution nothing = SolveCeresLm(Body(), problem, frozen);
+  EXPECT_EQ(nothing.status, IkStatus::kStalled);
+  EXPECT_EQ(nothing.angles, problem.start.angles);
+}
+
+TEST(CeresLm, BeginsWithinTheLimits) {
+  IkProblem problem = Problem(3, 3);
+  for (double& angle : problem.start.angles) angle += 4;
+  IkOptions options;
+  options.trace = true;
+  const IkSolution solution = SolveCeresLm(Body(), problem, options);
+  ASSERT_FALSE(solution.trace.empty());
+  for (int i = 0; i < Body().dof_count(); ++i) EXPECT_LE(solution.trace[0].angles[i], Body().limits[i].upper);
+}
+
+TEST(CeresLm, SaysNothing) {
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  IkOptions options;
+  options.tuning.first_radius = 1e16;  // next to no damping: Ceres fails to take steps, and says so
+  options.position_goal = 1e-12;
+  for (int trial = 0; trial < 5; ++trial) SolveCeresLm(Body(), Problem(trial, 60), options);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST(CeresLm, AnswersTheSameEveryTime) {
+  const IkProblem problem = Problem(4, 30);
+  EXPECT_EQ(SolveCeresLm(Body(), problem, {}).angles, SolveCeresLm(Body(), problem, {}).angles);
+}
+
+}  // namespace
+}  // namespace etude
