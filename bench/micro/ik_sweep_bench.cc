@@ -1,0 +1,124 @@
+// What a sweep of coordinate descent costs, all side by side: forward kinematics alone; paper B's joints and hinges
+// from effector to effector; hinges in moment form; many problems at once by kind of vectors. The counter `per_sweep`
+// is the time for one problem and one sweep, with its forward kinematics and its measuring; for batches that is a share
+// of whole solutions of 500 sweeps.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "engine/kinematics/solvers/batch_sweep.h"
+#include "engine/kinematics/solvers/ccd_sweep.h"
+#include "engine/kinematics/solvers/moment_sweep.h"
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+namespace {
+
+constexpr int kBatchProblems = 64;
+constexpr int kBatchSweeps = 500;
+
+// A pose inside the limits, half way out in a pattern that leaves no joint at rest, and a start 15° away from it.
+IkProblem MakeProblem(const KinematicTree& tree, double phase = 1) {
+  TreeState truth = StandingState(tree);
+  IkProblem problem{truth, {}, tree.limits};
+  for (std::size_t i = 0; i < tree.limits.size(); ++i) {
+    const AngleRange& range = tree.limits[i];
+    const double middle = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
+    truth.angles[i] = middle + 0.5 * half * std::sin(phase + 2.0 * static_cast<double>(i));
+    problem.start.angles[i] = truth.angles[i] + Radians(15) * std::cos(3.0 * static_cast<double>(i));
+  }
+  for (const LimbFrame& effector : ComputeFrames(tree, truth).effectors) {
+    problem.targets.push_back({effector.position, effector.axes});
+  }
+  return problem;
+}
+
+void CountSweeps(benchmark::State& state, double sweeps) {
+  state.counters["per_sweep"] = benchmark::Counter(sweeps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void ForwardKinematics(benchmark::State& state) {
+  const KinematicTree tree = MakeBodyTree({});
+  const TreeState pose = MakeProblem(tree).start;
+  TreeFrames frames;
+  for (auto _ : state) {
+    ComputeFrames(tree, pose, frames);
+    benchmark::DoNotOptimize(frames.effectors.data());
+  }
+}
+BENCHMARK(ForwardKinematics);
+
+void Sweep(benchmark::State& state, CcdJoint joint_kind, WeightRule rule, WeightRefresh refresh) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkProblem problem = MakeProblem(tree);
+  IkOptions options;
+  options.weights = rule;
+  options.refresh = refresh;
+  CcdSweep ccd(tree, problem, options, joint_kind);
+  for (auto _ : state) benchmark::DoNotOptimize(ccd.Sweep());
+  CountSweeps(state, static_cast<double>(state.iterations()));
+}
+BENCHMARK_CAPTURE(Sweep, whole_joints_fixed_tuned, CcdJoint::kWhole, WeightRule::kFixedTuned, WeightRefresh::kSweep);
+BENCHMARK_CAPTURE(Sweep, whole_joints_adaptive_power, CcdJoint::kWhole, WeightRule::kAdaptivePower,
+                  WeightRefresh::kSweep);
+BENCHMARK_CAPTURE(Sweep, whole_joints_adaptive_power_per_dof, CcdJoint::kWhole, WeightRule::kAdaptivePower,
+                  WeightRefresh::kDof);
+BENCHMARK_CAPTURE(Sweep, hinges_fixed_tuned, CcdJoint::kHinges, WeightRule::kFixedTuned, WeightRefresh::kSweep);
+BENCHMARK_CAPTURE(Sweep, hinges_adaptive_power, CcdJoint::kHinges, WeightRule::kAdaptivePower, WeightRefresh::kSweep);
+BENCHMARK_CAPTURE(Sweep, hinges_wang_chen, CcdJoint::kHinges, WeightRule::kWangChen, WeightRefresh::kSweep);
+
+void MomentForm(benchmark::State& state, WeightRule rule) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkProblem problem = MakeProblem(tree);
+  IkOptions options;
+  options.weights = rule;
+  MomentSweep ccd(tree, problem, options);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ccd.Sweep());
+    benchmark::DoNotOptimize(ccd.MissesGoals());
+  }
+  CountSweeps(state, static_cast<double>(state.iterations()));
+}
+BENCHMARK_CAPTURE(MomentForm, fixed_tuned, WeightRule::kFixedTuned);
+BENCHMARK_CAPTURE(MomentForm, adaptive, WeightRule::kAdaptive);
+BENCHMARK_CAPTURE(MomentForm, adaptive_power, WeightRule::kAdaptivePower);
+
+void BatchSweeps(benchmark::State& state, const std::string& target, Precision precision, WeightRule rule) {
+  const KinematicTree tree = MakeBodyTree({});
+  std::vector<IkProblem> problems;
+  for (int i = 0; i < kBatchProblems; ++i) problems.push_back(MakeProblem(tree, 0.1 * i));
+  IkOptions options;
+  options.weights = rule;
+  options.max_iterations = kBatchSweeps;
+  options.position_goal = 0;  // never met
+  SetBatchTarget(target);
+  double sweeps = 0;
+  for (auto _ : state) {
+    for (const IkSolution& solution : SolveCcdBatch(tree, problems, options, precision)) sweeps += solution.iterations;
+  }
+  CountSweeps(state, sweeps);
+  SetBatchTarget("");
+}
+
+void RegisterBatches() {
+  for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kAdaptivePower}) {
+    for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+      for (const std::string& target : BatchTargets()) {
+        const std::string name = "BatchSweeps/" + WeightRuleNames()[static_cast<int>(rule)] +
+                                 (precision == Precision::kFloat ? "/float/" : "/double/") + target;
+        benchmark::RegisterBenchmark(name.c_str(), BatchSweeps, target, precision, rule);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace etude
+
+int main(int argc, char** argv) {
+  etude::RegisterBatches();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,183 @@
+#include "bench/micro/kdl_peer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <kdl/tree.hpp>
+#include <kdl/treefksolverpos_recursive.hpp>
+#include <kdl/treeiksolverpos_nr_jl.hpp>
+#include <kdl/treeiksolverpos_online.hpp>
+#include <kdl/treeiksolvervel_wdls.hpp>
+
+#include "engine/kinematics/solvers/ik_run.h"
+
+namespace etude {
+namespace {
+
+constexpr double kAnySpeed = 1e3;  // of effectors: slowing down angles alone did better
+
+KDL::Vector ToVector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+KDL::Rotation ToRotation(const glm::dmat3& m) { return {ToVector(m[0]), ToVector(m[1]), ToVector(m[2])}; }
+glm::dvec3 FromVector(const KDL::Vector& v) { return {v.x(), v.y(), v.z()}; }
+LimbFrame FromFrame(const KDL::Frame& f) {
+  return {FromVector(f.p), glm::dmat3(FromVector(f.M.UnitX()), FromVector(f.M.UnitY()), FromVector(f.M.UnitZ()))};
+}
+
+std::string SegmentName(int joint, int axis) { return std::to_string(joint) + "xyz"[axis]; }
+
+// One segment a degree of freedom, as few as KDL's recursion by names can do with: a joint's place and rest rotation
+// belong to its first segment, an effector's place to the last of its limb.
+KDL::Tree ToKdl(const KinematicTree& tree) {
+  KDL::Tree made("root");
+  const TreeState rest = StandingState(tree);
+  std::vector<std::string> limb_names(tree.joints.size(), "root");  // the last segment of each joint
+  std::vector<KDL::Frame> offsets(tree.joints.size());              // from there to the limb
+  for (std::size_t n = 0; n < tree.joints.size(); ++n) {
+    const TreeJoint& joint = tree.joints[n];
+    KDL::Frame base(ToRotation(joint.rest), ToVector(joint.offset));
+    if (joint.parent < 0) {
+      offsets[n] = KDL::Frame(ToRotation(rest.root_frame), ToVector(rest.root_position));
+      continue;
+    }
+    base = offsets[joint.parent] * base;
+    limb_names[n] = limb_names[joint.parent];
+    for (int axis = 0; axis < joint.dof_count; ++axis) {
+      KDL::Frame beyond = base;  // where the next segment begins while this angle is zero
+      if (axis == joint.dof_count - 1) {
+        for (const Effector& effector : tree.effectors) {
+          if (effector.joint == static_cast<int>(n)) beyond = beyond * KDL::Frame(ToVector(effector.offset));
+        }
+      }
+      const KDL::Vector turn = base.M * KDL::Vector(axis == 0, axis == 1, axis == 2);
+      const std::string name = SegmentName(static_cast<int>(n), axis);
+      made.addSegment(KDL::Segment(name, KDL::Joint(name, base.p, turn, KDL::Joint::RotAxis), beyond), limb_names[n]);
+      limb_names[n] = name;
+      base = KDL::Frame::Identity();
+    }
+    offsets[n] = base;
+  }
+  return made;
+}
+
+class KdlPeer : public IkPeer {
+ public:
+  KdlPeer(const KinematicTree& tree, const KdlSettings& settings)
+      : tree_(tree),
+        kdl_(ToKdl(tree)),
+        lower_(tree.dof_count()),
+        upper_(tree.dof_count()),
+        q_(tree.dof_count()),
+        found_(tree.dof_count()),
+        fk_(kdl_),
+        velocity_(kdl_, EndNames(tree)) {
+    velocity_.setLambda(settings.damping);
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Identity(6 * tree.effectors.size(), 6 * tree.effectors.size());
+    for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
+      weights.diagonal().segment<3>(6 * e).setConstant(settings.position_weight);
+    }
+    velocity_.setWeightTS(weights);
+    for (int i = 0; i < tree.dof_count(); ++i) {
+      lower_(i) = tree.limits[i].lower;
+      upper_(i) = tree.limits[i].upper;
+    }
+  }
+
+  std::vector<LimbFrame> Effectors(std::span<const double> angles) override {
+    std::ranges::copy(angles, q_.data.data());
+    std::vector<LimbFrame> effectors;
+    for (const std::string& name : EndNames(tree_)) {
+      KDL::Frame frame;
+      fk_.JntToCart(q_, frame, name);
+      effectors.push_back(FromFrame(frame));
+    }
+    return effectors;
+  }
+
+ protected:
+  static std::vector<std::string> EndNames(const KinematicTree& tree) {
+    std::vector<std::string> names;
+    for (const Effector& effector : tree.effectors) {
+      names.push_back(SegmentName(effector.joint, tree.joints[effector.joint].dof_count - 1));
+    }
+    return names;
+  }
+
+  void Take(const IkProblem& problem) {
+    std::ranges::copy(problem.start.angles, q_.data.data());
+    const std::vector<std::string> names = EndNames(tree_);
+    for (std::size_t e = 0; e < names.size(); ++e) {
+      const EffectorTarget& target = problem.targets[e];
+      targets_[names[e]] = KDL::Frame(ToRotation(target.axes), ToVector(target.position));
+    }
+  }
+  static std::vector<double> ToAngles(const KDL::JntArray& q) { return {q.data.data(), q.data.data() + q.data.size()}; }
+
+  const KinematicTree& tree_;
+  const KDL::Tree kdl_;
+  KDL::JntArray lower_, upper_, q_, found_;
+  KDL::Frames targets_;
+  KDL::TreeFkSolverPos_recursive fk_;
+  KDL::TreeIkSolverVel_wdls velocity_;
+};
+
+class KdlNewton final : public KdlPeer {
+ public:
+  using KdlPeer::KdlPeer;
+
+  std::vector<double> Solve(const IkProblem& problem, const IkOptions& options) override {
+    Take(problem);
+    // KDL compares every number of a twist with one limit, metres and radians alike.
+    const double goal = std::min(options.position_goal, options.axis_goal) / std::sqrt(3.0);
+    if (goal != goal_) {
+      solver_ = std::make_unique<KDL::TreeIkSolverPos_NR_JL>(kdl_, EndNames(tree_), lower_, upper_, fk_, velocity_,
+                                                             options.max_iterations, goal);
+      goal_ = goal;
+    }
+    solver_->CartToJnt(q_, targets_, found_);
+    return ToAngles(found_);
+  }
+
+ private:
+  double goal_ = 0;
+  std::unique_ptr<KDL::TreeIkSolverPos_NR_JL> solver_;
+};
+
+class KdlOnline final : public KdlPeer {
+ public:
+  KdlOnline(const KinematicTree& tree, const KdlSettings& settings) : KdlPeer(tree, settings) {
+    KDL::JntArray fastest(tree.dof_count());
+    fastest.data.setConstant(settings.largest_turn);
+    solver_ = std::make_unique<KDL::TreeIkSolverPos_Online>(tree.dof_count(), EndNames(tree), lower_, upper_, fastest,
+                                                            kAnySpeed, kAnySpeed, fk_, velocity_);
+  }
+
+  std::vector<double> Solve(const IkProblem& problem, const IkOptions& options) override {
+    Take(problem);
+    TreeState state = problem.start;
+    for (int step = 0; step < options.max_iterations; ++step) {
+      solver_->CartToJnt(q_, targets_, found_);
+      std::swap(q_.data, found_.data);
+      state.angles = ToAngles(q_);
+      ComputeFrames(tree_, state, frames_);
+      MeasureErrors(frames_, problem.targets, errors_);
+      if (FindWorst(errors_, problem.targets).Within(options)) break;
+    }
+    return state.angles;
+  }
+
+ private:
+  std::unique_ptr<KDL::TreeIkSolverPos_Online> solver_;
+  TreeFrames frames_;
+  std::vector<EffectorError> errors_;
+};
+
+}  // namespace
+
+std::unique_ptr<IkPeer> MakeKdlNewton(const KinematicTree& tree, const KdlSettings& settings) {
+  return std::make_unique<KdlNewton>(tree, settings);
+}
+
+std::unique_ptr<IkPeer> MakeKdlOnline(const KinematicTree& tree, const KdlSettings& settings) {
+  return std::make_unique<KdlOnline>(tree, settings);
+}
+
+}  // namespace etude

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+namespace etude {
+
+/// How Simbody's Assembler is set.
+struct SimbodySettings {
+  double accuracy = 1e-5;      ///< its optimiser's; less does not make it stop later
+  double position_weight = 3;  ///< weight of a square metre against a square radian
+};
+
+/// Simbody's model of a kinematic tree with its Assembler. Simbody's headers are no C++20, so this one and its .cc are
+/// C++17 and speak plain types only.
+class SimbodyModel {
+ public:
+  struct Frame {
+    glm::dvec3 position{0};
+    glm::dmat3 axes{1};
+  };
+  struct Joint {
+    int parent = -1;
+    Frame base;  ///< in the parent's limb, when all angles are zero; of the root: in the world
+    int dof_count = 0;
+    double lower[3] = {}, upper[3] = {};
+  };
+  struct Effector {
+    int joint = 0;
+    glm::dvec3 offset{0};
+  };
+
+  SimbodyModel(const std::vector<Joint>& joints, const std::vector<Effector>& effectors,
+               const SimbodySettings& settings);
+  ~SimbodyModel();
+
+  /// By Simbody's forward kinematics. Angles in the order of joints.
+  std::vector<Frame> Effectors(const double* angles);
+  /// What the Assembler finds from `start`; what it has got when it gives up.
+  std::vector<double> Assemble(const double* start, const std::vector<Frame>& targets);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace etude
