@@ -9,6 +9,9 @@ using enum Aggregate;
 const MetricInput kEffectors = {"effectors",
                                 "per end effector: `position_m` and `target_m`, [x, y, z] in metres; `axes` and "
                                 "`target_axes`, three unit vectors [x, y, z] each"};
+const MetricInput kAsked = {"asked",
+                            "what the world asks for: \"both\" (also where it is left out), \"position\", "
+                            "\"orientation\""};
 const MetricInput kFound = {"found_deg", "the solved angle of every degree of freedom, degrees"};
 const std::vector<MetricInput> kCost = {
     {"iterations", "the solver's own steps"},
@@ -39,9 +42,9 @@ std::vector<MetricInfo> IkCatalogue() {
        .formula = "100 · (1/E) Σₑ ‖pₑ − tₑ‖ with p, t in metres and E = 4 effectors (both hands, head, right foot; the "
                   "left foot is the root). In task capture the same over the recovered frames too: the mean over "
                   "frames of the mean over effectors, where t is the point triangulated from the pictures, not the "
-                  "truth; frames held from a neighbour do not count.",
+                  "truth; frames held from a neighbour do not count. In task tracking the mean over all frames, too.",
        .null_rule = "Task capture: when no frame was recovered, or the method is one outside, whose stages are not "
-                    "seen. Task ik: never.",
+                    "seen. Tasks ik and tracking: never.",
        .source = "Paper B, whose tables show every effector; this is their mean.",
        .inputs = {kEffectors}},
       {.id = "position_error_max_cm",
@@ -67,7 +70,7 @@ std::vector<MetricInfo> IkCatalogue() {
        .practical_reason = "What counts as solved; a tenth of a degree moves a hand by a third of a millimetre.",
        .formula = "(1/E) Σₑ (1/3) Σₖ ∠(aₑₖ, bₑₖ), degrees; ∠(u, v) = atan2(‖u × v‖, u · v) in [0°, 180°], 0° when "
                   "either vector is zero. It is the mean of three axis angles, not the angle of the rotation between "
-                  "the frames: a turn by θ about one axis counts 2θ/3.",
+                  "the frames: a turn by θ about one axis counts 2θ/3. In task tracking the mean over all frames, too.",
        .null_rule = kNeverNull,
        .source = "Paper B, whose tables show every axis; this is their mean.",
        .inputs = {kEffectors}},
@@ -94,7 +97,7 @@ std::vector<MetricInfo> IkCatalogue() {
        .definition = "Root mean square, over all degrees of freedom, of the solved minus the true joint angle.",
        .practical_reason = "A quarter of a degree in the shoulder moves the hand by 3 mm.",
        .formula = "√((1/N) Σᵢ δᵢ²) over all N degrees of freedom of the tree, weighted alike; δᵢ = found − true, "
-                  "degrees, taken modulo 360° into [−180°, 180°].",
+                  "degrees, taken modulo 360° into [−180°, 180°]. In task tracking over the angles of all frames.",
        .null_rule = kNeverNull,
        .source = "Etude: paper B judges the effectors only; the angles between are what its limits are for.",
        .inputs = {kFound, {"true_deg", "the true angles, degrees"}}},
@@ -119,13 +122,15 @@ std::vector<MetricInfo> IkCatalogue() {
        .definition =
            "1 when all effectors are within 0.1 cm and 0.1° of their targets and no joint limit is broken, else 0.",
        .practical_reason = kSolvedReason,
-       .formula = "1 if position_error_max_cm < 0.1 and orientation_error_max_deg < 0.1, else 0; exactly at a limit is "
-                  "0. A limit is broken when an angle lies beyond it by more than 10⁻⁶ degrees; a built-in method with "
-                  "`limits: false` is not held to them. The denominator of its mean is every world: a method that gave "
-                  "no answer has 0.",
+       .formula =
+           "1 if position_error_max_cm < 0.1 and orientation_error_max_deg < 0.1, else 0; exactly at a limit is "
+           "0. Of a world that asks for positions only, or for axes only, the other error is not judged. A limit "
+           "is broken when an angle lies beyond it by more than 10⁻⁶ degrees; a built-in method with "
+           "`limits: false` is not held to them. The denominator of its mean is every world: a method that gave "
+           "no answer has 0.",
        .null_rule = "Never: no answer is 0.",
        .source = "Etude.",
-       .inputs = {kEffectors}},
+       .inputs = {kEffectors, kAsked}},
       {.id = "solved_tight",
        .label = "solved (10⁻³ cm, 10⁻³°)",
        .unit = "",
@@ -136,10 +141,23 @@ std::vector<MetricInfo> IkCatalogue() {
            "1 when all effectors are within 0.001 cm and 0.001° of their targets and no joint limit is broken, else 0.",
        .practical_reason = kSolvedReason,
        .formula = "1 if position_error_max_cm < 0.001 and orientation_error_max_deg < 0.001, else 0; exactly at a "
-                  "limit is 0. Joint limits and denominator as in solved_practical.",
+                  "limit is 0. What is asked, joint limits and denominator as in solved_practical.",
        .null_rule = "Never: no answer is 0.",
        .source = "Etude: a hundredth of solved_practical, to see who converges.",
-       .inputs = {kEffectors}},
+       .inputs = {kEffectors, kAsked}},
+      {.id = "limit_violations",
+       .label = "joint limits broken",
+       .unit = "",
+       .direction = kLowerIsBetter,
+       .aggregate = kMean,
+       .practical = 0.01,
+       .definition = "How many joint angles lie beyond their limits.",
+       .practical_reason = "One broken limit in a hundred worlds; there should be none.",
+       .formula = "The count of angles i with found_i < lower_i − 10⁻⁶° or found_i > upper_i + 10⁻⁶°: nearer is "
+                  "rounding, and exactly there is fine.",
+       .null_rule = kNeverNull,
+       .source = "Etude: paper B's section 3.7.1 as a check.",
+       .inputs = {kFound, {"limits_deg", "[lower, upper] of every degree of freedom, degrees"}}},
       {.id = "iterations",
        .label = "solver steps",
        .unit = "",

@@ -7,6 +7,14 @@
 #include "engine/base/angles.h"
 
 namespace etude {
+namespace {
+
+/// `goal` in centimetres and in degrees.
+bool AreWithin(const IkErrorSummary& errors, const IkAsked& asked, double goal) {
+  return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.orientation_max_deg < goal);
+}
+
+}  // namespace
 
 IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors) {
   assert(!errors.empty());
@@ -24,12 +32,18 @@ IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors) {
   return summary;
 }
 
-bool IsSolvedPractically(const IkErrorSummary& errors) {
-  return errors.position_max_cm < 0.1 && errors.orientation_max_deg < 0.1;
-}
+bool IsSolvedPractically(const IkErrorSummary& errors, const IkAsked& asked) { return AreWithin(errors, asked, 0.1); }
 
-bool IsSolvedTightly(const IkErrorSummary& errors) {
-  return errors.position_max_cm < 1e-3 && errors.orientation_max_deg < 1e-3;
+bool IsSolvedTightly(const IkErrorSummary& errors, const IkAsked& asked) { return AreWithin(errors, asked, 1e-3); }
+
+int CountLimitViolations(std::span<const double> angles, std::span<const AngleRange> limits) {
+  assert(angles.size() == limits.size());
+  constexpr double kRounding = Radians(1e-6);
+  int count = 0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (std::max(limits[i].lower - angles[i], angles[i] - limits[i].upper) > kRounding) ++count;
+  }
+  return count;
 }
 
 double HiddenAngleDifferenceDeg(std::span<const double> angles, std::span<const double> others) {

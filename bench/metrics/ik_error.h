@@ -18,10 +18,19 @@ struct IkErrorSummary {
 /// Needs at least one effector.
 IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors);
 
+/// What a world asks of its effectors, and what "solved" is judged by.
+struct IkAsked {
+  bool positions = true;
+  bool axes = true;
+};
+
 /// All effectors within 0.1 cm and 0.1°.
-bool IsSolvedPractically(const IkErrorSummary& errors);
+bool IsSolvedPractically(const IkErrorSummary& errors, const IkAsked& asked = {});
 /// All effectors within 10⁻³ cm and 10⁻³°.
-bool IsSolvedTightly(const IkErrorSummary& errors);
+bool IsSolvedTightly(const IkErrorSummary& errors, const IkAsked& asked = {});
+
+/// How many angles lie beyond their limits by more than 10⁻⁶ degrees, which is rounding. Both of one size.
+int CountLimitViolations(std::span<const double> angles, std::span<const AngleRange> limits);
 
 /// Root mean square over all degrees of freedom of the difference of two poses' angles, degrees; differences count
 /// modulo a full turn. `hidden_angle_error_deg` with the truth, `hidden_angle_change_deg` with the start. Both of one

@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "bench/metrics/ik_cost.h"
 #include "bench/metrics/ik_error.h"
-#include "engine/base/angles.h"
+#include "bench/tasks/base/ik_targets.h"
+#include "bench/tasks/base/tree_json.h"
+#include "bench/tasks/ik/ik_recording.h"
+#include "bench/tasks/ik/ik_series.h"
 #include "engine/base/digest.h"
-#include "engine/kinematics/tree_to_body.h"
+#include "engine/kinematics/solvers/ik_run.h"
 
 namespace etude {
 namespace {
 
-constexpr std::size_t kLongestCurve = 200;     // iterations
-constexpr std::size_t kLongestRecording = 90;  // iterations, one frame each: three seconds
-
 std::string DigestOf(const IkWorld& world) {
   Digest digest;
   digest.Add(world.truth.angles).Add(world.problem.start.angles);
+  AddTo(digest, world.problem.targets);
   return digest.Hex();
 }
 
@@ -27,13 +29,20 @@ std::string DigestOf(const IkSolution& solution) {
   return digest.Hex();
 }
 
+/// All targets of a world ask for the same.
+IkAsked AskedOf(const IkProblem& problem) {
+  const EffectorTarget& target = problem.targets.front();
+  return {.positions = target.position_weight > 0, .axes = target.axis_weights != glm::dvec3(0)};
+}
+
 /// Every solver here makes one pass of forward kinematics before its first step and one in each.
 double LargestFkCount(int max_steps) { return max_steps + 1; }
 
-/// What a method says that its answer cost; empty where it says nothing.
-struct IkCost {
-  std::optional<int> iterations, fk_evaluations;
+/// What a method says of its answer.
+struct IkAccount {
+  std::optional<int> iterations, fk_evaluations;  ///< empty where it says nothing
   int max_steps = 0;
+  std::string why_not_met;  ///< in case the targets are not met
 };
 
 void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
@@ -46,9 +55,15 @@ void AddCost(const char* id, const char* penalised_id, const std::optional<int>&
   }
 }
 
-void AddMetrics(const IkWorld& world, std::span<const double> angles, const IkErrorSummary& errors, bool keeps_limits,
-                const IkCost& cost, CellResult& cell) {
-  const bool solved = keeps_limits && IsSolvedPractically(errors);
+/// Scores the final angles of solvers and of methods outside.
+CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::span<const double> angles,
+                       std::span<const EffectorError> effector_errors, const IkAccount& account,
+                       const IkRecords& records) {
+  const IkErrorSummary errors = SummariseIkErrors(effector_errors);
+  const IkAsked asked = AskedOf(world.problem);
+  const std::string broken_limits = DescribeBrokenLimits(tree, angles, "angles_deg");
+  const bool keeps_limits = broken_limits.empty(), solved = keeps_limits && IsSolvedPractically(errors, asked);
+  CellResult cell;
   cell.Measure("position_error_cm", errors.position_cm);
   cell.Measure("position_error_max_cm", errors.position_max_cm);
   cell.Measure("orientation_error_deg", errors.orientation_deg);
@@ -56,119 +71,77 @@ void AddMetrics(const IkWorld& world, std::span<const double> angles, const IkEr
   cell.Measure("hidden_angle_error_deg", HiddenAngleDifferenceDeg(angles, world.truth.angles));
   cell.Measure("hidden_angle_change_deg", HiddenAngleDifferenceDeg(angles, world.problem.start.angles));
   cell.Measure("solved_practical", solved ? 1 : 0);
-  cell.Measure("solved_tight", keeps_limits && IsSolvedTightly(errors) ? 1 : 0);
-  AddCost("iterations", "iterations_par2", cost.iterations, cost.max_steps, solved, cell);
-  AddCost("fk_evaluations", "fk_evaluations_par2", cost.fk_evaluations, LargestFkCount(cost.max_steps), solved, cell);
+  cell.Measure("solved_tight", keeps_limits && IsSolvedTightly(errors, asked) ? 1 : 0);
+  cell.Measure("limit_violations", CountLimitViolations(angles, tree.limits));
+  AddCost("iterations", "iterations_par2", account.iterations, account.max_steps, solved, cell);
+  AddCost("fk_evaluations", "fk_evaluations_par2", account.fk_evaluations, LargestFkCount(account.max_steps), solved,
+          cell);
+  if (records.effector_errors) cell.series = EffectorErrors(tree, world.problem, angles);
+  if (records.angle_changes) std::ranges::move(AngleChanges(world, angles), std::back_inserter(cell.series));
+  cell.status = solved ? Status::kOk : Status::kUnsolved;
+  cell.reason = solved ? "" : !keeps_limits ? broken_limits : account.why_not_met;
+  return cell;
 }
 
-void AddCurves(const IkSolution& solution, CellResult& cell) {
-  Series position{"position_error_max_cm", "iteration", {}};
-  Series orientation{"orientation_error_max_deg", "iteration", {}};
-  for (std::size_t i = 0; i < std::min(solution.trace.size(), kLongestCurve); ++i) {
-    position.values.push_back(100 * solution.trace[i].worst_position);
-    orientation.values.push_back(Degrees(solution.trace[i].worst_axis));
+/// The same words for all cells that ended alike, so that a report can count them; how far each came is in its metrics.
+std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkAsked& asked) {
+  if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
+  switch (solution.status) {
+    case IkStatus::kStalled:
+      return "stalled before the targets were met";
+    case IkStatus::kUnreachable:
+      return "a target is out of reach";
+    case IkStatus::kIterationLimit:
+      return fmt::format("the limit of {} {}", method.options.max_iterations, method.solver->step);
+    case IkStatus::kConverged:
+    case IkStatus::kBadInput:
+      break;
   }
-  cell.series = {std::move(position), std::move(orientation)};
-}
-
-/// `path`: the angles from the start to the solution.
-Recording Record(const KinematicTree& tree, const IkWorld& world, std::span<const std::vector<double>> path) {
-  Track truth{"truth", {}}, start{"start", {}}, found{"solution", {}};
-  TreeState state = world.problem.start;
-  const BodyPose true_pose = ToBodyPose(tree, world.truth), start_pose = ToBodyPose(tree, state);
-  for (const std::vector<double>& angles : path.first(std::min(path.size(), kLongestRecording))) {
-    state.angles = angles;
-    truth.motion.poses.push_back(true_pose);
-    start.motion.poses.push_back(start_pose);
-    found.motion.poses.push_back(ToBodyPose(tree, state));
-  }
-  return {{std::move(truth), std::move(start), std::move(found)}, "{}"};
-}
-
-std::vector<std::vector<double>> PathOf(const IkSolution& solution) {
-  std::vector<std::vector<double>> path;
-  for (const IkTraceEntry& entry : solution.trace) path.push_back(entry.angles);
-  return path;
-}
-
-/// "2 angles outside the limits, angles_deg[4] the farthest, by 3.2°", or nothing.
-std::string DescribeBrokenLimits(const KinematicTree& tree, std::span<const double> angles) {
-  constexpr double kRounding = Radians(1e-6);
-  int broken = 0;
-  double worst = 0;
-  std::size_t worst_angle = 0;
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    const double beyond = std::max(tree.limits[i].lower - angles[i], angles[i] - tree.limits[i].upper);
-    if (beyond <= kRounding) continue;
-    ++broken;
-    if (beyond > worst) {
-      worst = beyond;
-      worst_angle = i;
-    }
-  }
-  if (broken == 0) return "";
-  return fmt::format("{} angle{} outside the limits, angles_deg[{}] the farthest, by {:.2g}°", broken,
-                     broken == 1 ? "" : "s", worst_angle, Degrees(worst));
-}
-
-std::string DescribeErrors(const IkErrorSummary& errors) {
-  return fmt::format("worst effector {:.2g} cm, {:.2g}°", errors.position_max_cm, errors.orientation_max_deg);
+  return "";
 }
 
 }  // namespace
 
-CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method, bool keeps_motion) {
-  CellResult cell;
+CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method,
+                     const IkRecords& records) {
   const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
-  cell.digests = {{"world", DigestOf(world)}, {"solution", DigestOf(solution)}};
+  std::vector<std::pair<std::string, std::string>> digests = {{"world", DigestOf(world)},
+                                                              {"solution", DigestOf(solution)}};
   if (solution.status == IkStatus::kBadInput) {
-    cell.status = Status::kFailed;
-    cell.reason = FindFault(tree, world.problem, method.options);
+    CellResult cell = CellResult::Ended(Status::kFailed, std::string(FindFault(tree, world.problem, method.options)));
+    cell.digests = std::move(digests);
     return cell;
   }
-  const IkErrorSummary errors = SummariseIkErrors(solution.errors);
-  const std::string broken_limits = DescribeBrokenLimits(tree, solution.angles);  // by a solver told to ignore them
-  AddMetrics(world, solution.angles, errors, broken_limits.empty(),
-             {solution.iterations, solution.fk_evaluations, method.options.max_iterations}, cell);
-  AddCurves(solution, cell);
-  if (keeps_motion) cell.recording = Record(tree, world, PathOf(solution));
-  cell.status = Status::kUnsolved;
-  if (!broken_limits.empty()) {
-    cell.reason = broken_limits;
-  } else if (IsSolvedPractically(errors)) {
-    cell.status = Status::kOk;
-    cell.reason.clear();
-  } else {
-    cell.reason = fmt::format("{} after {} {}{}", DescribeErrors(errors), solution.iterations, method.solver->step,
-                              solution.status == IkStatus::kStalled ? ", stalled" : "");
+  const IkAccount account{solution.iterations, solution.fk_evaluations, method.options.max_iterations,
+                          WhyItStopped(method, solution, AskedOf(world.problem))};
+  CellResult cell = ScoreAngles(tree, world, solution.angles, solution.errors, account, records);
+  cell.digests = std::move(digests);
+  std::ranges::move(WorstErrorCurves(solution.trace), std::back_inserter(cell.series));
+  if (records.effector_curves) {
+    std::ranges::move(EffectorCurves(tree, solution.trace), std::back_inserter(cell.series));
   }
+  if (records.motion) cell.recording = RecordIk(tree, world, StepsOf(solution.trace));
   return cell;
 }
 
 CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const IkAnswer& answer, int max_steps,
-                         bool keeps_motion) {
+                         const IkRecords& records) {
   TreeState state = world.problem.start;
+  std::vector<EffectorError> begun, ended;
+  MeasureErrors(ComputeFrames(tree, state), world.problem.targets, begun);
   state.angles = answer.angles;
-  const TreeFrames frames = ComputeFrames(tree, state);
-  std::vector<EffectorError> effectors;
-  for (std::size_t e = 0; e < frames.effectors.size(); ++e) {
-    effectors.push_back(ErrorOf(frames.effectors[e], world.problem.targets[e]));
-  }
-  const IkErrorSummary errors = SummariseIkErrors(effectors);
-  const std::string broken_limits = DescribeBrokenLimits(tree, answer.angles);
-  CellResult cell;
+  MeasureErrors(ComputeFrames(tree, state), world.problem.targets, ended);
+  const IkAccount account{answer.iterations, answer.fk_evaluations, max_steps, "the targets are not met"};
+  CellResult cell = ScoreAngles(tree, world, answer.angles, ended, account, records);
   cell.digests = {{"world", DigestOf(world)}, {"solution", Digest().Add(answer.angles).Hex()}};
-  AddMetrics(world, answer.angles, errors, broken_limits.empty(), {answer.iterations, answer.fk_evaluations, max_steps},
-             cell);
-  if (keeps_motion) cell.recording = Record(tree, world, std::array{world.problem.start.angles, answer.angles});
-  cell.status = Status::kUnsolved;
-  if (!broken_limits.empty()) {
-    cell.reason = broken_limits;
-  } else if (!IsSolvedPractically(errors)) {
-    cell.reason = DescribeErrors(errors);
-  } else {
-    cell.status = Status::kOk;
-    cell.reason.clear();
+  if (records.motion) {
+    const auto step = [&](int iteration, const std::vector<double>& angles, std::span<const EffectorError> errors) {
+      const IkErrorSummary worst = SummariseIkErrors(errors);
+      return IkRecordedStep{iteration, angles, worst.position_max_cm, worst.orientation_max_deg};
+    };
+    cell.recording = RecordIk(tree, world,
+                              std::array{step(0, world.problem.start.angles, begun),
+                                         step(answer.iterations.value_or(1), answer.angles, ended)});
   }
   return cell;
 }

@@ -1,5 +1,9 @@
 #include "bench/tasks/ik/ik_options.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/base/names.h"
 
@@ -7,6 +11,17 @@ namespace etude {
 namespace {
 
 constexpr int kMostSweeps = 100'000;
+
+using RecordName = std::pair<std::string_view, bool IkRecords::*>;
+constexpr std::array<RecordName, 3> kRecords = {{{"effector_errors", &IkRecords::effector_errors},
+                                                 {"angle_changes", &IkRecords::angle_changes},
+                                                 {"effector_curves", &IkRecords::effector_curves}}};
+
+std::vector<std::string> RecordNames() {
+  std::vector<std::string> names;
+  for (const RecordName& record : kRecords) names.emplace_back(record.first);
+  return names;
+}
 
 // "poses: {uniform: 0.5}", or "poses: 0.5" for short, which a sweep can write.
 double ReadPoseRange(Fields& condition) {
@@ -21,6 +36,28 @@ double ReadPoseRange(Fields& condition) {
   return share;
 }
 
+/// Keys that mean nothing where a scenario starts are a mistake worth telling.
+void Refuse(Fields& condition, std::string_view why, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    const Node* value = condition.Raw(key);
+    if (value != nullptr) condition.Complain(value->place, fmt::format("{} has no '{}'", why, key));
+  }
+}
+
+IkStart ReadStart(Fields& condition) {
+  const std::string start = condition.Choice("start", {"disturbed", "middle", "stretched"}, "disturbed");
+  if (start == "middle") {
+    Refuse(condition, "start 'middle'", {"joint_noise_deg", "noise"});
+    return IkStart::kMiddle;
+  }
+  if (start == "stretched") {
+    Refuse(condition, "start 'stretched', which makes its own poses and targets,",
+           {"poses", "joint_noise_deg", "noise", "target_noise_cm", "target_noise_deg", "unreachable_cm"});
+    return IkStart::kStretched;
+  }
+  return IkStart::kDisturbed;
+}
+
 Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkTrialOptions& trial) {
   Fields fields(node, "a method of task ik");
   IkMethod method;
@@ -33,6 +70,9 @@ Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkT
   if (degrees && times_noise) {
     fields.Complain(node.place, "a method has either 'tolerance_deg' or 'tolerance_times_noise'");
   }
+  if (times_noise && trial.start != IkStart::kDisturbed) {
+    fields.Complain(node.place, "'tolerance_times_noise' needs a start with noise");
+  }
   if (degrees) method.options.angle_change_tolerance = Radians(*degrees);
   if (times_noise) method.options.angle_change_tolerance = Radians(*times_noise * trial.joint_noise_deg);
   if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
@@ -43,20 +83,43 @@ Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkT
 
 IkTrialOptions ReadIkTrialOptions(Fields& condition) {
   IkTrialOptions options;
+  options.limit_set = *FindLimitSet(condition.Choice("limit_set", LimitSetNames(), "adult"));
+  options.start = ReadStart(condition);
   options.pose_range = ReadPoseRange(condition);
   options.joint_noise_deg = condition.Number("joint_noise_deg", options.joint_noise_deg, {0, 180});
   if (condition.Choice("noise", {"gaussian", "uniform"}, "gaussian") == "uniform") options.noise = NoiseKind::kUniform;
+  options.target_noise.position_cm = condition.Number("target_noise_cm", 0, {0, 100});
+  options.target_noise.orientation_deg = condition.Number("target_noise_deg", 0, {0, 180});
+  options.unreachable_cm = condition.Number("unreachable_cm", 0, {0, 1000});
+  const std::string asked = condition.Choice("targets", {"both", "position", "orientation"}, "both");
+  options.asks_positions = asked != "orientation";
+  options.asks_axes = asked != "position";
+  if (options.unreachable_cm > 0 && !options.asks_positions) {
+    condition.Complain(condition.node().place, "'unreachable_cm' needs 'targets' with positions");
+  }
   return options;
+}
+
+IkRecords ReadIkRecords(Fields& condition) {
+  IkRecords records;
+  const Node* list = condition.Raw("record");
+  if (list == nullptr) return records;
+  for (const std::string& name : condition.Texts("record")) {
+    const auto record = std::ranges::find(kRecords, name, &RecordName::first);
+    if (record == kRecords.end()) {
+      condition.Complain(list->place, UnknownName("record", name, RecordNames()));
+    } else {
+      records.*record->second = true;
+    }
+  }
+  return records;
 }
 
 IkOptions ReadIkCommonOptions(Fields& condition) {
   IkOptions options;
   options.max_iterations = condition.Integer("max_sweeps", 200, {1, kMostSweeps});
   options.trace = true;
-  if (condition.Choice("stop_at", {"practical", "tight"}, "practical") == "tight") {
-    options.position_goal = 1e-5;
-    options.axis_goal = Radians(1e-3);
-  }
+  ReadIkGoals(condition, options);
   return options;
 }
 
@@ -72,14 +135,28 @@ Result<std::vector<IkMethod>> ReadIkMethods(std::span<const Node> methods, const
 }
 
 std::vector<KeyInfo> IkConditionKeys() {
-  return {{"poses", "{uniform: 0…1}, or 0…1 alone", "{uniform: 0.5}",
-           "The true pose is drawn from this share of every joint's range, about its middle."},
-          {"joint_noise_deg", "0…180 (degrees)", "15", "How far every angle of the start is from the truth."},
-          {"noise", "gaussian, uniform", "gaussian",
-           "`joint_noise_deg` is the standard deviation, or the largest deviation to either side."},
-          {"max_sweeps", "1…100000", "200", "The limit of a solver's steps."},
-          {"stop_at", "practical, tight", "practical",
-           "Solvers stop when every effector is within 0.1 cm and 0.1°, or within 10⁻³ cm and 10⁻³°."}};
+  const KeyCondition with_noise{"start", {"disturbed"}}, with_poses{"start", {"disturbed", "middle"}};
+  return {
+      {"limit_set", Join(LimitSetNames()), "adult", "How far joints may turn: Etude's adult, or paper B's table 3.1."},
+      {"poses", "{uniform: 0…1}, or 0…1 alone", "{uniform: 0.5}",
+       "The true pose is drawn from this share of every joint's range, about its middle.", with_poses},
+      {"start", "disturbed, middle, stretched", "disturbed",
+       "Solvers begin at the disturbed truth, in the middle of every joint's range, or standing with stretched "
+       "arms that the hands' targets lie along (paper B, figure 3.8)."},
+      {"joint_noise_deg", "0…180 (degrees)", "15", "How far every angle of the start is from the truth.", with_noise},
+      {"noise", "gaussian, uniform", "gaussian",
+       "`joint_noise_deg` is the standard deviation, or the largest deviation to either side.", with_noise},
+      {"target_noise_cm", "0…100", "0", "Standard deviation of every target's place, along each axis.", with_poses},
+      {"target_noise_deg", "0…180", "0", "Standard deviation of every target's rotation vector.", with_poses},
+      {"unreachable_cm", "0…1000", "0",
+       "One target is pulled away from the root, this far beyond where all limbs together are too short.", with_poses},
+      {"targets", "both, position, orientation", "both",
+       "What effectors are to meet of their targets; a world is solved when they meet that."},
+      {"record", "a list of: " + Join(RecordNames()), "[]",
+       "Which series a cell keeps for the report: every effector's errors, every angle's change, curves of every "
+       "effector."},
+      {"max_sweeps", "1…100000", "200", "The limit of a solver's steps."},
+      IkGoalsKey()};
 }
 
 std::vector<KeyInfo> IkMethodKeys() {

@@ -12,8 +12,9 @@ namespace {
 
 /// Everything that the worlds of one condition have in common.
 struct IkStudy {
-  KinematicTree tree = MakeBodyTree({});
+  KinematicTree tree = MakeBodyTree({});  ///< with the condition's limits
   IkTrialOptions trial;
+  IkRecords records;
   IkOptions common;
   std::vector<IkMethod> methods;
 };
@@ -23,10 +24,12 @@ Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; 
 class IkTaskWorld : public TaskWorld {
  public:
   IkTaskWorld(const IkStudy& study, const WorldKey& key, bool keeps_motion)
-      : study_(study), world_(MakeIkWorld(study.tree, study.trial, key)), keeps_motion_(keeps_motion) {}
+      : study_(study), world_(MakeIkWorld(study.tree, study.trial, key)), records_(study.records) {
+    records_.motion = keeps_motion;
+  }
 
   CellResult Run(std::size_t method) override {
-    return RunIkCell(study_.tree, world_, study_.methods[method], keeps_motion_);
+    return RunIkCell(study_.tree, world_, study_.methods[method], records_);
   }
 
   Result<Exhibit> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
@@ -35,13 +38,13 @@ class IkTaskWorld : public TaskWorld {
   Result<CellResult> Judge(const Json& json) override {
     const auto answer = ReadIkAnswer(json, study_.tree);
     if (!answer) return tl::unexpected(answer.error());
-    return ScoreIkAnswer(study_.tree, world_, *answer, study_.common.max_iterations, keeps_motion_);
+    return ScoreIkAnswer(study_.tree, world_, *answer, study_.common.max_iterations, records_);
   }
 
  private:
   const IkStudy& study_;
   const IkWorld world_;
-  const bool keeps_motion_;
+  IkRecords records_;
 };
 
 class IkTask : public Task {
@@ -54,10 +57,7 @@ class IkTask : public Task {
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
-  Result<Exhibit> Setting() const override {
-    const IkOptions& common = study_.common;
-    return Show(DescribeTree(study_.tree, common.max_iterations, common.position_goal, common.axis_goal));
-  }
+  Result<Exhibit> Setting() const override { return Show(DescribeIkSetting(study_.tree, study_.common, study_.trial)); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return IkValueOfFailure(metric, study_.common.max_iterations);
@@ -70,6 +70,8 @@ class IkTask : public Task {
 Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
   IkStudy study;
   study.trial = ReadIkTrialOptions(input.condition);
+  study.tree.limits = JointLimits(study.trial.limit_set);
+  study.records = ReadIkRecords(input.condition);
   study.common = ReadIkCommonOptions(input.condition);
   auto methods = ReadIkMethods(input.methods, study.common, study.trial);
   if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
@@ -87,8 +89,8 @@ TaskKind MakeIkTaskKind() {
       .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg", "solved_practical",
                           "iterations"},
       .metrics = {"position_error_cm", "position_error_max_cm", "orientation_error_deg", "orientation_error_max_deg",
-                  "hidden_angle_error_deg", "hidden_angle_change_deg", "solved_practical", "solved_tight", "iterations",
-                  "iterations_par2", "fk_evaluations", "fk_evaluations_par2"},
+                  "hidden_angle_error_deg", "hidden_angle_change_deg", "solved_practical", "solved_tight",
+                  "limit_violations", "iterations", "iterations_par2", "fk_evaluations", "fk_evaluations_par2"},
       .make = MakeIkTask,
       .condition_keys = IkConditionKeys(),
       .method_keys = IkMethodKeys()};

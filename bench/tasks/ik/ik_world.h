@@ -7,14 +7,15 @@
 
 namespace etude {
 
-/// One trial (after paper B's chapter 5): a true pose, and the problem of finding back
-/// from a disturbed one to the places and axes of its end effectors.
+/// One trial (after paper B's chapter 5): a true pose, and the problem of finding from another one to the places and
+/// axes of its end effectors. The truth solves it, unless the options disturb targets or pull one out of reach.
 struct IkWorld {
   TreeState truth;
   IkProblem problem;
 };
 
-/// Truth and noise come from `key` alone; `options` only scales them.
+/// Poses are within the limits of `tree`, which are the problem's. Dice come from `key` alone; `options` only scales
+/// what they say.
 IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, const WorldKey& key);
 
 }  // namespace etude

@@ -115,6 +115,16 @@ TEST(IkExchange, TheProblemStartsWithinTheLimitsThatTheSettingNames) {
   EXPECT_NEAR(setting["position_goal_cm"].get<double>(), 0.1, 1e-15);
 }
 
+TEST(IkExchange, TheSettingTellsTheLimitsAndWhatIsAsked) {
+  const Json adult = *MakeTask()->Setting()->json;
+  EXPECT_EQ(adult["asked"], Json({"position", "orientation"}));
+  EXPECT_NEAR(adult["angles"][1]["upper_deg"].get<double>(), 135, 1e-9);
+  const Json ama = *MakeTask("{limit_set: ama, targets: position}")->Setting()->json;
+  EXPECT_EQ(ama["asked"], Json({"position"}));
+  EXPECT_EQ(ama["angles"][1]["name"], "left_knee.x");
+  EXPECT_NEAR(ama["angles"][1]["upper_deg"].get<double>(), 150, 1e-9) << "table 3.1, its last column";
+}
+
 TEST(IkExchange, TheTruthIsAPerfectAnswer) {
   const auto task = MakeTask();
   const auto world = task->MakeWorld(kWorld, true);
@@ -140,9 +150,9 @@ TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
   const IkWorld world = MakeIkWorld(tree, {}, kWorld);
   IkMethod method{"today", FindIkSolver("damped-least-squares"), {}};
   const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
-  const CellResult built_in = RunIkCell(tree, world, method, false);
+  const CellResult built_in = RunIkCell(tree, world, method, {});
   const CellResult judged =
-      ScoreIkAnswer(tree, world, {solution.angles, solution.iterations, solution.fk_evaluations}, kMaxSteps, false);
+      ScoreIkAnswer(tree, world, {solution.angles, solution.iterations, solution.fk_evaluations}, kMaxSteps, {});
   EXPECT_EQ(judged.status, built_in.status);
   ASSERT_EQ(judged.metrics.size(), built_in.metrics.size());
   for (std::size_t i = 0; i < judged.metrics.size(); ++i) {
@@ -164,7 +174,7 @@ TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
     target.axes = effector.axes;
     world.problem.targets.push_back(target);
   }
-  const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, 3, 4}, kMaxSteps, false);
+  const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, 3, 4}, kMaxSteps, {});
   EXPECT_EQ(cell.status, Status::kUnsolved);
   EXPECT_THAT(cell.reason,
               HasSubstr(fmt::format("1 angle outside the limits, angles_deg[{}] the farthest, by 5°", elbow)));
@@ -177,7 +187,7 @@ TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
 TEST(IkExchange, CountsAnAnswerThatCostMoreThanTheLimitAsUnsolvedInItsPenalisedCost) {
   const KinematicTree tree = MakeBodyTree({});
   const IkWorld world = MakeIkWorld(tree, {}, kWorld);
-  const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, kMaxSteps + 1, 4}, kMaxSteps, false);
+  const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, kMaxSteps + 1, 4}, kMaxSteps, {});
   EXPECT_EQ(ValueOf(cell, "iterations_par2"), 2 * kMaxSteps);
   EXPECT_EQ(ValueOf(cell, "fk_evaluations_par2"), 4);
 }

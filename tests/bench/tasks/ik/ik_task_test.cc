@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/tasks/ik/ik_world.h"
 
 namespace etude {
 namespace {
@@ -50,7 +49,7 @@ TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
   const std::vector<CellResult> cells = CellsOf(**task);
   ASSERT_EQ(cells.size(), 3u);
   for (const CellResult& cell : cells) {
-    EXPECT_EQ(cell.metrics.size(), 12u);
+    EXPECT_EQ(cell.metrics.size(), 13u);
     for (const MetricValue& metric : cell.metrics) EXPECT_NE(FindMetric(metric.id), nullptr) << metric.id;
     EXPECT_FALSE(cell.recording);
     ASSERT_EQ(cell.series.size(), 2u);
@@ -62,13 +61,12 @@ TEST(IkTask, GivesEveryMethodACellWithAllMetrics) {
   EXPECT_NE(cells[0].digests[1], cells[1].digests[1]);
 }
 
-TEST(IkTask, CallsACellUnsolvedWithItsErrorsWhenAnEffectorIsNotHome) {
+TEST(IkTask, CallsACellUnsolvedWhenAnEffectorIsNotHome) {
   const auto task = Make("{joint_noise_deg: 15, max_sweeps: 300}");
   const std::vector<CellResult> cells = CellsOf(**task);
   const CellResult& fixed = cells[0];
   EXPECT_EQ(fixed.status, Status::kUnsolved);
-  EXPECT_THAT(fixed.reason, HasSubstr("worst effector"));
-  EXPECT_THAT(fixed.reason, HasSubstr("after 300 sweeps"));
+  EXPECT_EQ(fixed.reason, "the limit of 300 sweeps");
   EXPECT_EQ(Metric(fixed, "solved_practical"), 0);
   EXPECT_GT(Metric(fixed, "orientation_error_deg"), 0.1);
   const CellResult& today = cells[2];
@@ -113,16 +111,17 @@ TEST(IkTask, KeepsHiddenAnglesWithinTheToleranceOfAMethod) {
   EXPECT_EQ(Metric(cells[1], "hidden_angle_change_deg"), Metric(cells[2], "hidden_angle_change_deg"));
 }
 
-TEST(IkTask, RecordsTruthStartAndEveryIteration) {
-  const auto task = Make("{max_sweeps: 5}", "[{name: fixed, weights: fixed}]");
-  const CellResult cell = (*task)->MakeWorld(kWorld, true)->Run(0);
-  ASSERT_TRUE(cell.recording);
-  ASSERT_EQ(cell.recording->tracks.size(), 3u);
-  for (const Track& track : cell.recording->tracks) EXPECT_EQ(track.motion.poses.size(), 6u) << track.name;
-  const Role head = Role::kHead;
-  const auto pose = [&](int track, int frame) { return cell.recording->tracks[track].motion.poses[frame][head]; };
-  EXPECT_EQ(pose(2, 0), pose(1, 0)) << "the solution begins at the start";
-  EXPECT_LT(glm::distance(pose(2, 5), pose(0, 5)), glm::distance(pose(1, 5), pose(0, 5))) << "and nears the truth";
+TEST(IkTask, KeepsTheSeriesThatAScenarioAsksFor) {
+  const auto names = [](const std::string& condition) {
+    std::vector<std::string> all;
+    const auto task = Make(condition, "[{name: a, weights: fixed}]");
+    const CellResult cell = RunWorld(**task, kWorld, 1)[0];
+    for (const Series& series : cell.series) all.push_back(series.name);
+    return all;
+  };
+  EXPECT_THAT(names("{}"), testing::ElementsAre("position_error_max_cm", "orientation_error_max_deg"));
+  EXPECT_EQ(names("{record: [effector_errors, angle_changes, effector_curves]}").size(), 2u + 12 + 2 + 16);
+  EXPECT_THAT(names("{record: [angle_changes]}"), testing::Contains("angle_error_deg"));
 }
 
 TEST(IkTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {
@@ -138,56 +137,49 @@ TEST(IkTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {
   EXPECT_EQ(ComplaintOf("{poses: 0.7, noise: uniform, joint_noise_deg: 25, stop_at: tight}"), "");
 }
 
-TEST(IkWorld, ASweepChangesStrengthsAndNotTheDice) {
-  const KinematicTree tree = MakeBodyTree({});
-  const auto world = [&](double noise_deg, double range) {
-    IkTrialOptions options;
-    options.pose_range = range;
-    options.joint_noise_deg = noise_deg;
-    return MakeIkWorld(tree, options, kWorld);
+TEST(IkTask, RefusesKeysThatMeanNothingWhereItStarts) {
+  EXPECT_THAT(ComplaintOf("{start: middle, joint_noise_deg: 3}"), HasSubstr("start 'middle' has no 'joint_noise_deg'"));
+  EXPECT_THAT(ComplaintOf("{start: stretched, poses: 1}"), HasSubstr("has no 'poses'"));
+  EXPECT_THAT(ComplaintOf("{start: stretched, unreachable_cm: 1}"), HasSubstr("has no 'unreachable_cm'"));
+  EXPECT_THAT(ComplaintOf("{start: middle}", "[{name: a, tolerance_times_noise: 1}]"), HasSubstr("start with noise"));
+  EXPECT_THAT(ComplaintOf("{targets: orientation, unreachable_cm: 1}"), HasSubstr("positions"));
+  EXPECT_THAT(ComplaintOf("{limit_set: hopenfeld}"), HasSubstr("did you mean 'hoppenfeld'"));
+  EXPECT_THAT(ComplaintOf("{record: [effector_error]}"), HasSubstr("did you mean 'effector_errors'"));
+  EXPECT_EQ(ComplaintOf("{start: stretched, limit_set: ama, record: [angle_changes]}"), "");
+}
+
+TEST(IkTask, JudgesOnlyWhatIsAskedFor) {
+  const std::string one_method = "[{name: today, solver: damped-least-squares}]";
+  const CellResult both = RunWorld(**Make("{}", one_method), kWorld, 1)[0];
+  EXPECT_LT(Metric(both, "orientation_error_max_deg"), 0.1) << "a control";
+  const CellResult position = RunWorld(**Make("{targets: position}", one_method), kWorld, 1)[0];
+  EXPECT_EQ(position.status, Status::kOk) << position.reason;
+  EXPECT_EQ(Metric(position, "solved_practical"), 1);
+  EXPECT_LT(Metric(position, "position_error_max_cm"), 0.1);
+  EXPECT_GT(Metric(position, "orientation_error_max_deg"), 0.1) << "measured, but nobody asked for it";
+  const CellResult orientation = RunWorld(**Make("{targets: orientation}", one_method), kWorld, 1)[0];
+  EXPECT_EQ(orientation.status, Status::kOk) << orientation.reason;
+  EXPECT_LT(Metric(orientation, "orientation_error_max_deg"), 0.1);
+  EXPECT_GT(Metric(orientation, "position_error_max_cm"), 0.1);
+}
+
+TEST(IkTask, TellsWhyACellStopped) {
+  const auto reason = [](const std::string& condition, const std::string& method) {
+    return RunWorld(**Make(condition, "[{name: a, " + method + "}]"), kWorld, 1)[0].reason;
   };
-  const IkWorld weak = world(1, 0.5), strong = world(4, 0.5), wide = world(1, 1.0);
-  EXPECT_EQ(weak.truth.angles, strong.truth.angles);
-  int unclipped = 0;
-  for (std::size_t i = 0; i < tree.limits.size(); ++i) {
-    const double middle = 0.5 * (tree.limits[i].lower + tree.limits[i].upper);
-    EXPECT_NEAR(wide.truth.angles[i] - middle, 2 * (weak.truth.angles[i] - middle), 1e-12);
-    const double start = strong.problem.start.angles[i];
-    if (start == tree.limits[i].lower || start == tree.limits[i].upper) continue;
-    EXPECT_NEAR(start - strong.truth.angles[i], 4 * (weak.problem.start.angles[i] - weak.truth.angles[i]), 1e-12);
-    ++unclipped;
-  }
-  EXPECT_GT(unclipped, 20);
+  EXPECT_EQ(reason("{max_sweeps: 7}", "weights: fixed"), "the limit of 7 sweeps");
+  EXPECT_EQ(reason("{unreachable_cm: 5}", "solver: damped-least-squares"), "a target is out of reach");
+  EXPECT_EQ(reason("{start: stretched}", "solver: damped-least-squares"), "stalled before the targets were met");
+  EXPECT_THAT(reason("{}", "solver: fabrik"), HasSubstr("sees positions only"));
+  EXPECT_EQ(reason("{targets: position}", "solver: fabrik"), "") << "solved, where positions are all that is asked for";
 }
 
-TEST(IkWorld, TargetsAreWhatTheTrueAnglesGive) {
-  const KinematicTree tree = MakeBodyTree({});
-  const IkWorld world = MakeIkWorld(tree, {}, kWorld);
-  const TreeFrames frames = ComputeFrames(tree, world.truth);
-  for (std::size_t e = 0; e < 4; ++e) EXPECT_EQ(world.problem.targets[e].position, frames.effectors[e].position);
-}
-
-// Table 5.1(a): uniform noise of ±25° puts the ends 29–67 cm off and their axes 10–55°.
-TEST(IkWorld, UniformNoiseOf25DegreesDisturbsAsMuchAsPaperBsTable) {
-  const KinematicTree tree = MakeBodyTree({});
-  IkTrialOptions options;
-  options.noise = NoiseKind::kUniform;
-  options.joint_noise_deg = 25;
-  double position = 0, axis = 0;
-  constexpr int kTrials = 200;
-  for (int trial = 0; trial < kTrials; ++trial) {
-    const IkWorld world = MakeIkWorld(tree, options, {.suite_seed = 1, .scenario = "table", .trial = trial});
-    const TreeFrames start = ComputeFrames(tree, world.problem.start);
-    for (std::size_t e = 0; e < 4; ++e) {
-      const EffectorError error = ErrorOf(start.effectors[e], world.problem.targets[e]);
-      position += error.position / (4 * kTrials);
-      axis += error.MeanAxisAngle(glm::dvec3(1)) / (4 * kTrials);
-    }
-  }
-  EXPECT_GT(position, 0.29);
-  EXPECT_LT(position, 0.67);
-  EXPECT_GT(axis, Radians(10));
-  EXPECT_LT(axis, Radians(55));
+TEST(IkTask, CountsBrokenLimitsOfAMethodThatIgnoresThem) {
+  const std::string methods = "[{name: kept, weights: fixed-tuned}, {name: free, weights: fixed-tuned, limits: false}]";
+  const auto cells = RunWorld(**Make("{poses: 1, joint_noise_deg: 40}", methods), kWorld, 2);
+  EXPECT_EQ(Metric(cells[0], "limit_violations"), 0);
+  EXPECT_GT(Metric(cells[1], "limit_violations"), 0);
+  EXPECT_EQ(Metric(cells[1], "solved_practical"), 0);
 }
 
 }  // namespace
