@@ -72,7 +72,7 @@ int ListKeysCommand(bool as_markdown) {
   for (const KeyGroup& group : AllKeyGroups()) {
     fmt::print("{}{}\n", group.title, group.path.empty() ? "" : ": " + group.path);
     for (const KeyInfo& key : group.keys) {
-      fmt::print("  {:<22} {}\n  {:<22} {}; {}\n", key.key, key.meaning, "", key.allowed,
+      fmt::print("  {:<22} {}\n  {:<22} {}; {}\n", key.key, key.meaning, "", key.AllowedWhere(),
                  key.fallback.empty() ? "required" : "default: " + key.fallback);
     }
     fmt::print("\n");

@@ -10,11 +10,9 @@ std::vector<MetricInfo> PutTogether() {
     const char* domain;
     std::vector<MetricInfo> metrics;
   };
-  Part parts[] = {{"Inverse kinematics", IkCatalogue()},
-                  {"Camera capture", CaptureCatalogue()},
-                  {"Person masks", MaskCatalogue()},
-                  {"Transitions", TransitionCatalogue()},
-                  {"Move detection", DetectionCatalogue()}};
+  Part parts[] = {{"Inverse kinematics", IkCatalogue()},  {"Tracking", TrackingCatalogue()},
+                  {"Camera capture", CaptureCatalogue()}, {"Person masks", MaskCatalogue()},
+                  {"Transitions", TransitionCatalogue()}, {"Move detection", DetectionCatalogue()}};
   std::vector<MetricInfo> all;
   for (Part& part : parts) {
     for (MetricInfo& metric : part.metrics) {

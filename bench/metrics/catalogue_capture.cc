@@ -36,7 +36,8 @@ std::vector<MetricInfo> CaptureCatalogue() {
        .practical_reason = kMillimetre,
        .formula = "1000 · (1/(F·20)) Σ_f Σ_j ‖p_fj − t_fj‖ with p, t in metres in the world; nothing is aligned, not "
                   "even the root. F is every frame of the window: one that was not recovered holds the last recovered "
-                  "pose (before the first, the first), so that failing on hard frames does not improve the mean.",
+                  "pose (before the first, the first), so that failing on hard frames does not improve the mean. In "
+                  "task tracking the truth is the pose of the body that is followed.",
        .null_rule = kNoFrame,
        .source = kPoseSource,
        .inputs = kPoses},

@@ -9,6 +9,7 @@ namespace etude {
 
 /// The catalogue by domain; `AllMetrics` puts them together.
 std::vector<MetricInfo> IkCatalogue();
+std::vector<MetricInfo> TrackingCatalogue();
 std::vector<MetricInfo> CaptureCatalogue();
 std::vector<MetricInfo> MaskCatalogue();
 std::vector<MetricInfo> TransitionCatalogue();

@@ -13,6 +13,7 @@
 #include "bench/metrics/segmentation.h"
 #include "bench/metrics/share.h"
 #include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/tracking.h"
 #include "bench/metrics/vector_input.h"
 #include "engine/base/angles.h"
 #include "engine/fuzzy/distance.h"
@@ -35,6 +36,22 @@ IkErrorSummary IkErrors(const Json& in) {
   return SummariseIkErrors(errors);
 }
 
+/// What the world asks for; both, where nothing is said.
+IkAsked AskedOf(const Json& in) {
+  const auto asked = in.value("asked", std::string("both"));
+  return {.positions = asked != "orientation", .axes = asked != "position"};
+}
+
+int LimitViolationsOf(const Json& in) {
+  std::vector<double> angles;
+  std::vector<AngleRange> limits;
+  for (const Json& degrees : in.at("found_deg")) angles.push_back(Radians(degrees.get<double>()));
+  for (const Json& range : in.at("limits_deg")) {
+    limits.push_back({Radians(range.at(0).get<double>()), Radians(range.at(1).get<double>())});
+  }
+  return CountLimitViolations(angles, limits);
+}
+
 double AngleDifferenceDeg(const Json& in, const char* other_key) {
   const auto radians = [&](const char* key) {
     auto angles = in.at(key).get<std::vector<double>>();
@@ -46,6 +63,23 @@ double AngleDifferenceDeg(const Json& in, const char* other_key) {
 
 double PenalisedCostOf(const Json& in, const char* spent, const char* limit) {
   return PenalisedCost(in.at(spent).get<double>(), in.at(limit).get<double>(), in.at("solved").get<bool>());
+}
+
+// Tracking.
+
+std::vector<TrackedFrame> TrackedFrames(const Json& in) {
+  std::vector<TrackedFrame> frames;
+  for (const Json& frame : in.at("frames")) frames.push_back({IkErrors(frame)});
+  return frames;
+}
+
+FrameIterations IterationsOf(const Json& in) {
+  return SummariseIterations(in.at("frame_iterations").get<std::vector<int>>());
+}
+
+Value JerkRatio(const Json& in) {
+  const auto angles = [&](const char* key) { return in.at(key).get<std::vector<std::vector<double>>>(); };
+  return AngleJerkRatio(angles("found_frames_deg"), angles("true_frames_deg"));
 }
 
 // Camera capture.
@@ -212,13 +246,21 @@ constexpr Evaluator kEvaluators[] = {
     {"orientation_error_max_deg", [](const Json& in) -> Value { return IkErrors(in).orientation_max_deg; }},
     {"hidden_angle_error_deg", [](const Json& in) -> Value { return AngleDifferenceDeg(in, "true_deg"); }},
     {"hidden_angle_change_deg", [](const Json& in) -> Value { return AngleDifferenceDeg(in, "start_deg"); }},
-    {"solved_practical", [](const Json& in) -> Value { return IsSolvedPractically(IkErrors(in)) ? 1 : 0; }},
-    {"solved_tight", [](const Json& in) -> Value { return IsSolvedTightly(IkErrors(in)) ? 1 : 0; }},
+    {"solved_practical",
+     [](const Json& in) -> Value { return IsSolvedPractically(IkErrors(in), AskedOf(in)) ? 1 : 0; }},
+    {"solved_tight", [](const Json& in) -> Value { return IsSolvedTightly(IkErrors(in), AskedOf(in)) ? 1 : 0; }},
+    {"limit_violations", [](const Json& in) -> Value { return LimitViolationsOf(in); }},
     {"iterations", [](const Json& in) -> Value { return in.at("iterations").get<double>(); }},
     {"fk_evaluations", [](const Json& in) -> Value { return in.at("fk_evaluations").get<double>(); }},
     {"iterations_par2", [](const Json& in) -> Value { return PenalisedCostOf(in, "iterations", "max_iterations"); }},
     {"fk_evaluations_par2",
      [](const Json& in) -> Value { return PenalisedCostOf(in, "fk_evaluations", "max_fk_evaluations"); }},
+
+    {"frames_solved", [](const Json& in) -> Value { return ShareSolvedPractically(TrackedFrames(in)); }},
+    {"frames_solved_tight", [](const Json& in) -> Value { return ShareSolvedTightly(TrackedFrames(in)); }},
+    {"iterations_per_frame", [](const Json& in) -> Value { return IterationsOf(in).mean; }},
+    {"iterations_per_frame_p95", [](const Json& in) -> Value { return IterationsOf(in).p95; }},
+    {"angle_jerk_ratio", JerkRatio},
 
     {"mpjpe_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").mpjpe_mm; }},
     {"mpjpe_before_ik_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "before_ik").mpjpe_mm; }},

@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "bench/metrics/percentile.h"
 #include "engine/base/angles.h"
 
 namespace etude {
@@ -107,15 +108,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
   return jumps;
 }
 
-double NaturalLimitCm(std::vector<double> natural_jumps) {
-  assert(!natural_jumps.empty());
-  std::sort(natural_jumps.begin(), natural_jumps.end());
-  constexpr double kShare = 0.95;
-  const double rank = kShare * static_cast<double>(natural_jumps.size() - 1);
-  const std::size_t below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, natural_jumps.size() - 1);
-  return std::lerp(natural_jumps[below], natural_jumps[above], rank - static_cast<double>(below));
-}
+double NaturalLimitCm(std::vector<double> natural_jumps) { return Percentile95(std::move(natural_jumps)); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
   return jump_cm && *jump_cm < NaturalLimitCm(std::move(natural_jumps_cm));

@@ -24,6 +24,7 @@ const std::vector<Recipe>& Recipes() {
       {"transition", {"builtin:clap", "builtin:sway", "builtin:boxing"}, {"{wait_s: 1}", "{wait_s: 3}"}},
       {"detection", {"builtin:clap", "builtin:sway"}, {"{events: 4}", "{events: 8, noise: 2}"}},
       {"ik", {}, {"{joint_noise_deg: 5}", "{joint_noise_deg: 15}"}},
+      {"tracking", {"builtin:clap"}, {"{duration_s: 0.2}", "{duration_s: 0.4, rate_hz: 15}"}},
       {"capture", {"builtin:clap"}, {"{duration_s: 0.1}", "{duration_s: 0.1, clothes: everyday}"}}};
   return recipes;
 }

@@ -150,7 +150,7 @@ std::string KeysAsMarkdown() {
     page += fmt::format("\n## {}{}\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", group.title,
                         group.path.empty() ? "" : fmt::format(": `{}`", group.path));
     for (const KeyInfo& key : group.keys) {
-      page += fmt::format("| `{}` | {} | {} | {} |\n", key.key, Cell(key.allowed),
+      page += fmt::format("| `{}` | {} | {} | {} |\n", key.key, Cell(key.AllowedWhere()),
                           key.fallback.empty() ? "required" : Cell(key.fallback), Cell(key.meaning));
     }
   }

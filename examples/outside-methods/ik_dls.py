@@ -68,7 +68,14 @@ def lacking(tree, targets, places, rotations):
         for column in range(3):
             turn = add(turn, cross([row[column] for row in rotation], [row[column] for row in target["rotation"]]))
         lacks += subtract(target["position_m"], place) + [x / 2 for x in turn]
-    return lacks
+    return only_asked(tree, lacks)
+
+
+def only_asked(tree, numbers):
+    """A world may ask for positions only, or for rotations only: the other three numbers of an effector are zero."""
+    names = tree.get("asked", ["position", "orientation"])
+    asked = 3 * ["position" in names] + 3 * ["orientation" in names]
+    return [number if asked[i % 6] else 0 for i, number in enumerate(numbers)]
 
 
 def moved_by(tree, affects, places, rotations, pivots):
@@ -79,7 +86,7 @@ def moved_by(tree, affects, places, rotations, pivots):
         for e, effector in enumerate(tree["effectors"]):
             place = add(places[effector["joint"]], apply(rotations[effector["joint"]], effector["offset_m"]))
             row += cross(axis, subtract(place, pivot)) + axis if affects[e][angle] else [0] * 6
-        rows.append(row)
+        rows.append(only_asked(tree, row))
     return rows
 
 

@@ -10,7 +10,11 @@ namespace etude {
 /// into `options`. Settings of another solver are a mistake worth telling. Complaints stay in `fields`.
 const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options);
 
-/// What the function above reads, for the reference page.
+/// Reads a condition's `stop_at` (practical by default) into the goals of `options`.
+void ReadIkGoals(Fields& condition, IkOptions& options);
+
+/// What the functions above read, for the reference page.
 std::vector<KeyInfo> IkSolverKeys();
+KeyInfo IkGoalsKey();
 
 }  // namespace etude

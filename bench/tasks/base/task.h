@@ -137,12 +137,22 @@ struct TaskInput {
   const ClipLibrary& clips;
 };
 
+/// What another key of the same mapping must say for a key to be allowed beside it.
+struct KeyCondition {
+  std::string key;                  ///< "solver"; empty: no condition
+  std::vector<std::string> values;  ///< any of these
+};
+
 /// A key of a scenario file, for the reference page and for complaints.
 struct KeyInfo {
   std::string key;
   std::string allowed;   ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
   std::string fallback;  ///< what an absent key means, as one would write it; "" = it must be there
   std::string meaning;   ///< one sentence
+  KeyCondition only_with = {};
+
+  /// `allowed`, and what it goes with: "0…1; with `weights: adaptive`".
+  std::string AllowedWhere() const;
 };
 
 /// A kind of question that can be asked: one entry per folder of bench/tasks.

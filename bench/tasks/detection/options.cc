@@ -89,9 +89,12 @@ std::vector<KeyInfo> DetectionMethodKeys() {
       {"weights", Join(kWeights), "fixed", "How much an angle counts: all alike, or by how well its joints are seen."},
       {"threshold", "0.01…1", "(the scenario's)", "The weighted share of a key pose's angles that must be met."},
       {"hold_frames", "1…30", "(the scenario's)", "For how many frames in a row it must be met."},
-      {"inferred_weight", "0…1; with `weights: adaptive`", "0.3", "What an angle with an inferred joint counts."},
-      {"not_tracked_weight", "0…1; with `weights: adaptive`", "0",
-       "What an angle with a joint that is not tracked counts."}};
+      {"inferred_weight", "0…1", "0.3", "What an angle with an inferred joint counts.", {"weights", {"adaptive"}}},
+      {"not_tracked_weight",
+       "0…1",
+       "0",
+       "What an angle with a joint that is not tracked counts.",
+       {"weights", {"adaptive"}}}};
 }
 
 }  // namespace etude

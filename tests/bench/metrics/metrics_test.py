@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
-from independent import capture, common, detection, ik, transition  # noqa: E402
+from independent import capture, common, detection, ik, tracking, transition  # noqa: E402
 from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
 
@@ -28,25 +28,29 @@ MUTANTS = {
         "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
         "mpjpe_before_ik_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg",
         "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "roc_auc"]),
+        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "roc_auc", "frames_solved", "frames_solved_tight",
+        "iterations_per_frame"]),
     "worst for mean": (common, {"mean": or_nothing(max)}, [
         "position_error_cm", "orientation_error_deg", "orientation_error_max_deg", "hidden_angle_error_deg",
         "mpjpe_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg", "triangulation_error_mm",
         "reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-        "mean_joint_jump_cm", "foot_slide_cmps"]),
+        "mean_joint_jump_cm", "foot_slide_cmps", "frames_solved", "frames_solved_tight", "iterations_per_frame"]),
     "mean for worst": (common, {"worst": lambda values: statistics.fmean(values) if values else 0.0}, [
         "position_error_max_cm", "orientation_error_max_deg", "solved_practical", "jump_cm", "mean_joint_jump_cm",
         "jerk_peak_mps3", "rotation_step_change_deg", "foot_slide_cmps", "pose_gap_cm", "velocity_gap_cmps",
-        "natural_share", "fuzzy_distance"]),
+        "natural_share", "fuzzy_distance", "frames_solved"]),
     "metres for centimetres": (common, {"CM": 1}, [
         "position_error_cm", "position_error_max_cm", "solved_practical", "bone_length_error_cm", "jump_cm",
-        "mean_joint_jump_cm", "foot_slide_cmps", "pose_gap_cm", "velocity_gap_cmps", "natural_share"]),
+        "mean_joint_jump_cm", "foot_slide_cmps", "pose_gap_cm", "velocity_gap_cmps", "natural_share", "frames_solved",
+        "frames_solved_tight"]),
     "centimetres for millimetres": (common, {"MM": 100}, [
         "mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "auc_200mm", "triangulation_error_mm"]),
     "radians for degrees": (common, {"degrees": lambda radians: radians}, [
-        "orientation_error_deg", "orientation_error_max_deg", "limb_direction_error_deg", "rotation_step_change_deg"]),
+        "orientation_error_deg", "orientation_error_max_deg", "limb_direction_error_deg", "rotation_step_change_deg",
+        "frames_solved"]),
     "counts for shares": (common, {"share": sum}, [
-        "limb_direction_coverage", "triangulation_coverage", "frames_recovered", "precision", "recall"]),
+        "limb_direction_coverage", "triangulation_coverage", "frames_recovered", "precision", "recall", "frames_solved",
+        "frames_solved_tight"]),
     "a window of nine frames": (transition, {"SEAM_REACH": 4}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
     "a window of thirteen": (transition, {"SEAM_REACH": 6}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
     "joints within 49 mm": (capture, {"PCK_MM": 49}, ["pck_50mm"]),
@@ -57,14 +61,19 @@ MUTANTS = {
     "gaps above 19 cm": (transition, {"FALSE_SMOOTH_CM": 19}, ["false_smooth"]),
     "gaps above 21 cm": (transition, {"FALSE_SMOOTH_CM": 21}, ["false_smooth"]),
     "the 90th percentile": (transition, {"NATURAL_QUANTILE": 0.9}, ["natural_share"]),
-    "solved within 0.05": (ik, {"PRACTICAL": 0.05}, ["solved_practical"]),
-    "solved within 0.3": (ik, {"PRACTICAL": 0.3}, ["solved_practical"]),
-    "tight within 0.0005": (ik, {"TIGHT": 0.0005}, ["solved_tight"]),
-    "tight within 0.1": (ik, {"TIGHT": 0.1}, ["solved_tight"]),
+    "the 90th percentile of steps": (tracking, {"PERCENTILE": 0.9}, ["iterations_per_frame_p95"]),
+    "acceleration for jerk": (tracking, {"JERK_ORDER": 2}, ["angle_jerk_ratio"]),
+    "solved within 0.05": (ik, {"PRACTICAL": 0.05}, ["solved_practical", "frames_solved"]),
+    "solved within 0.3": (ik, {"PRACTICAL": 0.3}, ["solved_practical", "frames_solved"]),
+    "tight within 0.0005": (ik, {"TIGHT": 0.0005}, ["solved_tight", "frames_solved_tight"]),
+    "tight within 0.1": (ik, {"TIGHT": 0.1}, ["solved_tight", "frames_solved_tight"]),
     "a cut-off at 5 Hz": (transition, {"SPARC_CUT_OFF_HZ": 5}, ["sparc"]),
     "a cut-off at 20 Hz": (transition, {"SPARC_CUT_OFF_HZ": 20}, ["sparc"]),
     "a threshold of 0.1": (transition, {"SPARC_THRESHOLD": 0.1}, ["sparc"]),
     "padding by 3": (transition, {"SPARC_PADDING": 3}, ["sparc"]),
+    "all asked of every world": (ik, {"asked": lambda given: "both"}, ["solved_practical", "solved_tight"]),
+    "limits to a hundredth of a degree": (ik, {"ROUNDING": 0.01}, ["limit_violations"]),
+    "limits to the last bit": (ik, {"ROUNDING": 0}, ["limit_violations"]),
     "PAR-10": (ik, {"PENALTY": 10}, ["iterations_par2", "fk_evaluations_par2"]),
     "ties lost": (detection, {"tie_credit": lambda: 0.0}, ["roc_auc"]),
     "misses left out": (detection, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(

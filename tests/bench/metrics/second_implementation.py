@@ -9,7 +9,7 @@ disagrees, when a metric has no vector, or when this file does not know a metric
 import json
 import sys
 
-from independent import capture, common, detection, ik, transition
+from independent import capture, common, detection, ik, tracking, transition
 
 METRICS = {  # version 1 of each, but for NEWER
     "position_error_cm": lambda g: common.mean(ik.effector_positions_cm(g)),
@@ -20,10 +20,16 @@ METRICS = {  # version 1 of each, but for NEWER
     "hidden_angle_change_deg": lambda g: ik.angle_difference(g, "start_deg"),
     "solved_practical": lambda g: ik.solved(g, ik.PRACTICAL),
     "solved_tight": lambda g: ik.solved(g, ik.TIGHT),
+    "limit_violations": ik.limit_violations,
     "iterations": lambda g: g["iterations"],
     "fk_evaluations": lambda g: g["fk_evaluations"],
     "iterations_par2": lambda g: ik.penalised(g, "iterations", "max_iterations"),
     "fk_evaluations_par2": lambda g: ik.penalised(g, "fk_evaluations", "max_fk_evaluations"),
+    "frames_solved": lambda g: tracking.frames_solved(g, ik.PRACTICAL),
+    "frames_solved_tight": lambda g: tracking.frames_solved(g, ik.TIGHT),
+    "iterations_per_frame": lambda g: common.mean(g["frame_iterations"]),
+    "iterations_per_frame_p95": tracking.percentile,
+    "angle_jerk_ratio": tracking.jerk_ratio,
     "mpjpe_mm": capture.mpjpe,
     "mpjpe_before_ik_mm": lambda g: capture.mpjpe(g, "before_ik"),
     "pa_mpjpe_mm": capture.pa_mpjpe,

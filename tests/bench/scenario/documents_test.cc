@@ -103,6 +103,24 @@ TEST(Documents, WouldBeCaughtShowingWhatIsNotRead) {
   EXPECT_THAT(complaint(blocks.pieces[1]), HasSubstr("did you mean 'sweep'?"));
 }
 
+TEST(Documents, OfScenariosInTheRepositoryAreRead) {
+  const auto clips = LoadClips({"builtin:boxing"}, {});
+  ASSERT_TRUE(clips);
+  int count = 0;
+  for (const std::string folder : {"quick", "paper", "full"}) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(ETUDE_SOURCE_DIR) / "scenarios" / folder)) {
+      if (entry.path().extension() != ".yaml") continue;
+      const std::string name = entry.path().filename().string();
+      const auto text = ReadWholeFile(entry.path());
+      ASSERT_TRUE(text) << name;
+      EXPECT_EQ(ComplaintOfAll(name, {{name, *text}}, *clips), "") << name;
+      ++count;
+    }
+  }
+  EXPECT_GE(count, 10);
+}
+
 TEST(Documents, ListEveryKeyAsTheProgramDoes) {
   EXPECT_EQ(ReadPage("keys.md"), KeysAsMarkdown()) << "write it anew: etude list keys --markdown > docs/keys.md";
 }

@@ -1,5 +1,6 @@
 #include "bench/scenario/keys.h"
 #include "bench/tasks/registry.h"
+#include "engine/kinematics/solvers/ik_solver.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {
@@ -12,12 +13,23 @@ struct Defaults {
   int count = 0;
 };
 
+/// Whether a key may stand beside `chosen`, "key: value" or nothing, and the defaults of all others.
+bool MayStand(const KeyInfo& key, const std::vector<KeyInfo>& keys, const std::string& chosen) {
+  const KeyCondition& condition = key.only_with;
+  if (condition.key.empty()) return true;
+  const std::string start = condition.key + ": ";
+  const auto other = std::ranges::find(keys, condition.key, &KeyInfo::key);
+  EXPECT_NE(other, keys.end()) << key.key << " goes with " << condition.key;
+  const std::string value = chosen.starts_with(start) ? chosen.substr(start.size()) : other->fallback;
+  return std::ranges::find(condition.values, value) != condition.values.end();
+}
+
 /// The defaults of all keys that have one, written out; those of `chosen` are left alone, as it stands already.
 Defaults WriteOut(const std::vector<KeyInfo>& keys, const std::string& chosen) {
   Defaults defaults{chosen};
   for (const KeyInfo& key : keys) {
     const bool is_value = !key.fallback.empty() && key.fallback.front() != '(';
-    if (!is_value || chosen.starts_with(key.key + ":")) continue;
+    if (!is_value || chosen.starts_with(key.key + ":") || !MayStand(key, keys, chosen)) continue;
     defaults.text += (defaults.text.empty() ? "" : ", ") + key.key + ": " + key.fallback;
     ++defaults.count;
   }
@@ -59,23 +71,21 @@ struct Case {
 TEST(Defaults, OfATaskAreTheSameWrittenOrLeftOut) {
   const auto clips = LoadClips({"builtin:boxing", "builtin:clap", "builtin:sway"}, {});
   ASSERT_TRUE(clips);
-  const std::vector<Case> cases = {{"ik", "", "", "joint_noise_deg: 16"},
-                                   {"ik", "", "solver: damped-least-squares", "poses: 0.4"},
-                                   {"transition", "", "", "wait_s: 0.01"},
-                                   {"detection", "", "", "noise: 1.5"},
-                                   {"detection", "", "weights: adaptive", "turn_deg: 30"},
-                                   {"capture", "duration_s: 0.1", "", "annotation_error_px: 2.5"}};
+  std::vector<Case> cases = {{"ik", "", "", "joint_noise_deg: 16"},
+                             {"transition", "", "", "wait_s: 0.01"},
+                             {"detection", "", "", "noise: 1.5"},
+                             {"detection", "", "weights: adaptive", "turn_deg: 30"},
+                             {"tracking", "duration_s: 0.2", "", "rate_hz: 20"},
+                             {"capture", "duration_s: 0.1", "", "annotation_error_px: 2.5"}};
+  cases.push_back({"ik", "start: middle", "", "poses: 0.4"});
+  cases.push_back({"ik", "start: stretched", "", "max_sweeps: 7"});
+  for (const IkSolver& solver : AllIkSolvers()) {
+    if (solver.name != "ccd") cases.push_back({"ik", "", "solver: " + solver.name, "poses: 0.4"});
+  }
   for (const Case& c : cases) {
     const TaskKind& kind = *FindTaskKind(c.task);
     const Defaults condition = WriteOut(kind.condition_keys, c.condition);
-    std::vector<KeyInfo> method_keys = kind.method_keys;
-    if (c.method == "solver: damped-least-squares") {  // it has neither
-      std::erase_if(method_keys, [](const KeyInfo& key) { return key.key == "weights" || key.key == "refresh"; });
-    }
-    if (c.task == "detection" && c.method.empty()) {  // read with adaptive weights only
-      std::erase_if(method_keys, [](const KeyInfo& key) { return key.key.ends_with("_weight"); });
-    }
-    const Defaults method = WriteOut(method_keys, c.method);
+    const Defaults method = WriteOut(kind.method_keys, c.method);
     EXPECT_GE(condition.count + method.count, 5) << c.task;
     const auto left_out = CellOf(kind, c.condition, c.method, *clips);
     EXPECT_THAT(CellOf(kind, condition.text, method.text, *clips), ElementsAreArray(left_out))

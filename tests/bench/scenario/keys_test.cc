@@ -106,7 +106,8 @@ struct Probe {
 };
 const std::vector<Probe> kProbes = {{"ik", ""},         {"ik", "solver: damped-least-squares"},
                                     {"transition", ""}, {"detection", "weights: adaptive"},
-                                    {"detection", ""},  {"capture", ""}};
+                                    {"detection", ""},  {"capture", ""},
+                                    {"tracking", ""}};
 
 /// What the task complains of when it is made of a condition and one method. It has no clips: whether it gets as far
 /// as to miss them does not matter here.

@@ -6,6 +6,7 @@ from independent.common import angle, distance
 
 PRACTICAL, TIGHT = 0.1, 0.001  # cm and degrees
 PENALTY = 2
+ROUNDING = 1e-6  # degrees
 
 
 def effector_positions_cm(given):
@@ -18,7 +19,18 @@ def effector_angles_deg(given):
 
 
 def solved(given, goal):
-    return int(common.worst(effector_positions_cm(given)) < goal and common.worst(effector_angles_deg(given)) < goal)
+    judged = {"position": [effector_positions_cm], "orientation": [effector_angles_deg],
+              "both": [effector_positions_cm, effector_angles_deg]}[asked(given)]
+    return int(all(common.worst(errors(given)) < goal for errors in judged))
+
+
+def asked(given):
+    return given.get("asked", "both")
+
+
+def limit_violations(given):
+    return sum(angle < lower - ROUNDING or angle > upper + ROUNDING
+               for angle, (lower, upper) in zip(given["found_deg"], given["limits_deg"]))
 
 
 def angle_difference(given, other):

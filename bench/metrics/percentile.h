@@ -1,0 +1,21 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <vector>
+
+namespace etude {
+
+/// The 95th percentile, linear between neighbours of the sorted list (rank 0.95 (n − 1)). Needs a value.
+inline double Percentile95(std::vector<double> values) {
+  assert(!values.empty());
+  std::sort(values.begin(), values.end());
+  constexpr double kShare = 0.95;
+  const double rank = kShare * static_cast<double>(values.size() - 1);
+  const std::size_t below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], rank - static_cast<double>(below));
+}
+
+}  // namespace etude

@@ -1,0 +1,116 @@
+#include "bench/tasks/tracking/tracking_task.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/tracking/exchange.h"
+#include "bench/tasks/tracking/follow.h"
+#include "bench/tasks/tracking/scoring.h"
+#include "bench/tasks/tracking/tracking_options.h"
+#include "bench/tasks/tracking/tracking_world.h"
+#include "engine/formats/bvh.h"
+#include "engine/kinematics/tree_to_body.h"
+
+namespace etude {
+namespace {
+
+/// Everything that the worlds of one condition have in common.
+struct TrackingStudy {
+  TrackingOptions options;
+  IkOptions common;
+  std::vector<TrackingMethod> methods;
+  ClipLibrary clips;
+};
+
+Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+
+class TrackingTaskWorld : public TaskWorld {
+ public:
+  TrackingTaskWorld(const TrackingStudy& study, const LibraryClip& clip, const WorldKey& key, bool keeps_motion)
+      : study_(study), world_(MakeTrackingWorld(study.options, clip, key)), keeps_motion_(keeps_motion) {}
+
+  std::optional<std::string> WhySkipped() const override {
+    if (world_) return std::nullopt;
+    return world_.error().message;
+  }
+
+  CellResult Run(std::size_t method) override {
+    const auto answer = Follow(*world_, study_.methods[method]);
+    if (!answer) return CellResult::Ended(Status::kFailed, answer.error().message);
+    return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
+  }
+
+  Result<Exhibit> MakeProblem() override { return Show(DescribeMotion(*world_)); }
+  Result<Exhibit> MakeTruth() override {
+    Exhibit truth = Show(DescribeTrueAngles(*world_));
+    const Clip clip = ToClip(world_->tree, world_->truth, study_.options.rate_hz, "truth");
+    truth.files.push_back({"truth.bvh", WriteBvh(clip)});
+    return truth;
+  }
+
+  Result<CellResult> Judge(const Json& json) override {
+    const auto answer = ReadTrackingAnswer(json, *world_);
+    if (!answer) return tl::unexpected(answer.error());
+    return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
+  }
+
+ private:
+  const TrackingStudy& study_;
+  const Result<TrackingWorld> world_;
+  const bool keeps_motion_;
+};
+
+class TrackingTask : public Task {
+ public:
+  explicit TrackingTask(TrackingStudy study) : study_(std::move(study)) {}
+
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
+    return std::make_unique<TrackingTaskWorld>(study_, ClipFor(key), key, keeps_motion);
+  }
+
+  std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
+
+  Result<Exhibit> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.common)); }
+
+  std::optional<double> ValueOfFailure(std::string_view metric) const override {
+    return TrackingValueOfFailure(metric);
+  }
+
+ private:
+  const LibraryClip& ClipFor(const WorldKey& key) const {
+    return study_.clips.clips[static_cast<std::size_t>(key.trial) % study_.clips.clips.size()];
+  }
+
+  const TrackingStudy study_;
+};
+
+Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
+  TrackingStudy study;
+  study.options = ReadTrackingOptions(input.condition);
+  study.common = ReadFrameBudget(input.condition);
+  auto methods = ReadTrackingMethods(input.methods, study.common);
+  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  if (!methods) return tl::unexpected(methods.error());
+  if (input.clips.clips.empty()) {
+    return Fail(input.condition.node().place, "a tracking scenario needs clips, e.g. clips: ['builtin:boxing']");
+  }
+  study.methods = *std::move(methods);
+  study.clips = input.clips;
+  return std::make_unique<TrackingTask>(std::move(study));
+}
+
+}  // namespace
+
+TaskKind MakeTrackingTaskKind() {
+  return {.name = "tracking",
+          .question = "Does a solver keep up with a motion, frame by frame?",
+          .default_metrics = {"frames_solved", "mpjpe_mm", "orientation_error_deg", "position_error_cm",
+                              "angle_jerk_ratio", "iterations_per_frame"},
+          .metrics = {"frames_solved", "frames_solved_tight", "position_error_cm", "orientation_error_deg",
+                      "hidden_angle_error_deg", "mpjpe_mm", "angle_jerk_ratio", "iterations_per_frame",
+                      "iterations_per_frame_p95"},
+          .make = MakeTrackingTask,
+          .condition_keys = TrackingConditionKeys(),
+          .method_keys = TrackingMethodKeys()};
+}
+
+}  // namespace etude

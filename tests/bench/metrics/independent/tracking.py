@@ -1,0 +1,35 @@
+"""Metrics of following a motion."""
+from independent import common, ik
+
+PERCENTILE = 0.95
+JERK_ORDER = 3
+
+
+def frames_solved(given, goal):
+    return common.share([ik.solved(frame, goal) for frame in given["frames"]])
+
+
+def percentile(given):
+    counts = sorted(given["frame_iterations"])
+    rank = PERCENTILE * (len(counts) - 1)
+    below = int(rank)
+    above = min(below + 1, len(counts) - 1)
+    return counts[below] + (rank - below) * (counts[above] - counts[below])
+
+
+def difference(series):
+    return [after - before for before, after in zip(series, series[1:])]
+
+
+def jerk(frames):
+    total = 0
+    for angle in zip(*frames):
+        for _ in range(JERK_ORDER):
+            angle = difference(angle)
+        total += sum(map(abs, angle))
+    return total
+
+
+def jerk_ratio(given):
+    truth = jerk(given["true_frames_deg"])
+    return jerk(given["found_frames_deg"]) / truth if truth else None
