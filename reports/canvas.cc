@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -135,13 +136,17 @@ void Canvas::DrawMask(const Mask& mask, const Box& box, const Paint& paint) {
 }
 
 void Canvas::DrawLine(const glm::dvec2& from, const glm::dvec2& to, double width, const Paint& paint) {
+  DrawPath(std::array{from, to}, width, paint);
+}
+
+void Canvas::DrawPath(std::span<const glm::dvec2> points, double width, const Paint& paint) {
   cairo_t* cr = state_->context.get();
   SetPaint(cr, paint);
   cairo_set_line_width(cr, width);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   cairo_new_path(cr);
-  cairo_move_to(cr, from.x, from.y);
-  cairo_line_to(cr, to.x, to.y);
+  for (const glm::dvec2& point : points) cairo_line_to(cr, point.x, point.y);
   cairo_stroke(cr);
 }
 
@@ -151,6 +156,15 @@ void Canvas::DrawDot(const glm::dvec2& centre, double radius, const Paint& paint
   cairo_new_path(cr);
   cairo_arc(cr, centre.x, centre.y, radius, 0, 2 * kPi);
   cairo_fill(cr);
+}
+
+void Canvas::DrawRing(const glm::dvec2& centre, double radius, double width, const Paint& paint) {
+  cairo_t* cr = state_->context.get();
+  SetPaint(cr, paint);
+  cairo_set_line_width(cr, width);
+  cairo_new_path(cr);
+  cairo_arc(cr, centre.x, centre.y, radius, 0, 2 * kPi);
+  cairo_stroke(cr);
 }
 
 void Canvas::DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,

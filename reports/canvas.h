@@ -2,6 +2,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "engine/base/image.h"
@@ -37,7 +38,10 @@ class Canvas {
   /// Paints where the mask is set, the mask stretched over the box.
   void DrawMask(const Mask& mask, const Box& box, const Paint& paint);
   void DrawLine(const glm::dvec2& from, const glm::dvec2& to, double width, const Paint& paint);
+  /// Straight lines from point to point, at least one.
+  void DrawPath(std::span<const glm::dvec2> points, double width, const Paint& paint);
   void DrawDot(const glm::dvec2& centre, double radius, const Paint& paint);
+  void DrawRing(const glm::dvec2& centre, double radius, double width, const Paint& paint);
   /// `origin` is the left end of the baseline. Text wider than `room` pixels is cut and ends in "…".
   void DrawText(const glm::dvec2& origin, const std::string& text, double size, const Paint& paint, double room,
                 bool bold = false);

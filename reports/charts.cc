@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "reports/cell_series.h"
 #include "reports/figures.h"
 #include "reports/findings.h"
 
@@ -64,18 +65,14 @@ Mark MarkOf(const ConditionSummary& condition, const std::string& method, const 
   return {};
 }
 
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
-
-// The first curve name whose axis is "iteration", in the order of the run.
+// The first metric along iterations, in the order of the run. Curves that are no metric, such as one effector's, have
+// pictures of their own.
 std::optional<std::string> IterationCurveName(const RunData& run, const std::set<std::string>& cells) {
   for (const CellSeries& cell : run.series) {
     if (!cells.contains(cell.cell)) continue;
     for (const Series& series : cell.series) {
-      if (series.axis == "iteration" && !series.values.empty()) return series.name;
+      const bool is_curve = series.axis == "iteration" && !series.values.empty();
+      if (is_curve && FindMetric(series.name) != nullptr) return series.name;
     }
   }
   return std::nullopt;
@@ -123,20 +120,6 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
   json["groupLabel"] = first.size() == 1 ? first.front().key : "";
   chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return chart;
-}
-
-std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves) {
-  std::size_t longest = 0;
-  for (const auto* curve : curves) longest = std::max(longest, curve->size());
-  std::vector<double> median;
-  for (std::size_t step = 0; step < longest; ++step) {
-    std::vector<double> values;
-    for (const auto* curve : curves) {
-      if (!curve->empty()) values.push_back((*curve)[std::min(step, curve->size() - 1)]);
-    }
-    median.push_back(Median(std::move(values)));
-  }
-  return median;
 }
 
 std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary& scenario) {

@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "bench/results/run_data.h"
 
@@ -23,9 +22,5 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario);
 /// How an iterative method gets there: the median over all cells of each method's curves along
 /// iterations; nothing when the run kept no such curves.
 std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary& scenario);
-
-/// The median of each step over several curves of different lengths: a curve that ended keeps its last
-/// value, as a solver that stopped keeps its answer.
-std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
 
 }  // namespace etude

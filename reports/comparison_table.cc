@@ -18,21 +18,6 @@ struct Line {
 
 int Worlds(const Comparison& c) { return c.pairs + c.only_baseline + c.only_method + c.neither; }
 
-/// A difference, short: tables have no room for "percentage points".
-std::string Amount(double difference, const MetricWords& words) {
-  return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
-}
-
-std::string MetricText(const std::string& metric) {
-  const MetricWords words = WordsFor(metric);
-  const MetricInfo* info = FindMetric(metric);
-  if (info == nullptr) return words.label;
-  const std::string matters =
-      fmt::format("{:g}{}", info->practical * words.scale, words.is_share ? " pp" : words.difference_suffix);
-  const std::string_view direction = DirectionWords(info->direction);
-  return fmt::format("{} ({}{}{} matters)", words.label, direction, direction.empty() ? "" : ", ", matters);
-}
-
 std::string EffectText(const Comparison& c) {
   if (!c.effect_size) return std::string(kNoValue);
   const std::string size = FormatFixed(*c.effect_size, 2);
@@ -49,11 +34,11 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c) {
   const MetricWords words = WordsFor(c.metric);
   Line line;
   line.condition = ConditionLabel(condition.condition);
-  line.metric = MetricText(c.metric);
+  line.metric = MetricHeading(c.metric);
   line.methods = fmt::format("{} − {}", c.method, c.baseline);
   line.pairs = Worlds(c) == c.pairs ? FormatCount(c.pairs)
                                     : fmt::format("{} of {}", FormatCount(c.pairs), FormatCount(Worlds(c)));
-  line.difference = c.difference ? Amount(*c.difference, words) : std::string(kNoValue);
+  line.difference = c.difference ? ShortDifference(*c.difference, words) : std::string(kNoValue);
   line.interval = FormatInterval(c.ci_low, c.ci_high, words);
   if (c.interval == IntervalKind::kPercentile && c.differing > 0) line.interval += " †";
   line.p = FormatP(c.p_holm);
@@ -99,6 +84,20 @@ std::size_t CountOf(const ScenarioSummary& scenario) {
 
 }  // namespace
 
+std::string ShortDifference(double difference, const MetricWords& words) {
+  return FormatNumber(difference * words.scale) + (words.is_share ? " pp" : words.difference_suffix);
+}
+
+std::string MetricHeading(const std::string& metric) {
+  const MetricWords words = WordsFor(metric);
+  const MetricInfo* info = FindMetric(metric);
+  if (info == nullptr) return words.label;
+  const std::string matters =
+      fmt::format("{:g}{}", info->practical * words.scale, words.is_share ? " pp" : words.difference_suffix);
+  const std::string_view direction = DirectionWords(info->direction);
+  return fmt::format("{} ({}{}{} matters)", words.label, direction, direction.empty() ? "" : ", ", matters);
+}
+
 std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
   if (CountOf(scenario) == 0) return "";
   const bool swept = scenario.conditions.size() > 1;
@@ -113,7 +112,7 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
   const int columns = swept ? 8 : 7;
   for (const std::string& metric : scenario.headline_metrics) {
     html += fmt::format("<tbody><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>", columns,
-                        EscapeMarkup(MetricText(metric)));
+                        EscapeMarkup(MetricHeading(metric)));
     // Conditions of the same methods stand under each other.
     for (const std::string& method : scenario.methods) {
       for (const ConditionSummary& condition : scenario.conditions) {

@@ -3,8 +3,15 @@
 #include <string>
 
 #include "bench/results/run_data.h"
+#include "reports/figures.h"
 
 namespace etude {
+
+/// What a group of rows is about: "orientation error (lower is better, 0.1° matters)".
+std::string MetricHeading(const std::string& metric);
+
+/// A difference with its unit, short: tables have no room for "percentage points".
+std::string ShortDifference(double difference, const MetricWords& words);
 
 /// Every comparison of one scenario, a row each: pairs, difference with its interval, corrected p, effect size,
 /// verdict, and what to know before believing it. "" when nothing is compared.

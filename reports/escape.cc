@@ -1,6 +1,10 @@
 #include "reports/escape.h"
 
+#include <fmt/core.h>
+
+#include <array>
 #include <cstddef>
+#include <utility>
 
 namespace etude {
 namespace {
@@ -24,6 +28,66 @@ std::size_t CharacterLength(std::string_view text) {
   if (first == 0xF0 && byte(1) < 0x90) return 0;
   if (first == 0xF4 && byte(1) >= 0x90) return 0;
   return length;
+}
+
+using LatexRow = std::pair<std::string_view, std::string_view>;
+constexpr std::array<LatexRow, 31> kLatex{{
+    {"\\", "\\textbackslash{}"},
+    {"{", "\\{"},
+    {"}", "\\}"},
+    {"&", "\\&"},
+    {"%", "\\%"},
+    {"$", "\\$"},
+    {"#", "\\#"},
+    {"_", "\\_"},
+    {"~", "\\textasciitilde{}"},
+    {"^", "\\textasciicircum{}"},
+    {"<", "\\textless{}"},
+    {">", "\\textgreater{}"},
+    {"|", "\\textbar{}"},
+    {"\"", "''"},
+    {"`", "\\textasciigrave{}"},
+    {"\n", " "},
+    {"\r", " "},
+    {"\t", " "},
+    {"−", "$-$"},
+    {"–", "--"},
+    {"—", "---"},
+    {"×", "$\\times$"},
+    {"±", "$\\pm$"},
+    {"≤", "$\\le$"},
+    {"≥", "$\\ge$"},
+    {"°", "$^\\circ$"},
+    {"“", "``"},
+    {"”", "''"},
+    {"‘", "`"},
+    {"’", "'"},
+    {"†", "\\dag{}"},
+}};
+
+// The number of the character whose well-formed UTF-8 `bytes` are.
+unsigned CodePoint(std::string_view bytes) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  if (bytes.size() == 1) return byte(0);
+  unsigned code = byte(0) & (0xFFu >> (bytes.size() + 1));
+  for (std::size_t i = 1; i < bytes.size(); ++i) code = code << 6 | (byte(i) & 0x3Fu);
+  return code;
+}
+
+// ASCII, and Western letters with their accents, which every LaTeX font can compose.
+bool IsInEveryFont(unsigned code) {
+  if (code < 0x80) return true;
+  const bool needs_other_fonts =
+      code == 0xD0 || code == 0xD7 || code == 0xDE || code == 0xF0 || code == 0xF7 || code == 0xFE;
+  return code >= 0xC0 && code <= 0xFF && !needs_other_fonts;
+}
+
+std::string LatexOf(std::string_view character) {
+  for (const auto& [plain, latex] : kLatex) {
+    if (plain == character) return std::string(latex);
+  }
+  const unsigned code = CodePoint(character);
+  return IsInEveryFont(code) ? std::string(character) : fmt::format("[U+{:04X}]", code);
 }
 
 }  // namespace
@@ -88,6 +152,20 @@ std::string EscapeMarkdown(std::string_view text) {
     out += c;
   }
   return out;
+}
+
+std::string EscapeLatex(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = CharacterLength(text);
+    if (text[0] == '-' && out.ends_with('-')) out += "{}";  // two hyphens would become a dash
+    out += LatexOf(length == 0 ? kReplacement : text.substr(0, length));
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  // In a table's first column they would be taken for an option of the line break before them.
+  const std::size_t first = out.find_first_not_of(' ');
+  const bool is_option = first != std::string::npos && (out[first] == '[' || out[first] == '*');
+  return is_option ? "{}" + out : out;
 }
 
 std::string EscapeCsv(std::string_view text) {

@@ -16,6 +16,10 @@ std::string EscapeScriptJson(std::string_view json);
 /// `text` made safe in a line or table cell of Markdown.
 std::string EscapeMarkdown(std::string_view text);
 
+/// `text` made safe in LaTeX outside of mathematics, for pdflatex without packages. A character beyond what its fonts
+/// hold becomes its number, "[U+4E2D]": a table with a foreign name still compiles.
+std::string EscapeLatex(std::string_view text);
+
 /// A field of a CSV file (RFC 4180), quoted when it must be.
 std::string EscapeCsv(std::string_view text);
 

@@ -1,20 +1,35 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
-#include "bench/results/run_data.h"
+#include "reports/canvas.h"
 #include "reports/media.h"
 
 namespace etude {
 
-/// Where files go that stand beside the page.
-struct MediaPaths {
-  std::filesystem::path film;      ///< the MP4
-  std::filesystem::path pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR
+constexpr int kFilmWidth = 1280, kFilmHeight = 720;
+constexpr int kFilmRate = 30;
+
+/// What a film shows, drawn frame by frame.
+class Scene {
+ public:
+  virtual ~Scene() = default;
+  virtual int Frames() const = 0;
+  /// The frame that tells most by itself.
+  virtual int PosterFrame() const = 0;
+  /// What is to be seen, in words.
+  virtual std::string Words() const = 0;
+  /// A canvas of kFilmWidth × kFilmHeight. Frames are asked for in order, the poster's before them.
+  virtual Canvas Draw(int frame) = 0;
 };
 
-/// Draws what the recordings of a run show: the film, its poster, the strip and the pictures behind it.
-/// Whatever cannot be made is left out, with the reason in `why_no_film`; never a failure of the report.
-Media MakeMedia(const RunData& run, const MediaPaths& paths);
+/// An empty canvas of a film's size, with its heading in the uppermost 52 pixels.
+Canvas BeginFrame(const std::string& heading);
+
+Picture PictureOf(const Canvas& canvas, std::string caption);
+
+/// Draws the poster and encodes all frames into `path`. Without an encoder the film is its poster, and says why.
+Film Shoot(Scene& scene, const std::filesystem::path& path);
 
 }  // namespace etude

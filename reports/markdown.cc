@@ -6,6 +6,7 @@
 #include "reports/escape.h"
 #include "reports/figures.h"
 #include "reports/findings.h"
+#include "reports/paper_b_section.h"
 
 namespace etude {
 namespace {
@@ -35,7 +36,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
     text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
                         EscapeMarkdown(reason.method), EscapeMarkdown(reason.reason));
   }
-  return text + ComparisonTableMarkdown(scenario);
+  return text + PaperBMarkdown(run, scenario) + ComparisonTableMarkdown(scenario);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "bench/results/run_data.h"
 
 namespace etude {
 
@@ -13,14 +16,36 @@ struct Picture {
   std::string caption;
 };
 
+/// A film as the page shows it.
+struct Film {
+  std::string file;     ///< its name in the run's folder `video`
+  std::string mp4;      ///< bytes of the file; empty when there is none
+  std::string why_not;  ///< plain words for what could not be made
+  Picture poster;       ///< png empty when nothing could be drawn; its caption is the film's
+};
+
+/// A film that belongs to one scenario's card.
+struct ScenarioFilm {
+  std::string scenario;
+  Film film;
+};
+
 /// What the recordings gave to look at, and plain words for what they did not.
 struct Media {
-  std::string mp4;          ///< bytes of the film; empty when there is none
-  std::string why_no_film;  ///< set when `mp4` is empty
-  std::string film_caption;
-  Picture poster;              ///< png empty when nothing could be drawn
-  std::vector<Picture> strip;  ///< moments of the capture: stereo pictures, mask, recovered skeleton
-  std::string strip_scenario;  ///< whose card shows the strip
+  Film film;                                 ///< of the run: coach and cameras
+  std::vector<Picture> strip;                ///< moments of the capture: stereo pictures, mask, recovered skeleton
+  std::string strip_scenario;                ///< whose card shows the strip
+  std::vector<ScenarioFilm> scenario_films;  ///< how two methods of inverse kinematics settle
 };
+
+/// Where files go that stand beside the page.
+struct MediaPaths {
+  std::filesystem::path films;     ///< a folder: the MP4s
+  std::filesystem::path pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR
+};
+
+/// Draws what the recordings of a run show: the films, their posters, the strip and the pictures behind it.
+/// Whatever cannot be made is left out, with the reason in `why_not`; never a failure of the report.
+Media MakeMedia(const RunData& run, const MediaPaths& paths);
 
 }  // namespace etude

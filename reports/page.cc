@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <span>
+#include <algorithm>
 
 #include "reports/assets/assets.h"
 #include "reports/badge.h"
 #include "reports/escape.h"
 #include "reports/figures.h"
+#include "reports/film_element.h"
+#include "reports/paper_b_section.h"
 #include "reports/scenario_card.h"
 
 namespace etude {
@@ -17,9 +19,11 @@ namespace {
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; media-src data:";
 
-std::string DataUri(std::string_view type, const std::string& bytes) {
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  return fmt::format("data:{};base64,{}", type, Base64(std::span(data, bytes.size())));
+// A page carries only the styles that it uses.
+std::string Styles(const RunData& run) {
+  const bool shows_paper_b =
+      std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) { return ShowsPaperB(run, scenario); });
+  return std::string(ReportCss()) + std::string(shows_paper_b ? PaperCss() : "");
 }
 
 std::string Head(const RunData& run) {
@@ -28,22 +32,7 @@ std::string Head(const RunData& run) {
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
       "<meta name=\"color-scheme\" content=\"light dark\"><title>{} · Etude</title><style>{}</style></head>\n",
-      kPolicy, EscapeMarkup(run.suite), ReportCss());
-}
-
-std::string Hero(const Media& media) {
-  if (media.mp4.empty() && media.poster.png.empty()) {
-    return fmt::format("<p class=\"quiet\">{}</p>", EscapeMarkup(media.why_no_film));
-  }
-  if (media.mp4.empty()) {
-    return fmt::format("<figure class=\"hero\">{}<figcaption>{} {}</figcaption></figure>", ImageElement(media.poster),
-                       EscapeMarkup(media.film_caption), EscapeMarkup(media.why_no_film));
-  }
-  return fmt::format(
-      "<figure class=\"hero\"><video controls loop muted autoplay playsinline width=\"{}\" height=\"{}\" poster=\"{}\" "
-      "src=\"{}\" aria-label=\"{}\"></video><figcaption>{}</figcaption></figure>",
-      media.poster.width, media.poster.height, DataUri("image/png", media.poster.png), DataUri("video/mp4", media.mp4),
-      EscapeMarkup(media.film_caption), EscapeMarkup(media.film_caption));
+      kPolicy, EscapeMarkup(run.suite), Styles(run));
 }
 
 std::string Contents(const RunData& run, const std::vector<ScenarioFindings>& findings) {
@@ -65,7 +54,7 @@ practice; <b>no difference</b>, that it lies within what would matter; <b>inconc
 needed. Whatever failed is counted and named; a missing value is shown as —, never as zero.</p></section>
 )";
 
-std::string Footer(const RunData& run, bool has_film) {
+std::string Footer(const RunData& run) {
   std::string html = "<footer><dl>";
   const auto entry = [&](std::string_view name, const std::string& value) {
     if (!value.empty()) html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, EscapeMarkup(value));
@@ -76,9 +65,8 @@ std::string Footer(const RunData& run, bool has_film) {
   entry("Machine", run.host);
   entry("Command", run.command_line);
   html +=
-      "</dl><p>All tables as CSV: <code>report/tables/</code>; recovered motions as BVH, pictures with depth and "
-      "labels as EXR beside them.";
-  if (has_film) html += " The film as a file: <code>video/etude.mp4</code>.";
+      "</dl><p>All tables as CSV and LaTeX: <code>report/tables/</code>; recovered motions as BVH, pictures with depth "
+      "and labels as EXR beside them.";
   return html + "</p></footer>";
 }
 
@@ -93,11 +81,11 @@ std::string WritePage(const RunData& run, const Media& media) {
       "<body><a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
       CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
-  html += Hero(media);
+  html += FilmElement(media.film, true);
   html += Contents(run, findings);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
   html += kHowToRead;
-  html += Footer(run, !media.mp4.empty());
+  html += Footer(run);
   html += "</main><script>";
   html += ChartJs();
   html += "</script><script>";

@@ -1,27 +1,21 @@
 #include "reports/report.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "bench/files/files.h"
 #include "bench/tasks/capture/recording_extras.h"
 #include "reports/comparison_table.h"
-#include "reports/film.h"
+#include "reports/file_name.h"
 #include "reports/junit.h"
 #include "reports/markdown.h"
+#include "reports/media.h"
 #include "reports/number_table.h"
 #include "reports/page.h"
+#include "reports/paper_b_section.h"
+#include "reports/scenario_latex.h"
 
 namespace etude {
 namespace {
-
-// A scenario's name comes from a file of the user: only harmless characters reach a path.
-std::string FileNameOf(const std::string& scenario, std::size_t index) {
-  std::string name = scenario;
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
-  return name == scenario ? name : fmt::format("{}-{}", name, index + 1);
-}
 
 Result<void> WriteTables(const RunData& run, const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
@@ -31,6 +25,12 @@ Result<void> WriteTables(const RunData& run, const std::filesystem::path& folder
     if (!written) return written;
     written = WriteFileAtomically(folder / (name + "-comparisons.csv"), ComparisonTableCsv(scenario));
     if (!written) return written;
+    written = WriteFileAtomically(folder / (name + ".tex"), ScenarioLatex(run, scenario));
+    if (!written) return written;
+    if (const std::string csv = PaperBCsv(run, scenario); !csv.empty()) {
+      written = WriteFileAtomically(folder / (name + "-paper-b.csv"), csv);
+      if (!written) return written;
+    }
   }
   return {};
 }
@@ -66,9 +66,9 @@ Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_fo
 
   Media media;
   if (options.pictures) {
-    media = MakeMedia(run, {.film = run_folder / "video" / "etude.mp4", .pictures = folder / "pictures"});
+    media = MakeMedia(run, {.films = run_folder / "video", .pictures = folder / "pictures"});
   } else {
-    media.why_no_film = "There is no film: none was asked for.";
+    media.film.why_not = "There is no film: none was asked for.";
   }
   return WriteFileAtomically(folder / "index.html", WritePage(run, media));
 }

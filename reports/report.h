@@ -13,8 +13,8 @@ struct ReportOptions {
 };
 
 /// Writes what people and other programs read of a run: `report/index.html` (self-contained),
-/// `report/summary.md`, `report/junit.xml`, `report/tables/*.csv`, and, as far as the run kept recordings,
-/// `report/motions/*.bvh`, `report/pictures/*.exr` and `video/etude.mp4`. Each file appears whole or not at all. Fails,
+/// `report/summary.md`, `report/junit.xml`, `report/tables/*.{csv,tex}`, and, as far as the run kept recordings,
+/// `report/motions/*.bvh`, `report/pictures/*.exr` and `video/*.mp4`. Each file appears whole or not at all. Fails,
 /// naming the path, when a file cannot be written; a film that cannot be made is no failure: the page says why.
 Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 

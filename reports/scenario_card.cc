@@ -2,14 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <span>
-
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
 #include "reports/escape.h"
 #include "reports/figures.h"
+#include "reports/film_element.h"
 #include "reports/number_table.h"
+#include "reports/paper_b_section.h"
 
 namespace etude {
 namespace {
@@ -84,6 +84,14 @@ std::string StatusBar(const ScenarioFindings& findings) {
   return html + fmt::format("</div><p>{}</p></div>", EscapeMarkup(StatusSentence(findings)));
 }
 
+std::string ScenarioFilms(const ScenarioSummary& scenario, const Media& media) {
+  std::string html;
+  for (const ScenarioFilm& shown : media.scenario_films) {
+    if (shown.scenario == scenario.name) html += FilmElement(shown.film, false);
+  }
+  return html;
+}
+
 std::string Strip(const ScenarioSummary& scenario, const Media& media) {
   if (media.strip_scenario != scenario.name || media.strip.empty()) return "";
   std::string html = "<div class=\"strip\">";
@@ -98,12 +106,6 @@ std::string Strip(const ScenarioSummary& scenario, const Media& media) {
 
 std::string CardAnchor(std::size_t index) { return fmt::format("scenario-{}", index + 1); }
 
-std::string ImageElement(const Picture& picture) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(picture.png.data());
-  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">", picture.width,
-                     picture.height, EscapeMarkup(picture.caption), Base64(std::span(bytes, picture.png.size())));
-}
-
 std::string WriteScenarioCard(const RunData& run, std::size_t index, const ScenarioFindings& findings,
                               const Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
@@ -114,11 +116,13 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadge(findings.answer.verdict),
                       EscapeMarkup(findings.answer.sentence));
   html += Strip(scenario, media);
+  html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);
   // With one alternative the answer has said it all.
   if (findings.methods.size() > 1) html += Methods(findings);
   html += Expectations(scenario);
   html += StatusBar(findings);
+  html += PaperBHtml(run, scenario);
   html += Failures(findings);
   if (const std::string table = ComparisonTableHtml(scenario); !table.empty()) {
     html += fmt::format("<details><summary>Every comparison</summary>{}</details>", table);

@@ -11,11 +11,8 @@ namespace etude {
 std::string CardAnchor(std::size_t index);
 
 /// One scenario as HTML: its question, the answer, a chart, what was expected, what failed, all numbers.
-/// `media` gives its picture strip when it belongs to this scenario.
+/// `media` gives its picture strip and films when they belong to this scenario.
 std::string WriteScenarioCard(const RunData& run, std::size_t index, const ScenarioFindings& findings,
                               const Media& media);
-
-/// <img> with the picture inside the page.
-std::string ImageElement(const Picture& picture);
 
 }  // namespace etude

@@ -8,5 +8,7 @@ namespace etude {
 std::string_view ChartJs();
 std::string_view ReportCss();
 std::string_view ReportJs();
+/// Only for pages that show what paper_b_section.h makes.
+std::string_view PaperCss();
 
 }  // namespace etude

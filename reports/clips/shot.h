@@ -5,7 +5,7 @@
 #include "engine/motion/body.h"
 #include "reports/canvas.h"
 #include "reports/clips/clip_actor.h"
-#include "reports/clips/studio.h"
+#include "reports/studio.h"
 
 namespace etude {
 

@@ -3,19 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tests/reports/effector_run.h"
 #include "tests/reports/example_run.h"
 
 namespace etude {
 namespace {
-
-TEST(MedianCurve, LetsACurveThatEndedKeepItsLastValue) {
-  const std::vector<double> stops{9, 1}, goes_on{9, 5, 4, 3}, slow{9, 8, 7, 6};
-  EXPECT_THAT(MedianCurve({&stops, &goes_on, &slow}), ::testing::ElementsAre(9, 5, 4, 3));
-  EXPECT_THAT(MedianCurve({&stops, &goes_on}), ::testing::ElementsAre(9, 3, 2.5, 2));
-  EXPECT_THAT(MedianCurve({}), ::testing::IsEmpty());
-}
 
 TEST(IntervalChart, HasAMarkForEveryMethodUnderEveryCondition) {
   const RunData run = ExampleRun();
@@ -49,6 +44,14 @@ TEST(ConvergenceChart, IsDrawnOnlyFromCurvesAlongIterations) {
   AddRecordings(run);  // brings a curve along frames
   EXPECT_TRUE(ConvergenceChart(run, run.scenarios[2]).has_value());
   EXPECT_FALSE(ConvergenceChart(run, run.scenarios[3]).has_value());
+}
+
+TEST(ConvergenceChart, IsTheSameWhateverCellsKeepOfSingleEffectors) {
+  const RunData plain = ExampleRun();
+  RunData with = EffectorRun();
+  // Even when the effectors' curves come first.
+  for (CellSeries& cell : with.series) std::ranges::reverse(cell.series);
+  EXPECT_EQ(ConvergenceChart(with, with.scenarios[2])->json, ConvergenceChart(plain, plain.scenarios[2])->json);
 }
 
 }  // namespace

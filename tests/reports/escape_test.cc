@@ -51,5 +51,28 @@ TEST(Csv, QuotesOnlyWhatNeedsIt) {
   EXPECT_EQ(EscapeCsv("say \"no\""), "\"say \"\"no\"\"\"");
 }
 
+TEST(EscapeLatex, LeavesNoCharacterItsMeaning) {
+  EXPECT_EQ(EscapeLatex("a_b & 50% $ # {x}"), "a\\_b \\& 50\\% \\$ \\# \\{x\\}");
+  EXPECT_EQ(EscapeLatex("~^\\"), "\\textasciitilde{}\\textasciicircum{}\\textbackslash{}");
+  EXPECT_EQ(EscapeLatex("[1] *--<|>"), "{}[1] *-{}-\\textless{}\\textbar{}\\textgreater{}");
+  EXPECT_EQ(EscapeLatex("two\nlines"), "two lines");
+  EXPECT_EQ(EscapeLatex("\n*"), "{} *");
+  // Whatever byte comes, a special character of the answer stands behind a backslash or is one of our own commands.
+  for (int byte = 1; byte < 256; ++byte) {
+    const std::string escaped = EscapeLatex(std::string(1, static_cast<char>(byte)));
+    for (const char special : {'_', '&', '%', '#'}) {
+      const std::size_t at = escaped.find(special);
+      EXPECT_TRUE(at == std::string::npos || (at > 0 && escaped[at - 1] == '\\')) << byte;
+    }
+  }
+}
+
+TEST(EscapeLatex, GivesLettersThatNoFontOfLatexHasAsNumbers) {
+  EXPECT_EQ(EscapeLatex("−1.5° — “Größe” 1–2"), "$-$1.5$^\\circ$ --- ``Größe'' 1--2");
+  EXPECT_EQ(EscapeLatex("中"), "{}[U+4E2D]");
+  EXPECT_EQ(EscapeLatex("a 😀"), "a [U+1F600]");
+  EXPECT_EQ(EscapeLatex("\xff"), "{}[U+FFFD]");
+}
+
 }  // namespace
 }  // namespace etude

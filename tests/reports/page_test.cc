@@ -73,8 +73,8 @@ TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
 
 TEST(Page, PointsToNothingOutsideItself) {
   Media media;
-  media.mp4 = "film";
-  media.poster = {"png", 1280, 720, "poster"};
+  media.film.mp4 = "film";
+  media.film.poster = {"png", 1280, 720, "poster"};
   EXPECT_THAT(OutsideReferences(WritePage(ExampleRun(), media)), ::testing::IsEmpty());
   // The control: the search must find what must not be there.
   EXPECT_THAT(OutsideReferences("<img src=\"https://example.org/a.png\">"), ::testing::SizeIs(1));
@@ -129,8 +129,8 @@ TEST(Page, ShowsAMissingValueAsADashWithItsReason) {
 
 TEST(Page, SaysWhyThereIsNoFilm) {
   Media media;
-  media.why_no_film = "There is no film: ffmpeg could not be started.";
-  EXPECT_THAT(WritePage(ExampleRun(), media), HasSubstr(media.why_no_film));
+  media.film.why_not = "There is no film: ffmpeg could not be started.";
+  EXPECT_THAT(WritePage(ExampleRun(), media), HasSubstr(media.film.why_not));
 }
 
 TEST(Page, OfAnEmptyRunIsStillAPage) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "bench/files/files.h"
+#include "tests/reports/effector_run.h"
 #include "tests/reports/example_run.h"
 #include "tests/support/gtest_printers.h"
 
@@ -29,7 +30,7 @@ TEST(Report, WritesEveryFileAndLeavesNoPartialOne) {
   const auto written = WriteReport(ExampleRun(), run_folder, {.pictures = false});
   ASSERT_TRUE(written.has_value()) << ToString(written.error());
   for (const char* name : {"index.html", "summary.md", "junit.xml", "tables/ik-weights.csv",
-                           "tables/ik-weights-comparisons.csv", "tables/capture.csv"}) {
+                           "tables/ik-weights-comparisons.csv", "tables/ik-weights.tex", "tables/capture.csv"}) {
     EXPECT_GT(fs::file_size(run_folder / "report" / name), 50u) << name;
   }
   int files = 0;
@@ -37,7 +38,14 @@ TEST(Report, WritesEveryFileAndLeavesNoPartialOne) {
     files += entry.is_regular_file();
     EXPECT_EQ(entry.path().filename().string().find(".partial"), std::string::npos);
   }
-  EXPECT_EQ(files, 3 + 2 * 4);
+  EXPECT_EQ(files, 3 + 3 * 4);
+}
+
+TEST(Report, WritesWhatCellsKeepOfSingleEffectorsWhereTheyDo) {
+  const fs::path run_folder = FreshFolder();
+  ASSERT_TRUE(WriteReport(EffectorRun(), run_folder, {.pictures = false}).has_value());
+  EXPECT_TRUE(fs::exists(run_folder / "report/tables/ik-weights-paper-b.csv"));
+  EXPECT_FALSE(fs::exists(run_folder / "report/tables/capture-paper-b.csv"));
 }
 
 TEST(Report, NamesThePathThatItCannotWrite) {

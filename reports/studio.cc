@@ -1,4 +1,4 @@
-#include "reports/clips/studio.h"
+#include "reports/studio.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +22,8 @@ constexpr glm::dvec3 kFloorPaint{0.205, 0.226, 0.248};
 constexpr glm::dvec3 kGridPaint{0.36, 0.40, 0.43};
 constexpr glm::dvec3 kBackdropPaint{0.125, 0.142, 0.158};
 constexpr double kShadowLeaves = 0.55;
+constexpr glm::dvec3 kGhostPaint{0.80, 0.84, 0.87};
+constexpr double kGhostStrength = 0.34;
 
 Camera CameraOf(const Intrinsics& inside) { return LookAt(inside, kEye, kTarget); }
 
@@ -105,8 +107,8 @@ Studio::Studio(int width, int height, double detail, const Sight& sight) {
   }
 }
 
-void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed,
-                  const FloorMove& placement) const {
+void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
+                  const Mask* ghost) const {
   View view = renderer.Render(Room{}, {placed}, camera_, Targets::kAll);
   const double cosine = std::cos(placement.yaw), sine = std::sin(placement.yaw);
   for (std::size_t i = 0; i < rays_.size(); ++i) {
@@ -123,9 +125,18 @@ void Studio::Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figu
       if (label == static_cast<std::uint32_t>(Part::kShadow)) floor *= kShadowLeaves;
       paint = glm::mix(paint, floor, ray.fade);
     }
+    if (ghost != nullptr && ghost->pixels[i] != 0) paint = glm::mix(paint, kGhostPaint, kGhostStrength);
     view.colour.pixels[i] = ToPixel(paint);
   }
   canvas.DrawImage(view.colour, box, kPanelRadius);
+}
+
+Mask Studio::Silhouette(Renderer& renderer, const Figure& placed) const {
+  const LabelImage labels = renderer.Render(Room{}, {placed}, camera_, Targets::kAll).labels;
+  Mask mask(labels.width, labels.height);
+  std::ranges::transform(labels.pixels, mask.pixels.begin(),
+                         [](std::uint32_t label) { return label >= kFirstBodyPart; });
+  return mask;
 }
 
 glm::dvec2 Studio::PixelOf(const Box& box, const glm::dvec3& point) const {

@@ -29,7 +29,11 @@ class Studio {
   Studio(int width, int height, double detail, const Sight& sight);
 
   /// `placement` has put the figure in place: it moves the grid as well.
-  void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement) const;
+  /// `ghost` (null = none), a Silhouette of another figure, shimmers behind this one.
+  void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
+            const Mask* ghost = nullptr) const;
+  /// The pixels, as fine as the studio draws, where a figure that was put in place is seen.
+  Mask Silhouette(Renderer& renderer, const Figure& placed) const;
   /// Where in the box a point is seen.
   glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
 

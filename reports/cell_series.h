@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// Finds the series of a run's cells by name. The run must outlive it, and the rows asked for be the run's own.
+class CellSeriesIndex {
+ public:
+  explicit CellSeriesIndex(const RunData& run);
+
+  /// Null when this cell keeps none of that name.
+  const std::vector<double>* Find(const Row& row, std::string_view name) const;
+
+ private:
+  std::map<const Row*, const std::vector<Series>*> cells_;
+};
+
+/// Whether any cell of this scenario keeps a series of that name.
+bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::string_view name);
+
+/// The rows of a scenario under one condition, in order.
+std::vector<const Row*> RowsUnder(const RunData& run, const ScenarioSummary& scenario,
+                                  const std::vector<Setting>& condition);
+
+/// The middle value, or the mean of the middle two. `values` must not be empty.
+double Median(std::vector<double> values);
+
+/// The median of each step over several curves of different lengths: a curve that ended keeps its last
+/// value, as a solver that stopped keeps its answer.
+std::vector<double> MedianCurve(const std::vector<const std::vector<double>*>& curves);
+
+}  // namespace etude

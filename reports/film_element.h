@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "reports/media.h"
+
+namespace etude {
+
+/// <img> with the picture inside the page.
+std::string ImageElement(const Picture& picture);
+
+/// A film inside the page with its caption: a <figure> with <video>, else its poster and why there is no film, else
+/// that reason alone.
+std::string FilmElement(const Film& film, bool plays_at_once);
+
+}  // namespace etude

@@ -1,0 +1,149 @@
+#include "reports/scenario_latex.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "reports/comparison_table.h"
+#include "reports/escape.h"
+#include "reports/figures.h"
+#include "reports/findings.h"
+#include "reports/paper_b_section.h"
+
+namespace etude {
+namespace {
+
+constexpr int kRowsPerFloat = 50;  // so many fit a page of A4
+constexpr int kColumns = 7;
+
+constexpr std::string_view kHead =
+    "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
+
+/// The rows of one metric.
+struct Group {
+  std::string latex;
+  int rows = 0;
+};
+
+/// How many pairs of figures would differ as much if there were nothing to find.
+std::string_view Stars(const Comparison& c) {
+  if (!c.p_holm || *c.p_holm > 0.05) return "";
+  return *c.p_holm <= 0.001 ? "$^{***}$" : *c.p_holm <= 0.01 ? "$^{**}$" : "$^{*}$";
+}
+
+std::string WithInterval(const std::string& value, const std::optional<double>& low, const std::optional<double>& high,
+                         const MetricWords& words) {
+  return EscapeLatex(low && high ? fmt::format("{} [{}]", value, FormatInterval(low, high, words)) : value);
+}
+
+std::string CountText(int present, int attempted) {
+  return present == attempted ? FormatCount(present)
+                              : fmt::format("{} of {}", FormatCount(present), FormatCount(attempted));
+}
+
+void Begin(Group& group, const std::string& heading) {
+  group.latex =
+      fmt::format("\\midrule\n\\multicolumn{{{}}}{{l}}{{\\emph{{{}}}}} \\\\\n", kColumns, EscapeLatex(heading));
+  group.rows = 1;
+}
+
+Group EndedOk(const ConditionSummary& condition) {
+  const MetricWords share{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
+  Group group;
+  Begin(group, "cells that ended ok");
+  for (const MethodSummary& method : condition.methods) {
+    if (method.attempted == 0) continue;
+    group.latex +=
+        fmt::format("{} & {} & {} & & & & \\\\\n", EscapeLatex(method.method), FormatCount(method.attempted),
+                    WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
+    ++group.rows;
+  }
+  return group;
+}
+
+std::string ComparisonCells(const Comparison& c, const MetricWords& words) {
+  const std::string difference = c.difference ? ShortDifference(*c.difference, words) : std::string(kNoValue);
+  return fmt::format("{} & {}{} & {} & {}", EscapeLatex(c.baseline),
+                     WithInterval(difference, c.ci_low, c.ci_high, words), Stars(c), EscapeLatex(FormatP(c.p_holm)),
+                     VerdictName(c.verdict));
+}
+
+Group OfMetric(const ConditionSummary& condition, const std::string& metric) {
+  const MetricWords words = WordsFor(metric);
+  Group group;
+  Begin(group, MetricHeading(metric));
+  for (const MethodSummary& method : condition.methods) {
+    const MetricSummary* summary = FindSummary(method, metric);
+    if (summary == nullptr) continue;
+    std::string figures = fmt::format(
+        "{} & {} & {}", EscapeLatex(method.method), CountText(summary->present, summary->present + summary->missing),
+        WithInterval(FormatValue(TypicalValue(*summary, words), words), summary->ci_low, summary->ci_high, words));
+    // A method may be compared with several baselines: its own figures stand in the first line only.
+    bool compared = false;
+    for (const Comparison& c : condition.comparisons) {
+      if (c.metric != metric || c.method != method.method) continue;
+      group.latex += fmt::format("{} & {} \\\\\n", compared ? " & & " : figures, ComparisonCells(c, words));
+      ++group.rows;
+      compared = true;
+    }
+    if (compared) continue;
+    group.latex += figures + " & & & & \\\\\n";
+    ++group.rows;
+  }
+  return group;
+}
+
+std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& condition) {
+  const std::string label = ConditionLabel(condition.condition);
+  const std::string& title = scenario.question.empty() ? scenario.name : scenario.question;
+  return fmt::format(
+      "{}{} Medians (of shares means) with their 95 % intervals; n: cells that have the value, of those attempted. "
+      "Difference: method − baseline in the same world, its median (of shares and penalised costs its mean) with its "
+      "95 % interval. p is Holm-corrected over this scenario’s {}: ",
+      title, label.empty() ? "" : fmt::format(" ({})", label), Plural(scenario.family, "comparison"));
+}
+
+constexpr std::string_view kStarsCaption =
+    "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. Better and worse also need an interval on "
+    "one "
+    "side of zero and a difference that matters; no difference, an interval within what matters.";
+
+std::string Float(const std::string& caption, const std::string& rows) {
+  return fmt::format(
+      "\n\\begin{{table}}[!htbp]\n\\centering\\scriptsize\\setlength{{\\tabcolsep}}{{3pt}}\n\\caption{{{}}}"
+      "\n\\smallskip\n"
+      "\\begin{{tabular}}{{lrrlrrl}}\n\\toprule\nmethod & n & value & against & difference & $p$ & verdict \\\\\n{}"
+      "\\bottomrule\n\\end{{tabular}}\n\\end{{table}}\n",
+      caption, rows);
+}
+
+/// As many floats as the rows of this condition need.
+std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
+  std::vector<Group> groups{EndedOk(condition)};
+  for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(condition, metric));
+
+  std::string text, rows;
+  std::string caption = EscapeLatex(Caption(scenario, condition)) + std::string(kStarsCaption);
+  int count = 0;
+  for (const Group& group : groups) {
+    if (count > 0 && count + group.rows > kRowsPerFloat) {
+      text += Float(caption, rows);
+      caption = EscapeLatex(fmt::format("{} (continued)", scenario.name));
+      rows.clear();
+      count = 0;
+    }
+    rows += group.latex;
+    count += group.rows;
+  }
+  return text + Float(caption, rows);
+}
+
+}  // namespace
+
+std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario) {
+  std::string text(kHead);
+  for (const ConditionSummary& condition : scenario.conditions) text += ConditionFloats(scenario, condition);
+  return text + PaperBLatex(run, scenario);
+}
+
+}  // namespace etude

@@ -1,0 +1,124 @@
+#include "reports/scenario_latex.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "reports/escape.h"
+#include "reports/figures.h"
+#include "reports/number_table.h"
+#include "tests/reports/example_run.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> Split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+  return parts;
+}
+
+int CountOf(std::string_view text, std::string_view part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// The float of one condition, by its place.
+std::string FloatOf(const std::string& latex, std::size_t index) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i <= index; ++i) at = latex.find("\\begin{table}", at + (i > 0));
+  return latex.substr(at, latex.find("\\end{table}", at) - at);
+}
+
+TEST(ScenarioLatex, HoldsTheFiguresOfTheCsv) {
+  const RunData run = ExampleRun();
+  int checked = 0;
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    const std::string latex = ScenarioLatex(run, scenario);
+    const auto lines = Split(NumberTableCsv(run, scenario), '\n');
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const auto fields = Split(lines[i], ',');
+      if (fields[3] == "ok_share") continue;
+      std::size_t condition = 0;
+      while (ConditionLabel(scenario.conditions[condition].condition) != fields[1]) ++condition;
+      const MetricWords words = WordsFor(fields[3]);
+      const std::string value = FormatValue(std::stod(fields[words.is_share ? 8 : 5]), words);
+      const std::string interval = FormatInterval(std::stod(fields[6]), std::stod(fields[7]), words);
+      EXPECT_THAT(
+          FloatOf(latex, condition),
+          HasSubstr(EscapeLatex(fields[2]) + " & " + fields[9] +
+                    (fields[10] == "0" ? "" : " of " + std::to_string(std::stoi(fields[9]) + std::stoi(fields[10]))) +
+                    " & " + EscapeLatex(value + " [" + interval + "]")))
+          << lines[i];
+      ++checked;
+    }
+  }
+  EXPECT_EQ(checked, 2 * (5 + 2 + 3 * 4 + 3));
+}
+
+TEST(ScenarioLatex, HasAFloatPerConditionThatEndsAsItBegan) {
+  const RunData run = ExampleRun();
+  const std::string latex = ScenarioLatex(run, run.scenarios[2]);
+  for (const char* part : {"{table}", "{tabular}"}) {
+    EXPECT_EQ(CountOf(latex, std::string("\\begin") + part), 3) << part;
+    EXPECT_EQ(CountOf(latex, std::string("\\end") + part), 3) << part;
+  }
+  for (const std::string& line : Split(latex, '\n')) {
+    if (!line.ends_with(" \\\\") || line.starts_with("\\multicolumn")) continue;
+    // A & that was escaped is no column.
+    EXPECT_EQ(CountOf(line, "&") - CountOf(line, "\\&"), 6) << line;
+  }
+}
+
+TEST(ScenarioLatex, GivesVerdictsWithMarksThatTheCaptionExplains) {
+  RunData run = ExampleRun();
+  Comparison& first = run.scenarios[2].conditions[0].comparisons[0];
+  first.p_holm = 0.0004;
+  run.scenarios[2].conditions[0].comparisons[2].p_holm = 0.2;
+  const std::string table = FloatOf(ScenarioLatex(run, run.scenarios[2]), 0);
+  EXPECT_THAT(table, HasSubstr("]$^{***}$ & \\textless{} 0.001 & better"));  // p of the first metric
+  EXPECT_THAT(table, HasSubstr("]$^{*}$ & 0.012 & better"));
+  EXPECT_THAT(table, HasSubstr("] & 0.20 & better"));
+  EXPECT_THAT(table, HasSubstr("$^{***}$~$p \\le 0.001$"));
+  EXPECT_THAT(table, HasSubstr("this scenario's 2 comparisons"));
+}
+
+TEST(ScenarioLatex, PutsADashForAMissingValueAndCountsIt) {
+  RunData run = ExampleRun();
+  MetricSummary& metric = run.scenarios[1].conditions[0].methods[0].metrics[1];
+  metric = {metric.id, 0, 12, std::nullopt, std::nullopt, std::nullopt, std::nullopt};
+  EXPECT_THAT(ScenarioLatex(run, run.scenarios[1]), HasSubstr("fixed & 0 of 12 & --- & & & & \\\\\n"));
+}
+
+TEST(ScenarioLatex, LetsNoNameSpeakLatex) {
+  RunData run = ExampleRun();
+  const std::string hostile = "a_b&c%d$e#f{g}h~i^j\\input{k}";
+  ScenarioSummary& scenario = run.scenarios[1];
+  scenario.name = scenario.question = scenario.methods[1] = scenario.conditions[0].methods[1].method = hostile;
+  scenario.conditions[0].condition = {{hostile, hostile}};
+  for (Comparison& c : scenario.conditions[0].comparisons) c.method = c.baseline = hostile;
+  const std::string latex = ScenarioLatex(run, scenario);
+  EXPECT_THAT(latex, HasSubstr(EscapeLatex(hostile)));
+  EXPECT_THAT(latex, Not(HasSubstr("\\input")));
+  EXPECT_THAT(latex, Not(HasSubstr("c%d")));
+}
+
+TEST(ScenarioLatex, SplitsATableThatNoPageHolds) {
+  RunData run = ExampleRun();
+  ScenarioSummary& scenario = run.scenarios[1];
+  std::vector<MethodSummary>& methods = scenario.conditions[0].methods;
+  while (methods.size() < 30) methods.push_back(methods.back());
+  const std::string latex = ScenarioLatex(run, scenario);
+  EXPECT_EQ(CountOf(latex, "\\begin{table}"), 3);
+  EXPECT_EQ(CountOf(latex, "(continued)"), 2);
+}
+
+}  // namespace
+}  // namespace etude
