@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "reports/findings.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 namespace {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "reports/cell_series.h"
-#include "reports/figures.h"
-#include "reports/findings.h"
+#include "reports/words/cell_series.h"
+#include "reports/words/figures.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 namespace {

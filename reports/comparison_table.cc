@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "reports/badge.h"
-#include "reports/escape.h"
-#include "reports/figures.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

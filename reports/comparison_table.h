@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bench/results/run_data.h"
-#include "reports/figures.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "reports/escape.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/media.h"
+#include "reports/films/media.h"
 
 namespace etude {
 

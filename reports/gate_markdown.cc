@@ -1,8 +1,8 @@
 #include <fmt/core.h>
 
-#include "reports/escape.h"
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "reports/figures.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

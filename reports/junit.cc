@@ -4,8 +4,8 @@
 
 #include <set>
 
-#include "reports/findings.h"
 #include "reports/junit_xml.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "reports/escape.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {

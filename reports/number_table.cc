@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "reports/escape.h"
-#include "reports/figures.h"
-#include "reports/findings.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "reports/assets/assets.h"
 #include "reports/badge.h"
-#include "reports/escape.h"
-#include "reports/figures.h"
 #include "reports/film_element.h"
-#include "reports/paper_b_section.h"
+#include "reports/paper/paper_b_section.h"
 #include "reports/scenario_card.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

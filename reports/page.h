@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bench/results/run_data.h"
-#include "reports/media.h"
+#include "reports/films/media.h"
 
 namespace etude {
 

@@ -5,14 +5,14 @@
 #include "bench/files/files.h"
 #include "bench/tasks/capture/recording_extras.h"
 #include "reports/comparison_table.h"
-#include "reports/file_name.h"
+#include "reports/films/media.h"
 #include "reports/junit.h"
 #include "reports/markdown.h"
-#include "reports/media.h"
 #include "reports/number_table.h"
 #include "reports/page.h"
-#include "reports/paper_b_section.h"
+#include "reports/paper/paper_b_section.h"
 #include "reports/scenario_latex.h"
+#include "reports/words/file_name.h"
 
 namespace etude {
 namespace {

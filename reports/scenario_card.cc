@@ -5,11 +5,11 @@
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
-#include "reports/escape.h"
-#include "reports/figures.h"
 #include "reports/film_element.h"
 #include "reports/number_table.h"
-#include "reports/paper_b_section.h"
+#include "reports/paper/paper_b_section.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

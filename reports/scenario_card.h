@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "reports/findings.h"
-#include "reports/media.h"
+#include "reports/films/media.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 

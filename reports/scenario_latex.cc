@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "reports/comparison_table.h"
-#include "reports/escape.h"
-#include "reports/figures.h"
-#include "reports/findings.h"
-#include "reports/paper_b_section.h"
+#include "reports/paper/paper_b_section.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "reports/clips/clip_facts.h"
-#include "reports/encoder.h"
-#include "reports/look.h"
+#include "reports/films/encoder.h"
+#include "reports/films/look.h"
 
 namespace etude {
 namespace {

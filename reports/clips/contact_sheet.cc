@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reports/clips/clip_facts.h"
-#include "reports/look.h"
+#include "reports/films/look.h"
 
 namespace etude {
 namespace {

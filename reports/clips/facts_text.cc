@@ -4,7 +4,7 @@
 
 #include "engine/base/names.h"
 #include "reports/clips/clip_facts.h"
-#include "reports/figures.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "reports/followed_way.h"
-#include "reports/look.h"
+#include "reports/films/followed_way.h"
+#include "reports/films/look.h"
 
 namespace etude {
 namespace {

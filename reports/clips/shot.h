@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "engine/motion/body.h"
-#include "reports/canvas.h"
 #include "reports/clips/clip_actor.h"
-#include "reports/studio.h"
+#include "reports/films/canvas.h"
+#include "reports/films/studio.h"
 
 namespace etude {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "tests/reports/effector_run.h"
-#include "tests/reports/example_run.h"
+#include "tests/reports/support/effector_run.h"
+#include "tests/reports/support/example_run.h"
 
 namespace etude {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "reports/figures.h"
-#include "tests/reports/example_run.h"
+#include "reports/words/figures.h"
+#include "tests/reports/support/example_run.h"
 
 namespace etude {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <regex>
 
-#include "tests/reports/example_run.h"
+#include "tests/reports/support/example_run.h"
 
 namespace etude {
 namespace {

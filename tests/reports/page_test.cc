@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "reports/escape.h"
-#include "reports/findings.h"
-#include "tests/reports/example_run.h"
+#include "reports/words/escape.h"
+#include "reports/words/findings.h"
+#include "tests/reports/support/example_run.h"
 
 namespace etude {
 namespace {

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "bench/files/files.h"
-#include "tests/reports/effector_run.h"
-#include "tests/reports/example_run.h"
+#include "tests/reports/support/effector_run.h"
+#include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "reports/escape.h"
-#include "reports/figures.h"
 #include "reports/number_table.h"
-#include "tests/reports/example_run.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "tests/reports/support/example_run.h"
 
 namespace etude {
 namespace {

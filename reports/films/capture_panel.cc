@@ -1,0 +1,155 @@
+#include "reports/films/capture_panel.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "reports/films/look.h"
+
+namespace etude {
+namespace {
+
+constexpr Paint kMaskTint{0.20, 0.78, 0.86, 0.24};
+constexpr Paint kMaskEdge{0.25, 0.88, 0.95, 0.95};
+constexpr Paint kBoneShadow{0.05, 0.06, 0.07, 0.75};
+constexpr Paint kLeftSide{1.0, 0.80, 0.30, 1};
+constexpr Paint kRightSide{0.98, 0.98, 1.0, 1};
+
+bool IsLeft(Role role) { return role != Mirrored(role) && Index(role) < Index(Mirrored(role)); }
+
+struct ProjectedJoints {
+  std::array<std::optional<glm::dvec2>, kRoleCount> points;
+};
+
+ProjectedJoints ProjectAll(const BodyPose& pose, const Camera& camera, const Box& panel) {
+  const ProjectionMatrix matrix = MatrixOf(camera);
+  const glm::dvec2 scale{panel.width / camera.intrinsics.width, panel.height / camera.intrinsics.height};
+  ProjectedJoints projected;
+  for (const Role role : AllRoles()) {
+    const auto pixel = Project(matrix, pose[role]);
+    // Far outside lies nothing to see, and cairo's fixed-point coordinates would overflow.
+    if (!pixel || glm::length(*pixel) > 1e4) continue;
+    projected.points[Index(role)] = glm::dvec2{panel.x, panel.y} + *pixel * scale;
+  }
+  return projected;
+}
+
+void DrawSkeleton(Canvas& canvas, const ProjectedJoints& joints) {
+  const auto draw_bones = [&](double width, bool shadow) {
+    for (const Bone& bone : AllBones()) {
+      const auto &from = joints.points[Index(bone.parent)], &to = joints.points[Index(bone.child)];
+      if (!from || !to) continue;
+      canvas.DrawLine(*from, *to, width, shadow ? kBoneShadow : IsLeft(bone.child) ? kLeftSide : kRightSide);
+    }
+  };
+  draw_bones(5, true);
+  draw_bones(2.4, false);
+  for (const Role role : AllRoles()) {
+    const auto& point = joints.points[Index(role)];
+    if (!point) continue;
+    canvas.DrawDot(*point, 3.6, kBoneShadow);
+    canvas.DrawDot(*point, 2.6, IsLeft(role) ? kLeftSide : kRightSide);
+  }
+}
+
+// The part of the pictures, in their own proportions, that holds the person in every frame with some air.
+Box CropAround(const BodyMotion& motion, const Camera& camera) {
+  constexpr double kAirPixels = 45;
+  const ProjectionMatrix matrix = MatrixOf(camera);
+  const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};
+  glm::dvec2 low = size, high{0};
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& joint : pose.joints) {
+      const auto pixel = Project(matrix, joint);
+      if (!pixel) continue;
+      low = glm::min(low, *pixel - kAirPixels);
+      high = glm::max(high, *pixel + kAirPixels);
+    }
+  }
+  const glm::dvec2 wanted = (high - low) / size;
+  const double share = std::clamp(std::max(wanted.x, wanted.y), 0.3, 1.0);
+  const glm::dvec2 corner = glm::clamp((low + high - share * size) / 2.0, glm::dvec2{0}, size * (1 - share));
+  return {corner.x, corner.y, share * size.x, share * size.y};
+}
+
+}  // namespace
+
+Mask OutlineOf(const Mask& mask) {
+  Mask outline(mask.width, mask.height);
+  const auto set = [&](int x, int y) { return mask.Contains(x, y) && mask.At(x, y) != 0; };
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      const bool inside = set(x - 1, y) && set(x + 1, y) && set(x, y - 1) && set(x, y + 1);
+      outline.At(x, y) = set(x, y) && !inside;
+    }
+  }
+  return outline;
+}
+
+Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell) {
+  const Place place{.file = "recording " + cell.row->Id()};
+  const BodyMotion* truth = FindTrack(*cell.recording, "truth");
+  const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");
+  if (truth == nullptr || recovered == nullptr) return Fail(place, "it lacks the track truth or recovered");
+  auto extras = ReadRecordingExtras(cell.recording->extras_json);
+  if (!extras) return tl::unexpected(extras.error());
+
+  const std::size_t frames = truth->poses.size();
+  bool fits =
+      frames > 0 && recovered->poses.size() == frames && extras->brightness.size() == frames && !extras->views.empty();
+  for (const auto& view : extras->views) fits = fits && view.masks.size() == frames;
+  if (!fits) return Fail(place, "its tracks, masks and brightness differ in length, or it has no camera");
+
+  CapturePanel panel;
+  panel.truth_ = *truth;
+  panel.recovered_ = *recovered;
+  panel.extras_ = std::move(*extras);
+  for (const auto& view : panel.extras_.views) panel.crops_.push_back(CropAround(panel.truth_, view.truth));
+  panel.method_ = cell.row->method;
+  panel.clip_ = ClipInWords(cell.row->clip);
+  panel.error_mm_ = ValueOf(*cell.row, "mpjpe_mm");
+  if (const Series* errors = FindSeries(run, *cell.row, "mpjpe_mm");
+      errors != nullptr && errors->values.size() == frames) {
+    panel.errors_mm_ = errors->values;
+  }
+  return panel;
+}
+
+std::string CapturePanel::CameraName(std::size_t camera) const {
+  if (Cameras() != 2) return fmt::format("Camera {}", camera + 1);
+  return camera == 0 ? "First camera" : "Second camera";
+}
+
+std::string CapturePanel::Title() const { return clip_.empty() ? method_ : fmt::format("{} on {}", method_, clip_); }
+
+std::string CapturePanel::ErrorWords(int frame) const {
+  std::string words = method_;
+  if (!errors_mm_.empty())
+    words += fmt::format(" · joints {:.0f} mm off now", errors_mm_[static_cast<std::size_t>(frame)]);
+  if (error_mm_)
+    words += fmt::format("{} {:.0f} mm on average", errors_mm_.empty() ? " · joints off by" : ",", *error_mm_);
+  return words;
+}
+
+View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const {
+  const std::size_t k = static_cast<std::size_t>(frame);
+  const Room room{extras_.texture_seed, extras_.brightness[k], extras_.casts_shadows};
+  return renderer.Render(room, {{BodyCapsules(truth_.poses[k]), extras_.colours}}, extras_.views[camera].truth,
+                         targets);
+}
+
+void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {
+  const std::size_t k = static_cast<std::size_t>(frame);
+  const RecordingExtras::View& view = extras_.views[camera];
+  // The whole picture, laid so that its crop covers the canvas; the rest falls off the edge.
+  const Box& crop = crops_[camera];
+  const double scale = canvas.width() / crop.width;
+  const Intrinsics& inside = view.truth.intrinsics;
+  const Box panel{-crop.x * scale, -crop.y * scale, inside.width * scale, inside.height * scale};
+  canvas.DrawImage(Seen(renderer, camera, frame, Targets::kColour).colour, panel);
+  canvas.DrawMask(view.masks[k], panel, kMaskTint);
+  canvas.DrawMask(OutlineOf(view.masks[k]), panel, kMaskEdge);
+  DrawSkeleton(canvas, ProjectAll(recovered_.poses[k], view.truth, panel));
+}
+
+}  // namespace etude

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/tasks/capture/recording_extras.h"
+#include "reports/films/canvas.h"
+#include "reports/films/cast.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// The right half of the film: what the two cameras saw, the person as found in the pictures (tinted,
+/// outlined) and the skeleton as recovered from both.
+class CapturePanel {
+ public:
+  /// Fails when the recording's facts cannot be read, or do not belong to its tracks.
+  static Result<CapturePanel> Make(const RunData& run, const CastCell& cell);
+
+  int Frames() const { return static_cast<int>(truth_.poses.size()); }
+  double RateHz() const { return truth_.rate_hz; }
+  std::size_t Cameras() const { return extras_.views.size(); }
+  /// "left camera"
+  std::string CameraName(std::size_t camera) const;
+  /// "adaptive on clap"
+  std::string Title() const;
+  /// "adaptive · joints 43 mm off in this frame, 51 mm on the whole"
+  std::string ErrorWords(int frame) const;
+
+  /// What one camera saw, without noise.
+  View Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const;
+
+  /// The part of one camera's picture around the person, with mask and skeleton over it, without words;
+  /// it fills the whole canvas. The same canvas size asks for the same picture, so callers may keep it.
+  void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
+
+ private:
+  BodyMotion truth_, recovered_;
+  RecordingExtras extras_;
+  std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
+  std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve
+  std::optional<double> error_mm_;
+  std::string method_, clip_;
+};
+
+/// The pixels of the mask that touch something outside it.
+Mask OutlineOf(const Mask& mask);
+
+}  // namespace etude

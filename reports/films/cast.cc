@@ -1,0 +1,69 @@
+#include "reports/films/cast.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "reports/words/findings.h"
+
+namespace etude {
+namespace {
+
+std::vector<CastCell> RecordedCells(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
+  std::vector<CastCell> cells;
+  for (const Row& row : run.rows) {
+    if (row.scenario != scenario.name || row.result.status != Status::kOk) continue;
+    const auto found = std::ranges::find(run.recordings, row.Id(), &CellRecording::cell);
+    if (found == run.recordings.end()) continue;
+    const BodyMotion* motion = FindTrack(found->recording, track);
+    if (motion != nullptr && !motion->poses.empty()) cells.push_back({&scenario, &row, &found->recording});
+  }
+  return cells;
+}
+
+CastCell MiddleOf(std::vector<CastCell> cells, const std::string& metric) {
+  // Cells without a value come last; equal values keep the order of the run.
+  std::ranges::stable_sort(cells, [&](const CastCell& a, const CastCell& b) {
+    const auto x = ValueOf(*a.row, metric), y = ValueOf(*b.row, metric);
+    return x.has_value() != y.has_value() ? x.has_value() : x && *x < *y;
+  });
+  const auto valued =
+      std::ranges::count_if(cells, [&](const CastCell& c) { return ValueOf(*c.row, metric).has_value(); });
+  return cells[static_cast<std::size_t>(valued > 0 ? (valued - 1) / 2 : 0)];
+}
+
+}  // namespace
+
+std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track) {
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    if (scenario.task != task) continue;
+    const std::vector<CastCell> cells = RecordedCells(run, scenario, track);
+    if (cells.empty()) continue;
+    const ScenarioFindings findings = FindingsOf(run, scenario);
+    std::vector<CastCell> preferred;
+    std::ranges::copy_if(cells, std::back_inserter(preferred),
+                         [&](const CastCell& cell) { return cell.row->method == findings.answer.method; });
+    return MiddleOf(preferred.empty() ? cells : preferred, findings.metric);
+  }
+  return std::nullopt;
+}
+
+std::string ClipInWords(std::string name) {
+  constexpr std::string_view kBuiltin = "builtin:";
+  if (name.starts_with(kBuiltin)) name.erase(0, kBuiltin.size());
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
+  const auto found = std::ranges::find(recording.tracks, name, &Track::name);
+  return found == recording.tracks.end() ? nullptr : &found->motion;
+}
+
+const Series* FindSeries(const RunData& run, const Row& row, std::string_view name) {
+  const auto cell = std::ranges::find(run.series, row.Id(), &CellSeries::cell);
+  if (cell == run.series.end()) return nullptr;
+  const auto curve = std::ranges::find(cell->series, name, &Series::name);
+  return curve == cell->series.end() ? nullptr : &*curve;
+}
+
+}  // namespace etude

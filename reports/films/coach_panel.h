@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "engine/motion/body.h"
+#include "engine/motion/character.h"
+#include "reports/films/canvas.h"
+#include "reports/films/cast.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// The left half of the film: the coach changes from one move to another, seen from the front by a
+/// camera that follows when it must.
+class CoachPanel {
+ public:
+  /// Cuts the recording to at most `longest` frames around the seam. Fails when the recording's facts
+  /// cannot be read.
+  static Result<CoachPanel> Make(const CastCell& cell, int longest);
+
+  int Frames() const { return static_cast<int>(motion_.poses.size()); }
+  /// The first frame after the change (after the first change, when it goes through an in-between clip).
+  int Seam() const { return seams_.front(); }
+  /// "clap → side kick, by fuzzy-bridge"
+  std::string Title() const;
+  void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
+
+ private:
+  Camera CameraAt(int frame, double width, double height) const;
+  void DrawTimeline(Canvas& canvas, const Box& panel, int frame) const;
+
+  Character bear_;
+  BodyMotion motion_;
+  std::vector<glm::dvec3> followed_;  ///< what the camera follows, one per frame
+  std::vector<int> seams_;            ///< in order; at least one
+  std::string from_, to_, method_, branch_;
+};
+
+}  // namespace etude

@@ -1,0 +1,163 @@
+#include "reports/films/encoder.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "bench/files/files.h"
+
+namespace etude {
+namespace {
+
+// One thread: the number of threads changes the bytes. The bitexact flags keep dates and versions out.
+std::vector<std::string> Arguments(const std::string& program, const std::filesystem::path& out, int width, int height,
+                                   int rate_hz) {
+  return {program,
+          "-loglevel",
+          "error",
+          "-xerror",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pix_fmt",
+          "rgb24",
+          "-s",
+          fmt::format("{}x{}", width, height),
+          "-r",
+          fmt::format("{}", rate_hz),
+          "-i",
+          "-",
+          "-sws_flags",
+          "+accurate_rnd+bitexact",
+          "-an",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "veryfast",
+          "-crf",
+          "20",
+          "-pix_fmt",
+          "yuv420p",
+          "-threads",
+          "1",
+          "-fflags",
+          "+bitexact",
+          "-flags:v",
+          "+bitexact",
+          "-map_metadata",
+          "-1",
+          out.string()};
+}
+
+int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& child) {
+  std::vector<char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+  const int error = posix_spawnp(&child, argv.front(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+}  // namespace
+
+Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
+                               const std::string& program) {
+  const Place place{.file = path.string()};
+  if (auto made = MakeFolder(path.parent_path()); !made) return tl::unexpected(made.error());
+  Log log(std::tmpfile(), std::fclose);
+  if (!log) return Fail(place, "cannot make a temporary file: {}", std::strerror(errno));
+  // A socket instead of a pipe: writing to a reader that has gone is then an error, not a signal.
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+    return Fail(place, "cannot talk to {}: {}", program, std::strerror(errno));
+  }
+  pid_t child = -1;
+  const int error =
+      Spawn(Arguments(program, TemporaryName(path), width, height, rate_hz), ends[1], fileno(log.get()), child);
+  close(ends[1]);
+  if (error != 0) {
+    close(ends[0]);
+    return Fail(place, "{} could not be started ({}); the Debian package of that name brings it", program,
+                std::strerror(error));
+  }
+  return Encoder(path, child, ends[0], std::move(log));
+}
+
+Encoder::Encoder(std::filesystem::path path, pid_t child, int pictures, Log log)
+    : path_(std::move(path)), child_(child), pictures_(pictures), log_(std::move(log)) {}
+
+Encoder::Encoder(Encoder&& other) noexcept
+    : path_(std::move(other.path_)),
+      child_(std::exchange(other.child_, -1)),
+      pictures_(std::exchange(other.pictures_, -1)),
+      log_(std::move(other.log_)) {}
+
+Encoder::~Encoder() {
+  if (child_ < 0) return;
+  kill(child_, SIGKILL);
+  CloseAndWait();
+  std::error_code ignored;
+  std::filesystem::remove(TemporaryName(path_), ignored);
+}
+
+Result<void> Encoder::Add(const ColourImage& picture) {
+  static_assert(sizeof(Rgb8) == 3, "pictures are sent as they lie in memory");
+  const auto* bytes = reinterpret_cast<const char*>(picture.pixels.data());
+  std::size_t left = picture.pixels.size() * sizeof(Rgb8);
+  while (left > 0) {
+    const ssize_t sent = send(pictures_, bytes, left, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0) {
+      CloseAndWait();
+      return Complaint("ffmpeg stopped early");
+    }
+    bytes += sent;
+    left -= static_cast<std::size_t>(sent);
+  }
+  return {};
+}
+
+Result<void> Encoder::Finish() {
+  const int status = CloseAndWait();
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return RenameFinished(TemporaryName(path_), path_);
+  return Complaint(WIFEXITED(status) ? fmt::format("ffmpeg ended with code {}", WEXITSTATUS(status))
+                                     : "ffmpeg was killed");
+}
+
+int Encoder::CloseAndWait() {
+  if (pictures_ >= 0) close(std::exchange(pictures_, -1));
+  int status = 0;
+  const pid_t child = std::exchange(child_, -1);
+  while (child >= 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+tl::unexpected<Error> Encoder::Complaint(const std::string& what) {
+  std::error_code ignored;
+  std::filesystem::remove(TemporaryName(path_), ignored);
+  // Its first line names the cause; what follows are consequences.
+  std::string words(400, '\0');
+  std::rewind(log_.get());
+  words.resize(std::fread(words.data(), 1, words.size(), log_.get()));
+  words.resize(std::min(words.find('\n'), words.size()));
+  return Fail(Place{.file = path_.string()}, "{}{}{}", what, words.empty() ? "" : ": ", words);
+}
+
+}  // namespace etude

@@ -1,0 +1,33 @@
+#include "reports/films/look.h"
+
+namespace etude {
+namespace {
+
+constexpr double kMargin = 16;
+constexpr double kStrongSize = 19;
+constexpr double kSoftSize = 14;
+
+}  // namespace
+
+void DrawTag(Canvas& canvas, const Box& panel, const std::string& text) {
+  const double width = canvas.TextWidth(text, 13, true) + 20;
+  canvas.FillBox({panel.x + 12, panel.y + 12, width, 24}, {0.05, 0.06, 0.07, 0.72}, 12);
+  canvas.DrawText({panel.x + 22, panel.y + 28.5}, text, 13, kInk, width, true);
+}
+
+void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift) {
+  const double bottom = panel.y + panel.height - lift;
+  const double shade = (strong.empty() ? 44 : 72) + lift;
+  canvas.FillShade({panel.x, panel.y + panel.height - shade, panel.width, shade}, {0.03, 0.04, 0.05, 0},
+                   {0.03, 0.04, 0.05, 0.82});
+  const double room = panel.width - 2 * kMargin;
+  if (!strong.empty()) canvas.DrawText({panel.x + kMargin, bottom - 37}, strong, kStrongSize, kInk, room, true);
+  canvas.DrawText({panel.x + kMargin, bottom - 15}, soft, kSoftSize, kSoftInk, room);
+}
+
+void DrawEmptyPanel(Canvas& canvas, const Box& panel, const std::string& why) {
+  canvas.FillBox(panel, {0.13, 0.15, 0.17, 1}, kPanelRadius);
+  canvas.DrawText({panel.x + kMargin, panel.y + panel.height / 2}, why, kSoftSize, kSoftInk, panel.width - 2 * kMargin);
+}
+
+}  // namespace etude

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "reports/films/canvas.h"
+
+namespace etude {
+
+/// The film's few colours and how a caption lies on a picture: one place, so that panels look alike.
+inline constexpr Paint kBackdrop{0.078, 0.090, 0.102, 1};
+inline constexpr Paint kInk{0.95, 0.955, 0.96, 1};
+inline constexpr Paint kSoftInk{0.80, 0.83, 0.85, 1};
+inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
+inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
+inline constexpr double kPanelRadius = 10;
+
+/// A small label in the upper left corner: what this picture is.
+void DrawTag(Canvas& canvas, const Box& panel, const std::string& text);
+
+/// One or two lines in the lower left corner over a soft shade; `strong` may be empty.
+void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
+
+/// A panel that has nothing to show, and why.
+void DrawEmptyPanel(Canvas& canvas, const Box& panel, const std::string& why);
+
+}  // namespace etude

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/cameras/camera.h"
+#include "engine/motion/body.h"
+#include "reports/films/canvas.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// The part of the camera's sight that has to be shown: tangents to the right and downwards of its axis.
+struct Sight {
+  glm::dvec2 low{1e9};
+  glm::dvec2 high{-1e9};
+};
+
+/// An endless floor with a grid of half metres, seen by a camera that stands still before the origin, at +Z. Bodies
+/// are put there (FloorMove) instead of moving the camera: whoever walks is followed, and the grid passes below.
+class Studio {
+ public:
+  /// Makes `sight` hold what is seen of a figure that was put in place.
+  static void Include(const Figure& placed, Sight& sight);
+
+  /// For pictures of this size that show `sight`, as large as it fits. They are drawn `detail` times as large and
+  /// shrunk: 2 makes edges smooth, less is faster.
+  Studio(int width, int height, double detail, const Sight& sight);
+
+  /// `placement` has put the figure in place: it moves the grid as well.
+  /// `ghost` (null = none), a Silhouette of another figure, shimmers behind this one.
+  void Draw(Canvas& canvas, const Box& box, Renderer& renderer, const Figure& placed, const FloorMove& placement,
+            const Mask* ghost = nullptr) const;
+  /// The pixels, as fine as the studio draws, where a figure that was put in place is seen.
+  Mask Silhouette(Renderer& renderer, const Figure& placed) const;
+  /// Where in the box a point is seen.
+  glm::dvec2 PixelOf(const Box& box, const glm::dvec3& point) const;
+
+ private:
+  struct Ray {
+    glm::dvec2 floor{0};   ///< where it meets the floor: x, z
+    double fade = 0;       ///< how much the floor is still seen there; 0 for the backdrop
+    double footprint = 0;  ///< metres of floor below one pixel
+  };
+
+  Camera camera_;  ///< of pictures drawn larger than shown, and shrunk
+  std::vector<Ray> rays_;
+};
+
+/// A figure turned about the vertical axis and shifted on the floor.
+Figure Placed(Figure figure, const FloorMove& move);
+
+}  // namespace etude

@@ -1,0 +1,193 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "bench/files/files.h"
+#include "reports/films/canvas.h"
+#include "reports/films/capture_panel.h"
+#include "reports/films/cast.h"
+#include "reports/films/coach_panel.h"
+#include "reports/films/encoder.h"
+#include "tests/reports/support/example_run.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// What cairo makes of the panel's colour for the body's left side.
+constexpr Rgb8 kLeftBone{255, 204, 76};
+
+fs::path FilmPath() {
+  const fs::path folder = fs::path(::testing::TempDir()) / "etude_films";
+  fs::remove_all(folder);
+  return folder / "film.mp4";
+}
+
+TEST(Canvas, ShowsAnImageWhereItWasPut) {
+  ColourImage red(4, 4, {200, 10, 20});
+  Canvas canvas(20, 10);
+  canvas.DrawImage(red, {10, 0, 10, 10});
+  const ColourImage pixels = canvas.Pixels();
+  EXPECT_EQ(pixels.At(15, 5), (Rgb8{200, 10, 20}));
+  EXPECT_EQ(pixels.At(5, 5), (Rgb8{0, 0, 0}));
+  EXPECT_TRUE(canvas.Png().starts_with("\x89PNG"));
+}
+
+TEST(Canvas, CutsTextThatDoesNotFit) {
+  Canvas canvas(300, 40);
+  canvas.DrawText({0, 30}, std::string(200, 'W'), 20, {1, 1, 1, 1}, 100);
+  const ColourImage pixels = canvas.Pixels();
+  int inside = 0, outside = 0;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) (x <= 101 ? inside : outside) += pixels.At(x, y).r > 0;
+  }
+  EXPECT_GT(inside, 100);
+  EXPECT_EQ(outside, 0);
+}
+
+TEST(Outline, IsTheRimOfTheMask) {
+  Mask mask(7, 7);
+  for (int y = 1; y < 6; ++y) {
+    for (int x = 1; x < 6; ++x) mask.At(x, y) = 1;
+  }
+  const Mask outline = OutlineOf(mask);
+  int set = 0;
+  for (const auto pixel : outline.pixels) set += pixel;
+  EXPECT_EQ(set, 16);
+  EXPECT_EQ(outline.At(3, 3), 0);
+  EXPECT_EQ(outline.At(1, 3), 1);
+}
+
+TEST(Cast, PrefersATypicalCellOfTheMethodThatAnswers) {
+  RunData run = ExampleRun();
+  const Recording recording{{{"recovered", BodyMotion{30, {BodyPose{}}}}}, "{}"};
+  for (const Row& row : run.rows) {
+    // Trials 2…10; what a trial's error is grows with its number.
+    if (row.scenario == "capture" && row.trial >= 2 && row.trial <= 10) run.recordings.push_back({row.Id(), recording});
+  }
+  const auto chosen = ChooseCell(run, "capture", "recovered");
+  ASSERT_TRUE(chosen.has_value());
+  EXPECT_EQ(chosen->row->method, "ccd-fixed");
+  EXPECT_EQ(chosen->row->trial, 6);
+  EXPECT_FALSE(ChooseCell(run, "capture", "coach").has_value());
+  EXPECT_FALSE(ChooseCell(run, "transition", "coach").has_value());
+}
+
+TEST(CoachPanel, CutsALongMotionAroundItsSeam) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  const auto cell = ChooseCell(run, "transition", "coach");
+  ASSERT_TRUE(cell.has_value());
+  const auto panel = CoachPanel::Make(*cell, 60);
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  EXPECT_EQ(panel->Frames(), 60);
+  EXPECT_EQ(panel->Seam(), 30);
+}
+
+TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  run.recordings.front().recording.extras_json =
+      R"({"seam_frame": 80, "seam_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
+  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500);
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  EXPECT_EQ(panel->Seam(), 80);
+  EXPECT_THAT(panel->Title(), HasSubstr("side kick → clap"));
+}
+
+TEST(CoachPanel, RefusesARecordingWithoutASeam) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  run.recordings.front().recording.extras_json = R"({"from": "clap"})";
+  const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 60);
+  ASSERT_FALSE(panel.has_value());
+  EXPECT_THAT(ToString(panel.error()), HasSubstr("seam_frame"));
+}
+
+TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  auto& recording = run.recordings.back().recording;
+  recording.tracks.front().motion.poses.pop_back();
+  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_FALSE(panel.has_value());
+  EXPECT_THAT(ToString(panel.error()), HasSubstr("differ in length"));
+}
+
+TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  const auto panel = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
+  auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  Canvas canvas(432, 324);
+  panel->Draw(canvas, **renderer, 0, 20);
+  const ColourImage pixels = canvas.Pixels();
+  int bones = 0, highest = pixels.height, lowest = 0;
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < pixels.width; ++x) {
+      if (pixels.At(x, y) != kLeftBone) continue;
+      ++bones;
+      highest = std::min(highest, y);
+      lowest = std::max(lowest, y);
+    }
+  }
+  EXPECT_GT(bones, 100);
+  // Cut to the person: from the raised hand to the foot it takes most of the picture's height.
+  EXPECT_GT(lowest - highest, pixels.height / 2);
+  EXPECT_GT(highest, 0);
+  EXPECT_LT(lowest, pixels.height - 1);
+}
+
+TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
+  const auto encode = [] {
+    const fs::path path = FilmPath();
+    auto encoder = Encoder::Start(path, 64, 48, 30);
+    EXPECT_TRUE(encoder.has_value()) << ToString(encoder.error());
+    for (int i = 0; i < 10; ++i) {
+      EXPECT_TRUE(encoder->Add(ColourImage(64, 48, {static_cast<std::uint8_t>(20 * i), 90, 30})).has_value());
+    }
+    const auto finished = encoder->Finish();
+    EXPECT_TRUE(finished.has_value()) << ToString(finished.error());
+    EXPECT_FALSE(fs::exists(TemporaryName(path)));
+    return ReadWholeFile(path).value_or("");
+  };
+  const std::string first = encode();
+  EXPECT_THAT(first.substr(0, 12), HasSubstr("ftyp"));
+  EXPECT_EQ(first, encode());
+}
+
+TEST(Encoder, SaysThatTheProgramIsMissing) {
+  const auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, "no-such-encoder");
+  ASSERT_FALSE(encoder.has_value());
+  EXPECT_THAT(ToString(encoder.error()), HasSubstr("no-such-encoder could not be started"));
+}
+
+TEST(Encoder, ReportsAProgramThatGivesUpInsteadOfDying) {
+  auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, "false");
+  ASSERT_TRUE(encoder.has_value());
+  Result<void> added;
+  for (int i = 0; i < 500 && added; ++i) added = encoder->Add(ColourImage(64, 48));
+  const auto ended = added ? encoder->Finish() : added;
+  EXPECT_FALSE(ended.has_value());
+}
+
+TEST(Encoder, LeavesNothingBehindWhenDropped) {
+  const fs::path path = FilmPath();
+  {
+    auto encoder = Encoder::Start(path, 64, 48, 30);
+    ASSERT_TRUE(encoder.has_value());
+    ASSERT_TRUE(encoder->Add(ColourImage(64, 48)).has_value());
+  }
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_FALSE(fs::exists(TemporaryName(path)));
+}
+
+}  // namespace
+}  // namespace etude

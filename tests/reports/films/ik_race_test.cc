@@ -1,0 +1,116 @@
+#include "reports/films/ik_race.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/reports/films/race_run.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<IkRace> Find(const RunData& run) { return FindIkRace(run, run.scenarios.front()); }
+
+std::string WhyNone(const RunData& run) {
+  const auto race = Find(run);
+  return race ? "there is one" : ToString(race.error());
+}
+
+TEST(IkRace, IsTheFirstWorldThatRecordedBothWhoeverLooksBestLater) {
+  const auto race = Find(RaceRun({{"slow", 0, 0.01, EveryIteration(50), Status::kUnsolved, "14° after 50 sweeps"},
+                                  {"quick", 0, 0.01, EveryIteration(60), Status::kUnsolved, "12° after 60 sweeps"},
+                                  {"slow", 1, 0.5, EveryIteration(15)},
+                                  {"quick", 1, 1, EveryIteration(8)}}));
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->world, "trial 0");
+  EXPECT_EQ(race->choice, "the first world that kept recordings of both");
+  EXPECT_EQ(race->paths[0].method, "slow");
+  EXPECT_EQ(race->paths[1].method, "quick");
+}
+
+TEST(IkRace, SaysWhichWorldItPassedOver) {
+  const auto race = Find(RaceRun({{"slow", 0, 0.1, EveryIteration(60)},
+                                  {"quick", 0, 1, {}, Status::kCrashed, "its process died"},
+                                  {"slow", 1, 0.1, EveryIteration(60)},
+                                  {"quick", 1, 1, EveryIteration(8)}}));
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->world, "trial 1");
+  EXPECT_THAT(race->choice, HasSubstr("1 world had one of them only, the first: trial 0 (quick: crashed)"));
+}
+
+TEST(IkRace, TakesTheFirstTwoOfTheMethodsThatWereRecorded) {
+  const auto race = Find(RaceRun({{"a", 0, 1, {}},
+                                  {"b", 0, 1, EveryIteration(8)},
+                                  {"c", 0, 1, EveryIteration(8)},
+                                  {"d", 0, 1, EveryIteration(8)}}));
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->paths[0].method, "b");
+  EXPECT_EQ(race->paths[1].method, "c");
+}
+
+TEST(IkRace, SaysWhyThereIsNone) {
+  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, {}}, {"b", 0, 1, {}}})), HasSubstr("recordings of no method"));
+  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)}, {"b", 0, 1, {}}})), HasSubstr("one method only"));
+  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)},
+                               {"b", 0, 1, {}, Status::kFailed},
+                               {"a", 1, 1, {}, Status::kFailed},
+                               {"b", 1, 1, EveryIteration(3)}})),
+              HasSubstr("no world kept recordings of both a and b"));
+  EXPECT_EQ(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)}, {"b", 0, 1, EveryIteration(3)}})), "there is one");
+}
+
+TEST(IkRace, KnowsWhatEachMethodHasReachedAtAMoment) {
+  const auto race = Find(RaceRun({{"long", 0, 0.1, {0, 1, 2, 10, 100}}, {"short", 0, 1, {0, 1, 2, 3}}}));
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->LastIteration(), 100);
+  const IkPath &sparse = race->paths[0], &ended = race->paths[1];
+  EXPECT_EQ(sparse.EntryAt(0), 0u);
+  EXPECT_EQ(sparse.EntryAt(1.999), 1u);
+  EXPECT_EQ(sparse.EntryAt(9.999), 2u);
+  EXPECT_EQ(sparse.EntryAt(10), 3u);
+  EXPECT_EQ(sparse.EntryAt(100), 4u);
+  EXPECT_EQ(ended.EntryAt(2.5), 2u);
+  EXPECT_EQ(ended.EntryAt(100), 3u);
+}
+
+TEST(IkRace, IsSolvedOnceBothErrorsStayBelowTheGoal) {
+  // 40° · e^(−i) is first below 0.1° at i = 6, 20 cm · e^(−i) below 0.1 cm there as well.
+  const auto race = Find(RaceRun({{"tight", 0, 1, EveryIteration(12)},
+                                  {"broken", 0, 1, EveryIteration(12), Status::kUnsolved, "2 angles outside"}}));
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->paths[0].solved_at, 6);
+  EXPECT_EQ(race->paths[0].ending, "solved");
+  EXPECT_FALSE(race->paths[1].solved_at.has_value());
+  EXPECT_EQ(race->paths[1].ending, "not solved");
+  EXPECT_EQ(race->paths[1].reason, "2 angles outside");
+}
+
+TEST(IkRace, KnowsThatWithoutErrorsNothingWasAskedFor) {
+  EXPECT_FALSE(IsAskedFor({0, 0, 0}));
+  EXPECT_TRUE(IsAskedFor({12, 0, 0}));
+}
+
+TEST(IkRace, RefusesRecordingsThatDoNotSayWhatTheyShow) {
+  const RunData good = RaceRun({{"a", 0, 1, EveryIteration(2)}, {"b", 0, 1, EveryIteration(2)}});
+  const auto complaint = [&](const std::string& extras) {
+    RunData run = good;
+    run.recordings[1].recording.extras_json = extras;
+    return WhyNone(run);
+  };
+  const std::string errors = R"(, "position_error_max_cm": [3, 2, 1], "orientation_error_max_deg": [3, 2, 1]})";
+  EXPECT_EQ(complaint(R"({"iterations": [0, 1, 2])" + errors), "there is one");
+  EXPECT_THAT(complaint("{}"), HasSubstr("race/-/000/b: its extras' iterations is no list of 3 numbers"));
+  EXPECT_THAT(complaint("[]"), HasSubstr("no JSON object"));
+  EXPECT_THAT(complaint(R"({"iterations": [0, 1])" + errors), HasSubstr("iterations is no list of 3"));
+  EXPECT_THAT(complaint(R"({"iterations": [0, 1, "2"])" + errors), HasSubstr("iterations is no list of 3"));
+  for (const char* wrong : {"[0, 2, 1]", "[1, 2, 3]", "[0, 1, 1.5]", "[0, 1, 1e12]"}) {
+    EXPECT_THAT(complaint(R"({"iterations": )" + std::string(wrong) + errors), HasSubstr("rising from 0")) << wrong;
+  }
+  EXPECT_THAT(complaint(R"({"iterations": [0, 1, 2], "position_error_max_cm": [3, -2, 1]})"),
+              HasSubstr("position_error_max_cm is no list of 3 numbers of at least 0"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,65 @@
+#include "tests/reports/films/race_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/json.h"
+#include "engine/kinematics/tree_to_body.h"
+
+namespace etude {
+namespace {
+
+Recording RecordSettling(const Settling& cell) {
+  const KinematicTree tree = MakeBodyTree({});
+  TreeState state = StandingState(tree);
+  const BodyPose truth = ToBodyPose(tree, state);
+  Track truths{"truth", {}}, starts{"start", {}}, solutions{"solution", {}};
+  Json position = Json::array(), orientation = Json::array();
+  for (const int iteration : cell.iterations) {
+    const double left = std::exp(-cell.rate * iteration);
+    for (std::size_t i = 0; i < state.angles.size(); ++i)
+      state.angles[i] = 0.3 * left * std::sin(static_cast<double>(i));
+    truths.motion.poses.push_back(truth);
+    solutions.motion.poses.push_back(ToBodyPose(tree, state));
+    starts.motion.poses.push_back(solutions.motion.poses.front());
+    position.push_back(20 * left);
+    orientation.push_back(40 * left);
+  }
+  const Json extras = {
+      {"iterations", cell.iterations}, {"position_error_max_cm", position}, {"orientation_error_max_deg", orientation}};
+  return {{truths, starts, solutions}, extras.dump()};
+}
+
+}  // namespace
+
+RunData RaceRun(const std::vector<Settling>& cells) {
+  RunData run;
+  run.suite = "race";
+  ScenarioSummary& scenario = run.scenarios.emplace_back();
+  scenario.name = "race";
+  scenario.task = "ik";
+  scenario.question = "Who settles first?";
+  for (const Settling& cell : cells) {
+    if (std::ranges::find(scenario.methods, cell.method) == scenario.methods.end())
+      scenario.methods.push_back(cell.method);
+    Row row;
+    row.scenario = "race";
+    row.task = "ik";
+    row.trial = cell.trial;
+    row.method = cell.method;
+    row.result.status = cell.status;
+    row.result.reason = cell.reason;
+    if (!cell.iterations.empty()) run.recordings.push_back({row.Id(), RecordSettling(cell)});
+    run.rows.push_back(std::move(row));
+  }
+  return run;
+}
+
+std::vector<int> EveryIteration(int last) {
+  std::vector<int> iterations;
+  for (int i = 0; i <= last; ++i) iterations.push_back(i);
+  return iterations;
+}
+
+}  // namespace etude

@@ -1,0 +1,72 @@
+#include "reports/paper/curve_plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The points of the first line of a panel.
+std::vector<std::pair<double, double>> PointsOf(const std::string& svg) {
+  const std::size_t begin = svg.find(" points=\"") + 9;
+  const std::string text = svg.substr(begin, svg.find('"', begin) - begin);
+  const std::regex point(R"((-?[0-9.]+),(-?[0-9.]+))");
+  std::vector<std::pair<double, double>> points;
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), point); it != std::sregex_iterator(); ++it) {
+    points.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
+  }
+  return points;
+}
+
+TEST(AxesFor, HoldEveryCurveInWholeDecades) {
+  const PlotCurve a{0, false, {50, 2}}, b{1, false, {7, 0.03, 0.02, 0.0}};
+  const PlotAxes axes = AxesFor({&a, &b});
+  EXPECT_EQ(axes.high_decade, 2);
+  EXPECT_EQ(axes.low_decade, -2);
+  EXPECT_EQ(axes.last_step, 3);
+}
+
+TEST(AxesFor, HaveWidthAndHeightWhateverTheyAreGiven) {
+  const PlotCurve none{0, false, {}}, zeros{0, false, {0, 0}}, one{0, false, {10}}, far{0, false, {1, 1e-300}};
+  for (const PlotCurve* curve : {&none, &zeros, &one, &far}) {
+    const PlotAxes axes = AxesFor({curve});
+    EXPECT_GT(axes.high_decade, axes.low_decade);
+    EXPECT_LE(axes.high_decade - axes.low_decade, 8);
+    EXPECT_GE(axes.last_step, 1);
+  }
+}
+
+TEST(CurvePlot, DrawsEqualRatiosAsEqualDistances) {
+  const PlotCurve curve{0, false, {100, 10, 1, 0}};
+  const auto points = PointsOf(CurvePlotSvg({curve}, {0, 2, 3}, ""));
+  ASSERT_EQ(points.size(), 4u);
+  EXPECT_NEAR(points[1].second - points[0].second, points[2].second - points[1].second, 0.11);
+  EXPECT_EQ(points[3].second, points[2].second);  // zero lies on the lower end
+  EXPECT_NEAR(points[1].first - points[0].first, points[3].first - points[2].first, 0.11);
+}
+
+TEST(CurvePlot, StaysLightAndStillTellsWhereALongCurveEnds) {
+  PlotCurve curve{0, false, std::vector<double>(5000, 1.0)};
+  curve.values.back() = 100;
+  const auto points = PointsOf(CurvePlotSvg({curve}, {0, 2, 4999}, ""));
+  EXPECT_LE(points.size(), 80u);
+  EXPECT_LT(points.back().second, points.front().second);
+  EXPECT_EQ(points.back().first, std::ranges::max(points).first);
+}
+
+TEST(CurvePlot, TellsMethodsApartByColourAndDashes) {
+  const std::string svg = CurvePlotSvg({{0, false, {1, 2}}, {4, true, {1, 2}}}, {0, 1, 1}, "<me>");
+  EXPECT_THAT(svg, HasSubstr("class=\"c0\" points"));
+  EXPECT_THAT(svg, HasSubstr("class=\"c4 faint\" stroke-dasharray"));
+  EXPECT_THAT(svg, Not(HasSubstr("<me>")));
+  EXPECT_THAT(CurveKeySvg(4), HasSubstr("class=\"c4\" stroke-dasharray"));
+}
+
+}  // namespace
+}  // namespace etude

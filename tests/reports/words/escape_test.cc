@@ -1,0 +1,78 @@
+#include "reports/words/escape.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace etude {
+namespace {
+
+std::string EncodedText(std::string_view text) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+  return Base64(std::span(bytes, text.size()));
+}
+
+// RFC 4648, section 10.
+TEST(Base64, GivesThePublishedVectors) {
+  EXPECT_EQ(EncodedText(""), "");
+  EXPECT_EQ(EncodedText("f"), "Zg==");
+  EXPECT_EQ(EncodedText("fo"), "Zm8=");
+  EXPECT_EQ(EncodedText("foo"), "Zm9v");
+  EXPECT_EQ(EncodedText("foob"), "Zm9vYg==");
+  EXPECT_EQ(EncodedText("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(EncodedText("\xff\xef\xfe"), "/+/+");
+}
+
+TEST(Markup, LeavesNoCharacterThatCouldOpenAnything) {
+  EXPECT_EQ(EscapeMarkup("</script><b a=\"1\" c='2'>&"), "&lt;/script&gt;&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
+  EXPECT_EQ(EscapeMarkup("größer → 5 °, 𝄞"), "größer → 5 °, 𝄞");
+}
+
+TEST(Markup, ReplacesWhatXmlForbids) {
+  const std::string replaced = "\xEF\xBF\xBD";
+  EXPECT_EQ(EscapeMarkup(std::string("a\0b", 3)), "a" + replaced + "b");
+  EXPECT_EQ(EscapeMarkup("\x1b"), replaced);
+  EXPECT_EQ(EscapeMarkup("\xff"), replaced);                                // never UTF-8
+  EXPECT_EQ(EscapeMarkup("\xc3"), replaced);                                // cut short
+  EXPECT_EQ(EscapeMarkup("\xc0\xaf"), replaced + replaced);                 // overlong "/"
+  EXPECT_EQ(EscapeMarkup("\xed\xa0\x80"), replaced + replaced + replaced);  // a surrogate
+  EXPECT_EQ(EscapeMarkup("\xef\xbf\xbf"), replaced + replaced + replaced);  // U+FFFF
+}
+
+TEST(ScriptJson, CannotEndItsElement) {
+  EXPECT_EQ(EscapeScriptJson(R"({"a":"</script><!--"})"), R"({"a":"\u003c/script>\u003c!--"})");
+}
+
+TEST(Markdown, KeepsATableCellInOneCell) { EXPECT_EQ(EscapeMarkdown("a|b\n*c*"), "a\\|b \\*c\\*"); }
+
+TEST(Csv, QuotesOnlyWhatNeedsIt) {
+  EXPECT_EQ(EscapeCsv("plain"), "plain");
+  EXPECT_EQ(EscapeCsv("a,b"), "\"a,b\"");
+  EXPECT_EQ(EscapeCsv("say \"no\""), "\"say \"\"no\"\"\"");
+}
+
+TEST(EscapeLatex, LeavesNoCharacterItsMeaning) {
+  EXPECT_EQ(EscapeLatex("a_b & 50% $ # {x}"), "a\\_b \\& 50\\% \\$ \\# \\{x\\}");
+  EXPECT_EQ(EscapeLatex("~^\\"), "\\textasciitilde{}\\textasciicircum{}\\textbackslash{}");
+  EXPECT_EQ(EscapeLatex("[1] *--<|>"), "{}[1] *-{}-\\textless{}\\textbar{}\\textgreater{}");
+  EXPECT_EQ(EscapeLatex("two\nlines"), "two lines");
+  EXPECT_EQ(EscapeLatex("\n*"), "{} *");
+  // Whatever byte comes, a special character of the answer stands behind a backslash or is one of our own commands.
+  for (int byte = 1; byte < 256; ++byte) {
+    const std::string escaped = EscapeLatex(std::string(1, static_cast<char>(byte)));
+    for (const char special : {'_', '&', '%', '#'}) {
+      const std::size_t at = escaped.find(special);
+      EXPECT_TRUE(at == std::string::npos || (at > 0 && escaped[at - 1] == '\\')) << byte;
+    }
+  }
+}
+
+TEST(EscapeLatex, GivesLettersThatNoFontOfLatexHasAsNumbers) {
+  EXPECT_EQ(EscapeLatex("−1.5° — “Größe” 1–2"), "$-$1.5$^\\circ$ --- ``Größe'' 1--2");
+  EXPECT_EQ(EscapeLatex("中"), "{}[U+4E2D]");
+  EXPECT_EQ(EscapeLatex("a 😀"), "a [U+1F600]");
+  EXPECT_EQ(EscapeLatex("\xff"), "{}[U+FFFD]");
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,65 @@
+#include "reports/words/figures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace etude {
+namespace {
+
+TEST(Figures, ShowAboutThreeSignificantDigits) {
+  EXPECT_EQ(FormatNumber(12.345), "12.3");
+  EXPECT_EQ(FormatNumber(1.2345), "1.23");
+  EXPECT_EQ(FormatNumber(0.012345), "0.0123");
+  EXPECT_EQ(FormatNumber(1284.4), "1,284");
+  EXPECT_EQ(FormatNumber(-3.14159), "−3.14");
+  EXPECT_EQ(FormatNumber(0), "0");
+  EXPECT_EQ(FormatNumber(0.0000312), "3.1e-05");
+}
+
+TEST(Figures, ThatAreNotFiniteAreNoNumbers) {
+  EXPECT_EQ(FormatNumber(std::nan("")), kNoValue);
+  EXPECT_EQ(FormatNumber(std::numeric_limits<double>::infinity()), kNoValue);
+}
+
+TEST(Figures, NeverShowAMinusBeforeARoundedZero) { EXPECT_EQ(FormatFixed(-0.004, 1), "0.0"); }
+
+TEST(Figures, CountsAreGroupedByThousands) {
+  EXPECT_EQ(FormatCount(999), "999");
+  EXPECT_EQ(FormatCount(1284), "1,284");
+  EXPECT_EQ(FormatCount(12345678), "12,345,678");
+}
+
+TEST(Figures, AShareIsWholeOnlyWhenNothingIsMissing) {
+  EXPECT_EQ(FormatShare(60, 60), "100 %");
+  EXPECT_EQ(FormatShare(9999, 10000), "99.9 %");
+  EXPECT_EQ(FormatShare(1, 10000), "0.1 %");
+  EXPECT_EQ(FormatShare(0, 10), "0 %");
+  EXPECT_EQ(FormatShare(0, 0), kNoValue);
+}
+
+TEST(Figures, IntervalsHaveTheSameDigitsAtBothEnds) {
+  const MetricWords plain{};
+  EXPECT_EQ(FormatInterval(10.06, 14, plain), "10.1–14.0");
+  EXPECT_EQ(FormatInterval(-1.25, 0.4, plain), "−1.25 to 0.40");
+  EXPECT_EQ(FormatInterval(std::nullopt, 2, plain), kNoValue);
+}
+
+TEST(Figures, ReadAsTheCatalogueSays) {
+  const MetricWords angle = WordsFor("orientation_error_deg");
+  EXPECT_EQ(FormatValue(12.3, angle), "12.3°");
+  const MetricWords share = WordsFor("solved_practical");
+  EXPECT_TRUE(share.is_share);
+  EXPECT_EQ(FormatValue(0.51, share), "51.0 %");
+  EXPECT_EQ(FormatValue(std::nullopt, share), kNoValue);
+}
+
+TEST(Figures, AMetricOutsideTheCatalogueKeepsItsName) {
+  const MetricWords words = WordsFor("no_such_metric");
+  EXPECT_EQ(words.label, "no_such_metric");
+  EXPECT_EQ(words.direction, Direction::kNeither);
+}
+
+}  // namespace
+}  // namespace etude

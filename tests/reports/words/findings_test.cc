@@ -1,0 +1,133 @@
+#include "reports/words/findings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/reports/support/example_run.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Comparison Figures(int pairs, std::optional<double> difference, std::optional<double> low, std::optional<double> high,
+                   double share_better, Verdict verdict) {
+  Comparison comparison;
+  comparison.pairs = pairs;
+  comparison.difference = difference;
+  comparison.ci_low = low;
+  comparison.ci_high = high;
+  comparison.share_better = share_better;
+  comparison.verdict = verdict;
+  return comparison;
+}
+
+/// One condition, "adaptive" against "fixed".
+ScenarioSummary OneComparison(Comparison comparison, std::vector<std::string> methods = {"fixed", "adaptive"}) {
+  comparison.metric = "orientation_error_deg";
+  comparison.baseline = "fixed";
+  comparison.method = "adaptive";
+  ScenarioSummary scenario;
+  scenario.name = "one";
+  scenario.methods = std::move(methods);
+  scenario.headline_metrics = {"orientation_error_deg"};
+  scenario.conditions.push_back({{}, {}, {comparison}});
+  return scenario;
+}
+
+std::string AnswerTo(const Comparison& comparison) {
+  return FindingsOf(RunData{}, OneComparison(comparison)).answer.sentence;
+}
+
+TEST(Answer, SaysHowMuchBetterOnHowManyWorlds) {
+  EXPECT_EQ(
+      AnswerTo(Figures(60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter)),
+      "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) compared with “fixed”, on 58 of "
+      "60 worlds — better.");
+}
+
+TEST(Answer, CountsTheWorldsLostWhenWorse) {
+  EXPECT_THAT(
+      AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
+      HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) compared with “fixed”, on 18 of "
+                "20 worlds — worse."));
+}
+
+TEST(Answer, ClaimsNothingThatIsNotSettled) {
+  const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive));
+  EXPECT_THAT(open, HasSubstr("do not settle"));
+  EXPECT_THAT(open, Not(HasSubstr("lowers")));
+  const std::string same = AnswerTo(Figures(20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference));
+  EXPECT_THAT(same, HasSubstr("makes no difference that matters"));
+}
+
+TEST(Answer, SaysWhyItIsOpen) {
+  Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kInconclusive);
+  open.why_open = "too few worlds";
+  EXPECT_THAT(AnswerTo(open), HasSubstr("on 8 worlds — inconclusive: too few worlds."));
+}
+
+TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
+  Comparison lossy = Figures(40, -4.7, -6.0, -1.1, 0.9, Verdict::kBetter);
+  EXPECT_THAT(AnswerTo(lossy), Not(HasSubstr("Not in this difference")));
+  lossy.only_baseline = 13;
+  lossy.only_method = 1;
+  EXPECT_THAT(AnswerTo(lossy),
+              HasSubstr("Not in this difference, since one of the two has no value there: only “fixed” in 13 "
+                        "worlds, only “adaptive” in 1 world."));
+}
+
+TEST(Answer, AdmitsThatNothingCouldBeCompared) {
+  EXPECT_THAT(AnswerTo(Figures(0, std::nullopt, std::nullopt, std::nullopt, 0, Verdict::kInconclusive)),
+              HasSubstr("no world gave both a value"));
+}
+
+TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {
+  ScenarioSummary scenario = OneComparison(Figures(9, -2.0, -3.0, -1.0, 1, Verdict::kBetter));
+  scenario.conditions.push_back(scenario.conditions.front());
+  scenario.conditions[0].condition = {{"noise", "5"}};
+  scenario.conditions[1].condition = {{"noise", "20"}};
+  scenario.conditions[1].comparisons[0].verdict = Verdict::kWorse;
+  scenario.conditions[1].comparisons[0].difference = 4.0;
+  const MethodFinding answer = FindingsOf(RunData{}, scenario).answer;
+  EXPECT_FALSE(answer.verdict.has_value());
+  EXPECT_EQ(answer.Words(), "it depends");
+  EXPECT_THAT(answer.sentence, HasSubstr("better under 1 of 2, worse under 1 of 2"));
+  EXPECT_THAT(answer.sentence, HasSubstr("−2.00° (noise=5) to 4.00° (noise=20)"));
+}
+
+TEST(Answer, OfASingleMethodComparesNothing) {
+  const auto scenario = OneComparison({}, {"fixed"});
+  EXPECT_THAT(FindingsOf(RunData{}, scenario).answer.sentence, HasSubstr("nothing to compare"));
+}
+
+TEST(Findings, KeepEveryFailureWithItsReason) {
+  const RunData run = ExampleRun();
+  const ScenarioFindings findings = FindingsOf(run, run.scenarios[0]);
+  int ok = 0, others = 0;
+  for (const auto& [status, count] : findings.statuses) (status == Status::kOk ? ok : others) += count;
+  EXPECT_EQ(ok + others, findings.cells);
+  EXPECT_EQ(others, 4);
+  int explained = 0;
+  for (const ReasonCount& reason : findings.reasons) explained += reason.cells;
+  EXPECT_EQ(explained, others);
+}
+
+TEST(Findings, OfTheRunCountExpectationsAndCells) {
+  const RunFindings findings = FindingsOf(ExampleRun());
+  EXPECT_EQ(findings.met, 3);
+  EXPECT_EQ(findings.unmet, 1);
+  EXPECT_EQ(findings.undecided, 1);
+  EXPECT_LT(findings.ok, findings.cells);
+  EXPECT_THAT(findings.sentence, HasSubstr("3 of 5 expectations were met, 1 not, 1 could not be decided."));
+}
+
+TEST(Findings, SayWhyAValueIsMissing) {
+  const RunData run = ExampleRun();
+  EXPECT_THAT(MissingReasons(run, "transition", {}, "fuzzy-bridge", "jump_cm"), HasSubstr("2 × no bridge frame"));
+  EXPECT_EQ(MissingReasons(run, "transition", {}, "now", "jump_cm"), "");
+}
+
+}  // namespace
+}  // namespace etude
