@@ -204,7 +204,7 @@ void DefineList(CLI::App& app, Action& action) {
   const auto list = [&](const char* name, const char* help, Listing what) {
     command->add_subcommand(name, help)->callback([=, &action] { action = [=] { return ListCommand(what, ""); }; });
   };
-  list("methods", "Tasks, and what their methods are made of", Listing::kMethods);
+  list("methods", "Tasks, what their methods are made of, and solvers", Listing::kMethods);
   list("clips", "Built-in clips", Listing::kClips);
   auto json = Keep<bool>(false), markdown = Keep<bool>(false);
   CLI::App* metrics = command->add_subcommand("metrics", "Metrics with their definitions");

@@ -5,6 +5,7 @@
 #include "bench/scenario/scenario.h"
 #include "bench/tasks/registry.h"
 #include "cli/commands.h"
+#include "cli/solver_list.h"
 #include "engine/base/names.h"
 #include "sim/choreography/move.h"
 #include "sim/choreography/song.h"
@@ -15,8 +16,9 @@ namespace {
 void ListTasks() {
   for (const TaskKind& kind : AllTaskKinds()) {
     fmt::print("{:<11} {}\n{:<11} headline metrics: {}\n", kind.name, kind.question, "", Join(kind.default_metrics));
-    for (const KeyInfo& key : kind.method_keys) fmt::print("{:<11}   {}: {}\n", "", key.key, key.allowed);
+    for (const KeyInfo& key : kind.method_keys) fmt::print("{:<11}   {}: {}\n", "", key.key, key.AllowedWhere());
   }
+  PrintSolvers();
 }
 
 int ListClips() {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
@@ -19,6 +18,8 @@ using Json = nlohmann::ordered_json;
 
 // More steps than a screen has room for only make the page heavy.
 constexpr std::size_t kMostSteps = 120;
+// As many marks as half the page's width has room for.
+constexpr std::size_t kMostMarks = 24;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
 
@@ -40,9 +41,10 @@ bool NeedsLogarithm(const std::vector<double>& values) {
 
 Json OrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
 
-// The values of the swept parameters, without the keys when only one is swept.
-std::string GroupLabel(const std::vector<Setting>& condition) {
-  return condition.size() == 1 ? condition.front().value : ConditionLabel(condition);
+std::string Joined(const std::vector<Setting>& condition, std::string Setting::*part) {
+  std::string text;
+  for (const Setting& setting : condition) text += (text.empty() ? "" : ", ") + setting.*part;
+  return text;
 }
 
 struct Mark {
@@ -65,17 +67,23 @@ Mark MarkOf(const ConditionSummary& condition, const std::string& method, const 
   return {};
 }
 
-// The first metric along iterations, in the order of the run. Curves that are no metric, such as one effector's, have
-// pictures of their own.
-std::optional<std::string> IterationCurveName(const RunData& run, const std::set<std::string>& cells) {
+// The scenario's first metric that cells have along the axis, else the first of any. Curves that are no metric, such as
+// one effector's, have pictures of their own; zeros are errors of what was not asked for; the middle of yes and no says
+// nothing.
+std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
+                                     const std::map<std::string, std::string>& method_of) {
+  std::vector<std::string> found;
   for (const CellSeries& cell : run.series) {
-    if (!cells.contains(cell.cell)) continue;
+    if (!method_of.contains(cell.cell)) continue;
     for (const Series& series : cell.series) {
-      const bool is_curve = series.axis == "iteration" && !series.values.empty();
-      if (is_curve && FindMetric(series.name) != nullptr) return series.name;
+      if (series.axis != axis || FindMetric(series.name) == nullptr || WordsFor(series.name).is_share) continue;
+      if (std::ranges::any_of(series.values, [](double value) { return value > 0; })) found.push_back(series.name);
     }
   }
-  return std::nullopt;
+  const auto is_found = [&](const std::string& metric) { return std::ranges::find(found, metric) != found.end(); };
+  const auto headline = std::ranges::find_if(scenario.headline_metrics, is_found);
+  if (headline != scenario.headline_metrics.end()) return *headline;
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 std::vector<double> Thinned(const std::vector<double>& curve, std::size_t stride) {
@@ -94,7 +102,8 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
   Chart chart;
   chart.caption = Caption(words.is_share ? "Mean with 95 % interval" : "Median with 95 % interval", words);
   Json groups = Json::array(), methods = Json::array();
-  for (const ConditionSummary& condition : scenario.conditions) groups.push_back(GroupLabel(condition.condition));
+  for (const ConditionSummary& condition : scenario.conditions)
+    groups.push_back(Joined(condition.condition, &Setting::value));
   std::vector<double> drawn;
   for (const std::string& method : scenario.methods) {
     Json marks = Json::array();
@@ -116,21 +125,22 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
   if (one_condition) chart.rows = static_cast<int>(scenario.methods.size());
   Json json{{"kind", "intervals"}, {"label", words.label},          {"suffix", words.suffix},
             {"groups", groups},    {"methods", std::move(methods)}, {"logarithmic", NeedsLogarithm(drawn)}};
-  const auto& first = scenario.conditions.front().condition;
-  json["groupLabel"] = first.size() == 1 ? first.front().key : "";
+  json["groupLabel"] = Joined(scenario.conditions.front().condition, &Setting::key);
+  chart.is_wide = !one_condition && scenario.conditions.size() * scenario.methods.size() > kMostMarks;
   chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return chart;
 }
 
-std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary& scenario) {
+std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario) {
+  if (scenario.conditions.empty()) return std::nullopt;
+  const bool follows_motion = scenario.task == "tracking";
+  const std::vector<Setting>& first = scenario.conditions.front().condition;
   std::map<std::string, std::string> method_of;
-  std::set<std::string> cells;
   for (const Row& row : run.rows) {
-    if (row.scenario != scenario.name) continue;
-    method_of[row.Id()] = row.method;
-    cells.insert(row.Id());
+    if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;
   }
-  const auto name = IterationCurveName(run, cells);
+  const std::string axis = follows_motion ? "frame" : "iteration";
+  const auto name = FindCurve(run, scenario, axis, method_of);
   if (!name) return std::nullopt;
 
   std::map<std::string, std::vector<const std::vector<double>*>> curves;
@@ -152,7 +162,11 @@ std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary&
 
   const MetricWords words = WordsFor(*name);
   Chart chart;
-  chart.caption = Caption("How fast it gets there: median", words);
+  chart.is_wide = follows_motion;
+  chart.caption = Caption(follows_motion ? "Frame by frame: median" : "How fast it gets there: median", words);
+  if (scenario.conditions.size() > 1) {
+    chart.caption += follows_motion ? fmt::format("; under {}", ConditionLabel(first)) : "; over all conditions";
+  }
   Json methods = Json::array();
   std::vector<double> drawn;
   for (const std::string& method : scenario.methods) {
@@ -160,9 +174,9 @@ std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary&
     if (found == medians.end()) continue;
     const std::vector<double>& curve = found->second;
     drawn.insert(drawn.end(), curve.begin(), curve.end());
-    chart.description += fmt::format("{}: from {} to {} in {}. ", method, FormatNumber(curve.front()) + words.suffix,
-                                     FormatNumber(curve.back()) + words.suffix,
-                                     Plural(static_cast<long long>(curve.size()) - 1, "iteration"));
+    chart.description +=
+        fmt::format("{}: from {} to {} in {}. ", method, FormatNumber(curve.front()) + words.suffix,
+                    FormatNumber(curve.back()) + words.suffix, Plural(static_cast<long long>(curve.size()) - 1, axis));
     Json values = Json::array();
     for (const double value : Thinned(curve, stride)) values.push_back(value);
     methods.push_back({{"name", method}, {"values", std::move(values)}});
@@ -170,7 +184,7 @@ std::optional<Chart> ConvergenceChart(const RunData& run, const ScenarioSummary&
   Json json{{"kind", "curves"},
             {"label", words.label},
             {"suffix", words.suffix},
-            {"axis", "iteration"},
+            {"axis", axis},
             {"stride", stride},
             {"methods", std::move(methods)},
             {"logarithmic", NeedsLogarithm(drawn)}};

@@ -25,7 +25,7 @@ std::string ImageElement(const Picture& picture) {
 std::string FilmElement(const Film& film, bool plays_at_once) {
   const Picture& poster = film.poster;
   if (film.mp4.empty() && poster.png.empty()) {
-    return fmt::format("<p class=\"quiet\">{}</p>", EscapeMarkup(film.why_not));
+    return film.why_not.empty() ? "" : fmt::format("<p class=\"quiet\">{}</p>", EscapeMarkup(film.why_not));
   }
   const std::string caption = EscapeMarkup(poster.caption);
   if (film.mp4.empty()) {

@@ -10,7 +10,7 @@ namespace etude {
 std::string ImageElement(const Picture& picture);
 
 /// A film inside the page with its caption: a <figure> with <video>, else its poster and why there is no film, else
-/// that reason alone.
+/// that reason alone, if there is any.
 std::string FilmElement(const Film& film, bool plays_at_once);
 
 }  // namespace etude

@@ -64,10 +64,11 @@ std::string Footer(const RunData& run) {
   entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
   entry("Command", run.command_line);
-  html +=
-      "</dl><p>All tables as CSV and LaTeX: <code>report/tables/</code>; recovered motions as BVH, pictures with depth "
-      "and labels as EXR beside them.";
-  return html + "</p></footer>";
+  html += "</dl><p>All tables as CSV and LaTeX: <code>report/tables/</code>";
+  if (std::ranges::find(run.scenarios, "capture", &ScenarioSummary::task) != run.scenarios.end()) {
+    html += "; recovered motions as BVH, pictures with depth and labels as EXR beside them";
+  }
+  return html + ".</p></footer>";
 }
 
 }  // namespace

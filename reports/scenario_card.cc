@@ -18,16 +18,17 @@ namespace {
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   const std::string shape = chart.rows > 0 ? fmt::format(" style=\"height:{}px\"", 64 + 38 * chart.rows) : "";
   return fmt::format(
-      "<figure class=\"chart\"><figcaption>{}</figcaption><div class=\"canvas\"{}>"
+      "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\"{}>"
       "<canvas data-chart=\"{}\" role=\"img\" aria-label=\"{}\"></canvas></div>"
       "<script type=\"application/json\" id=\"{}\">{}</script></figure>",
-      EscapeMarkup(chart.caption), shape, id, EscapeMarkup(chart.description), id, EscapeScriptJson(chart.json));
+      chart.is_wide ? " full" : "", EscapeMarkup(chart.caption), shape, id, EscapeMarkup(chart.description), id,
+      EscapeScriptJson(chart.json));
 }
 
 std::string Charts(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
   std::string html;
   if (const auto chart = IntervalChart(scenario)) html += ChartFigure(*chart, fmt::format("chart-{}-medians", index));
-  if (const auto chart = ConvergenceChart(run, scenario)) {
+  if (const auto chart = CurveChart(run, scenario)) {
     html += ChartFigure(*chart, fmt::format("chart-{}-curves", index));
   }
   if (html.empty()) return "<p class=\"quiet\">No cell gave a value that could be drawn.</p>";

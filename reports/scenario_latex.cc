@@ -105,8 +105,7 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
 
 constexpr std::string_view kStarsCaption =
     "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. Better and worse also need an interval on "
-    "one "
-    "side of zero and a difference that matters; no difference, an interval within what matters.";
+    "one side of zero and a difference that matters; no difference, an interval within what matters.";
 
 std::string Float(const std::string& caption, const std::string& rows) {
   return fmt::format(

@@ -125,9 +125,8 @@ std::vector<MetricInfo> IkCatalogue() {
        .formula =
            "1 if position_error_max_cm < 0.1 and orientation_error_max_deg < 0.1, else 0; exactly at a limit is "
            "0. Of a world that asks for positions only, or for axes only, the other error is not judged. A limit "
-           "is broken when an angle lies beyond it by more than 10⁻⁶ degrees; a built-in method with "
-           "`limits: false` is not held to them. The denominator of its mean is every world: a method that gave "
-           "no answer has 0.",
+           "is broken when an angle lies beyond it by more than 10⁻⁶ degrees, also by a method with `limits: false`. "
+           "The denominator of its mean is every world: a method that gave no answer has 0.",
        .null_rule = "Never: no answer is 0.",
        .source = "Etude.",
        .inputs = {kEffectors, kAsked}},
@@ -208,7 +207,8 @@ std::vector<MetricInfo> IkCatalogue() {
        .practical_reason = "About one world in a hundred more or less unsolved, at a limit of 200 steps.",
        .formula = "fk_evaluations if solved_practical is 1 and fk_evaluations ≤ max_fk_evaluations, else 2 · "
                   "max_fk_evaluations, also for a method that gave no answer. The limit is max_iterations + 1 for all "
-                  "methods of a scenario: the built-in solvers make one pass before their first step and one in each.",
+                  "methods of a scenario: the built-in solvers make one pass before their first step and one in each, "
+                  "ccd-anderson and ccd-nullspace at times a second, which counts against them.",
        .null_rule = kUntold,
        .source = "Penalised average runtime with factor 2, as in the SAT competitions.",
        .inputs = kCost},

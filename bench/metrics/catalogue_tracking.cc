@@ -83,7 +83,8 @@ std::vector<MetricInfo> TrackingCatalogue() {
                   "angles and all frames from the fourth on: the mean size of the third difference, jitter, without "
                   "its unit. Angles are taken as they are, not modulo 360°. One that stands still has 0: read it with "
                   "the errors.",
-       .null_rule = "Fewer than four frames, or a truth whose angles have no jerk at all.",
+       .null_rule =
+           "Fewer than four frames, or a truth that stands still: third differences below 10⁻⁹ rad on average.",
        .source = "Jerk as a measure of smoothness: Flash and Hogan 1985; its mean size as jitter of captured motion: "
                  "Yi, Zhou and Xu 2021 (TransPose), there of joints in m/s³.",
        .inputs = {{"found_frames_deg", "per frame the solved angle of every degree of freedom, degrees"},

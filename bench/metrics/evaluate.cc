@@ -78,7 +78,11 @@ FrameIterations IterationsOf(const Json& in) {
 }
 
 Value JerkRatio(const Json& in) {
-  const auto angles = [&](const char* key) { return in.at(key).get<std::vector<std::vector<double>>>(); };
+  const auto angles = [&](const char* key) {
+    auto frames = in.at(key).get<std::vector<std::vector<double>>>();
+    for (std::vector<double>& frame : frames) std::ranges::transform(frame, frame.begin(), Radians);
+    return frames;
+  };
   return AngleJerkRatio(angles("found_frames_deg"), angles("true_frames_deg"));
 }
 

@@ -27,6 +27,10 @@ double TotalJerk(std::span<const std::vector<double>> frames) {
   return sum;
 }
 
+double CountThirdDifferences(std::span<const std::vector<double>> frames) {
+  return frames.size() < 4 ? 0 : static_cast<double>((frames.size() - 3) * frames.front().size());
+}
+
 }  // namespace
 
 bool IsFrameSolved(const TrackedFrame& frame) { return frame.keeps_limits && IsSolvedPractically(frame.errors); }
@@ -48,8 +52,9 @@ FrameIterations SummariseIterations(std::span<const int> iterations) {
 std::optional<double> AngleJerkRatio(std::span<const std::vector<double>> found,
                                      std::span<const std::vector<double>> truth) {
   assert(found.size() == truth.size());
+  constexpr double kRounding = 1e-9;  // radians: third differences of a truth that stands still
   const double true_jerk = TotalJerk(truth);
-  if (true_jerk == 0) return std::nullopt;
+  if (true_jerk <= kRounding * CountThirdDifferences(truth)) return std::nullopt;
   return TotalJerk(found) / true_jerk;
 }
 

@@ -28,8 +28,8 @@ struct FrameIterations {
 };
 FrameIterations SummariseIterations(std::span<const int> iterations);
 
-/// `angle_jerk_ratio`: how much jerkier the angles found are than the true ones, [frame][angle], as many of one as of
-/// the other. Nothing for fewer than four frames, or when the truth has no jerk.
+/// `angle_jerk_ratio`: how much jerkier the angles found are than the true ones, [frame][angle] in radians, as many
+/// of one as of the other. Nothing for fewer than four frames, or when the truth stands still but for rounding.
 std::optional<double> AngleJerkRatio(std::span<const std::vector<double>> found,
                                      std::span<const std::vector<double>> truth);
 

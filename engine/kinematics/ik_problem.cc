@@ -13,7 +13,7 @@ bool IsSane(const glm::dvec3& v) { return IsSane(v.x) && IsSane(v.y) && IsSane(v
 
 bool AreUnit(const glm::dmat3& axes) {
   for (int k = 0; k < 3; ++k) {
-    if (!IsSane(axes[k]) || std::abs(glm::length(axes[k]) - 1) > 1e-6) return false;
+    if (!IsSane(axes[k]) || std::abs(glm::dot(axes[k], axes[k]) - 1) > 2e-6) return false;
   }
   return true;
 }

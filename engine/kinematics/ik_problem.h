@@ -63,6 +63,8 @@ struct IkOptions {
   /// above rounding.
   double stall_change = 1e-10;
   bool trace = false;  ///< fill IkSolution::trace
+  /// With so many entries at most, the first ones: an entry takes half a kilobyte and what it costs to know it.
+  int longest_trace = std::numeric_limits<int>::max();
 };
 
 enum class IkStatus {

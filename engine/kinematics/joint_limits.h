@@ -17,7 +17,9 @@ enum class LimitSet {
   kAaos,        ///< American Academy of Orthopaedic Surgeons
   kKendall,     ///< Kendall and McCreary; what they do not give is taken from the first column, as in the next two
   kHoppenfeld,  ///< Hoppenfeld
-  kAma,         ///< American Medical Association
+  /// American Medical Association. Its trunk is two parts in the table: flexion and rotation are the chest's, extension
+  /// and the side the loins'.
+  kAma,
 };
 
 /// The names of scenario files: "adult", "aaos", "kendall", "hoppenfeld", "ama".

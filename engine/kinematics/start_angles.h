@@ -21,8 +21,7 @@ namespace etude {
 ///   ankle and knee, and the limbs lie in the plane normal to it, as near as possible to where they point; when the
 ///   whole leg is one line, toes and all, that axis is the hip line's part across it;
 /// - the pelvis: its Y axis is as near as possible to the trunk, so that a sitting body bends at the hips and not at
-/// the
-///   navel; the trunk: its X axis points along the shoulders.
+///   the navel; the trunk: its X axis points along the shoulders.
 /// A pose of the tree comes back exactly (all joints' positions) when `limits` allow it.
 /// Nothing when a position is not finite, or two neighbouring joints coincide, or the left leg and the hips lie in one
 /// line.

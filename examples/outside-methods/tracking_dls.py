@@ -10,7 +10,8 @@ def prepare(setting, options, files):
 
 def answer(kept, problem, files):
     setting, options = kept
-    tree = ik_dls.prepare({**setting, **{key: problem[key] for key in ("joints", "angles", "effectors")}}, options, files)
+    body = {key: problem[key] for key in ("joints", "angles", "effectors")}
+    tree = ik_dls.prepare({**setting, **body}, options, files)
     angles, all_angles, steps = problem["start_angles_deg"], [], []
     for frame in problem["frames"]:
         found = ik_dls.answer(tree, {**frame, "start_angles_deg": angles}, files)

@@ -5,6 +5,9 @@
   const shapes = ['circle', 'rectRot', 'triangle', 'rect', 'star', 'crossRot', 'rectRounded', 'cross'];
   const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const colour = (i) => style('--m' + (i % 8));
+  // Colours begin again after eight methods: then with other shapes and dashes.
+  const shape = (i) => shapes[(i + Math.floor(i / 8)) % 8];
+  const dashes = (i) => i >= 8 ? [10, 3, 2, 3] : [[], [], [6, 4], [2, 3]][Math.floor(i / 2)];
   const short = (v) => v === 0 ? '0' : Math.abs(v) < 0.001 || Math.abs(v) >= 1e6 ? v.toExponential(1) :
       String(Number(v.toPrecision(3)));
 
@@ -43,7 +46,7 @@
     type: data.logarithmic ? 'logarithmic' : 'linear',
     beginAtZero: !data.logarithmic,
     grid: {color: style('--line'), drawBorder: false},
-    ticks: {color: style('--quiet'), maxTicksLimit: 6, callback: (v) =>
+    ticks: {color: style('--quiet'), maxTicksLimit: 6, maxRotation: 0, callback: (v) =>
         data.logarithmic && !Number.isInteger(Math.log10(v) + 1e-9 - 1e-9) ? '' : short(v)},
   });
 
@@ -86,7 +89,7 @@
     const colours = marks.map((_, i) => colour(i));
     return {type: 'scatter', options, plugins: [whiskers], data: {datasets: [{
       data: marks.map((m, i) => ({x: m.value, y: i, ...m})),
-      pointStyle: marks.map((_, i) => shapes[i % 8]),
+      pointStyle: marks.map((_, i) => shape(i)),
       backgroundColor: colours, borderColor: colours, radius: 6, hoverRadius: 8, borderWidth: 2}]}};
   };
 
@@ -102,7 +105,7 @@
     options.plugins.legend = legend();
     options.plugins.tooltip.callbacks = {label: (c) => words(data, c.dataset.label, c.raw)};
     return {type: 'scatter', options, plugins: [whiskers], data: {datasets: data.methods.map((method, i) => ({
-      label: method.name, pointStyle: shapes[i % 8], radius: 5, hoverRadius: 7, borderWidth: 2,
+      label: method.name, pointStyle: shape(i), radius: 5, hoverRadius: 7, borderWidth: 2,
       borderColor: colour(i), backgroundColor: colour(i),
       data: method.marks.map((m, g) => ({x: g + (i - (n - 1) / 2) * Math.min(0.16, 0.7 / n), y: m.value, ...m}))}))}};
   };
@@ -120,10 +123,9 @@
     options.interaction = {mode: 'nearest', axis: 'x', intersect: false};
     options.plugins.tooltip.callbacks = {title: (c) => c.length ? data.axis + ' ' + c[0].parsed.x : '',
       label: (c) => c.dataset.label + ': ' + short(c.parsed.y) + data.suffix};
-    const dashes = [[], [], [6, 4], [2, 3]];
     return {type: 'line', options, data: {datasets: data.methods.map((method, i) => ({
       label: method.name, borderColor: colour(i), backgroundColor: colour(i), borderWidth: 2, pointRadius: 0, tension: 0.15,
-      borderDash: dashes[Math.floor(i / 2) % 4], data: method.values.map((y, k) => ({x: k * data.stride, y}))}))}};
+      borderDash: dashes(i), data: method.values.map((y, k) => ({x: k * data.stride, y}))}))}};
   };
 
   const charts = [];

@@ -30,7 +30,6 @@ constexpr Paint kGhostRim{0.90, 0.93, 0.95, 0.55};
 constexpr Paint kMarkShadow{0.05, 0.06, 0.07, 0.8};
 constexpr Paint kWarn{0.98, 0.52, 0.45, 1};
 constexpr Paint kGood{0.60, 0.86, 0.54, 1};
-constexpr Role kEnds[] = {Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
 
 Rgb8 ToRgb8(const Paint& paint, double brightness) {
   const auto channel = [&](double share) { return static_cast<std::uint8_t>(std::lround(255 * share * brightness)); };
@@ -74,13 +73,6 @@ double LargestShift(const BodyPose& a, const BodyPose& b) {
   return largest;
 }
 
-// Numbers that meet the goal do not tell why a method has failed; others do.
-std::string EndingDetail(const IkPath& path) {
-  if (path.solved_at) return fmt::format("at iteration {}", FormatCount(*path.solved_at));
-  const bool meets_goal = path.position_cm.back() < kGoalCm && path.orientation_deg.back() < kGoalDeg;
-  return meets_goal ? path.reason : fmt::format("after {} iterations", FormatCount(path.iterations.back()));
-}
-
 }  // namespace
 
 ConvergenceStage::ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height)
@@ -88,13 +80,18 @@ ConvergenceStage::ConvergenceStage(const IkRace& race, Renderer& renderer, int w
       move_(ToOrigin(race.truth)),
       lift_(-LowestPoint(race)),
       truth_(Placed(race.truth)),
+      targets_(race.targets),
       studio_(width, height, kDetail, SightOf(race)),
       ghost_(studio_.Silhouette(renderer, BodyOf(truth_, kInk))),
       rim_(OutlineOf(ghost_)) {}
 
+glm::dvec3 ConvergenceStage::Placed(const glm::dvec3& point) const {
+  return FloorMove{kTurn, 0, 0}.Apply(move_.Apply(point)) + glm::dvec3(0, lift_, 0);
+}
+
 BodyPose ConvergenceStage::Placed(const BodyPose& pose) const {
-  BodyPose placed = FloorMove{kTurn, 0, 0}.Apply(move_.Apply(pose));
-  for (glm::dvec3& joint : placed.joints) joint.y += lift_;
+  BodyPose placed = pose;
+  for (glm::dvec3& joint : placed.joints) joint = Placed(joint);
   return placed;
 }
 
@@ -103,6 +100,10 @@ Sight ConvergenceStage::SightOf(const IkRace& race) const {
   Studio::Include(BodyOf(truth_, kInk), sight);
   for (const IkPath& path : race.paths) {
     for (const BodyPose& pose : path.poses) Studio::Include(BodyOf(Placed(pose), kInk), sight);
+  }
+  for (const auto& target : targets_) {
+    constexpr double kMargin = 0.05;  // metres, for the ring
+    if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, sight);
   }
   // The bodies in the middle of what the words leave over.
   const double left_over = box_.width * (1 - kWordsShare) / box_.height;
@@ -120,7 +121,10 @@ ColourImage ConvergenceStage::Picture(Renderer& renderer, const BodyPose& pose, 
   studio_.Draw(canvas, box_, renderer, BodyOf(body, colour), {}, &ghost_);
   canvas.DrawMask(rim_, box_, kGhostRim);
   std::vector<std::pair<glm::dvec2, glm::dvec2>> marks;
-  for (const Role end : kEnds) marks.emplace_back(studio_.PixelOf(box_, body[end]), studio_.PixelOf(box_, truth_[end]));
+  for (std::size_t i = 0; i < kIkEnds.size(); ++i) {
+    if (!targets_[i]) continue;
+    marks.emplace_back(studio_.PixelOf(box_, body[kIkEnds[i]]), studio_.PixelOf(box_, Placed(*targets_[i])));
+  }
   DrawMarks(canvas, marks, colour);
   return canvas.Pixels();
 }
@@ -146,14 +150,18 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
-  figure(84, "iteration", FormatCount(path_.iterations[entry]), kInk);
+  // The clock's, which both methods show, not the latest that was recorded.
+  const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
+  figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
   // A method that has ended says so, and waits for the other.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);
-    canvas.DrawText({x, panel.y + 366}, EndingDetail(path_), 17, paint, panel.width - 36);
+    const std::string detail =
+        path_.solved_at ? fmt::format("at iteration {}", FormatCount(*path_.solved_at)) : path_.reason;
+    canvas.DrawText({x, panel.y + 366}, detail, 17, paint, panel.width - 36);
   }
 }
 

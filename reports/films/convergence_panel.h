@@ -15,10 +15,11 @@ class ConvergenceStage {
   /// For pictures of this size.
   ConvergenceStage(const IkRace& race, Renderer& renderer, int width, int height);
 
-  /// A body of that colour over the ghost. Rings mark where its four end effectors should be, dots where they are.
+  /// A body of that colour over the ghost. Rings mark its end effectors' targets, dots where the effectors are.
   ColourImage Picture(Renderer& renderer, const BodyPose& pose, const Paint& colour) const;
 
  private:
+  glm::dvec3 Placed(const glm::dvec3& point) const;
   BodyPose Placed(const BodyPose& pose) const;
   Sight SightOf(const IkRace& race) const;
 
@@ -26,6 +27,7 @@ class ConvergenceStage {
   FloorMove move_;
   double lift_;  ///< metres, so that nobody is below the floor
   BodyPose truth_;
+  IkTargets targets_;
   Studio studio_;
   Mask ghost_, rim_;
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "reports/films/look.h"
 #include "reports/words/figures.h"
 
@@ -38,6 +40,10 @@ ConvergenceScene::ConvergenceScene(IkRace race, std::string scenario, Renderer& 
       orientation_(PlotOf(race_, &IkPath::orientation_deg, "Worst orientation error, degrees", "°", kGoalDeg, clock_)) {
 }
 
+bool ConvergenceScene::HasTargets() const {
+  return std::ranges::any_of(race_.targets, [](const auto& target) { return target.has_value(); });
+}
+
 std::string ConvergenceScene::Words() const {
   const IkPath &left = race_.paths[0], &right = race_.paths[1];
   const auto ending = [](const IkPath& path) {
@@ -45,16 +51,15 @@ std::string ConvergenceScene::Words() const {
                           : fmt::format("{}: {}", path.ending, path.reason);
   };
   return fmt::format(
-      "The same start under two methods, {} on the left ({}), {} on the right ({}), in {}, {}. Grey: the true pose; "
-      "rings: where its right foot, hands and head are; dots: where the method has brought them. Beneath: its "
-      "worst errors by iteration, both axes logarithmic. One clock runs for both methods.",
-      left.method, ending(left), right.method, ending(right), race_.world, race_.choice);
+      "The same start under two methods, {} on the left ({}), {} on the right ({}), in {}, {}. Grey: the true pose{}. "
+      "Beneath: worst errors by iteration, both axes logarithmic. One clock runs for both methods.",
+      left.method, ending(left), right.method, ending(right), race_.world, race_.choice,
+      HasTargets() ? "; rings: where right foot, hands and head are told to be; dots: where they are" : "");
 }
 
 Canvas ConvergenceScene::Draw(int frame) {
-  Canvas canvas =
-      BeginFrame(fmt::format("{}, {} · grey: the true pose, rings: its hands, foot and head · same start, same clock",
-                             scenario_, race_.world));
+  Canvas canvas = BeginFrame(fmt::format("{}, {} · grey: the true pose{} · same start, same clock", scenario_,
+                                         race_.world, HasTargets() ? ", rings: targets of foot, hands and head" : ""));
   const double iteration = clock_.IterationAt(frame);
   for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i].Draw(canvas, kPanels[i], renderer_, iteration);
   position_.Draw(canvas, kPositionPlot, iteration);

@@ -25,6 +25,8 @@ class ConvergenceScene : public Scene {
   Canvas Draw(int frame) override;
 
  private:
+  bool HasTargets() const;
+
   const IkRace race_;
   const std::string scenario_;
   Renderer& renderer_;

@@ -54,6 +54,7 @@ ErrorPlot::ErrorPlot(std::string title, std::string suffix, double goal, std::ve
 void ErrorPlot::Draw(Canvas& canvas, const Box& panel, double iteration) const {
   canvas.FillBox(panel, {0.13, 0.15, 0.17, 1}, kPanelRadius);
   canvas.DrawText({panel.x + 16, panel.y + 28}, title_, kTitleSize, kInk, panel.width - 32, true);
+  if (curves_.empty()) return;
   const Frame frame{{panel.x + kLeft, panel.y + kTop, panel.width - kLeft - kRight, panel.height - kTop - kBottom},
                     *this};
   DrawValueAxis(canvas, frame);

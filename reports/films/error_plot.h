@@ -18,7 +18,8 @@ struct ErrorCurve {
 /// Errors along iterations, both axes logarithmic, that draw themselves as time goes.
 class ErrorPlot {
  public:
-  /// `suffix`: put behind a value, " cm". `goal` > 0 is drawn as a line. Every curve has a value.
+  /// `suffix`: put behind a value, " cm". `goal` > 0 is drawn as a line. Every curve has a value; without
+  /// curves there is nothing but the title.
   ErrorPlot(std::string title, std::string suffix, double goal, std::vector<ErrorCurve> curves, const RaceClock& clock);
 
   /// As far as the curves are known at `iteration`.

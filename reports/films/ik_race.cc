@@ -70,6 +70,22 @@ Result<std::vector<double>> ReadNumbers(const Json& extras, const char* key, std
   return values;
 }
 
+Result<IkTargets> ReadTargets(const Row& row, const Recording& recording) {
+  const Json list = Json::parse(recording.extras_json, nullptr, false).value("targets_m", Json());
+  const auto is_place = [](const Json& place) {
+    return place.is_null() || (place.is_array() && place.size() == 3 &&
+                               std::ranges::all_of(place, [](const Json& number) { return number.is_number(); }));
+  };
+  IkTargets targets;
+  if (!list.is_array() || list.size() != targets.size() || !std::ranges::all_of(list, is_place)) {
+    return Fail({.file = "recording " + row.Id()}, "its extras' targets_m is no list of {} places", targets.size());
+  }
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (!list[i].is_null()) targets[i] = glm::dvec3(list[i][0], list[i][1], list[i][2]);
+  }
+  return targets;
+}
+
 std::optional<int> FindSolved(const IkPath& path) {
   std::optional<int> since;
   for (std::size_t i = path.poses.size(); i-- > 0;) {
@@ -123,6 +139,9 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
     if (!path) return tl::unexpected(path.error());
     race.paths[i] = std::move(*path);
   }
+  auto targets = ReadTargets(*cells[0].row, *cells[0].recording);
+  if (!targets) return tl::unexpected(targets.error());
+  race.targets = *targets;
   return race;
 }
 
@@ -151,9 +170,9 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
   const Place nowhere;
   const std::vector<RecordedCell> cells = RecordedCells(run, scenario);
   const std::vector<std::string> methods = MethodsOf(cells, scenario);
-  if (methods.size() < 2) {
-    return Fail(nowhere, "this run kept recordings of {} here; two in the same world are needed (the scenario's video)",
-                methods.empty() ? "no method" : "one method only");
+  if (methods.empty()) return Fail(nowhere, "this run kept no recordings here (the scenario's key video)");
+  if (methods.size() == 1) {
+    return Fail(nowhere, "this run kept recordings of one method only here; two in the same world are needed");
   }
   std::vector<std::string> passed_over;
   for (const RecordedCell& cell : cells) {

@@ -32,11 +32,17 @@ struct IkPath {
 /// Whether positions, or orientations, were asked for at all: without targets of that kind all their errors are zero.
 bool IsAskedFor(const std::vector<double>& errors);
 
+/// Which of the body's ends have targets, in the order of the tree's effectors.
+inline constexpr std::array kIkEnds{Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
+/// Where each should be; nothing when it has no place to be at.
+using IkTargets = std::array<std::optional<glm::dvec3>, kIkEnds.size()>;
+
 /// Two methods of inverse kinematics in the same world.
 struct IkRace {
   std::string world;   ///< "joint_noise_deg=5, trial 0"
   std::string choice;  ///< why this world, and what was passed over, in words
   BodyPose truth;
+  IkTargets targets;
   std::array<IkPath, 2> paths;
 
   int LastIteration() const;

@@ -32,6 +32,10 @@ class LazyRenderer {
 };
 
 void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& lazy, Media& media) {
+  const auto has_pictures = [](const ScenarioSummary& scenario) {
+    return scenario.task == "transition" || scenario.task == "capture";
+  };
+  if (std::ranges::none_of(run.scenarios, has_pictures)) return;
   std::string& why = media.film.why_not;
   const auto coach_cell = ChooseCell(run, "transition", "coach");
   const auto capture_cell = ChooseCell(run, "capture", "recovered");

@@ -32,7 +32,7 @@ struct ScenarioFilm {
 
 /// What the recordings gave to look at, and plain words for what they did not.
 struct Media {
-  Film film;                                 ///< of the run: coach and cameras
+  Film film;                                 ///< of the run: coach and cameras; empty for tasks without either
   std::vector<Picture> strip;                ///< moments of the capture: stereo pictures, mask, recovered skeleton
   std::string strip_scenario;                ///< whose card shows the strip
   std::vector<ScenarioFilm> scenario_films;  ///< how two methods of inverse kinematics settle

@@ -31,7 +31,7 @@ double DecadeOf(double value, const PlotAxes& axes) { return value > 0 ? std::lo
 std::string_view DashesOf(std::size_t style) {
   // As in assets/report.js: colours alone do not tell methods apart for everyone.
   constexpr std::array<std::string_view, 4> kDashes{"", "", " stroke-dasharray=\"6 4\"", " stroke-dasharray=\"2 3\""};
-  return kDashes[style / 2 % 4];
+  return style < 8 ? kDashes[style / 2] : " stroke-dasharray=\"10 3 2 3\"";
 }
 
 std::string Line(const PlotCurve& curve, const PlotAxes& axes) {

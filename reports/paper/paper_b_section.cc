@@ -48,8 +48,7 @@ std::string SetHtml(const PaperBCondition& condition, const PaperBSet& set, bool
 
 constexpr std::string_view kPrinted =
     "What paper B prints of its one simulated pose, which it does not give: compare sizes, not figures. As printed, "
-    "the "
-    "elbow and the wrist of the right arm share a value in 5.2 (d).";
+    "the elbow and the wrist of the right arm share a value in 5.2 (d).";
 
 std::string PrintedHtml(bool with_angles) {
   std::string html = fmt::format(

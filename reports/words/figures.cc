@@ -72,7 +72,7 @@ std::string FormatFixed(double value, int decimals) {
 std::string FormatNumber(double value) {
   if (!std::isfinite(value)) return std::string(kNoValue);
   const double size = std::abs(value);
-  if (size != 0 && (size < 0.001 || size >= 1e9)) return fmt::format("{:.1e}", value);
+  if (size != 0 && (size < 0.001 || size >= 1e9)) return fmt::format("{}{:.1e}", value < 0 ? "−" : "", size);
   return FormatFixed(value, DecimalsFor(value));
 }
 

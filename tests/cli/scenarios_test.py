@@ -9,7 +9,7 @@ SHARED = """defaults:
   task: ik
   trials: 2
   max_sweeps: 20
-  methods: [{name: fixed, weights: fixed}, {name: least-squares, solver: damped-least-squares}]
+  methods: [{name: fixed, solver: ccd, weights: fixed}, {name: least-squares, solver: damped-least-squares}]
 """
 SEVERAL = """include: [shared/ik.yaml]
 defaults: {trials: 3}
@@ -50,7 +50,7 @@ class Scenarios(EtudeCase):
         rows = self.run_suite(suite / "several.yaml")
         alone = "scenario: both\nquestion: And when poses are harder, too?\ntask: ik\ntrials: 1\nmax_sweeps: 20\n"
         alone += "sweep: {together: {joint_noise_deg: [5, 15], poses: [0.5, 1]}}\n"
-        alone += "methods: [{name: fixed, weights: fixed}, {name: least-squares, solver: damped-least-squares}]\n"
+        alone += "methods: [{name: fixed, solver: ccd, weights: fixed}, {name: least-squares, solver: damped-least-squares}]\n"
         same = self.run_suite(self.write("alone.yaml", alone), out=self.folder / "alone")
         self.assertEqual(len(same), 4)
         self.assertEqual([row for row in rows if row["scenario"] == "both"], same)
@@ -75,7 +75,7 @@ class Scenarios(EtudeCase):
             (SEVERAL.replace("ik.yaml", "ki.yaml"), SHARED, "several.yaml:1:11: "),
             (SEVERAL, SHARED.replace("trials", "trails"), "ik.yaml:3:3: unknown key of a scenario 'trails'"),
             (SEVERAL, SHARED.replace("weights: fixed", "wights: fixed"),
-             "ik.yaml:5:27: unknown key of a method of task ik 'wights'; did you mean 'weights'?"),
+             "ik.yaml:5:40: unknown key of a method of task ik 'wights'; did you mean 'weights'?"),
             (SEVERAL, SHARED.replace("max_sweeps: 20", "max_sweeps: 2.5"), "ik.yaml:4:15: 'max_sweeps' must be a whole"),
             (SEVERAL, "include: [../several.yaml]\n" + SHARED, "ik.yaml:1:11: "),
         ]
@@ -91,6 +91,11 @@ class Scenarios(EtudeCase):
         result = self.etude("run", suite / "shared", "-o", self.out)
         self.assertEqual(result.returncode, 2)
         self.assertIn("ik.yaml:1:1: no scenario, only 'defaults'", result.stderr)
+
+    def test_the_list_of_methods_says_what_goes_with_what(self):
+        listed = self.etude("list", "methods").stdout
+        self.assertIn("  memory: 1…20; with `solver: ccd-anderson`\n", listed)
+        self.assertRegex(listed, r"(?m)^  ccd-nullspace +Gauss-Newton steps .*\(the default\)$")
 
     def test_the_page_of_keys_is_the_programs(self):
         page = self.etude("list", "keys", "--markdown").stdout

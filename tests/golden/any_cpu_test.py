@@ -1,18 +1,47 @@
-"""Runs worlds of every task on this machine's CPU and on emulated ones, and compares every cell's bytes.
+"""Runs worlds of every task and every solver of inverse kinematics on this machine's CPU and on emulated ones, and
+compares every cell's bytes. Batches, which no cell uses, are compared by their own tests, run on every CPU.
 
 The control: another seed must give other bytes. Skipped (exit code 77) where qemu-user is not installed.
 """
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
 ETUDE = os.environ["ETUDE"]
+BATCH_TESTS = [os.environ["SOLVER_TESTS"], "--gtest_filter=BatchSweep.*"]
 CPUS = ["Nehalem", "Haswell", "max"]
-WORLDS = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [2, 1, 5], [3, 0, 0], [3, 0, 7]]  # capture, detection, ik, transition
+WORLDS = [  # scenario, condition, trial
+    ("capture", 0, 0),
+    ("detection-weights", 0, 0),
+    ("ik-weights", 0, 0),
+    ("ik-weights", 1, 5),
+    ("transition-weights", 0, 0),
+    ("transition-weights", 0, 7),
+    ("every-solver", 0, 0),
+    ("every-solver", 1, 3),
+    ("every-solver-tracks", 0, 0),
+]
+EVERY_SOLVER = """defaults: {seed: 1, methods: [METHODS]}
+scenarios:
+  - {scenario: every-solver, task: ik, max_sweeps: 60, stop_at: tight, sweep: {poses: [0.5, 1]},
+     record: [effector_errors, angle_changes, effector_curves], metrics: [solved_tight], question: 'Same bytes?'}
+  - {scenario: every-solver-tracks, task: tracking, max_sweeps: 5, duration_s: 0.4, clips: ['builtin:*'],
+     metrics: [mpjpe_mm], question: 'Same bytes?'}
+"""
+
+
+def every_solver():
+    """A suite file with all that `etude list methods` tells of."""
+    listed = subprocess.run([ETUDE, "list", "methods"], check=True, capture_output=True, text=True).stdout
+    ik = listed[re.search(r"^ik ", listed, re.MULTILINE).start():]
+    solvers = re.search(r"solver: (.*)", ik)[1].split(", ")
+    assert "ceres-lm" in solvers, solvers
+    return EVERY_SOLVER.replace("METHODS", ", ".join(f"{{name: {name}, solver: {name}}}" for name in solvers))
 
 
 def set_up(scratch):
@@ -21,8 +50,10 @@ def set_up(scratch):
     suite.mkdir()
     for path in sorted(pathlib.Path("scenarios/quick").glob("*.yaml")):
         (suite / path.name).write_text(path.read_text().replace("duration_s: 5", "duration_s: 0.4"))
+    (suite / "every_solver.yaml").write_text(every_solver())
     out = scratch / "out"
-    subprocess.run([ETUDE, "run", suite, "--trials", "1", "-o", out], check=True, capture_output=True)
+    run = subprocess.run([ETUDE, "run", suite, "--trials", "1", "-o", out], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
     manifest = json.loads((out / "manifest.json").read_text())
     host = json.loads((out / "host.json").read_text())
     environment = dict(os.environ, **dict(setting.split("=", 1) for setting in host["pinned_environment"]))
@@ -30,8 +61,10 @@ def set_up(scratch):
     for line in (out / "cells.jsonl").read_text().splitlines():
         row = json.loads(line)
         methods.setdefault(row["scenario"], {})[row["method"]] = None
-    orders = [{"world": world, "methods": list(range(len(methods[manifest["scenarios"][world[0]]["name"]])))}
-              for world in WORLDS]
+    names = [scenario["name"] for scenario in manifest["scenarios"]]
+    assert set(names) == {name for name, _, _ in WORLDS}, f"of every scenario, a world: {names}"
+    orders = [{"world": [names.index(name), condition, trial], "methods": list(range(len(methods[name])))}
+              for name, condition, trial in WORLDS]
     return {key: manifest[key] for key in ("suite", "seed", "scenarios", "sources")}, orders, environment
 
 
@@ -68,6 +101,8 @@ def main():
             there = cells([emulator, "-cpu", cpu], setup, orders, environment)
             for world, a, b in zip(WORLDS, here, there):
                 assert a == b, f"world {world} differs on {cpu}"
+            batches = subprocess.run([emulator, "-cpu", cpu, *BATCH_TESTS], capture_output=True, text=True)
+            assert batches.returncode == 0 and "[  PASSED  ]" in batches.stdout, f"{cpu}: {batches.stdout[-500:]}"
             print(f"{cpu}: {len(WORLDS)} worlds, same bytes")
 
 

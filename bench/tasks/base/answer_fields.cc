@@ -30,7 +30,10 @@ std::optional<std::string> NumberComplaint(const Json& json, const Range& range)
 }
 
 std::optional<std::string> IntegerComplaint(const Json& json, int lowest, int highest) {
-  if (!json.is_number_integer()) return fmt::format("{} is not a whole number", ShowJson(json));
+  // 3.0 is one: some languages write no other.
+  if (!json.is_number() || json.get<double>() != std::floor(json.get<double>())) {
+    return fmt::format("{} is not a whole number", ShowJson(json));
+  }
   if (highest < lowest) return fmt::format("{}; nothing is allowed here", ShowJson(json));
   if (!IsIn(json.get<double>(), {static_cast<double>(lowest), static_cast<double>(highest)})) {
     return fmt::format("{}; allowed: {}…{}", ShowJson(json), lowest, highest);

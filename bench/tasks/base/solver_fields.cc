@@ -1,11 +1,12 @@
 #include "bench/tasks/base/solver_fields.h"
 
-#include <algorithm>
-
+#include "bench/tasks/base/misplaced_keys.h"
 #include "engine/base/names.h"
 
 namespace etude {
 namespace {
+
+constexpr const char* kDefaultSolver = "ccd-nullspace";
 
 void ReadSetting(Fields& fields, const IkSetting& setting, IkTuning& tuning) {
   if (const auto* integer = std::get_if<int IkTuning::*>(&setting.member)) {
@@ -17,32 +18,16 @@ void ReadSetting(Fields& fields, const IkSetting& setting, IkTuning& tuning) {
   }
 }
 
-/// Keys that a method may have because of some other solver, and that mean nothing to this one.
-std::vector<std::string> KeysOfOthers(const IkSolver& solver) {
-  std::vector<std::string> keys;
-  if (!solver.uses_weights) keys = {"weights", "refresh"};
-  for (const IkSolver& other : AllIkSolvers()) {
-    for (const IkSetting& setting : other.settings) {
-      const bool is_own = std::ranges::find(solver.settings, setting.key, &IkSetting::key) != solver.settings.end();
-      if (!is_own && std::ranges::find(keys, setting.key) == keys.end()) keys.push_back(setting.key);
-    }
-  }
-  return keys;
-}
-
 }  // namespace
 
 const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options) {
-  const IkSolver* solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), "ccd"));
+  const IkSolver* solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), kDefaultSolver));
   if (solver->uses_weights) {
     options.weights = *FindWeightRule(fields.Choice("weights", WeightRuleNames(), "adaptive"));
     options.refresh = *FindWeightRefresh(fields.Choice("refresh", WeightRefreshNames(), "sweep"));
   }
   for (const IkSetting& setting : solver->settings) ReadSetting(fields, setting, options.tuning);
-  for (const std::string& key : KeysOfOthers(*solver)) {
-    const Node* value = fields.Raw(key);
-    if (value != nullptr) fields.Complain(value->place, fmt::format("solver '{}' has no '{}'", solver->name, key));
-  }
+  RefuseMisplacedKeys(fields, IkSolverKeys(), "solver", solver->name);
   return solver;
 }
 
@@ -52,7 +37,7 @@ std::vector<KeyInfo> IkSolverKeys() {
     if (solver.uses_weights) weighing.values.push_back(solver.name);
   }
   std::vector<KeyInfo> keys = {
-      {"solver", Join(IkSolverNames()), "ccd", "How the angles are found."},
+      {"solver", Join(IkSolverNames()), kDefaultSolver, "How the angles are found."},
       {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes.", weighing},
       {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them.",
        weighing}};

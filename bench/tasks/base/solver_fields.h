@@ -6,8 +6,8 @@
 
 namespace etude {
 
-/// Reads a method's `solver` (ccd by default) and what that solver can be set by (`weights`, `refresh`, `memory`, …)
-/// into `options`. Settings of another solver are a mistake worth telling. Complaints stay in `fields`.
+/// Reads a method's `solver` (ccd-nullspace by default) and what that solver can be set by (`weights`, `refresh`,
+/// `memory`, …) into `options`. Settings of another solver are a mistake worth telling. Complaints stay in `fields`.
 const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options);
 
 /// Reads a condition's `stop_at` (practical by default) into the goals of `options`.

@@ -104,7 +104,10 @@ std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, con
 
 CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method,
                      const IkRecords& records) {
-  const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
+  IkOptions options = method.options;
+  options.trace = true;
+  if (!records.motion) options.longest_trace = kLongestCurve;
+  const IkSolution solution = method.solver->solve(tree, world.problem, options);
   std::vector<std::pair<std::string, std::string>> digests = {{"world", DigestOf(world)},
                                                               {"solution", DigestOf(solution)}};
   if (solution.status == IkStatus::kBadInput) {

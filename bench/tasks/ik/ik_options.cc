@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "bench/tasks/base/misplaced_keys.h"
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/base/names.h"
 
@@ -36,26 +37,10 @@ double ReadPoseRange(Fields& condition) {
   return share;
 }
 
-/// Keys that mean nothing where a scenario starts are a mistake worth telling.
-void Refuse(Fields& condition, std::string_view why, std::initializer_list<const char*> keys) {
-  for (const char* key : keys) {
-    const Node* value = condition.Raw(key);
-    if (value != nullptr) condition.Complain(value->place, fmt::format("{} has no '{}'", why, key));
-  }
-}
-
 IkStart ReadStart(Fields& condition) {
   const std::string start = condition.Choice("start", {"disturbed", "middle", "stretched"}, "disturbed");
-  if (start == "middle") {
-    Refuse(condition, "start 'middle'", {"joint_noise_deg", "noise"});
-    return IkStart::kMiddle;
-  }
-  if (start == "stretched") {
-    Refuse(condition, "start 'stretched', which makes its own poses and targets,",
-           {"poses", "joint_noise_deg", "noise", "target_noise_cm", "target_noise_deg", "unreachable_cm"});
-    return IkStart::kStretched;
-  }
-  return IkStart::kDisturbed;
+  RefuseMisplacedKeys(condition, IkConditionKeys(), "start", start);
+  return start == "middle" ? IkStart::kMiddle : start == "stretched" ? IkStart::kStretched : IkStart::kDisturbed;
 }
 
 Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkTrialOptions& trial) {
@@ -71,7 +56,7 @@ Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkT
     fields.Complain(node.place, "a method has either 'tolerance_deg' or 'tolerance_times_noise'");
   }
   if (times_noise && trial.start != IkStart::kDisturbed) {
-    fields.Complain(node.place, "'tolerance_times_noise' needs a start with noise");
+    fields.Complain(node.place, "'tolerance_times_noise' needs noise; allowed with start: disturbed");
   }
   if (degrees) method.options.angle_change_tolerance = Radians(*degrees);
   if (times_noise) method.options.angle_change_tolerance = Radians(*times_noise * trial.joint_noise_deg);
@@ -95,19 +80,19 @@ IkTrialOptions ReadIkTrialOptions(Fields& condition) {
   options.asks_positions = asked != "orientation";
   options.asks_axes = asked != "position";
   if (options.unreachable_cm > 0 && !options.asks_positions) {
-    condition.Complain(condition.node().place, "'unreachable_cm' needs 'targets' with positions");
+    condition.Complain(condition.Raw("unreachable_cm")->place,
+                       "'unreachable_cm' needs positions; allowed with targets: both, position");
   }
   return options;
 }
 
 IkRecords ReadIkRecords(Fields& condition) {
   IkRecords records;
-  const Node* list = condition.Raw("record");
-  if (list == nullptr) return records;
-  for (const std::string& name : condition.Texts("record")) {
-    const auto record = std::ranges::find(kRecords, name, &RecordName::first);
+  const std::vector<std::string> names = condition.Texts("record");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto record = std::ranges::find(kRecords, names[i], &RecordName::first);
     if (record == kRecords.end()) {
-      condition.Complain(list->place, UnknownName("record", name, RecordNames()));
+      condition.Complain(condition.Raw("record")->items[i].place, UnknownName("record", names[i], RecordNames()));
     } else {
       records.*record->second = true;
     }
@@ -118,7 +103,6 @@ IkRecords ReadIkRecords(Fields& condition) {
 IkOptions ReadIkCommonOptions(Fields& condition) {
   IkOptions options;
   options.max_iterations = condition.Integer("max_sweeps", 200, {1, kMostSweeps});
-  options.trace = true;
   ReadIkGoals(condition, options);
   return options;
 }

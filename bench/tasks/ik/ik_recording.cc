@@ -20,6 +20,16 @@ std::vector<int> Growing(int last, int share) {
   return iterations;
 }
 
+/// The places that a solver is asked to reach, which noise may have moved away from the true pose.
+Json TargetPlaces(const IkProblem& problem) {
+  Json places = Json::array();
+  for (const EffectorTarget& target : problem.targets) {
+    const glm::dvec3& at = target.position;
+    places.push_back(target.position_weight > 0 ? Json{at.x, at.y, at.z} : Json(nullptr));
+  }
+  return places;
+}
+
 }  // namespace
 
 std::vector<int> RecordedIterations(int last) {
@@ -54,7 +64,8 @@ Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<co
   }
   const Json extras = {{"iterations", std::move(iterations)},
                        {"position_error_max_cm", std::move(position)},
-                       {"orientation_error_max_deg", std::move(orientation)}};
+                       {"orientation_error_max_deg", std::move(orientation)},
+                       {"targets_m", TargetPlaces(world.problem)}};
   return {{std::move(truth), std::move(start), std::move(solution)}, extras.dump()};
 }
 

@@ -10,13 +10,12 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLongestCurve = 200;  // iterations
 constexpr std::array kAxisNames = {"x", "y", "z"};
 
 template <class ValueOf>
 Series Curve(std::string name, std::span<const IkTraceEntry> trace, const ValueOf& value_of) {
   Series curve{std::move(name), "iteration", {}};
-  for (const IkTraceEntry& entry : trace.first(std::min(trace.size(), kLongestCurve))) {
+  for (const IkTraceEntry& entry : trace.first(std::min<std::size_t>(trace.size(), kLongestCurve))) {
     curve.values.push_back(value_of(entry));
   }
   return curve;

@@ -8,10 +8,13 @@
 
 namespace etude {
 
-/// The first 200 iterations of `position_error_max_cm` and `orientation_error_max_deg`, the worst of the effectors.
+/// Entries of a trace that curves show.
+constexpr int kLongestCurve = 200;
+
+/// The first 200 entries of `position_error_max_cm` and `orientation_error_max_deg`, the worst of the effectors.
 std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace);
 
-/// The same iterations, effector by effector: `right_foot_position_error_cm`, `right_foot_x_axis_error_deg`, … (paper
+/// The same entries, effector by effector: `right_foot_position_error_cm`, `right_foot_x_axis_error_deg`, … (paper
 /// B, figure 5.2).
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace);
 

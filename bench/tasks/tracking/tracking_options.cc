@@ -34,8 +34,11 @@ TrackingOptions ReadTrackingOptions(Fields& condition) {
   o.joint_noise_deg = condition.OptionalNumber("joint_noise_deg", {0, 180});
   const auto frames = std::lround(o.duration_s * o.rate_hz);
   if (frames < kFewestTrackedFrames) {
-    condition.Complain(condition.node().place, fmt::format("{:g} s at {:g} Hz have {} frames; at least {} are needed",
-                                                           o.duration_s, o.rate_hz, frames, kFewestTrackedFrames));
+    const Node* written =
+        condition.Raw("duration_s") != nullptr ? condition.Raw("duration_s") : condition.Raw("rate_hz");
+    condition.Complain(written->place,
+                       fmt::format("{:g} s at {:g} Hz are {} frame{}; at least {} are needed", o.duration_s, o.rate_hz,
+                                   frames, frames == 1 ? "" : "s", kFewestTrackedFrames));
   }
   return o;
 }

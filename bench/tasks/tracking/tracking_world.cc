@@ -68,8 +68,8 @@ std::vector<double> ChooseFirstAngles(const TrackingOptions& options, const Kine
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key) {
   const std::vector<BodyPose> window = ChooseWindow(options, clip, key);
   if (window.size() < kFewestTrackedFrames) {
-    return Fail({}, "clip {} has {} frames at {:g} Hz; tracking needs {}", clip.name, window.size(), options.rate_hz,
-                kFewestTrackedFrames);
+    return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
+                options.rate_hz, kFewestTrackedFrames);
   }
   TrackingWorld world{MakeBodyTree(MeasureLimbLengths(clip.motion.poses)), {}, {}, {}};
   RandomStream noise(key, "tracking/target-noise");

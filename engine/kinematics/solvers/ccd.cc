@@ -31,7 +31,7 @@ IkSolution SolveByMoments(const KinematicTree& tree, const IkProblem& problem, c
   while (run.MustGoOn()) {
     const double change = sweep.Sweep();
     const bool is_last = run.iterations() + 1 == options.max_iterations;
-    if (options.trace || is_last || change < options.stall_change || !sweep.MissesGoals()) {
+    if (run.Traces() || is_last || change < options.stall_change || !sweep.MissesGoals()) {
       state.angles = sweep.Angles();
       ComputeFrames(tree, state, frames);
       run.NoteFrames(frames, state.angles);

@@ -103,7 +103,7 @@ IkSolution Solve(const KinematicTree& tree, const IkProblem& problem, const IkOp
   while (run.MustGoOn()) {
     const double change = accelerated.Step(run);
     const bool is_last = run.iterations() + 1 == options.max_iterations || change < options.stall_change;
-    if (options.trace || is_last || !accelerated.sweep().MissesGoals()) {
+    if (run.Traces() || is_last || !accelerated.sweep().MissesGoals()) {
       state.angles = accelerated.sweep().Angles();
       ComputeFrames(tree, state, frames);
       run.NoteFrames(frames, state.angles);

@@ -121,7 +121,7 @@ double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  const glm::dvec3 world_axis = DofAxis(tree_.joints[joint], frames_.bases[joint], state_.angles, axis);
+  const glm::dvec3& world_axis = frames_.dof_axes[dof];  // nothing that carries it has turned since the last FK
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
   const double turn = GainAbout(world_axis, joint).OptimumWithin(left);
   // (upper − angle) + angle may miss upper by a rounding.

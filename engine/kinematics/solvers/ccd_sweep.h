@@ -55,7 +55,7 @@ class CcdSweep {
   const std::vector<AngleRange> ranges_;
   std::vector<std::vector<int>> effectors_below_;  // of each joint
   TreeState state_;
-  TreeFrames frames_;  // effectors are kept current while the joints below have turned, joints and bases are not
+  TreeFrames frames_;  // effectors are kept current while the joints below have turned, nothing else is
   std::vector<EffectorError> errors_;
   std::vector<EffectorWeights> weights_;
 };

@@ -9,11 +9,11 @@
 
 #include "engine/kinematics/jacobian.h"
 #include "engine/kinematics/solvers/ik_run.h"
+#include "engine/kinematics/solvers/linear_targets.h"
 
 namespace etude {
 namespace {
 
-constexpr double kPositionScale = 0.30;  // metres that count as much as one radian
 // With less damping than this, JᵀJ of 29 angles and 24 demands is too nearly singular for Cholesky.
 constexpr double kLargestRadius = 1e8;
 // A step that lowers the sum by a smaller part than this leads nowhere.

@@ -23,12 +23,7 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
   TreeState state = problem.start;
   state.angles = run.start_angles();
   TreeFrames frames = ComputeFrames(tree, state);
-  std::vector<EffectorError> errors;
-  const auto note = [&] {
-    MeasureErrors(frames, problem.targets, errors);
-    run.Note(errors, state.angles);
-  };
-  note();
+  run.NoteFrames(frames, state.angles);
 
   LinearTargets linear(tree, problem.targets);
   DampedInverse inverse;
@@ -58,9 +53,9 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
     } else {
       damping *= kDampingStep;
     }
-    note();
+    run.NoteFrames(frames, state.angles);
   }
-  return run.Finish(state.angles);
+  return run.Finish(std::move(state.angles));
 }
 
 }  // namespace etude

@@ -82,14 +82,8 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
   IkRun run(tree, problem, options);
   TreeState state = problem.start;
   state.angles = run.start_angles();
-  TreeFrames frames;
-  std::vector<EffectorError> errors;
-  const auto note = [&] {
-    ComputeFrames(tree, state, frames);
-    MeasureErrors(frames, problem.targets, errors);
-    run.Note(errors, state.angles);
-  };
-  note();
+  TreeFrames frames = ComputeFrames(tree, state);
+  run.NoteFrames(frames, state.angles);
 
   FabrikPass pass(tree, problem.targets);
   Follower follower(tree, run.ranges(), pass);
@@ -101,7 +95,8 @@ IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, cons
     double largest = 0;
     for (std::size_t i = 0; i < before.size(); ++i) largest = std::max(largest, std::abs(state.angles[i] - before[i]));
     if (largest < options.stall_change) run.Stall();
-    note();
+    ComputeFrames(tree, state, frames);
+    run.NoteFrames(frames, state.angles);
   }
   return run.Finish(std::move(state.angles));
 }

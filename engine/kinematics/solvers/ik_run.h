@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,7 @@ class IkRun {
   template <class Angles>
   void Note(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
     Book(errors, fk_evaluations);
-    if (!options_.trace) return;
+    if (!Traces()) return;
     IkTraceEntry& entry = solution_.trace.emplace_back();
     entry.worst_position = worst_.position;
     entry.worst_axis = worst_.axis;
@@ -53,7 +54,7 @@ class IkRun {
   /// where somebody sees them, in a trace, near the goals and at the end.
   template <class Angles>
   void NoteFrames(const TreeFrames& frames, const Angles& angles) {
-    if (!options_.trace && MissesByFar(frames)) {
+    if (!Traces() && MissesByFar(frames)) {
       NoteMisses();
       return;
     }
@@ -61,7 +62,10 @@ class IkRun {
     Note(errors_, angles);
   }
 
-  /// Books iterations that certainly miss the goals and whose errors nobody will see: not with a trace.
+  /// Whether the trace takes in what is noted next.
+  bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.longest_trace; }
+
+  /// Books iterations that certainly miss the goals and whose errors nobody will see: not while it traces.
   void NoteMisses(int count = 1);
 
   /// Books a forward-kinematics pass beyond the one of each iteration.
@@ -69,7 +73,7 @@ class IkRun {
   /// The angles cannot move any further.
   void Stall() { has_stalled_ = true; }
 
-  /// The solution is not the state booked last.
+  /// The solution is not the state booked last: its errors take a pass of their own.
   void Forget();
 
   bool HasConverged() const { return worst_.Within(options_); }
@@ -84,6 +88,7 @@ class IkRun {
 
  private:
   void Book(std::span<const EffectorError> errors, int fk_evaluations);
+  void ForgetErrors();
   bool MissesByFar(const TreeFrames& frames) const;
 
   const KinematicTree& tree_;

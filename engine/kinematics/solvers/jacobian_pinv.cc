@@ -11,14 +11,8 @@ IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem
   IkRun run(tree, problem, options);
   TreeState state = problem.start;
   state.angles = run.start_angles();
-  TreeFrames frames;
-  std::vector<EffectorError> errors;
-  const auto note = [&] {
-    ComputeFrames(tree, state, frames);
-    MeasureErrors(frames, problem.targets, errors);
-    run.Note(errors, state.angles);
-  };
-  note();
+  TreeFrames frames = ComputeFrames(tree, state);
+  run.NoteFrames(frames, state.angles);
 
   LinearTargets linear(tree, problem.targets);
   DampedInverse inverse;
@@ -33,7 +27,8 @@ IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem
     }
     Shorten(step);
     if (MoveWithin(run.ranges(), state.angles, step, state.angles) < options.stall_change) run.Stall();
-    note();
+    ComputeFrames(tree, state, frames);
+    run.NoteFrames(frames, state.angles);
   }
   return run.Finish(std::move(state.angles));
 }

@@ -31,14 +31,8 @@ IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& pr
   IkRun run(tree, problem, options);
   TreeState state = problem.start;
   state.angles = run.start_angles();
-  TreeFrames frames;
-  std::vector<EffectorError> errors;
-  const auto note = [&] {
-    ComputeFrames(tree, state, frames);
-    MeasureErrors(frames, problem.targets, errors);
-    run.Note(errors, state.angles);
-  };
-  note();
+  TreeFrames frames = ComputeFrames(tree, state);
+  run.NoteFrames(frames, state.angles);
 
   LinearTargets linear(tree, problem.targets);
   Eigen::VectorXd step;
@@ -48,7 +42,8 @@ IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& pr
     const std::span<double> turns(step.data(), static_cast<std::size_t>(step.size()));
     Shorten(turns);
     if (MoveWithin(run.ranges(), state.angles, turns, state.angles) < options.stall_change) run.Stall();
-    note();
+    ComputeFrames(tree, state, frames);
+    run.NoteFrames(frames, state.angles);
   }
   return run.Finish(std::move(state.angles));
 }

@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace etude {
-namespace {
-
-constexpr double kPositionScale = 0.30;  // metres that count as much as one radian
-
-}  // namespace
 
 LinearTargets::LinearTargets(const KinematicTree& tree, std::span<const EffectorTarget> targets)
     : tree_(tree), targets_(targets) {}

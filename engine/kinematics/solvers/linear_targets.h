@@ -9,6 +9,9 @@
 
 namespace etude {
 
+/// Metres that count as much as one radian, in all solvers that minimise a sum of squares.
+inline constexpr double kPositionScale = 0.30;
+
 /// The targets of a problem to first order around a pose: angle changes dq meet them when J dq = e. Three rows for a
 /// position, in units of 0.30 m; up to three for the axes, in radians, about the effector's own axes; all times the
 /// root of their weight, so that |e|² is to first order
@@ -32,7 +35,7 @@ class LinearTargets {
   double Cost(const TreeFrames& frames) const;
 
  private:
-  /// One row: along or about which vector of the world an effector shall move, and how much of that it lacks.
+  /// One row: along or about which vector of the world an effector shall move.
   struct Row {
     int first = 0;  ///< of three rows of the tree's Jacobian: an effector's position, or its rotation vector
     glm::dvec3 along{0};

@@ -10,7 +10,7 @@
 namespace etude {
 
 /// The sweeps of `CcdSweep` with `CcdJoint::kHinges` and weights refreshed every sweep, in moment form
-/// (sweep_kernel-inl.h): the same angles to rounding, five times faster. Not for `WeightRule::kWangChen`, whose weights
+/// (sweep_kernel-inl.h): the same angles to rounding, four times faster. Not for `WeightRule::kWangChen`, whose weights
 /// differ from joint to joint. Takes its memory when made; `Sweep` allocates nothing. `tree` and `problem` must be free
 /// of faults (`FindFault`) and outlive this.
 class MomentSweep {

@@ -17,7 +17,8 @@ namespace {
 constexpr double kDamping = 0.1;
 constexpr double kLeastDamping = 1e-7, kMostDamping = 10;
 constexpr double kCaution = 10;       // times more damping after a step that has made it worse,
-constexpr double kConfidence = 3;     // so many times less after one that has not
+constexpr double kConfidence = 3;     // so many times less after one that has not, down to the share above;
+constexpr double kBoldness = 1e-3;    // to so much of it where the residual stays, and with it the damping would
 constexpr double kLargestTurn = 0.6;  // radians, of one step
 
 // So many more passes may settle which angles are held by their limits, in the last steps, which the hidden angles
@@ -25,10 +26,12 @@ constexpr double kLargestTurn = 0.6;  // radians, of one step
 constexpr int kMorePasses = 3;
 constexpr double kNear = 0.01;
 
-// Steps have got stuck when so many of them have not brought the squared residual down to this share.
+// Steps have got stuck when so many of them have not brought the squared residual down to this share; fewer where the
+// iterations are few, of which one in so many is spent on that: other poses shall have their turn.
 constexpr int kPatience = 6;
+constexpr int kShareOfPatience = 5;
 constexpr double kProgress = 0.7;
-constexpr double kSettled = 1 - 1e-6;  // instead, where targets cannot be met
+constexpr double kSettled = 1 - 1e-5;  // instead, where targets cannot be met
 
 constexpr int kRestarts = 20;
 constexpr int kRestartSweeps = 2;
@@ -51,13 +54,14 @@ class Solver {
   IkSolution Solve() {
     Measure();
     Sweep(options_.tuning.first_sweeps);
-    Approach(Wanted::kStart, kProgress);
-    Approach(Wanted::kHere, kProgress);
+    const int patience = std::clamp(options_.max_iterations / kShareOfPatience, 1, kPatience);
+    Approach(Wanted::kStart, kProgress, patience);
+    Approach(Wanted::kHere, kProgress, patience);
     const int restarts = run_.MustGoOn() && !IsOutOfReach(tree_, problem_) ? kRestarts : 0;
     for (int restart = 1; restart <= restarts && run_.MustGoOn(); ++restart) {
       Scatter(restart);
       Sweep(kRestartSweeps);
-      Approach(Wanted::kHere, kProgress);
+      Approach(Wanted::kHere, kProgress, patience);
     }
     Settle();
     if (run_.HasConverged()) return run_.Finish(std::move(state_.angles));
@@ -70,7 +74,7 @@ class Solver {
   /// Which pose a step stays near to, where the targets leave a choice.
   enum class Wanted { kStart, kHere };
 
-  /// Forward kinematics of angles that no iteration has led to, or that its own pass has not left here.
+  /// Forward kinematics of angles that no iteration has led to.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
     run_.CountPass();
@@ -91,10 +95,9 @@ class Solver {
     MomentSweep sweep(tree_, from_here, within_ranges);
     for (int i = 0; i < count && run_.MustGoOn(); ++i) {
       sweep.Sweep();
-      run_.Note(sweep.errors(), [&] { return sweep.Angles(); });
+      state_.angles = sweep.Angles();
+      Measure();
     }
-    state_.angles = sweep.Angles();
-    Place();
   }
 
   /// One step from `frames_`, at which `step_` is built. Returns the largest change of an angle.
@@ -121,9 +124,10 @@ class Solver {
 
   /// Steps until the targets are met or nothing improves any more. Steps that stay near where they begin never make it
   /// worse: one that does is taken back and tried again with more damping (Levenberg–Marquardt).
-  void Approach(Wanted wanted, double progress) {
+  void Approach(Wanted wanted, double progress, int patience, double least_caution = 1) {
     double fallen_to = std::numeric_limits<double>::infinity(), before = fallen_to, caution = 1;
-    for (int left = kPatience; left > 0 && run_.MustGoOn(); --left) {
+    int left = patience;
+    while (run_.MustGoOn()) {
       double squares = step_.Build(frames_);
       if (wanted == Wanted::kHere && squares > before) {
         state_.angles = last_angles_;
@@ -131,11 +135,13 @@ class Solver {
         squares = step_.Build(frames_);
         caution *= kCaution;
       } else {
-        caution = std::max(1.0, caution / kConfidence);
+        caution = std::max(least_caution, caution / kConfidence);
       }
       if (squares < progress * fallen_to) {
         fallen_to = squares;
-        left = kPatience;
+        left = patience;
+      } else if (--left == 0) {
+        break;
       }
       Remember(squares);
       last_angles_ = state_.angles;
@@ -146,14 +152,17 @@ class Solver {
     if (!run_.HasConverged()) Remember(step_.Build(frames_));
   }
 
-  /// Moves to another pose around the start, a different one for every number.
+  /// Moves to another pose around the start, a different one for every number and every start: along a motion, a solver
+  /// that is lost and has few iterations tries others in every frame.
   void Scatter(int number) {
     constexpr double kGoldenShare = 0.6180339887498949;  // its multiples, modulo 1, are spread evenly
+    constexpr double kStir = 300;                        // a fifth of a degree goes all the way round
     for (std::size_t d = 0; d < state_.angles.size(); ++d) {
-      double x = kGoldenShare * number * (static_cast<double>(d) + 1);
+      const double start = run_.start_angles()[d];
+      double x = kGoldenShare * number * (static_cast<double>(d) + 1) + kStir * start;
       x -= std::floor(x);
       const AngleRange& range = run_.ranges()[d];
-      state_.angles[d] = std::clamp(run_.start_angles()[d] + kScatter * (2 * x - 1), range.lower, range.upper);
+      state_.angles[d] = std::clamp(start + kScatter * (2 * x - 1), range.lower, range.upper);
     }
     Place();
   }
@@ -163,7 +172,7 @@ class Solver {
     if (!run_.MustGoOn()) return;
     state_.angles = best_angles_;
     Place();
-    Approach(Wanted::kHere, kSettled);
+    Approach(Wanted::kHere, kSettled, kPatience, kBoldness);
   }
 
   void Remember(double squares) {

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <ranges>
 
+#include "engine/kinematics/solvers/linear_targets.h"
+
 namespace etude {
 namespace {
-
-constexpr double kPositionScale = 0.30;  // metres that count as much as one radian
 
 // The loops have fixed lengths and no aliases, so that compilers make vector code of them.
 
@@ -47,7 +47,7 @@ void AddScaled(const double* __restrict from, double scale, double* __restrict t
 NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
     : tree_(tree),
       targets_(targets),
-      hinges_(tree.limits.size()),
+      hinges_(std::make_unique_for_overwrite<Hinge[]>(tree.limits.size())),
       of_effectors_(std::make_unique_for_overwrite<Demand[]>(tree.effectors.size())),
       demands_(std::make_unique_for_overwrite<Demand[]>(tree.joints.size())),
       movements_(tree.joints.size()),
@@ -173,7 +173,7 @@ bool NullSpaceStep::Spread() {
 
 std::span<const double> NullSpaceStep::Solve(std::span<const double> angles, std::span<const double> wanted,
                                              std::span<const AngleRange> ranges, double damping) {
-  for (std::size_t d = 0; d < hinges_.size(); ++d) {
+  for (std::size_t d = 0; d < change_.size(); ++d) {
     hinges_[d].pull = wanted[d] - angles[d];
     hinges_[d].lower = ranges[d].lower - angles[d];
     hinges_[d].upper = ranges[d].upper - angles[d];

@@ -53,12 +53,12 @@ class NullSpaceStep {
   };
   enum class Side : signed char { kLower, kFree, kUpper };
   struct Hinge {
-    Spatial screw{};     // s: movement per radian
-    Spatial matrix_s{};  // Λs, as it was before this hinge took its part
-    double scale = 0;    // 1 / (μ + sᵀΛs)
-    double best = 0;     // the best change while the limb before it rests
-    double pull = 0;     // the change that leads to the wanted angle
-    double lower = 0, upper = 0;
+    Spatial screw;     // s: movement per radian
+    Spatial matrix_s;  // Λs, as it was before this hinge took its part
+    double scale;      // 1 / (μ + sᵀΛs)
+    double best;       // the best change while the limb before it rests
+    double pull;       // the change that leads to the wanted angle
+    double lower, upper;
     Side side = Side::kFree;
   };
 
@@ -69,7 +69,7 @@ class NullSpaceStep {
   const KinematicTree& tree_;
   std::span<const EffectorTarget> targets_;
   std::vector<int> inwards_;                // joints, each after all beyond it; limbs that are apart take turns
-  std::vector<Hinge> hinges_;               // of each angle
+  std::unique_ptr<Hinge[]> hinges_;         // of each angle
   std::unique_ptr<Demand[]> of_effectors_;  // of each effector
   std::unique_ptr<Demand[]> demands_;       // of each limb
   std::vector<Spatial> movements_;          // of each limb

@@ -23,6 +23,7 @@
 #define ETUDE_SWEEP_KERNEL_INL_H_
 #endif
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -68,7 +69,8 @@ struct GoalOf {
 template <class Item>
 class AlignedList {
  public:
-  explicit AlignedList(std::size_t size) : items_(hwy::AllocateAligned<Item>(size)), size_(size) {
+  explicit AlignedList(std::size_t size)
+      : items_(hwy::AllocateAligned<Item>(std::max<std::size_t>(size, 1))), size_(size) {
     std::memset(static_cast<void*>(items_.get()), 0, size * sizeof(Item));
   }
 
@@ -167,16 +169,18 @@ void PlaceLimbs(const SweepTree& tree, SweepState<V>& state) {
     }
     const SweepTree::Joint& joint = tree.joints[step.joint];
     const int(&above)[3] = tree.joints[joint.parent].axes;
-    Quad<V>* const base = &state.axes[joint.base_axes];
     if (joint.is_aligned) {
-      for (int k = 0; k < 3; ++k) base[k] = LessLast(state.axes[above[k]], V(joint.offset[k]));
+      for (int k = 0; k < 3; ++k) {
+        if (joint.base[k] == above[k]) continue;  // the very same axis
+        state.axes[joint.base[k]] = LessLast(state.axes[above[k]], V(joint.offset[k]));
+      }
       continue;
     }
     const double(&rest)[3][3] = joint.rest;
     const Quad<V> x = LessLast(state.axes[above[0]], V(joint.offset[0]));
     const Quad<V> y = LessLast(state.axes[above[1]], V(joint.offset[1]));
     const Quad<V> z = LessLast(state.axes[above[2]], V(joint.offset[2]));
-    for (int c = 0; c < 3; ++c) base[c] = Mix(x, rest[0][c], y, rest[1][c], z, rest[2][c]);
+    for (int c = 0; c < 3; ++c) state.axes[joint.base[c]] = Mix(x, rest[0][c], y, rest[1][c], z, rest[2][c]);
   }
   MeasureGoals(tree, state);
 }
@@ -230,22 +234,20 @@ void AddEffector(const SweepTree::Effector& effector, const GoalOf<V>& goal, Mom
 }
 
 /// Takes the moments of a limb, whose hinges have turned, to its parent's joint and frame, and adds them to those that
-/// are there.
+/// are there; if none are, both are in the same place.
 template <class V>
-void HandOn(const SweepTree::Joint& joint, const MomentsOf<V>& child, MomentsOf<V>& parent) {
-  const Quad<V> last = child.rows[3];
-  Quad<V> x = child.rows[0], y = child.rows[1], z = child.rows[2];
+void HandOn(const SweepTree::Joint& joint, MomentsOf<V>& child, MomentsOf<V>& parent) {
   if (!joint.is_aligned) {
     const double(&rest)[3][3] = joint.rest;
-    const Quad<V> a = x, b = y, c = z;
-    x = Mix(a, rest[0][0], b, rest[0][1], c, rest[0][2]);
-    y = Mix(a, rest[1][0], b, rest[1][1], c, rest[1][2]);
-    z = Mix(a, rest[2][0], b, rest[2][1], c, rest[2][2]);
+    const Quad<V> x = child.rows[0], y = child.rows[1], z = child.rows[2];
+    for (int r = 0; r < 3; ++r) child.rows[r] = Mix(x, rest[r][0], y, rest[r][1], z, rest[r][2]);
   }
-  AddRow(joint.is_first, x + last * V(joint.offset[0]), parent.rows[0]);
-  AddRow(joint.is_first, y + last * V(joint.offset[1]), parent.rows[1]);
-  AddRow(joint.is_first, z + last * V(joint.offset[2]), parent.rows[2]);
-  AddRow(joint.is_first, last, parent.rows[3]);
+  const Quad<V> last = child.rows[3];
+  for (int r = 0; r < 3; ++r) {
+    if (joint.offset[r] != 0) child.rows[r] = child.rows[r] + last * V(joint.offset[r]);
+  }
+  if (joint.is_first) return;
+  for (int r = 0; r < 4; ++r) parent.rows[r] = parent.rows[r] + child.rows[r];
 }
 
 /// 2 asin(√chord² / 2), the angle of a chord of the unit circle, to 10⁻¹² of itself: a polynomial in (chord / 2)² up to

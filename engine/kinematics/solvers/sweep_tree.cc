@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace etude {
 namespace {
@@ -57,29 +58,33 @@ NamedAxis NameOf(const glm::dvec3& axis) {
   return {name, axis[name]};
 }
 
-// A step and how many steps must come before it.
+// A step and how many others wait for it, one for another: those for which the most wait come first.
 struct PlacedStep {
   SweepTree::Step step;
-  int height = 0;
+  int depth = 0;
 };
 
 std::vector<SweepTree::Step> StepsOf(const KinematicTree& tree) {
-  std::vector<int> height(tree.joints.size(), -1);  // of what lies beyond a joint; −1: no effector does
-  for (const Effector& effector : tree.effectors) height[effector.joint] = 0;
-  std::vector<PlacedStep> placed;
-  for (int n = static_cast<int>(tree.joints.size()) - 1; n > 0; --n) {
-    if (height[n] < 0) continue;
-    const TreeJoint& joint = tree.joints[n];
-    int next = height[n];
-    // The innermost axis is nearest to the leaves: turning it leaves the others' axes where they are.
-    for (int axis = joint.dof_count - 1; axis >= 0; --axis) {
-      placed.push_back(
-          {{.joint = n, .hinge = joint.first_dof + axis, .i = (axis + 1) % 3, .j = (axis + 2) % 3}, next++});
-    }
-    placed.push_back({{.joint = n}, next++});
-    height[joint.parent] = std::max(height[joint.parent], next);
+  std::vector<bool> is_used(tree.joints.size());  // whether effectors lie beyond a joint
+  for (const Effector& effector : tree.effectors) is_used[effector.joint] = true;
+  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
+    if (is_used[n]) is_used[tree.joints[n].parent] = true;
   }
-  std::ranges::stable_sort(placed, {}, &PlacedStep::height);
+  std::vector<int> depths(tree.joints.size());  // after the joint's own steps
+  std::vector<PlacedStep> placed;
+  for (int n = 1; n < static_cast<int>(tree.joints.size()); ++n) {
+    if (!is_used[n]) continue;
+    const TreeJoint& joint = tree.joints[n];
+    int& depth = depths[n];
+    depth = depths[joint.parent];
+    placed.push_back({{.joint = n}, depth++});
+    // The innermost axis is nearest to the leaves: turning it leaves the others' axes where they are.
+    for (int axis = 0; axis < joint.dof_count; ++axis) {
+      placed.push_back(
+          {{.joint = n, .hinge = joint.first_dof + axis, .i = (axis + 1) % 3, .j = (axis + 2) % 3}, depth++});
+    }
+  }
+  std::ranges::stable_sort(placed, std::ranges::greater(), &PlacedStep::depth);
   std::vector<SweepTree::Step> steps;
   for (const PlacedStep& each : placed) steps.push_back(each.step);
   return steps;
@@ -128,16 +133,16 @@ void SweepTree::NameAxes(const KinematicTree& tree) {
 
 // Nothing is overwritten: a sweep needs the axes as they were before every turn.
 void SweepTree::PlaceAxes() {
-  const auto place_base = [this](Joint& joint) {
-    joint.base_axes = axis_count;
-    for (int k = 0; k < 3; ++k) joint.axes[k] = axis_count++;
-  };
-  place_base(joints[0]);
+  for (int& axis : joints[0].axes) axis = axis_count++;
   for (std::size_t n = steps.size(); n-- > 0;) {
     Step& step = steps[n];
     Joint& joint = joints[step.joint];
     if (step.hinge < 0) {
-      place_base(joint);
+      for (int k = 0; k < 3; ++k) {
+        const bool is_parents = joint.is_aligned && joint.offset[k] == 0;
+        joint.base[k] = is_parents ? joints[joint.parent].axes[k] : axis_count++;
+        joint.axes[k] = joint.base[k];
+      }
       continue;
     }
     step.from = joint.axes[step.i];

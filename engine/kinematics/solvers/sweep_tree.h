@@ -18,7 +18,7 @@ struct SweepTree {
     int moments = -1;         ///< where the moments of its limb are
     bool is_first = false;    ///< its limb hands its moments on to its parent's, which has none before that
     bool is_aligned = false;  ///< `rest` is the identity
-    int base_axes = 0;        ///< where the first of three axes is: the limb's before the joint turns
+    int base[3] = {};         ///< where its axes are before the joint turns: the parent's own where they are the same
     int axes[3] = {};         ///< where the limb's axes are
     double rest[3][3] = {};   ///< rows: from the limb's frame into the parent limb's, when all angles are zero
     double offset[3] = {};    ///< from the parent's joint, in the parent limb's frame

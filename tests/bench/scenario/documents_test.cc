@@ -45,7 +45,7 @@ std::string Complete(const std::string& piece) {
       {"scenario", "s"},
       {"question", "q"},
       {"task", "ik"},
-      {"methods", "[{name: fixed, weights: fixed}, {name: adaptive, weights: adaptive}]"}};
+      {"methods", "[{name: fixed, solver: ccd, weights: fixed}, {name: adaptive, solver: ccd, weights: adaptive}]"}};
   std::string whole = piece;
   for (const auto& [key, value] : needed) {
     if (!piece.starts_with(key + ":") && piece.find("\n" + key + ":") == std::string::npos) {

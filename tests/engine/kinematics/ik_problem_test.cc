@@ -70,6 +70,27 @@ TEST(OutOfReach, AreHandsFartherFromEachOtherThanTheArmsAreLong) {
   }
 }
 
+TEST(AllowedRanges, AreTheLimitsAndTheToleranceAroundTheStart) {
+  IkProblem problem = PositionsOf({kHead});
+  problem.start.angles.assign(29, 0.0);
+  problem.limits.assign(29, {-0.5, 1.0});
+  problem.start.angles[1] = 0.9;
+  problem.start.angles[2] = 1.4;  // out of its limits: the tolerance counts from their end
+  IkOptions options;
+  const auto expect = [&](std::vector<AngleRange> expected) {
+    const std::vector<AngleRange> ranges = AllowedRanges(problem, options);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_NEAR(ranges[i].lower, expected[i].lower, 1e-15) << i;
+      EXPECT_NEAR(ranges[i].upper, expected[i].upper, 1e-15) << i;
+    }
+  };
+  expect({{-0.5, 1}, {-0.5, 1}, {-0.5, 1}});
+  options.angle_change_tolerance = 0.2;
+  expect({{-0.2, 0.2}, {0.7, 1}, {0.8, 1}});
+  options.limits = false;
+  expect({{-0.2, 0.2}, {0.7, 1.1}, {1.2, 1.6}});
+}
+
 TEST(Faults, AreAxesThatAreNoRotation) {
   const IkProblem sound = PositionsOf({kRightFoot});
   EXPECT_EQ(FindFault(Body(), sound, {}), "");

@@ -130,6 +130,32 @@ TEST_F(Convergence, TellsInWordsWhoSolvedItAndWhoDidNot) {
   EXPECT_EQ(scene.PosterFrame(), scene.Frames() - 1);
 }
 
+TEST_F(Convergence, RingsMarkTheTargetsNotTheTruth) {
+  const IkPath& path = race_.paths[0];
+  const Paint white{1, 1, 1, 1};
+  const ColourImage met = ConvergenceStage(race_, *renderer_, 622, 400).Picture(*renderer_, path.poses.back(), white);
+  EXPECT_THAT(ConvergenceScene(race_, "race", *renderer_).Words(), HasSubstr("rings: where right foot"));
+  *race_.targets[1] += glm::dvec3(0.2, 0, 0);
+  const ColourImage moved = ConvergenceStage(race_, *renderer_, 622, 400).Picture(*renderer_, path.poses.back(), white);
+  EXPECT_NE(met.pixels, moved.pixels);
+  race_.targets.fill(std::nullopt);
+  const ColourImage none = ConvergenceStage(race_, *renderer_, 622, 400).Picture(*renderer_, path.poses.back(), white);
+  EXPECT_NE(met.pixels, none.pixels);
+  EXPECT_THAT(ConvergenceScene(race_, "race", *renderer_).Words(), Not(HasSubstr("rings")));
+}
+
+TEST_F(Convergence, TheCounterRunsOnBetweenRecordedIterations) {
+  const RunData run = RaceRun({{"a", 0, 0.1, {0, 1, 100}}, {"b", 0, 0.1, {0, 1, 100}}});
+  auto race = FindIkRace(run, run.scenarios.front());
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  ConvergenceScene scene(std::move(*race), "race", *renderer_);
+  const RaceClock clock(100);
+  int tenth = 0, fiftieth = 0;
+  while (clock.IterationAt(tenth) < 10) ++tenth;
+  while (clock.IterationAt(fiftieth) < 50) ++fiftieth;
+  EXPECT_FALSE(SameHalf(scene.Draw(tenth).Pixels(), scene.Draw(fiftieth).Pixels(), false));
+}
+
 TEST_F(Convergence, BodiesStandInThePictureRightOfTheWords) {
   const ConvergenceStage stage(race_, *renderer_, 622, 400);
   const IkPath& path = race_.paths[0];

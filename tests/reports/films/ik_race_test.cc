@@ -51,7 +51,7 @@ TEST(IkRace, TakesTheFirstTwoOfTheMethodsThatWereRecorded) {
 }
 
 TEST(IkRace, SaysWhyThereIsNone) {
-  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, {}}, {"b", 0, 1, {}}})), HasSubstr("recordings of no method"));
+  EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, {}}, {"b", 0, 1, {}}})), HasSubstr("kept no recordings here"));
   EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)}, {"b", 0, 1, {}}})), HasSubstr("one method only"));
   EXPECT_THAT(WhyNone(RaceRun({{"a", 0, 1, EveryIteration(3)},
                                {"b", 0, 1, {}, Status::kFailed},
@@ -85,6 +85,28 @@ TEST(IkRace, IsSolvedOnceBothErrorsStayBelowTheGoal) {
   EXPECT_FALSE(race->paths[1].solved_at.has_value());
   EXPECT_EQ(race->paths[1].ending, "not solved");
   EXPECT_EQ(race->paths[1].reason, "2 angles outside");
+}
+
+TEST(IkRace, KnowsWhereTheEndsShouldBeWhateverTheTruth) {
+  RunData run = RaceRun({{"a", 0, 1, EveryIteration(2)}, {"b", 0, 1, EveryIteration(2)}});
+  const auto with = [&](const std::string& targets) {
+    run.recordings[0].recording.extras_json =
+        R"({"iterations": [0, 1, 2], "position_error_max_cm": [3, 2, 1], "orientation_error_max_deg": [0, 0, 0],
+            "targets_m": )" +
+        targets + "}";
+    return Find(run);
+  };
+  const auto race = with("[[0.1, 2, 0.3], null, [0, 0, 0], [1, 1, 1]]");
+  ASSERT_TRUE(race.has_value()) << ToString(race.error());
+  EXPECT_EQ(race->targets[0], glm::dvec3(0.1, 2, 0.3));
+  EXPECT_FALSE(race->targets[1].has_value());
+  EXPECT_EQ(race->targets[3], glm::dvec3(1));
+  for (const char* bad : {"null", "[null, null, null]", "[null, null, null, 1]", "[null, null, null, [1, 2]]",
+                          R"([null, null, null, [1, 2, "up"]])"}) {
+    const auto refused = with(bad);
+    ASSERT_FALSE(refused.has_value()) << bad;
+    EXPECT_THAT(ToString(refused.error()), HasSubstr("targets_m is no list of 4 places"));
+  }
 }
 
 TEST(IkRace, KnowsThatWithoutErrorsNothingWasAskedFor) {

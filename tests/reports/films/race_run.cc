@@ -26,8 +26,15 @@ Recording RecordSettling(const Settling& cell) {
     position.push_back(20 * left);
     orientation.push_back(40 * left);
   }
-  const Json extras = {
-      {"iterations", cell.iterations}, {"position_error_max_cm", position}, {"orientation_error_max_deg", orientation}};
+  Json targets = Json::array();
+  for (const Effector& effector : tree.effectors) {
+    const glm::dvec3& at = truth[effector.role];
+    targets.push_back({at.x, at.y, at.z});
+  }
+  const Json extras = {{"iterations", cell.iterations},
+                       {"position_error_max_cm", position},
+                       {"orientation_error_max_deg", orientation},
+                       {"targets_m", targets}};
   return {{truths, starts, solutions}, extras.dump()};
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 
 namespace etude {
 namespace {
@@ -66,6 +67,12 @@ TEST(CurvePlot, TellsMethodsApartByColourAndDashes) {
   EXPECT_THAT(svg, HasSubstr("class=\"c4 faint\" stroke-dasharray"));
   EXPECT_THAT(svg, Not(HasSubstr("<me>")));
   EXPECT_THAT(CurveKeySvg(4), HasSubstr("class=\"c4\" stroke-dasharray"));
+}
+
+TEST(CurveKey, OfEveryMethodOfSixteenLooksDifferent) {
+  std::set<std::string> keys;
+  for (std::size_t style = 0; style < 16; ++style) keys.insert(CurveKeySvg(style));
+  EXPECT_EQ(keys.size(), 16u);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ TEST(Figures, ShowAboutThreeSignificantDigits) {
   EXPECT_EQ(FormatNumber(-3.14159), "−3.14");
   EXPECT_EQ(FormatNumber(0), "0");
   EXPECT_EQ(FormatNumber(0.0000312), "3.1e-05");
+  EXPECT_EQ(FormatNumber(-0.0000312), "−3.1e-05");
 }
 
 TEST(Figures, ThatAreNotFiniteAreNoNumbers) {

@@ -1,8 +1,11 @@
 """Metrics of following a motion."""
+import math
+
 from independent import common, ik
 
 PERCENTILE = 0.95
 JERK_ORDER = 3
+ROUNDING_RAD = 1e-9
 
 
 def frames_solved(given, goal):
@@ -31,5 +34,6 @@ def jerk(frames):
 
 
 def jerk_ratio(given):
-    truth = jerk(given["true_frames_deg"])
-    return jerk(given["found_frames_deg"]) / truth if truth else None
+    frames = given["true_frames_deg"]
+    truth, count = jerk(frames), max(0, len(frames) - JERK_ORDER) * len(frames[0])
+    return jerk(given["found_frames_deg"]) / truth if truth > math.degrees(ROUNDING_RAD) * count else None

@@ -38,6 +38,19 @@ TEST(AnswerFields, RefusesNumbersThatAreTooLargeForAnInt) {
   }
 }
 
+TEST(AnswerFields, TakesAWholeNumberHoweverItIsWritten) {
+  const Json json = Json::parse(R"({"a": 3, "b": 3.0, "c": 0.3e1})");
+  AnswerFields fields(json);
+  for (const char* key : {"a", "b", "c"}) EXPECT_EQ(fields.Integer(key, 0, 10), 3);
+  EXPECT_TRUE(fields.Finish());
+  for (const char* text : {"{\"a\": 3.5}", "{\"a\": \"3\"}", "{\"a\": true}", "{\"a\": null}", "{\"a\": 1e300}"}) {
+    const Json other = Json::parse(text);
+    AnswerFields refusing(other);
+    EXPECT_EQ(refusing.Integer("a", 1, 10), 1);
+    EXPECT_FALSE(refusing.Finish()) << text;
+  }
+}
+
 TEST(AnswerFields, RefusesAKeyThatNobodyAskedFor) {
   const Json json = {{"frame", 1}, {"fame", 2}};
   AnswerFields fields(json);

@@ -37,8 +37,9 @@ std::string DigestOf(const CellResult& cell, std::string_view stage) {
 }
 
 TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
-  const auto task =
-      Make("duration_s: 0.1\nmethods:\n- {name: fixed, weights: fixed}\n- {name: adaptive, weights: adaptive}\n");
+  const auto task = Make(
+      "duration_s: 0.1\nmethods:\n- {name: fixed, solver: ccd, weights: fixed}\n- {name: adaptive, solver: ccd, "
+      "weights: adaptive}\n");
   ASSERT_TRUE(task) << ToString(task.error());
   EXPECT_EQ((*task)->ClipOf(kKey), "builtin:boxing");
   const auto cells = RunWorld(**task, kKey, 2), again = RunWorld(**task, kKey, 2);

@@ -130,6 +130,10 @@ TEST(IkRecording, HoldsTruthStartAndTheSolutionFrameByFrameWithItsErrors) {
   EXPECT_EQ(extras["iterations"].back(), 300);
   const auto pose = [&](int track, std::size_t frame) { return recording.tracks[track].motion.poses[frame]; };
   EXPECT_EQ(pose(2, 0).joints, pose(1, 0).joints) << "the solution begins at the start";
+  for (std::size_t e = 0; e < run.world.problem.targets.size(); ++e) {
+    const glm::dvec3& at = run.world.problem.targets[e].position;
+    EXPECT_EQ(extras["targets_m"][e], Json({at.x, at.y, at.z}));
+  }
   // The head's way to its target, from the picture alone, is what the trace says.
   for (std::size_t i = 0; i < extras["iterations"].size(); ++i) {
     const auto& entry = run.solution.trace[extras["iterations"][i].get<std::size_t>()];

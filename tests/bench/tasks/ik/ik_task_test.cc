@@ -76,6 +76,26 @@ TEST(IkTask, CallsACellUnsolvedWhenAnEffectorIsNotHome) {
   EXPECT_LT(Metric(today, "position_error_max_cm"), 0.1);
 }
 
+TEST(IkTask, MeasuresTheSameWhetherItsMotionIsKeptOrNot) {
+  // Longer than its curves, so that a film alone needs the rest of the trace.
+  const auto task = Make("{max_sweeps: 300, record: [effector_curves]}");
+  const std::vector<CellResult> kept = RunWorld(**task, kWorld, 3, true), cells = RunWorld(**task, kWorld, 3, false);
+  for (std::size_t m = 0; m < cells.size(); ++m) {
+    ASSERT_TRUE(kept[m].recording);
+    EXPECT_FALSE(cells[m].recording);
+    EXPECT_EQ(cells[m].digests, kept[m].digests);
+    for (const char* id : {"iterations", "fk_evaluations", "orientation_error_deg", "position_error_cm"}) {
+      EXPECT_EQ(Metric(cells[m], id), Metric(kept[m], id)) << id;
+    }
+    ASSERT_EQ(cells[m].series.size(), 2u + 16);
+    for (std::size_t i = 0; i < cells[m].series.size(); ++i) {
+      EXPECT_EQ(cells[m].series[i].values, kept[m].series[i].values) << cells[m].series[i].name;
+    }
+  }
+  EXPECT_EQ(cells[0].series[0].values.size(), 200u);
+  EXPECT_THAT(kept[0].recording->extras_json, HasSubstr(",300]")) << "the last iteration is shown";
+}
+
 TEST(IkTask, RepeatsItselfToTheLastBit) {
   const auto digests = [](const WorldKey& key) {
     std::vector<std::pair<std::string, std::string>> all;
@@ -101,9 +121,9 @@ TEST(IkTask, MeasuresTightSolutionsWhenAskedToGoOn) {
 
 TEST(IkTask, KeepsHiddenAnglesWithinTheToleranceOfAMethod) {
   const std::string methods = R"(
-- {name: free, weights: adaptive}
-- {name: bound, weights: adaptive, tolerance_deg: 2}
-- {name: same-bound, weights: adaptive, tolerance_times_noise: 0.2}
+- {name: free, solver: ccd, weights: adaptive}
+- {name: bound, solver: ccd, weights: adaptive, tolerance_deg: 2}
+- {name: same-bound, solver: ccd, weights: adaptive, tolerance_times_noise: 0.2}
 )";
   const auto cells = CellsOf(**Make("{joint_noise_deg: 10, max_sweeps: 50}", methods));
   EXPECT_LE(Metric(cells[1], "hidden_angle_change_deg"), 2);
@@ -114,7 +134,7 @@ TEST(IkTask, KeepsHiddenAnglesWithinTheToleranceOfAMethod) {
 TEST(IkTask, KeepsTheSeriesThatAScenarioAsksFor) {
   const auto names = [](const std::string& condition) {
     std::vector<std::string> all;
-    const auto task = Make(condition, "[{name: a, weights: fixed}]");
+    const auto task = Make(condition, "[{name: a, solver: ccd, weights: fixed}]");
     const CellResult cell = RunWorld(**task, kWorld, 1)[0];
     for (const Series& series : cell.series) all.push_back(series.name);
     return all;
@@ -130,21 +150,26 @@ TEST(IkTask, RefusesWhatItDoesNotKnowAndSaysWhereItStands) {
   EXPECT_THAT(ComplaintOf("{poses: {uniform: 2}}"), HasSubstr("0 to 1"));
   EXPECT_THAT(ComplaintOf("{noise: pink}"), HasSubstr("gaussian"));
   EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: cdc}]"), HasSubstr("did you mean 'ccd'"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, weights: adaptiv}]"), HasSubstr("did you mean 'adaptive'"));
+  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: ccd, weights: adaptiv}]"), HasSubstr("did you mean 'adaptive'"));
   EXPECT_THAT(ComplaintOf("{}", "[{name: a, wieghts: fixed}]"), HasSubstr("weights"));
-  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: damped-least-squares, weights: fixed}]"), HasSubstr("has no"));
+  EXPECT_THAT(ComplaintOf("{}", "[{name: a, solver: damped-least-squares, weights: fixed}]"),
+              HasSubstr("has no 'weights'; allowed with solver: ccd, ccd-hinges, ccd-anderson"));
   EXPECT_THAT(ComplaintOf("{}", "[{name: a, tolerance_deg: 1, tolerance_times_noise: 1}]"), HasSubstr("either"));
   EXPECT_EQ(ComplaintOf("{poses: 0.7, noise: uniform, joint_noise_deg: 25, stop_at: tight}"), "");
 }
 
 TEST(IkTask, RefusesKeysThatMeanNothingWhereItStarts) {
-  EXPECT_THAT(ComplaintOf("{start: middle, joint_noise_deg: 3}"), HasSubstr("start 'middle' has no 'joint_noise_deg'"));
+  EXPECT_THAT(ComplaintOf("{start: middle, joint_noise_deg: 3}"),
+              HasSubstr("1:34: start 'middle' has no 'joint_noise_deg'; allowed with start: disturbed"));
   EXPECT_THAT(ComplaintOf("{start: stretched, poses: 1}"), HasSubstr("has no 'poses'"));
   EXPECT_THAT(ComplaintOf("{start: stretched, unreachable_cm: 1}"), HasSubstr("has no 'unreachable_cm'"));
-  EXPECT_THAT(ComplaintOf("{start: middle}", "[{name: a, tolerance_times_noise: 1}]"), HasSubstr("start with noise"));
-  EXPECT_THAT(ComplaintOf("{targets: orientation, unreachable_cm: 1}"), HasSubstr("positions"));
+  EXPECT_THAT(ComplaintOf("{start: middle}", "[{name: a, tolerance_times_noise: 1}]"),
+              HasSubstr("needs noise; allowed with start: disturbed"));
+  EXPECT_THAT(ComplaintOf("{targets: orientation, unreachable_cm: 1}"),
+              HasSubstr("1:40: 'unreachable_cm' needs positions"));
   EXPECT_THAT(ComplaintOf("{limit_set: hopenfeld}"), HasSubstr("did you mean 'hoppenfeld'"));
-  EXPECT_THAT(ComplaintOf("{record: [effector_error]}"), HasSubstr("did you mean 'effector_errors'"));
+  EXPECT_THAT(ComplaintOf("{record: [angle_changes, effector_error]}"),
+              HasSubstr("1:26: unknown record 'effector_error'; did you mean 'effector_errors'"));
   EXPECT_EQ(ComplaintOf("{start: stretched, limit_set: ama, record: [angle_changes]}"), "");
 }
 
@@ -167,7 +192,7 @@ TEST(IkTask, TellsWhyACellStopped) {
   const auto reason = [](const std::string& condition, const std::string& method) {
     return RunWorld(**Make(condition, "[{name: a, " + method + "}]"), kWorld, 1)[0].reason;
   };
-  EXPECT_EQ(reason("{max_sweeps: 7}", "weights: fixed"), "the limit of 7 sweeps");
+  EXPECT_EQ(reason("{max_sweeps: 7}", "solver: ccd, weights: fixed"), "the limit of 7 sweeps");
   EXPECT_EQ(reason("{unreachable_cm: 5}", "solver: damped-least-squares"), "a target is out of reach");
   EXPECT_EQ(reason("{start: stretched}", "solver: damped-least-squares"), "stalled before the targets were met");
   EXPECT_THAT(reason("{}", "solver: fabrik"), HasSubstr("sees positions only"));
@@ -175,7 +200,9 @@ TEST(IkTask, TellsWhyACellStopped) {
 }
 
 TEST(IkTask, CountsBrokenLimitsOfAMethodThatIgnoresThem) {
-  const std::string methods = "[{name: kept, weights: fixed-tuned}, {name: free, weights: fixed-tuned, limits: false}]";
+  const std::string methods =
+      "[{name: kept, solver: ccd, weights: fixed-tuned}, {name: free, solver: ccd, weights: fixed-tuned, limits: "
+      "false}]";
   const auto cells = RunWorld(**Make("{poses: 1, joint_noise_deg: 40}", methods), kWorld, 2);
   EXPECT_EQ(Metric(cells[0], "limit_violations"), 0);
   EXPECT_GT(Metric(cells[1], "limit_violations"), 0);

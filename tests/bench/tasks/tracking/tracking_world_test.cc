@@ -145,7 +145,7 @@ TEST(TrackingWorld, RefusesAClipThatIsTooShortOrHasNoPose) {
     const auto world = MakeTrackingWorld({}, clip, kKey);
     return world ? "" : world.error().message;
   };
-  EXPECT_THAT(complaint(ClipOf(tree, SwingingStates(tree, 3))), HasSubstr("has 3 frames at 30 Hz; tracking needs 4"));
+  EXPECT_THAT(complaint(ClipOf(tree, SwingingStates(tree, 3))), HasSubstr(": 3 at 30 Hz; tracking needs 4"));
   EXPECT_EQ(complaint(ClipOf(tree, SwingingStates(tree, 4))), "");
   LibraryClip folded = ClipOf(tree, SwingingStates(tree, 10));
   folded.motion.poses[6][Role::kLeftHand] = folded.motion.poses[6][Role::kLeftWrist];

@@ -4,8 +4,11 @@
 
 #include <cmath>
 
+#include "engine/kinematics/euler.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
+#include "engine/kinematics/solvers/moment_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
+#include "tests/engine/kinematics/solvers/arms.h"
 
 namespace etude {
 namespace {
@@ -61,20 +64,64 @@ TEST(Ccd, ClippingAWholeJointsAnglesCanRaiseThePenalty) {
 }
 
 TEST(Ccd, AHingeInReachOfItsTargetNeedsOneSweep) {
-  KinematicTree arm;
-  arm.joints = {{.name = "root", .role = Role::kLeftShoulder},
-                {.name = "hinge", .role = Role::kLeftElbow, .parent = 0, .offset = {0, 0, 1}, .dof_count = 1}};
-  arm.effectors = {{"tip", Role::kLeftWrist, 1, {0, 0, 0.5}}};
-  arm.limits = {{-kPi, kPi}};
-  // X turns Z towards −Y: the tip at angle q is (0, −sin q / 2, 1 + cos q / 2).
-  IkProblem problem{StandingState(arm), {EffectorTarget{}}, arm.limits};
-  problem.targets[0].position = {0, -0.5 * std::sin(2.0), 1 + 0.5 * std::cos(2.0)};
-  problem.targets[0].axis_weights = glm::dvec3(0);
+  const KinematicTree arm = Arm({0.5}, 1);
+  const IkProblem problem = Reach(arm, {0}, {0, -0.5 * std::sin(2.0), 1 + 0.5 * std::cos(2.0)});
   for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
     const IkSolution solution = solve(arm, problem, IkOptions{});
     EXPECT_EQ(solution.status, IkStatus::kConverged);
     EXPECT_EQ(solution.iterations, 1);
     EXPECT_NEAR(solution.angles[0], 2.0, 1e-12);
+  }
+}
+
+// Position and axes pull a hinge of lever 0.5 m to different angles α and β: the gain w_p r d cos(φ − α) + 2 w_o
+// cos(φ − β), since two of the axes turn, is largest between them.
+TEST(Ccd, EveryWeightPullsAHingeAsItsFormulaSays) {
+  KinematicTree arm = Arm({0.5}, 1);
+  constexpr double kLever = 0.5, kDistance = 0.8, kAlpha = 0.9, kBeta = -0.6;
+  IkProblem problem = Reach(arm, {0}, {0, -kDistance * std::sin(kAlpha), 1 + kDistance * std::cos(kAlpha)});
+  problem.targets[0].axes = RotationXyz({kBeta, 0, 0}) * arm.standing_root;
+  const double apart_cm =
+      100 * std::sqrt(kLever * kLever + kDistance * kDistance - 2 * kLever * kDistance * std::cos(kAlpha));
+  struct Row {
+    WeightRule rule;
+    double position, axis;  // per cm²; axis 0 stays where it is, so its own weight turns nothing
+  };
+  for (const Row& row : {Row{WeightRule::kFixed, 1, 1}, Row{WeightRule::kFixedTuned, 0.0015, 1},
+                         Row{WeightRule::kAdaptive, apart_cm, Degrees(-kBeta)},
+                         Row{WeightRule::kAdaptiveTuned, 0.003 * apart_cm, Degrees(-kBeta)},
+                         Row{WeightRule::kAdaptivePower, 5e-5 * std::pow(apart_cm, 0.75), std::pow(-kBeta, 0.75)},
+                         Row{WeightRule::kWangChen, 0.0007 * (1 + kLever / kDistance), 1}}) {
+    for (const double share : {1.0, 0.3}) {
+      problem.targets[0].position_weight = share;
+      problem.targets[0].axis_weights = glm::dvec3(2 - share);
+      const double pull = share * row.position * (100 * kLever) * (100 * kDistance), turn = 2 * (2 - share) * row.axis;
+      const double expected = std::atan2(pull * std::sin(kAlpha) + turn * std::sin(kBeta),
+                                         pull * std::cos(kAlpha) + turn * std::cos(kBeta));
+      IkOptions options;
+      options.weights = row.rule;
+      options.max_iterations = 1;
+      for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
+        EXPECT_NEAR(solve(arm, problem, options).angles[0], expected, 1e-9)
+            << WeightRuleNames()[static_cast<int>(row.rule)] << " " << share;
+      }
+    }
+  }
+}
+
+TEST(Ccd, TheMeritOfASweepIsThePenaltyByItsWeights) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 2, 0.8), 2, 30);
+  IkOptions options;
+  options.weights = WeightRule::kFixedTuned;
+  CcdSweep ccd(tree, problem, options, CcdJoint::kHinges);
+  MomentSweep moments(tree, problem, options);
+  for (int sweep = 0; sweep < 3; ++sweep) {
+    ccd.Sweep();
+    moments.Sweep();
+    const double penalty = Penalty(tree, problem, ccd.angles(), options.weights);
+    EXPECT_NEAR(ccd.Merit(), penalty, 1e-9 * penalty);
+    EXPECT_NEAR(moments.Merit(), penalty, 1e-9 * penalty);
   }
 }
 

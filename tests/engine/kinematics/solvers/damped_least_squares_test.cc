@@ -45,6 +45,47 @@ TEST(DampedLeastSquares, ItsFirstStepSolvesTheNormalEquations) {
   }
 }
 
+// A hinge of lever r, δ short of its target: with a = (r / 30 cm)², a step is a sin δ / (a + λ).
+TEST(DampedLeastSquares, TurnsAHingeByDampedStepsOfBoundedLength) {
+  const KinematicTree arm = Arm({0.5}, 1);
+  const double a = (0.5 / kPositionScale) * (0.5 / kPositionScale);
+  const auto angle_after = [&](double target, double first_damping, int steps) {
+    IkOptions options;
+    options.max_iterations = steps;
+    options.tuning.first_damping = first_damping;
+    const IkProblem problem = Reach(arm, {0}, {0, -0.5 * std::sin(target), 1 + 0.5 * std::cos(target)});
+    return SolveDampedLeastSquares(arm, problem, options).angles[0];
+  };
+  const double first = a * std::sin(0.5) / (a + 2);
+  EXPECT_NEAR(angle_after(0.5, 2, 1), first, 1e-12);
+  EXPECT_NEAR(angle_after(0.5, 2, 2), first + a * std::sin(0.5 - first) / (a + 2.0 / 5), 1e-12)
+      << "a step that lowers the sum makes the next one bolder";
+  EXPECT_NEAR(angle_after(1.5, 1e-6, 1), kLargestTurn, 1e-12);
+}
+
+TEST(DampedLeastSquares, StallsOnlyOnceAStepGainsNextToNothing) {
+  const KinematicTree tree = MakeBodyTree({});
+  const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 3, 0.5), 3, 30);
+  IkOptions options;
+  options.angle_change_tolerance = Radians(4);  // nothing that meets the targets is so near
+  options.trace = true;
+  const IkSolution solution = SolveDampedLeastSquares(tree, problem, options);
+  EXPECT_EQ(solution.status, IkStatus::kStalled);
+  const LinearTargets linear(tree, problem.targets);
+  std::vector<double> gains;  // of each step that was taken, as parts of the sum
+  double before = 0;
+  for (const IkTraceEntry& entry : solution.trace) {
+    TreeState state = problem.start;
+    state.angles = entry.angles;
+    const double cost = linear.Cost(ComputeFrames(tree, state));
+    if (cost < before) gains.push_back((before - cost) / before);
+    before = cost;
+  }
+  ASSERT_GT(gains.size(), 2u);
+  EXPECT_LT(gains.back(), 1e-6);
+  for (std::size_t i = 0; i + 1 < gains.size(); ++i) EXPECT_GE(gains[i], 1e-6) << i;
+}
+
 TEST(DampedLeastSquares, NeverRaisesTheSumOfSquares) {
   const KinematicTree tree = MakeBodyTree({});
   for (int trial = 0; trial < 10; ++trial) {

@@ -99,6 +99,21 @@ TEST(IkRun, AsksForAnglesOnlyWhenTheyAreTraced) {
   EXPECT_EQ(solution.trace[0].errors[3].position, 0.5);
 }
 
+TEST(IkRun, TracesNoMoreThanIsAskedFor) {
+  Trial trial;
+  trial.options.trace = true;
+  trial.options.longest_trace = 2;
+  IkRun run(trial.tree, trial.problem, trial.options);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(run.Traces(), i < 2);
+    run.Note(ErrorsOf(0.5 - 0.1 * i, 0.5), run.start_angles());
+  }
+  const IkSolution solution = run.Finish(run.start_angles());
+  ASSERT_EQ(solution.trace.size(), 2u);
+  EXPECT_EQ(solution.trace[1].worst_position, 0.4);
+  EXPECT_EQ(solution.iterations, 4);
+}
+
 TEST(IkRun, ComesToTheSameByFramesAsByErrors) {
   const Trial trial;
   TreeState truth = RandomPose(trial.tree, 1, 0.5);

@@ -139,6 +139,33 @@ TEST_P(EverySolver, SaysWhenItRanOutOfIterations) {
   EXPECT_EQ(solution.trace.size(), 2u) << "the start and one iteration";
 }
 
+TEST_P(EverySolver, ComesToTheSameWhateverIsTraced) {
+  for (const int max_iterations : {1, 40, 3000}) {
+    IkOptions untraced = PatientOptions();
+    untraced.max_iterations = max_iterations;
+    IkOptions traced = untraced, partly = untraced;
+    traced.trace = partly.trace = true;
+    partly.longest_trace = 20;
+    for (int trial = 0; trial < 4; ++trial) {
+      const IkSolution none = Solve(FarProblem(trial), untraced), all = Solve(FarProblem(trial), traced);
+      const IkSolution some = Solve(FarProblem(trial), partly);
+      EXPECT_TRUE(none.trace.empty());
+      EXPECT_EQ(all.trace.size(), static_cast<std::size_t>(all.iterations) + 1);
+      EXPECT_EQ(some.trace.size(), std::min<std::size_t>(all.trace.size(), 20));
+      for (const IkSolution* solution : {&none, &some}) {
+        EXPECT_EQ(solution->angles, all.angles);
+        EXPECT_EQ(solution->status, all.status);
+        EXPECT_EQ(solution->iterations, all.iterations);
+        EXPECT_EQ(solution->fk_evaluations, all.fk_evaluations);
+        for (std::size_t e = 0; e < all.errors.size(); ++e) {
+          EXPECT_EQ(solution->errors[e].position, all.errors[e].position);
+          EXPECT_EQ(solution->errors[e].axis_angles, all.errors[e].axis_angles);
+        }
+      }
+    }
+  }
+}
+
 TEST_P(EverySolver, StallsAtATargetOutOfReach) {
   IkProblem problem = NearProblem(0);
   for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(0);
@@ -183,6 +210,21 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
     EXPECT_EQ(solution.status, IkStatus::kBadInput) << "fault " << i;
     EXPECT_EQ(solution.angles, std::vector<double>(29, 0.0));
   }
+}
+
+TEST_P(EverySolver, EndsOnATreeThatCannotMove) {
+  KinematicTree rod;
+  rod.joints = {{.name = "root", .role = Role::kLeftShoulder},
+                {.name = "fixed", .role = Role::kLeftElbow, .parent = 0, .offset = {0, 0, 1}}};
+  rod.effectors = {{"tip", Role::kLeftWrist, 1, {0, 0, 0.5}}};
+  IkProblem problem = DisturbedProblem(rod, StandingState(rod), 0, 0);
+  if (!FindIkSolver(GetParam())->uses_axes) problem.targets[0].axis_weights = glm::dvec3(0);
+  EXPECT_EQ(FindIkSolver(GetParam())->solve(rod, problem, IkOptions{}).status, IkStatus::kConverged);
+  problem.targets[0].position += glm::dvec3(0.1, 0, -0.1);
+  const IkSolution missed = FindIkSolver(GetParam())->solve(rod, problem, IkOptions{});
+  EXPECT_NE(missed.status, IkStatus::kConverged);
+  EXPECT_NE(missed.status, IkStatus::kBadInput);
+  EXPECT_NEAR(missed.errors[0].position, 0.1 * std::sqrt(2), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()), [](const auto& tested) {

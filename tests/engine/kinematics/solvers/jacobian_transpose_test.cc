@@ -37,6 +37,15 @@ TEST(JacobianTranspose, OneHingeTurnsByItsTorqueOverTheSquareOfItsLever) {
   }
 }
 
+TEST(JacobianTranspose, NoStepIsLongerThanFirstOrderIsGoodFor) {
+  const KinematicTree arm = Arm({0.5}, 1);
+  IkOptions options;
+  options.max_iterations = 1;
+  const IkProblem problem = Reach(arm, {0.3}, {0, -0.5 * std::sin(1.8), 1 + 0.5 * std::cos(1.8)});
+  ASSERT_GT(std::sin(1.5), kLargestTurn) << "the step of a gain of 1";
+  EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options).angles[0], 0.3 + kLargestTurn, 1e-12);
+}
+
 TEST(JacobianTranspose, FindsTheAnglesOfTwoHingesByTheLawOfCosines) {
   const KinematicTree arm = Arm({0.5, 0.4}, 1);
   const glm::dvec3 place = TwoHingeTip(0.5, 0.4, 0.7, 1.2);

@@ -7,7 +7,7 @@
 
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/null_space_step.h"
-#include "tests/engine/kinematics/posed_tree.h"
+#include "tests/engine/kinematics/random_tree.h"
 
 namespace etude {
 namespace {
@@ -142,6 +142,13 @@ TEST(NullSpace, StretchesALimbTowardsATargetOutOfReach) {
   EXPECT_NEAR(solution.errors[0].position, nearest, 1e-6);
 }
 
+// How far angles are from the targets, by the solver's own measure.
+double SquaresAt(const IkProblem& problem, std::span<const double> angles) {
+  TreeState state = problem.start;
+  state.angles.assign(angles.begin(), angles.end());
+  return NullSpaceStep(Body(), problem.targets).Build(ComputeFrames(Body(), state));
+}
+
 TEST(NullSpace, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
   int unsolved = 0;
   for (int trial = 0; trial < 100; ++trial) {
@@ -155,18 +162,112 @@ TEST(NullSpace, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
       EXPECT_TRUE(solution.angles[d] >= Body().limits[d].lower && solution.angles[d] <= Body().limits[d].upper);
     }
     // No longer run finds a nearer pose from here.
-    const auto squares = [&](std::span<const double> angles) {
-      TreeState state = problem.start;
-      state.angles.assign(angles.begin(), angles.end());
-      return NullSpaceStep(Body(), problem.targets).Build(ComputeFrames(Body(), state));
-    };
     IkProblem from_there = problem;
     from_there.start.angles = solution.angles;
-    const double found = squares(solution.angles);
-    EXPECT_LT(found, squares(problem.start.angles));
-    EXPECT_GT(squares(SolveDampedLeastSquares(Body(), from_there, Tight()).angles), 0.95 * found) << trial;
+    const double found = SquaresAt(problem, solution.angles);
+    EXPECT_LT(found, SquaresAt(problem, problem.start.angles));
+    EXPECT_GT(SquaresAt(problem, SolveDampedLeastSquares(Body(), from_there, Tight()).angles), 0.95 * found) << trial;
   }
   EXPECT_GE(unsolved, 10) << "else nothing was checked";
+}
+
+// The share of frames that are solved along motions of which the first pose is far off; every frame begins at the
+// answer to the one before.
+double ShareFollowed(int max_iterations) {
+  constexpr int kMotions = 40, kFrames = 60;
+  IkOptions options;
+  options.max_iterations = max_iterations;
+  int solved = 0;
+  for (int motion = 0; motion < kMotions; ++motion) {
+    const TreeState middle = RandomPose(Body(), motion, 0.7);
+    IkProblem problem = DisturbedProblem(Body(), middle, motion, 60);
+    for (int frame = 0; frame < kFrames; ++frame) {
+      TreeState truth = middle;
+      for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+        const AngleRange& range = Body().limits[d];
+        truth.angles[d] += 0.1 * (range.upper - range.lower) * std::sin(0.1 * frame + static_cast<double>(d));
+      }
+      problem.targets = DisturbedProblem(Body(), truth, 0, 0).targets;
+      const double before = SquaresAt(problem, problem.start.angles);
+      const IkSolution solution = SolveNullSpace(Body(), problem, options);
+      EXPECT_LE(solution.iterations, max_iterations);
+      if (solution.status == IkStatus::kConverged) {
+        ++solved;
+      } else {
+        EXPECT_LE(SquaresAt(problem, solution.angles), before) << "motion " << motion << ", frame " << frame;
+      }
+      problem.start.angles = solution.angles;
+    }
+  }
+  return static_cast<double>(solved) / (kMotions * kFrames);
+}
+
+TEST(NullSpace, FollowsAMotionWithFewIterationsAFrameAndTheBetterTheMoreItHas) {
+  double fewer = 0;
+  for (const auto& [budget, at_least] : {std::pair(3, 0.88), {5, 0.92}, {10, 0.95}, {20, 0.99}, {50, 0.998}}) {
+    const double share = ShareFollowed(budget);
+    EXPECT_GE(share, at_least) << budget;
+    EXPECT_GE(share, fewer) << budget;
+    fewer = share;
+  }
+}
+
+TEST(NullSpace, TellsTheErrorsOfItsAnglesWhetherSweepsOrStepsFoundThem) {
+  IkOptions options;
+  options.tuning.first_sweeps = 20;
+  int by_sweeps = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 0.2);
+    const IkSolution solution = SolveNullSpace(Body(), problem, options);
+    by_sweeps += solution.status == IkStatus::kConverged && solution.iterations < options.tuning.first_sweeps;
+    const TreeFrames found =
+        ComputeFrames(Body(), {problem.start.root_position, problem.start.root_frame, solution.angles});
+    for (std::size_t e = 0; e < found.effectors.size(); ++e) {
+      EXPECT_EQ(solution.errors[e].position, ErrorOf(found.effectors[e], problem.targets[e]).position) << trial;
+    }
+  }
+  EXPECT_GE(by_sweeps, 25);
+}
+
+// Any tree, fixed joints, free ones, starts outside their limits, weights of nothing, one iteration or many.
+TEST(NullSpace, GivesAnHonestAnswerToAnyProblem) {
+  int converged = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    RandomStream random({.suite_seed = 9, .scenario = "null-space-test", .trial = trial}, "problem");
+    KinematicTree tree = RandomTree(trial, 4 + trial % 10);
+    if (tree.limits.empty()) continue;
+    for (AngleRange& range : tree.limits) {
+      const double lower = random.Uniform(-2, 1);
+      range = {lower, lower + (random.Chance(0.2) ? 0 : random.Uniform(0, 3))};
+    }
+    IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 40);
+    const auto weight = [&] { return random.Chance(0.3) ? 0 : random.Uniform(0, 3); };
+    for (EffectorTarget& target : problem.targets) {
+      target.position_weight = weight();
+      target.axis_weights = {weight(), weight(), weight()};
+      if (random.Chance(0.1)) target.position += random.Normal3();
+    }
+    for (double& angle : problem.start.angles) angle += random.Chance(0.1) ? 5 : 0;
+    IkOptions options;
+    options.max_iterations = trial % 3 == 0 ? 1 : 150;
+    options.tuning.first_sweeps = trial % 4 == 0 ? 2 : 0;
+    if (random.Chance(0.2)) options.angle_change_tolerance = random.Uniform(0, 0.3);
+
+    const IkSolution solution = SolveNullSpace(tree, problem, options);
+    const std::vector<AngleRange> ranges = AllowedRanges(problem, options);
+    for (std::size_t d = 0; d < ranges.size(); ++d) {
+      EXPECT_TRUE(solution.angles[d] >= ranges[d].lower && solution.angles[d] <= ranges[d].upper) << trial;
+    }
+    EXPECT_LE(solution.iterations, options.max_iterations) << trial;
+    const bool is_met = FindWorst(solution.errors, problem.targets).Within(options);
+    EXPECT_EQ(solution.status == IkStatus::kConverged, is_met) << trial;
+    if (solution.status == IkStatus::kIterationLimit) {
+      EXPECT_EQ(solution.iterations, options.max_iterations) << trial;
+    }
+    converged += is_met;
+  }
+  EXPECT_GT(converged, 50);
+  EXPECT_LT(converged, 450);
 }
 
 TEST(NullSpace, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
