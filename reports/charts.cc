@@ -67,9 +67,15 @@ Mark MarkOf(const ConditionSummary& condition, const std::string& method, const 
   return {};
 }
 
-// The scenario's first metric that cells have along the axis, else the first of any. Curves that are no metric, such as
-// one effector's, have pictures of their own; zeros are errors of what was not asked for; the middle of yes and no says
-// nothing.
+// "orientation_error_deg" over all effectors is "orientation_error_max_deg" of the worst.
+std::string WorstOf(const std::string& metric) {
+  const std::size_t unit = metric.rfind('_');
+  return unit == std::string::npos ? metric : metric.substr(0, unit) + "_max" + metric.substr(unit);
+}
+
+// The scenario's first metric that cells have along the axis, or have of the worst effector; else the first of any.
+// Curves that are no metric, such as one effector's, have pictures of their own; zeros are errors of what was not asked
+// for; the middle of yes and no says nothing.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;
@@ -81,8 +87,11 @@ std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& 
     }
   }
   const auto is_found = [&](const std::string& metric) { return std::ranges::find(found, metric) != found.end(); };
-  const auto headline = std::ranges::find_if(scenario.headline_metrics, is_found);
-  if (headline != scenario.headline_metrics.end()) return *headline;
+  for (const std::string& headline : scenario.headline_metrics) {
+    for (const std::string& name : {headline, WorstOf(headline)}) {
+      if (is_found(name)) return name;
+    }
+  }
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
 

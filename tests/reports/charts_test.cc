@@ -97,6 +97,13 @@ TEST(CurveChart, IsOfTheScenariosOwnMetricAndNeverOfWhatWasNotAskedFor) {
   EXPECT_FALSE(CurveChart(run, run.scenarios.front()).has_value());
 }
 
+TEST(CurveChart, OfAMeanOverEffectorsIsThatOfTheWorst) {
+  RunData run = TrackingRun();
+  run.scenarios.front().headline_metrics = {"frames_solved", "orientation_error_deg", "mpjpe_mm"};
+  for (CellSeries& cell : run.series) cell.series[1].name = "orientation_error_max_deg";
+  EXPECT_THAT(CurveChart(run, run.scenarios.front())->caption, testing::HasSubstr("worst effector orientation error"));
+}
+
 TEST(CurveChart, IsTheSameWhateverCellsKeepOfSingleEffectors) {
   const RunData plain = ExampleRun();
   RunData with = EffectorRun();
