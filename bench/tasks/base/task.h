@@ -29,7 +29,7 @@ struct MetricValue {
 /// A curve of a cell: one value per frame or iteration, e.g. the error of each frame.
 struct Series {
   std::string name;  ///< e.g. "mpjpe_mm"
-  std::string axis;  ///< "frame", "iteration"
+  std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
 };
 

@@ -3,6 +3,7 @@
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
+#include "engine/kinematics/solvers/sweep_loop.h"
 
 namespace etude {
 namespace {
@@ -20,29 +21,6 @@ IkSolution Solve(const KinematicTree& tree, const IkProblem& problem, const IkOp
   return run.Finish({ccd.angles().begin(), ccd.angles().end()});
 }
 
-// The same in moment form. Where goals may be met, and where somebody looks, the errors are those of angles.
-IkSolution SolveByMoments(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  IkRun run(tree, problem, options);
-  TreeState state = problem.start;
-  state.angles = run.start_angles();
-  TreeFrames frames = ComputeFrames(tree, state);
-  run.NoteFrames(frames, state.angles);
-  MomentSweep sweep(tree, problem, options);
-  while (run.MustGoOn()) {
-    const double change = sweep.Sweep();
-    const bool is_last = run.iterations() + 1 == options.max_iterations;
-    if (run.Traces() || is_last || change < options.stall_change || !sweep.MissesGoals()) {
-      state.angles = sweep.Angles();
-      ComputeFrames(tree, state, frames);
-      run.NoteFrames(frames, state.angles);
-    } else {
-      run.NoteMisses();
-    }
-    if (change < options.stall_change) run.Stall();
-  }
-  return run.Finish(std::move(state.angles));
-}
-
 }  // namespace
 
 IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
@@ -51,7 +29,9 @@ IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const I
 
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
   if (!MomentSweep::CanServe(options)) return Solve(tree, problem, options, CcdJoint::kHinges);
-  return FindFault(tree, problem, options).empty() ? SolveByMoments(tree, problem, options) : BadInput(tree);
+  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
+  MomentSweep sweep(tree, problem, options);
+  return RunSweeps(tree, problem, options, sweep, [&](IkRun&) { return sweep.Sweep(); });
 }
 
 }  // namespace etude

@@ -7,6 +7,7 @@
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
+#include "engine/kinematics/solvers/sweep_loop.h"
 
 namespace etude {
 namespace {
@@ -94,25 +95,8 @@ class Accelerated {
 
 template <class Sweep>
 IkSolution Solve(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  IkRun run(tree, problem, options);
-  TreeState state = problem.start;
-  state.angles = run.start_angles();
-  TreeFrames frames = ComputeFrames(tree, state);
-  run.NoteFrames(frames, state.angles);
   Accelerated<Sweep> accelerated(tree, problem, options);
-  while (run.MustGoOn()) {
-    const double change = accelerated.Step(run);
-    const bool is_last = run.iterations() + 1 == options.max_iterations || change < options.stall_change;
-    if (run.Traces() || is_last || !accelerated.sweep().MissesGoals()) {
-      state.angles = accelerated.sweep().Angles();
-      ComputeFrames(tree, state, frames);
-      run.NoteFrames(frames, state.angles);
-    } else {
-      run.NoteMisses();
-    }
-    if (change < options.stall_change) run.Stall();
-  }
-  return run.Finish(std::move(state.angles));
+  return RunSweeps(tree, problem, options, accelerated.sweep(), [&](IkRun& run) { return accelerated.Step(run); });
 }
 
 }  // namespace
