@@ -141,7 +141,7 @@ std::string EscapeScriptJson(std::string_view json) {
 }
 
 std::string EscapeMarkdown(std::string_view text) {
-  constexpr std::string_view kSpecial = "\\`*_[]<>#|&";
+  constexpr std::string_view kSpecial = "\\`*_[]<>#|&$~";
   std::string out;
   for (const char c : text) {
     if (c == '\n' || c == '\r') {

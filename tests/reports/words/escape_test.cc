@@ -45,6 +45,10 @@ TEST(ScriptJson, CannotEndItsElement) {
 
 TEST(Markdown, KeepsATableCellInOneCell) { EXPECT_EQ(EscapeMarkdown("a|b\n*c*"), "a\\|b \\*c\\*"); }
 
+TEST(Markdown, MakesNoFormulaAndStrikesNothingOut) {
+  EXPECT_EQ(EscapeMarkdown("from $1 to $2, ~~never~~"), "from \\$1 to \\$2, \\~\\~never\\~\\~");
+}
+
 TEST(Csv, QuotesOnlyWhatNeedsIt) {
   EXPECT_EQ(EscapeCsv("plain"), "plain");
   EXPECT_EQ(EscapeCsv("a,b"), "\"a,b\"");
