@@ -28,6 +28,19 @@ bool IsGood(const EffectorTarget& target) {
          IsWeight(target.axis_weights.z) && IsSane(target.position) && AreAFrame(target.axes);
 }
 
+// One root, which stands first and does not turn; parents before children; every index in its list.
+bool IsATree(const KinematicTree& tree) {
+  const int joints = static_cast<int>(tree.joints.size());
+  if (joints == 0 || tree.joints[0].parent >= 0 || tree.joints[0].dof_count != 0) return false;
+  for (int n = 1; n < joints; ++n) {
+    const TreeJoint& joint = tree.joints[n];
+    if (joint.parent < 0 || joint.parent >= n || !AreAFrame(joint.rest)) return false;
+    if (joint.dof_count < 0 || joint.dof_count > 3 || joint.first_dof < 0) return false;
+    if (joint.first_dof + joint.dof_count > tree.dof_count()) return false;
+  }
+  return std::ranges::all_of(tree.effectors, [&](const Effector& e) { return e.joint >= 0 && e.joint < joints; });
+}
+
 // A point that a target fixes, and the limbs from the root to it.
 struct FixedPoint {
   glm::dvec3 place;
@@ -87,6 +100,7 @@ double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
 }
 
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+  if (!IsATree(tree)) return "the joints are no tree with its root first";
   const std::size_t dofs = tree.limits.size();
   if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
     return "angles or limits do not fit the tree";

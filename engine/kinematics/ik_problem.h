@@ -101,9 +101,9 @@ struct IkSolution {
   std::vector<IkTraceEntry> trace;
 };
 
-/// Why a problem cannot be worked on, or empty when it can: sizes that do not fit the tree, values that are not finite
-/// or absurdly far (> 1,000 km), limbs of no length, limits whose lower end is above the upper, axes that are not unit
-/// vectors, negative weights, an iteration limit below 1.
+/// Why a problem cannot be worked on, or empty when it can: joints that are no tree, sizes that do not fit it, values
+/// that are not finite or absurdly far (> 1,000 km), limbs of no length, limits whose lower end is above the upper,
+/// axes that are not unit vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// Whether the limbs are too short for the targets whatever the angles: an effector's target is farther from the root,

@@ -182,6 +182,12 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const std::vector<void (*)(KinematicTree&, IkProblem&, IkOptions&)> faults = {
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints.clear(); },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].parent = kTreeLeftHip; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNavel].parent = -1; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeRightAnkle].first_dof = 28; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].rest[1].y = kNaN; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[2].joint = kBodyTreeJointCount; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles[5] = kNaN; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles.pop_back(); },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.root_position.x = kInfinite; },
