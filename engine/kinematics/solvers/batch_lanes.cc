@@ -128,8 +128,8 @@ class Batch {
  private:
   struct Lane {
     int problem = -1;
-    int last_report = 0;
-    int last_sweep = 0;
+    std::int64_t last_report = 0;
+    std::int64_t last_sweep = 0;
   };
 
   /// Puts problems into lanes that have none. Whether any lane has one now; a lane without goes on with its last one,
@@ -138,7 +138,7 @@ class Batch {
     if (!has_idle_lanes_) return true;
     has_idle_lanes_ = false;
     bool has_problems = false, has_new = false;
-    next_last_sweep_ = INT32_MAX;
+    next_last_sweep_ = INT64_MAX;
     for (std::size_t n = 0; n < lanes_.size(); ++n) {
       Lane& lane = lanes_[n];
       if (lane.problem < 0) {
@@ -163,7 +163,7 @@ class Batch {
       cosines_[d] = GetLane(state_.hinges[d].c, n);
       sines_[d] = GetLane(state_.hinges[d].s, n);
     }
-    const int sweeps = sweeps_ - lane.last_report;
+    const int sweeps = static_cast<int>(sweeps_ - lane.last_report);
     lane.last_report = sweeps_;
     if (queue_.Report(lane.problem, sweeps, has_stalled, cosines_, sines_)) return;
     lane.problem = -1;
@@ -177,8 +177,8 @@ class Batch {
   SweepState<Lanes<T>> state_;
   std::vector<double> cosines_, sines_;
   bool has_idle_lanes_ = true;
-  int sweeps_ = 0;
-  int next_last_sweep_ = 0;
+  std::int64_t sweeps_ = 0;  // of all problems so far
+  std::int64_t next_last_sweep_ = 0;
 };
 
 void SweepFloats(const SweepTree& tree, int dof_count, const LaneRules& rules, LaneQueue& queue) {

@@ -13,8 +13,9 @@ namespace etude {
 enum class Precision { kFloat, kDouble };
 
 /// Solves many problems on the same tree at once, one in each lane of the CPU's vectors, by the sweeps of `ccd-hinges`.
-/// Lanes whose problem is done take the next one. What comes out does not depend on the CPU, on the width of its
-/// vectors, nor on the other problems:
+/// Lanes whose problem is done take the next one. What comes out does not depend on the width of the CPU's vectors, nor
+/// on the other problems (into lanes and out of them angles go through the C library, whose sines are the same on all
+/// CPUs in the environment that `etude` gives itself):
 /// - `kDouble`: every solution is that of `SolveCcdHinges`, to the last bit.
 /// - `kFloat`: twice as many lanes. Whether goals are met is judged in double all the same. Goals of 10⁻³ cm and 10⁻³
 ///   degrees are met in as many sweeps as in double; 10⁻⁴ often are not. Stalled when no angle moves further than
