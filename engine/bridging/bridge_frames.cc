@@ -67,23 +67,22 @@ std::vector<bool> FindQuietHeads(const BodyMotion& motion, const HeadRule& rule)
   return quiet;
 }
 
-std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height, const HeadRule& rule,
-                                 int min_clips) {
+std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height, const TagRules& rules) {
   std::vector<TaggedClip> tagged;
   tagged.reserve(clips.size());
   for (const BodyMotion& motion : clips) {
     TaggedClip& clip = tagged.emplace_back();
     clip.rate_hz = motion.rate_hz;
     for (const BodyPose& pose : motion.poses) {
-      clip.grades.push_back(Fuzzify(ComputeFeatures(pose, standing_hip_height)));
+      clip.grades.push_back(Fuzzify(ComputeFeatures(pose, standing_hip_height), rules.memberships));
       clip.tags.push_back(ChooseTags(clip.grades.back()));
     }
   }
   const std::map<std::uint32_t, Occurrence> occurrences = CountClips(tagged);
   for (std::size_t c = 0; c < clips.size(); ++c) {
-    const std::vector<bool> quiet = FindQuietHeads(clips[c], rule);
+    const std::vector<bool> quiet = FindQuietHeads(clips[c], rules.head);
     for (int f = 0; f < tagged[c].FrameCount(); ++f) {
-      const bool is_frequent = occurrences.at(TagKey(tagged[c].tags[f])).clips >= min_clips;
+      const bool is_frequent = occurrences.at(TagKey(tagged[c].tags[f])).clips >= rules.min_clips;
       if (quiet[f] && is_frequent) tagged[c].bridge_frames.push_back(f);
     }
   }

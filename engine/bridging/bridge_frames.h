@@ -28,10 +28,16 @@ struct TaggedClip {
   int FrameCount() const { return static_cast<int>(grades.size()); }
 };
 
-/// Marks the bridge frames of a library (algorithms A4): frames whose ten tags occur together in at
-/// least `min_clips` of its clips, and whose head is quiet. `standing_hip_height` is the one of the
-/// body that performs all clips, metres.
+/// How frames are tagged, and which become bridge frames.
+struct TagRules {
+  Memberships memberships = PaperMemberships();
+  HeadRule head;
+  int min_clips = 2;  ///< in how many clips a bridge frame's ten tags occur together at least; ours
+};
+
+/// Marks the bridge frames of a library (algorithms A4): frames whose ten tags occur together in enough of its clips,
+/// and whose head is quiet. `standing_hip_height` is the one of the body that performs all clips, metres.
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
-                                 const HeadRule& rule = {}, int min_clips = 2);
+                                 const TagRules& rules = {});
 
 }  // namespace etude

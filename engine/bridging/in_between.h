@@ -2,33 +2,32 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
-#include "engine/bridging/switching.h"
+#include "engine/bridging/links.h"
+#include "engine/bridging/switch_record.h"
 
 namespace etude {
 
-/// How long the in-between may be; ours.
-struct InBetweenRules {
-  int min_frames = 10;  ///< shorter ones are two cuts in a row, not a motion
-  int max_frames = 60;  ///< 2 s at 30 Hz
+struct MotionLibrary;
+
+/// Paper A's in-between motion (補間動作): poses taken from bridge frames, and the tweening between any two of them, so
+/// that any two clips connect.
+struct InBetweenNet {
+  /// A bridge frame that in-betweens are built of.
+  struct Key {
+    int clip = 0;
+    int frame = 0;
+  };
+  std::vector<Key> keys;
 };
 
-/// A way from one clip into another through a piece of a third (paper A's in-between motion, 補間動作,
-/// a run of bridge frames' clips): `enter` switches into clip `through`, `leave` out of it.
-struct InBetween {
-  int through = 0;
-  Link enter;
-  Link leave;
-};
+/// The keys of a library's in-betweens.
+InBetweenNet BuildInBetweens(std::span<const BodyMotion> motions, std::span<const TaggedClip> tagged);
 
-struct InBetweenSearch {
-  std::optional<InBetween> found;
-  int pairs_seen = 0;
-};
-
-/// The first in-between there is: at each bridge frame of `playing` in the window, through each other
-/// clip of the library in order, entering as early and staying as briefly as the rules allow.
-InBetweenSearch FindInBetween(std::span<const TaggedClip> library, int playing, FrameWindow window, int next,
-                              const SwitchRules& rules, const InBetweenRules& in_between = {});
+/// A way through an in-between: out of the playing clip at a frame of `window`, and into clip `request.to`. Fills
+/// branch, legs, meetings, candidates, counts and `why` of the record; returns whether there is one.
+bool TakeInBetween(const MotionLibrary& library, const SwitchRequest& request, FrameWindow window,
+                   const SwitchRules& rules, SwitchRecord& record);
 
 }  // namespace etude

@@ -7,37 +7,11 @@ namespace {
 
 using enum Feature;
 
-// Arm raise: equations 2, 3, 4.
-constexpr std::array<Breakpoint, 2> kArmDown = {{{20, 1}, {90, 0}}};
-constexpr std::array<Breakpoint, 3> kArmMid = {{{20, 0}, {90, 1}, {180, 0}}};
-constexpr std::array<Breakpoint, 2> kArmUp = {{{90, 0}, {180, 1}}};
-// Elbow: equations 5, 6.
-constexpr std::array<Breakpoint, 2> kElbowStraight = {{{0, 1}, {90, 0}}};
-constexpr std::array<Breakpoint, 2> kElbowBent = {{{20, 0}, {90, 1}}};
-// Posture: equations 7, 8, 9 (printed "sit" a second time, meant is "stand"), 10.
-constexpr std::array<Breakpoint, 2> kLie = {{{0, 1}, {40, 0}}};
-constexpr std::array<Breakpoint, 3> kSit = {{{0, 0}, {40, 1}, {80, 0}}};
-constexpr std::array<Breakpoint, 3> kStand = {{{40, 0}, {80, 1}, {120, 0}}};
-constexpr std::array<Breakpoint, 2> kJump = {{{80, 0}, {120, 1}}};
-// Trunk: equations 12, 11.
-constexpr std::array<Breakpoint, 2> kTrunkUpright = {{{125, 0}, {180, 1}}};
-constexpr std::array<Breakpoint, 2> kTrunkBent = {{{110, 1}, {180, 0}}};
-// Leg spread: equations 13, 14.
-constexpr std::array<Breakpoint, 2> kInward = {{{0, 1}, {40, 0}}};
-constexpr std::array<Breakpoint, 2> kOutward = {{{0, 0}, {40, 1}}};
-// Knee: equations 16, 15.
-constexpr std::array<Breakpoint, 2> kKneeStraight = {{{100, 0}, {180, 1}}};
-constexpr std::array<Breakpoint, 2> kKneeBent = {{{90, 1}, {180, 0}}};
-
 constexpr std::array<Term, kTermCount> kTerms = {{
-    {kRH, "down", kArmDown},         {kRH, "mid", kArmMid},          {kRH, "up", kArmUp},
-    {kLH, "down", kArmDown},         {kLH, "mid", kArmMid},          {kLH, "up", kArmUp},
-    {kRHE, "false", kElbowStraight}, {kRHE, "true", kElbowBent},     {kLHE, "false", kElbowStraight},
-    {kLHE, "true", kElbowBent},      {kPosture, "lie", kLie},        {kPosture, "sit", kSit},
-    {kPosture, "stand", kStand},     {kPosture, "jump", kJump},      {kTrunk, "false", kTrunkUpright},
-    {kTrunk, "true", kTrunkBent},    {kRF, "inward", kInward},       {kRF, "outward", kOutward},
-    {kLF, "inward", kInward},        {kLF, "outward", kOutward},     {kRFK, "false", kKneeStraight},
-    {kRFK, "true", kKneeBent},       {kLFK, "false", kKneeStraight}, {kLFK, "true", kKneeBent},
+    {kRH, "down"},       {kRH, "mid"},       {kRH, "up"},       {kLH, "down"},    {kLH, "mid"},      {kLH, "up"},
+    {kRHE, "false"},     {kRHE, "true"},     {kLHE, "false"},   {kLHE, "true"},   {kPosture, "lie"}, {kPosture, "sit"},
+    {kPosture, "stand"}, {kPosture, "jump"}, {kTrunk, "false"}, {kTrunk, "true"}, {kRF, "inward"},   {kRF, "outward"},
+    {kLF, "inward"},     {kLF, "outward"},   {kRFK, "false"},   {kRFK, "true"},   {kLFK, "false"},   {kLFK, "true"},
 }};
 
 /// kFirstTerm[k] … kFirstTerm[k + 1] are the terms of feature k.
@@ -47,6 +21,30 @@ constexpr std::array<std::size_t, kFeatureCount + 1> kFirstTerm = [] {
   for (std::size_t k = 0; k < kFeatureCount; ++k) first[k + 1] += first[k];
   return first;
 }();
+
+Memberships MakePaperMemberships() {
+  // Arm raise: equations 2, 3, 4. Elbow: 5, 6. Posture: 7, 8, 9 (printed "sit" a second time, meant is "stand"), 10.
+  // Trunk: 12, 11. Leg spread: 13, 14. Knee: 16, 15.
+  const Shape arm[] = {Trapezoidal{0, 0, 20, 90}, Triangular{20, 90, 180}, Triangular{90, 180, 180}};
+  const Shape elbow[] = {Triangular{0, 0, 90}, Trapezoidal{20, 90, 180, 180}};
+  const Shape posture[] = {Triangular{0, 0, 40}, Triangular{0, 40, 80}, Triangular{40, 80, 120},
+                           Triangular{80, 120, 120}};
+  const Shape trunk[] = {Triangular{125, 180, 180}, Trapezoidal{0, 0, 110, 180}};
+  const Shape spread[] = {Triangular{0, 0, 40}, Trapezoidal{0, 40, 180, 180}};
+  const Shape knee[] = {Triangular{100, 180, 180}, Trapezoidal{0, 0, 90, 180}};
+  Memberships paper;
+  const auto set = [&](Feature feature, std::span<const Shape> shapes) {
+    std::copy(shapes.begin(), shapes.end(), paper.shapes.begin() + FirstTermOf(feature));
+  };
+  for (Feature feature : {kRH, kLH}) set(feature, arm);
+  for (Feature feature : {kRHE, kLHE}) set(feature, elbow);
+  set(kPosture, posture);
+  set(kTrunk, trunk);
+  for (Feature feature : {kRF, kLF}) set(feature, spread);
+  for (Feature feature : {kRFK, kLFK}) set(feature, knee);
+  paper.universes[static_cast<std::size_t>(kPosture)] = {0, 120};
+  return paper;
+}
 
 }  // namespace
 
@@ -59,21 +57,17 @@ std::span<const Term> TermsOf(Feature feature) {
   return std::span(kTerms).subspan(kFirstTerm[k], kFirstTerm[k + 1] - kFirstTerm[k]);
 }
 
-double MembershipGrade(std::span<const Breakpoint> shape, double input) {
-  if (input <= shape.front().input) return shape.front().grade;
-  for (std::size_t i = 1; i < shape.size(); ++i) {
-    if (input > shape[i].input) continue;
-    const Breakpoint& low = shape[i - 1];
-    const Breakpoint& high = shape[i];
-    return low.grade + (high.grade - low.grade) * (input - low.input) / (high.input - low.input);
-  }
-  return shape.back().grade;
+const Memberships& PaperMemberships() {
+  static const Memberships paper = MakePaperMemberships();
+  return paper;
 }
 
-Grades Fuzzify(const PoseFeatures& features) {
+Grades Fuzzify(const PoseFeatures& features, const Memberships& memberships) {
   Grades grades{};
   for (std::size_t i = 0; i < kTermCount; ++i) {
-    grades[i] = MembershipGrade(kTerms[i].shape, features[kTerms[i].feature]);
+    const std::size_t k = static_cast<std::size_t>(kTerms[i].feature);
+    const Universe& universe = memberships.universes[k];
+    grades[i] = GradeOf(memberships.shapes[i], std::clamp(features.values[k], universe.low, universe.high));
   }
   return grades;
 }

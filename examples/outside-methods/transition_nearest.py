@@ -48,7 +48,7 @@ def answer(kept, problem, files):
             gap = distance(source[leave], target[enter]) + distance(source[leave + later], target[enter + later])
             if best is None or gap < best[0]:
                 best = (gap, leave, enter)
-    return {"leave_frame": best[1], "enter_frame": best[2], "join": "inertialised", "matched": True}
+    return {"leave_frame": best[1], "enter_frame": best[2], "join": "inertialised-spring", "matched": True}
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@
 #include "bench/metrics/seam.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/transition/options.h"
 #include "engine/formats/bvh.h"
 #include "engine/motion/from_body.h"
 
@@ -45,36 +44,49 @@ std::vector<BodyPose> ReadBetween(AnswerFields& fields, const Physique& characte
   return poses;
 }
 
-/// The clips played on the way: each switch into one of them ends in where it is left.
-void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Switch>& switches) {
+/// The clips played on the way.
+void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Leg>& legs) {
   const Json& entries = fields.List("through", 0, kMostThrough);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     AnswerFields entry(entries[i], fields.PathOf("through", i));
-    const int clip = entry.Integer("clip", 0, static_cast<int>(stage.tagged.size()) - 1);
-    const int last = stage.tagged[clip].FrameCount() - 1;
-    switches.back().to_clip = clip;
-    switches.back().to_frame = entry.Integer("enter_frame", 0, last - 1);
-    switches.push_back({.from_clip = clip, .distance = {}});
-    switches.back().from_frame = entry.Integer("leave_frame", switches.end()[-2].to_frame + 1, last);
+    const int clip = entry.Integer("clip", 0, static_cast<int>(stage.library.tagged.size()) - 1);
+    const int last = stage.library.tagged[clip].FrameCount() - 1;
+    const int entered = entry.Integer("enter_frame", 0, last - 1);
+    const int left = entry.Integer("leave_frame", entered + 1, last);
+    legs.push_back({.clip = clip, .first = entered, .last = left, .own = {}});
     if (auto done = entry.Finish(); !done) fields.Note(done.error());
   }
 }
 
+/// Frames of the method's own as a leg: frame 0 is what would stand in the place of the frame left, were they to begin
+/// at a steady speed.
+Leg OwnLeg(std::vector<BodyPose> between) {
+  Leg leg{.first = 0, .last = static_cast<int>(between.size()), .own = {}, .in_place = true};
+  const BodyPose &first = between.front(), &second = between[between.size() > 1 ? 1 : 0];
+  BodyPose before;
+  for (std::size_t i = 0; i < kRoleCount; ++i) before.joints[i] = 2.0 * first.joints[i] - second.joints[i];
+  leg.own.push_back(before);
+  leg.own.insert(leg.own.end(), between.begin(), between.end());
+  return leg;
+}
+
 SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRequest& request) {
   SwitchAnswer answer;
-  const int last_of_from = stage.tagged[request.from].FrameCount() - 1;
-  const int last_of_to = stage.tagged[request.to].FrameCount() - 1;
-  answer.switches.push_back({.from_clip = request.from, .distance = {}});
-  answer.switches.back().from_frame = fields.Integer("leave_frame", request.request_frame, last_of_from);
-  ReadThrough(fields, stage, answer.switches);
-  answer.switches.back().to_clip = request.to;
-  answer.switches.back().to_frame = fields.Integer("enter_frame", 0, last_of_to - 1);  // a frame must follow
-  answer.between = ReadBetween(fields, stage.character);
-  answer.join = JoinOf(fields.Choice("join", JoinNames(), JoinNames().front()));
+  const int last_of_from = stage.library.tagged[request.from].FrameCount() - 1;
+  const int last_of_to = stage.library.tagged[request.to].FrameCount() - 1;
+  const int left = fields.Integer("leave_frame", request.request_frame, last_of_from);
+  answer.legs.push_back({.clip = request.from, .first = request.request_frame, .last = left, .own = {}});
+  ReadThrough(fields, stage, answer.legs);
+  const int entered = fields.Integer("enter_frame", 0, last_of_to - 1);  // a frame must follow
+  std::vector<BodyPose> between = ReadBetween(fields, stage.library.physique);
+  const bool is_through = answer.legs.size() > 1, has_between = !between.empty();
+  if (has_between) answer.legs.push_back(OwnLeg(std::move(between)));
+  answer.legs.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
+  answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   answer.matched = fields.Boolean("matched", false);
-  if (!answer.between.empty()) {
-    if (answer.switches.size() > 1) fields.Note({{}, "through: not together with 'between'"});
-    if (answer.join != Join::kCut) fields.Note({{}, "join: only 'cut' together with 'between'"});
+  if (has_between) {
+    if (is_through) fields.Note({{}, "through: not together with 'between'"});
+    if (answer.join != &AllJoins().front()) fields.Note({{}, "join: only 'cut' together with 'between'"});
   }
   return answer;
 }
@@ -85,11 +97,11 @@ Exhibit ExhibitStage(const Stage& stage) {
   Exhibit setting{std::make_unique<Json>(Json{{"rate_hz", kJudgedRateHz}}), {}};
   setting.json->update(DescribeBody());
   Json& clips = (*setting.json)["clips"] = Json::array();
-  for (std::size_t clip = 0; clip < stage.names.size(); ++clip) {
+  for (std::size_t clip = 0; clip < stage.library.names.size(); ++clip) {
     const std::string file = fmt::format("clip-{}.bvh", clip);
-    const BodyMotion& motion = stage.motions[clip];
-    clips.push_back({{"name", stage.names[clip]}, {"poses", EncodePoses(motion.poses)}, {"file", file}});
-    setting.files.push_back({file, WriteBvh(ToClip(motion, stage.names[clip]))});
+    const BodyMotion& motion = stage.library.motions[clip];
+    clips.push_back({{"name", stage.library.names[clip]}, {"poses", EncodePoses(motion.poses)}, {"file", file}});
+    setting.files.push_back({file, WriteBvh(ToClip(motion, stage.library.names[clip]))});
   }
   return setting;
 }

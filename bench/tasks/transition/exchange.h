@@ -7,7 +7,7 @@
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/bridging/splice.h"
+#include "engine/switching/joins/splice.h"
 
 namespace etude {
 
@@ -44,20 +44,20 @@ Exhibit ExhibitNature(const Stage& stage, const SwitchRequest& request);
 /// lies on the last frame shown: heading on heading, hip centre over hip centre. May be said beside:
 ///
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played on the way, entered and left alike.
-/// - `"join"`: `cut` (default) or `inertialised`, what built-in methods have.
+/// - `"join"`: any of the built-in ones, `cut` by default.
 /// - `"between": [[x, y, z, …], …]`: frames of the method's own making, shown as they are after `leave_frame`, in the
 ///   place and heading of clip `from` as the setting has it. Then clip `to` is laid on the last of them, so that one
 ///   should be the method's version of `enter_frame`. They are danced by the same character: a limb more than 2 cm
-///   longer or shorter than in the clips is refused. At most 300. Not together with `through` or `join: inertialised`.
+///   longer or shorter than in the clips is refused. At most 300. Not together with `through` or a join other than
+///   `cut`.
 /// - `"matched": true`: the frames left and entered were chosen because they are alike. Then `false_smooth` is
 ///   measured, which is missing else.
 ///
 /// A method that finds no way answers `{"unsolved": "why"}`, like a built-in one that finds no match.
 struct SwitchAnswer {
   std::optional<std::string> unsolved;  ///< why; the rest is then empty
-  std::vector<Switch> switches;         ///< without their distances
-  Join join = Join::kCut;
-  std::vector<BodyPose> between;
+  std::vector<Leg> legs;                ///< as in a SwitchRecord
+  const Join* join = nullptr;           ///< never null when there are legs
   bool matched = false;
 };
 

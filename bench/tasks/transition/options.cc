@@ -34,40 +34,34 @@ std::string ListOf(const std::array<std::pair<const char*, T>, N>& known) {
 }
 
 // The first of each is the default: paper A's method.
-constexpr std::array<std::pair<const char*, Choice>, 3> kChoices = {
-    {{"fuzzy-bridge", Choice::kFuzzyBridge}, {"now", Choice::kNow}, {"wait-for-end", Choice::kWaitForEnd}}};
-constexpr std::array<std::pair<const char*, Join>, 2> kJoins = {
-    {{"cut", Join::kCut}, {"inertialised", Join::kInertialised}}};
 constexpr std::array<std::pair<const char*, bool>, 2> kWeights = {{{"fixed", false}, {"adaptive", true}}};
 constexpr std::array<std::pair<const char*, Pick>, 2> kPicks = {
     {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}};
 
-void ReadLimits(Fields& fields, SwitchRules& rules) {
+void ReadLimits(Fields& fields, CommonLimits& limits) {
   // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
-  rules.threshold = fields.Number("threshold", rules.threshold, {0, 6});
-  rules.max_wait_s = fields.Number("wait_s", rules.max_wait_s, {0, 60});
+  limits.threshold = fields.Number("threshold", limits.threshold, {0, 6});
+  limits.wait_s = fields.Number("wait_s", limits.wait_s, {0, 60});
 }
 
-Result<TransitionMethod> ReadMethod(const Node& node, const SwitchRules& defaults) {
+Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaults) {
   Fields fields(node, "a method of task transition");
   TransitionMethod method;
   method.name = fields.RequiredText("name");
-  method.choice = ReadChoice(fields, "choice", kChoices);
-  method.join = ReadChoice(fields, "join", kJoins);
+  method.way.choice = FindChoice(fields.Choice("choice", ChoiceNames(), ChoiceNames().front()));
+  method.way.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   method.adaptive_weights = ReadChoice(fields, "weights", kWeights);
-  method.rules = defaults;
-  ReadLimits(fields, method.rules);
-  method.rules.pick = ReadChoice(fields, "pick", kPicks);
-  method.rules.within_class = fields.Boolean("within_class", false);
+  CommonLimits limits = defaults;
+  ReadLimits(fields, limits);
+  method.wait_s = limits.wait_s;
+  method.way.rules.threshold = limits.threshold;
+  method.way.rules.pick = ReadChoice(fields, "pick", kPicks);
+  method.way.rules.within_class = fields.Boolean("within_class", false);
   if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
   return method;
 }
 
 }  // namespace
-
-std::vector<std::string> JoinNames() { return NamesOf(kJoins); }
-
-Join JoinOf(std::string_view name) { return ValueNamed(name, kJoins); }
 
 std::vector<KeyInfo> TransitionConditionKeys() {
   return {
@@ -77,9 +71,9 @@ std::vector<KeyInfo> TransitionConditionKeys() {
 }
 
 std::vector<KeyInfo> TransitionMethodKeys() {
-  return {{"choice", ListOf(kChoices), kChoices.front().first,
+  return {{"choice", fmt::format("{}", fmt::join(ChoiceNames(), ", ")), ChoiceNames().front(),
            "Which frames are switched: paper A's matching bridge frames, at once, or after the clip's last frame."},
-          {"join", ListOf(kJoins), kJoins.front().first,
+          {"join", fmt::format("{}", fmt::join(JoinNames(), ", ")), JoinNames().front(),
            "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."},
           {"weights", ListOf(kWeights), kWeights.front().first,
            "How much each fuzzy feature counts: as paper A says, or as learnt on all clips but the two judged."},
@@ -89,13 +83,13 @@ std::vector<KeyInfo> TransitionMethodKeys() {
           {"wait_s", "0…60 (seconds)", "(the scenario's)", "How long after the request a switch may come."}};
 }
 
-SwitchRules ReadCommonRules(Fields& condition) {
-  SwitchRules common;
+CommonLimits ReadCommonLimits(Fields& condition) {
+  CommonLimits common;
   ReadLimits(condition, common);
   return common;
 }
 
-Result<std::vector<TransitionMethod>> ReadTransitionMethods(const SwitchRules& common, std::span<const Node> methods) {
+Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods) {
   std::vector<TransitionMethod> read;
   for (const Node& node : methods) {
     auto method = ReadMethod(node, common);

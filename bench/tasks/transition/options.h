@@ -2,40 +2,36 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "engine/bridging/splice.h"
-#include "engine/bridging/transition.h"
 #include "engine/document/fields.h"
+#include "engine/switching/switch_clips.h"
 
 namespace etude {
 
-/// "cut", "inertialised".
-std::vector<std::string> JoinNames();
-/// `name` must be one of JoinNames().
-Join JoinOf(std::string_view name);
-
-/// One way to switch: a choice of frames and a join.
+/// One way to switch, as a scenario names it.
 ///
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
-  Choice choice = Choice::kFuzzyBridge;
-  Join join = Join::kCut;
+  SwitchMethod way;  ///< its weights are paper A's; learnt ones depend on the world
   bool adaptive_weights = false;
-  SwitchRules rules;  ///< its weights are paper A's; adaptive ones depend on the world
+  double wait_s = 1;  ///< the budget of its requests
 };
 
 /// The keys of a scenario and of a method, for the reference page.
 std::vector<KeyInfo> TransitionConditionKeys();
 std::vector<KeyInfo> TransitionMethodKeys();
 
-/// What a condition says for all methods: `threshold` and `wait_s`, which is what makes those two sweepable.
+/// What a condition says for all methods, which is what makes these two sweepable.
+struct CommonLimits {
+  double threshold = kPaperThreshold;
+  double wait_s = 1;
+};
 /// Complaints stay in `condition`.
-SwitchRules ReadCommonRules(Fields& condition);
+CommonLimits ReadCommonLimits(Fields& condition);
 
-Result<std::vector<TransitionMethod>> ReadTransitionMethods(const SwitchRules& common, std::span<const Node> methods);
+Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods);
 
 }  // namespace etude

@@ -3,21 +3,23 @@
 namespace etude {
 namespace {
 
-bool IsLongEnough(const Stage& stage, int clip) { return stage.tagged[clip].FrameCount() >= kShortestClip; }
+bool IsLongEnough(const Stage& stage, int clip) { return stage.library.tagged[clip].FrameCount() >= kShortestClip; }
 
 }  // namespace
 
-int FromClip(const Stage& stage, const WorldKey& key) { return key.trial % static_cast<int>(stage.names.size()); }
+int FromClip(const Stage& stage, const WorldKey& key) {
+  return key.trial % static_cast<int>(stage.library.names.size());
+}
 
 Result<SwitchRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   constexpr int kEarliestRequest = 6;
-  const int count = static_cast<int>(stage.names.size());
+  const int count = static_cast<int>(stage.library.names.size());
   if (count < 2) return Fail({}, "a switch needs two clips; this library has {}", count);
   SwitchRequest request{.from = FromClip(stage, key)};
-  const int frames = stage.tagged[request.from].FrameCount();
+  const int frames = stage.library.tagged[request.from].FrameCount();
   if (!IsLongEnough(stage, request.from)) {
-    return Fail({}, "clip {} has {} frames; a switch is judged over at least {}", stage.names[request.from], frames,
-                kShortestClip);
+    return Fail({}, "clip {} has {} frames; a switch is judged over at least {}", stage.library.names[request.from],
+                frames, kShortestClip);
   }
   std::vector<int> others;
   for (int clip = 0; clip < count; ++clip) {

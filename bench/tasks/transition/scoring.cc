@@ -23,22 +23,21 @@ constexpr std::array kMetricIds = {"jump_cm",
                                    "wait_s",
                                    "fuzzy_distance"};
 
-/// The switch that the fuzzy distance thinks worst.
-const Switch& WorstSwitch(const Transition& plan) {
-  return *std::max_element(plan.switches.begin(), plan.switches.end(),
-                           [](const Switch& a, const Switch& b) { return a.distance.value < b.distance.value; });
+/// The meeting that the fuzzy distance thinks worst.
+const FuzzyDistance& WorstMeeting(const SwitchRecord& record) {
+  return *std::max_element(record.meetings.begin(), record.meetings.end(),
+                           [](const FuzzyDistance& a, const FuzzyDistance& b) { return a.value < b.value; });
 }
 
 /// What played from the request on, until the wanted clip did.
-std::vector<Stay> StaysOf(const SwitchOutcome& outcome) {
+std::vector<Stay> StaysOf(const SwitchRecord& record) {
   std::vector<Stay> stays;
-  int entered = outcome.plan.request_frame;
-  for (const Switch& change : outcome.plan.switches) {
-    stays.push_back({entered, change.from_frame});
-    entered = change.to_frame;
-  }
-  if (outcome.between_frames > 0) stays.push_back({0, outcome.between_frames});
+  for (std::size_t i = 0; i + 1 < record.legs.size(); ++i) stays.push_back({record.legs[i].first, record.legs[i].last});
   return stays;
+}
+
+std::string NameOf(const Leg& leg, const Stage& stage) {
+  return leg.clip == Leg::kOwnFrames ? "in-between" : stage.library.names[leg.clip];
 }
 
 std::vector<int> SeamFrames(const Splice& splice) {
@@ -73,8 +72,8 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   result.Measure("mean_joint_jump_cm", smoothness.mean_joint_jump_cm);
   result.Measure("rotation_step_change_deg", smoothness.rotation_step_change_deg);
   result.Measure("jerk_peak_mps3", smoothness.jerk_peak_mps3);
-  const std::vector<Switch>& switches = outcome.plan.switches;
-  std::vector<double> nature = NaturalJumpsOf(stage, switches.front().from_clip, switches.back().to_clip);
+  const std::vector<Leg>& legs = outcome.record.legs;
+  std::vector<double> nature = NaturalJumpsOf(stage, legs.front().clip, legs.back().clip);
   result.Measure("natural_share", IsNatural(smoothness.jump_cm, std::move(nature)) ? 1 : 0);
 
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
@@ -95,8 +94,8 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   const Cut second = Around(splice, 1);
   const auto arc = SpectralArcLength(MeanJointSpeed(splice.motion, second.first, second.last), splice.motion.rate_hz);
   result.MeasureOr("sparc", arc, "nothing moves around the seam");
-  result.Measure("wait_s", WaitSeconds(StaysOf(outcome), splice.motion.rate_hz));
-  result.Measure("fuzzy_distance", WorstSwitch(outcome.plan).distance.value);
+  result.Measure("wait_s", WaitSeconds(StaysOf(outcome.record), splice.motion.rate_hz));
+  result.Measure("fuzzy_distance", WorstMeeting(outcome.record).value);
 }
 
 std::vector<std::string> TransitionMetrics() { return {kMetricIds.begin(), kMetricIds.end()}; }
@@ -124,28 +123,29 @@ Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage) {
   const std::vector<BodyPose>& all = outcome.splice.motion.poses;
   Track coach{"coach", {outcome.splice.motion.rate_hz, {all.begin() + cut.first, all.begin() + cut.last + 1}}};
 
-  const Transition& plan = outcome.plan;
-  const FuzzyDistance& distance = WorstSwitch(plan).distance;
+  const SwitchRecord& record = outcome.record;
+  const FuzzyDistance& distance = WorstMeeting(record);
   nlohmann::ordered_json facts;
   facts["seam_frame"] = outcome.splice.seams.front().frame - cut.first;
   facts["seam_frames"] = nlohmann::json::array();
   for (const Seam& seam : outcome.splice.seams) facts["seam_frames"].push_back(seam.frame - cut.first);
-  facts["from"] = stage.names[plan.switches.front().from_clip];
-  facts["to"] = stage.names[plan.switches.back().to_clip];
-  facts["branch"] = BranchName(plan.branch);
+  facts["from"] = NameOf(record.legs.front(), stage);
+  facts["to"] = NameOf(record.legs.back(), stage);
+  facts["branch"] = BranchName(record.branch);
   facts["distance"] = distance.value;
   facts["partials"] = Partials(distance);
-  facts["request_frame"] = plan.request_frame - cut.first;  // negative: before this recording begins
-  facts["wait_s"] = WaitSeconds(StaysOf(outcome), outcome.splice.motion.rate_hz);
-  facts["pairs_seen"] = plan.pairs_seen;
+  facts["request_frame"] = record.request_frame - cut.first;  // negative: before this recording begins
+  facts["wait_s"] = record.wait_s;
+  facts["pairs_seen"] = record.pairs_seen;
   facts["switches"] = nlohmann::json::array();
-  for (const Switch& change : plan.switches) {
+  for (std::size_t i = 0; i < record.meetings.size(); ++i) {
+    const Leg &old = record.legs[i], &next = record.legs[i + 1];
     nlohmann::ordered_json entry;
-    entry["from"] = stage.names[change.from_clip];
-    entry["from_frame"] = change.from_frame;
-    entry["to"] = stage.names[change.to_clip];
-    entry["to_frame"] = change.to_frame;
-    entry["distance"] = change.distance.value;
+    entry["from"] = NameOf(old, stage);
+    entry["from_frame"] = old.last;
+    entry["to"] = NameOf(next, stage);
+    entry["to_frame"] = next.first;
+    entry["distance"] = record.meetings[i].value;
     facts["switches"].push_back(std::move(entry));
   }
   return {{std::move(coach)}, facts.dump()};

@@ -7,7 +7,7 @@
 
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/bridging/splice.h"
+#include "engine/switching/joins/splice.h"
 
 namespace etude {
 
@@ -15,9 +15,8 @@ namespace etude {
 struct SwitchOutcome {
   bool matched = false;      ///< it chose the frames left and entered because they are alike
   FeatureWeights weights{};  ///< those that its distances go by
-  Transition plan;
-  int between_frames = 0;  ///< frames of the method's own between the clips
-  Splice splice;           ///< empty when the plan found no way
+  SwitchRecord record;
+  Splice splice;  ///< empty when the record found no way
 };
 
 /// The metrics of a switch (docs/metrics.md), the worst seam counting where an in-between made two.

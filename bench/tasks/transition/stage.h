@@ -4,19 +4,15 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/bridging/bridge_frames.h"
-#include "engine/bridging/one_character.h"
+#include "engine/bridging/library.h"
 
 namespace etude {
 
 /// A library of clips made ready for switching: all danced by one character whose hips stand at
 /// 0.90 m, tagged, and each with nature's own jumps to be compared with.
 struct Stage {
-  Physique character;
-  std::vector<std::string> names;       ///< as rows and videos show them
+  MotionLibrary library;                ///< its names are as rows and videos show them
   std::vector<std::string> identities;  ///< equal for equal dances: the move's name, or the file
-  std::vector<BodyMotion> motions;
-  std::vector<TaggedClip> tagged;
   std::vector<std::vector<double>> natural_jumps_cm;
 };
 
@@ -28,8 +24,5 @@ constexpr int kShortestClip = 13;
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 
 Stage SetStage(const ClipLibrary& library);
-
-/// The clips that adaptive weights may learn from: every built-in move, and the library's other clips.
-Result<Stage> SetTrainingStage(const Stage& stage);
 
 }  // namespace etude

@@ -10,7 +10,7 @@ namespace {
 
 class TransitionTask final : public Task {
  public:
-  TransitionTask(std::vector<TransitionMethod> methods, double max_wait_s, Stage stage, Stage training)
+  TransitionTask(std::vector<TransitionMethod> methods, double max_wait_s, Stage stage, TrainingClips training)
       : methods_(std::move(methods)),
         max_wait_s_(max_wait_s),
         stage_(std::move(stage)),
@@ -23,7 +23,7 @@ class TransitionTask final : public Task {
   }
 
   std::string ClipOf(const WorldKey& key) const override {
-    return stage_.names.empty() ? "" : stage_.names[FromClip(stage_, key)];
+    return stage_.library.names.empty() ? "" : stage_.library.names[FromClip(stage_, key)];
   }
 
   Result<Exhibit> Setting() const override { return ExhibitStage(stage_); }
@@ -34,19 +34,18 @@ class TransitionTask final : public Task {
   const std::vector<TransitionMethod> methods_;
   const double max_wait_s_;
   const Stage stage_;
-  const Stage training_;
+  const TrainingClips training_;
   mutable AdaptiveWeights adaptive_;
 };
 
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
-  const SwitchRules common = ReadCommonRules(input.condition);
+  const CommonLimits common = ReadCommonLimits(input.condition);
   auto methods = ReadTransitionMethods(common, input.methods);
   if (!methods) return tl::unexpected(methods.error());
   Stage stage = SetStage(input.clips);
-  auto training = SetTrainingStage(stage);
+  auto training = GatherTrainingClips(stage.library, stage.identities);
   if (!training) return tl::unexpected(training.error());
-  return std::make_unique<TransitionTask>(*std::move(methods), common.max_wait_s, std::move(stage),
-                                          *std::move(training));
+  return std::make_unique<TransitionTask>(*std::move(methods), common.wait_s, std::move(stage), *std::move(training));
 }
 
 }  // namespace

@@ -27,12 +27,11 @@ std::string BridgeFramesDigest(const TaggedClip& from, const TaggedClip& to) {
   return digest.Hex();
 }
 
-std::string SwitchesDigest(const Transition& plan) {
+std::string SwitchesDigest(const SwitchRecord& record) {
   Digest digest;
-  for (const Switch& change : plan.switches) {
-    digest.Add(std::int64_t{change.from_clip}).Add(std::int64_t{change.from_frame});
-    digest.Add(std::int64_t{change.to_clip}).Add(std::int64_t{change.to_frame}).Add(change.distance.value);
-  }
+  for (const Leg& leg : record.legs)
+    digest.Add(std::int64_t{leg.clip}).Add(std::int64_t{leg.first}).Add(std::int64_t{leg.last});
+  for (const FuzzyDistance& meeting : record.meetings) digest.Add(meeting.value);
   return digest.Hex();
 }
 
@@ -49,7 +48,7 @@ std::string MotionDigest(const BodyMotion& motion) {
 TransitionWorld::TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion)
     : basis_(basis), request_(std::move(request)), keeps_motion_(keeps_motion) {
   if (!request_) return;
-  const TaggedClip &from = basis_.stage.tagged[request_->from], &to = basis_.stage.tagged[request_->to];
+  const TaggedClip &from = basis_.stage.library.tagged[request_->from], &to = basis_.stage.library.tagged[request_->to];
   clip_digests_ = {{"features", GradesDigest(from, to)}, {"bridge_frames", BridgeFramesDigest(from, to)}};
 }
 
@@ -60,7 +59,7 @@ std::optional<std::string> TransitionWorld::WhySkipped() const {
 CellResult TransitionWorld::Run(std::size_t method) {
   const SwitchOutcome outcome = Switch(basis_.methods[method]);
   CellResult result = Score(outcome);
-  if (result.status == Status::kUnsolved) result.reason = WhyNoWay(basis_.methods[method], outcome.plan);
+  if (result.status == Status::kUnsolved) result.reason = WhyNoWay(basis_.methods[method], outcome.record);
   return result;
 }
 
@@ -79,34 +78,34 @@ Result<CellResult> TransitionWorld::Judge(const Json& answer) {
   const auto read = ReadSwitchAnswer(answer, basis_.stage, *request_);
   if (!read) return tl::unexpected(read.error());
   if (!read->unsolved) return Score(FollowAnswer(*read, basis_.stage, *request_));
-  CellResult result = Score({.weights = PaperWeights(), .plan = {}, .splice = {}});
+  CellResult result = Score({.weights = PaperWeights(), .record = {}, .splice = {}});
   result.reason = *read->unsolved;
   return result;
 }
 
 SwitchOutcome TransitionWorld::Switch(const TransitionMethod& method) const {
   const Stage& stage = basis_.stage;
-  const auto& [from, to, request_frame] = *request_;
-  SwitchRules rules = method.rules;
+  SwitchMethod way = method.way;
   if (method.adaptive_weights) {
-    rules.weights = basis_.adaptive.Without(stage.identities[from], stage.identities[to]).weights;
+    way.rules.weights =
+        basis_.adaptive.Without(stage.identities[request_->from], stage.identities[request_->to]).weights;
   }
-  SwitchOutcome outcome{
-      .matched = method.choice == Choice::kFuzzyBridge, .weights = rules.weights, .plan = {}, .splice = {}};
-  outcome.plan = PlanTransition(stage.tagged, from, request_frame, to, method.choice, rules);
-  if (!outcome.plan.switches.empty()) {
-    outcome.splice = SpliceClips(stage.motions, outcome.plan.switches, method.join);
-  }
-  return outcome;
+  SwitchRequest request = *request_;
+  request.budget_s = method.wait_s;
+  SwitchResult result = SwitchClips(stage.library, request, way);
+  return {.matched = way.choice->matches_poses,
+          .weights = way.rules.weights,
+          .record = std::move(result.record),
+          .splice = std::move(result.splice)};
 }
 
 CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
   CellResult result = CellResult::Ended(Status::kOk, "");
   result.digests = clip_digests_;
   result.digests.emplace_back("weights", Digest().Add(std::span<const double>(outcome.weights)).Hex());
-  result.digests.emplace_back("switches", SwitchesDigest(outcome.plan));
+  result.digests.emplace_back("switches", SwitchesDigest(outcome.record));
   result.digests.emplace_back("motion", MotionDigest(outcome.splice.motion));
-  if (outcome.plan.switches.empty()) {
+  if (outcome.record.legs.empty()) {
     result.status = Status::kUnsolved;
     MeasureNoWay(result);
     return result;
@@ -117,12 +116,12 @@ CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
   return result;
 }
 
-std::string TransitionWorld::WhyNoWay(const TransitionMethod& method, const Transition& plan) const {
-  const std::string when = fmt::format("within {:g} s of the request", method.rules.max_wait_s);
-  const std::string &from = basis_.stage.names[request_->from], &to = basis_.stage.names[request_->to];
-  if (plan.pairs_seen == 0) return fmt::format("{} has no bridge frame {}", from, when);
+std::string TransitionWorld::WhyNoWay(const TransitionMethod& method, const SwitchRecord& record) const {
+  const std::string when = fmt::format("within {:g} s of the request", method.wait_s);
+  const std::string &from = basis_.stage.library.names[request_->from], &to = basis_.stage.library.names[request_->to];
+  if (record.pairs_seen == 0) return fmt::format("{} has no bridge frame {}", from, when);
   return fmt::format("no bridge frame of {} {} matches one of {}, directly or through a third clip ({} pairs compared)",
-                     from, when, to, plan.pairs_seen);
+                     from, when, to, record.pairs_seen);
 }
 
 }  // namespace etude

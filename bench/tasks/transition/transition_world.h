@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/transition/adaptive_weights.h"
 #include "bench/tasks/transition/options.h"
 #include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/scoring.h"
 #include "bench/tasks/transition/stage.h"
+#include "bench/training/adaptive_weights.h"
 
 namespace etude {
 
@@ -36,7 +36,7 @@ class TransitionWorld final : public TaskWorld {
  private:
   SwitchOutcome Switch(const TransitionMethod& method) const;
   CellResult Score(const SwitchOutcome& outcome) const;
-  std::string WhyNoWay(const TransitionMethod& method, const Transition& plan) const;
+  std::string WhyNoWay(const TransitionMethod& method, const SwitchRecord& record) const;
 
   const TransitionBasis basis_;
   const Result<SwitchRequest> request_;

@@ -17,7 +17,7 @@ struct Sample {
 
 double GradeOf(Feature feature, std::string_view term, double input) {
   for (const Term& candidate : TermsOf(feature)) {
-    if (candidate.name == term) return MembershipGrade(candidate.shape, input);
+    if (candidate.name == term) return GradeOf(PaperMemberships().shapes[static_cast<std::size_t>(&candidate - AllTerms().data())], input);
   }
   ADD_FAILURE() << "no term " << term << " of " << FeatureName(feature);
   return -1;
@@ -112,7 +112,8 @@ TEST(Membership, TreatsLeftLimbsLikeRightOnes) {
     for (std::size_t t = 0; t < TermsOf(right).size(); ++t) {
       EXPECT_EQ(TermsOf(right)[t].name, TermsOf(left)[t].name);
       for (double input = -10; input <= 200; input += 7) {
-        EXPECT_EQ(MembershipGrade(TermsOf(right)[t].shape, input), MembershipGrade(TermsOf(left)[t].shape, input));
+        const auto& shapes = PaperMemberships().shapes;
+        EXPECT_EQ(GradeOf(shapes[FirstTermOf(right) + t], input), GradeOf(shapes[FirstTermOf(left) + t], input));
       }
     }
   }

@@ -22,14 +22,14 @@ struct NamedMethod {
 
 /// The methods below, as their answers say them.
 const std::vector<NamedMethod> kSaid = {{"cut", false, false},         {"cut", true, false},  {"cut", true, true},
-                                        {"inertialised", true, false}, {"cut", false, false}, {"cut", true, false}};
+                                        {"inertialised-spring", true, false}, {"cut", false, false}, {"cut", true, false}};
 constexpr const char* kAllKinds = R"(
 wait_s: 0.5
 methods:
   - {name: now, choice: now}
   - {name: fuzzy}
   - {name: adaptive, weights: adaptive}
-  - {name: smooth, join: inertialised}
+  - {name: smooth, join: inertialised-spring}
   - {name: end, choice: wait-for-end}
   - {name: never, threshold: 0}
 )";
@@ -83,7 +83,7 @@ TEST_F(TransitionExchange, TellsEveryDigitThatBuiltInMethodsSee) {
   EXPECT_EQ(setting["parents"][3], "shoulder_centre");
   for (std::size_t clip = 0; clip < library_.clips.size(); ++clip) {
     EXPECT_EQ(setting["clips"][clip]["name"], library_.clips[clip].name);
-    EXPECT_EQ(setting["clips"][clip]["poses"], EncodePoses(stage.motions[clip].poses));
+    EXPECT_EQ(setting["clips"][clip]["poses"], EncodePoses(stage.library.motions[clip].poses));
   }
   const Json problem = *task_->MakeWorld(Trial(2), false)->MakeProblem()->json;
   EXPECT_EQ(problem["from"], 2);
@@ -187,8 +187,8 @@ TEST_F(TransitionExchange, RefusesAWrongAnswerAndNamesThePlace) {
   EXPECT_EQ(complaint("/leave_frame", "soon"), "leave_frame: \"soon\" is not a whole number");
   EXPECT_EQ(complaint("/enter_frame", 3.5), "enter_frame: 3.5 is not a whole number");
   EXPECT_THAT(complaint("/enter_frame", -1), HasSubstr("enter_frame: -1; allowed: 0…"));
-  EXPECT_EQ(complaint("/join", "glue"), "join: \"glue\"; allowed: cut, inertialised");
-  EXPECT_EQ(complaint("/join", "inertialised"), "join: only 'cut' together with 'between'");
+  EXPECT_EQ(complaint("/join", "glue"), "join: \"glue\"; allowed: cut, inertialised-spring");
+  EXPECT_EQ(complaint("/join", "inertialised-spring"), "join: only 'cut' together with 'between'");
   EXPECT_EQ(complaint("/matched", 1), "matched: 1; allowed: true, false");
   EXPECT_THAT(complaint("/entr_frame", 1), HasSubstr("unknown key 'entr_frame'; did you mean 'enter_frame'?"));
   EXPECT_EQ(complaint("/between", 7), "between: 7 is not a list");
@@ -217,7 +217,7 @@ TEST_F(TransitionExchange, RefusesOrScoresWhateverIsSaid) {
   const Json leave = problem["request_frame"];
   const std::vector<Json> good = {
       {{"leave_frame", leave}, {"enter_frame", 3}, {"between", {pose, pose}}},
-      {{"leave_frame", leave}, {"enter_frame", 3}, {"join", "inertialised"}, {"matched", true}},
+      {{"leave_frame", leave}, {"enter_frame", 3}, {"join", "inertialised-spring"}, {"matched", true}},
       {{"leave_frame", leave},
        {"enter_frame", 3},
        {"through", {{{"clip", 3}, {"enter_frame", 0}, {"leave_frame", 9}}}}}};

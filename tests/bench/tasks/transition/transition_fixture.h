@@ -21,7 +21,7 @@ methods:
   - {name: now, choice: now}
   - {name: fuzzy}
   - {name: smallest, pick: smallest}
-  - {name: smooth, join: inertialised}
+  - {name: smooth, join: inertialised-spring}
   - {name: end, choice: wait-for-end}
   - {name: never, threshold: 0}
 )";

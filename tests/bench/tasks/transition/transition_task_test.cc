@@ -5,7 +5,8 @@
 
 #include <numeric>
 
-#include "bench/tasks/transition/adaptive_weights.h"
+#include "bench/tasks/transition/stage.h"
+#include "bench/training/adaptive_weights.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
@@ -128,7 +129,7 @@ TEST_F(TransitionTaskTest, WeighsFeaturesAsLearntWhenAskedTo) {
 
 TEST_F(LearntWeights, NeverSawTheJudgedClips) {
   const Stage stage = SetStage(SmallLibrary());
-  const auto training = SetTrainingStage(stage);
+  const auto training = GatherTrainingClips(stage.library, stage.identities);
   ASSERT_TRUE(training);
   EXPECT_EQ(training->identities, [] {
     std::vector<std::string> names = BuiltinMoveNames();

@@ -1,9 +1,9 @@
-#include "engine/bridging/splice.h"
+#include "engine/switching/joins/splice.h"
 
 #include <gtest/gtest.h>
 
 #include "engine/bridging/alignment.h"
-#include "engine/bridging/inertialise.h"
+#include "engine/switching/joins/inertialise.h"
 #include "engine/bridging/one_character.h"
 #include "engine/fuzzy/features.h"
 #include "tests/engine/bridging/test_clips.h"
@@ -59,24 +59,29 @@ TEST(PoseGap, IsTheWorstJoint) {
   EXPECT_NEAR(PoseGap(pose, other), 0.3, 1e-12);
 }
 
-const Switch kIntoSecond{.from_clip = 0, .from_frame = 19, .to_clip = 1, .to_frame = 5, .distance = {}};
+std::vector<Leg> Legs(int left, int entered, const BodyMotion& next) {
+  return {{.clip = 0, .first = 0, .last = left, .own = {}},
+          {.clip = 1, .first = entered, .last = static_cast<int>(next.poses.size()) - 1, .own = {}}};
+}
 
-TEST(SpliceClips, ReproducesAClipThatIsSwitchedIntoItself) {
+const Join& Cut() { return *FindJoin("cut"); }
+const Join& Spring() { return *FindJoin("inertialised-spring"); }
+
+TEST(SpliceLegs, ReproducesAClipThatIsSwitchedIntoItself) {
   const BodyMotion clip = WavingClip(60);
   BodyMotion elsewhere = clip;
   for (BodyPose& pose : elsewhere.poses) pose = FloorMove{.yaw = 1, .x = 2, .z = 3}.Apply(pose);
   const BodyMotion clips[] = {clip, elsewhere};
-  for (Join join : {Join::kCut, Join::kInertialised}) {
-    const Switch same[] = {{.from_clip = 0, .from_frame = 19, .to_clip = 1, .to_frame = 19, .distance = {}}};
-    const Splice splice = SpliceClips(clips, same, join);
+  for (const Join& join : AllJoins()) {
+    const Splice splice = SpliceLegs(clips, Legs(19, 19, clip), join);
     ASSERT_EQ(splice.motion.poses.size(), clip.poses.size());
     for (std::size_t f = 0; f < clip.poses.size(); ++f) ExpectSamePose(splice.motion.poses[f], clip.poses[f], 1e-9);
   }
 }
 
-TEST(SpliceClips, PlaysTheOldClipToTheSeamAndTheNewOneAfterIt) {
+TEST(SpliceLegs, PlaysTheOldClipToTheSeamAndTheNewOneAfterIt) {
   const BodyMotion clips[] = {WavingClip(40), WavingClip(30, 2)};
-  const Splice splice = SpliceClips(clips, std::span(&kIntoSecond, 1), Join::kCut);
+  const Splice splice = SpliceLegs(clips, Legs(19, 5, clips[1]), Cut());
   ASSERT_EQ(splice.motion.poses.size(), 20u + 24u);
   ASSERT_EQ(splice.seams.size(), 1u);
   EXPECT_EQ(splice.seams[0].frame, 19);
@@ -86,18 +91,19 @@ TEST(SpliceClips, PlaysTheOldClipToTheSeamAndTheNewOneAfterIt) {
   EXPECT_NEAR(Heading(splice.seams[0].arriving), Heading(splice.seams[0].leaving), 1e-12);
 }
 
-TEST(SpliceClips, PassesThroughAnInBetween) {
+TEST(SpliceLegs, PassesThroughAnInBetween) {
   const BodyMotion clips[] = {WavingClip(40), WavingClip(30, 2), WavingClip(50, 4)};
-  const Switch way[] = {{.from_clip = 0, .from_frame = 10, .to_clip = 2, .to_frame = 5, .distance = {}},
-                        {.from_clip = 2, .from_frame = 25, .to_clip = 1, .to_frame = 3, .distance = {}}};
-  const Splice splice = SpliceClips(clips, way, Join::kCut);
+  const std::vector<Leg> way = {{.clip = 0, .first = 0, .last = 10, .own = {}},
+                                {.clip = 2, .first = 5, .last = 25, .own = {}},
+                                {.clip = 1, .first = 3, .last = 29, .own = {}}};
+  const Splice splice = SpliceLegs(clips, way, Cut());
   ASSERT_EQ(splice.seams.size(), 2u);
   EXPECT_EQ(splice.seams[0].frame, 10);
   EXPECT_EQ(splice.seams[1].frame, 10 + 20);
   EXPECT_EQ(splice.motion.poses.size(), 11u + 20u + 26u);
   EXPECT_NEAR(PoseGap(splice.motion.poses.back(), clips[1].poses.back()), 0, 1e-9);
 
-  const Splice smooth = SpliceClips(clips, way, Join::kInertialised);
+  const Splice smooth = SpliceLegs(clips, way, Spring());
   for (int i : {0, 1}) {  // the gap belongs to the choice of frames, not to the join
     ExpectSamePose(smooth.seams[i].leaving, splice.seams[i].leaving, 0);
     ExpectSamePose(smooth.seams[i].arriving, splice.seams[i].arriving, 0);
@@ -106,8 +112,8 @@ TEST(SpliceClips, PassesThroughAnInBetween) {
 
 TEST(Inertialise, TakesTheJumpAwayAndKeepsTheLimbs) {
   const BodyMotion clips[] = {WavingClip(40), WavingClip(60, 5)};
-  const Splice cut = SpliceClips(clips, std::span(&kIntoSecond, 1), Join::kCut);
-  const Splice smooth = SpliceClips(clips, std::span(&kIntoSecond, 1), Join::kInertialised);
+  const Splice cut = SpliceLegs(clips, Legs(19, 5, clips[1]), Cut());
+  const Splice smooth = SpliceLegs(clips, Legs(19, 5, clips[1]), Spring());
   const double jump_cut = std::max(JumpAt(cut.motion, 19), JumpAt(cut.motion, 20));
   const double jump_smooth = std::max(JumpAt(smooth.motion, 19), JumpAt(smooth.motion, 20));
   EXPECT_GT(jump_cut, 0.3) << "the control: these clips do not fit";
@@ -130,7 +136,7 @@ TEST(Inertialise, ShowsTheOldPoseAtTheSeamAndHalfTheOffsetAfterItsHalfLife) {
 
 TEST(Inertialise, TurnsAnOppositeLimbAroundWithoutBreakingIt) {
   const BodyPose down = StandingClip(1, 0).poses[0], up = StandingClip(1, 180).poses[0];
-  const Inertialiser offsets({down, down}, {up, up}, kJudgedRateHz);
+  const Inertialiser offsets({down, down}, {up, up}, kJudgedRateHz, 0.1);
   const BodyPose halfway = offsets.Apply(up, 0.1);
   ExpectSamePose(offsets.Apply(up, 0), down, 1e-9);
   ExpectSameLimbs({kJudgedRateHz, {halfway}}, up);

@@ -3,14 +3,9 @@
 #include <array>
 
 #include "engine/motion/body.h"
+#include "engine/switching/joins/join.h"
 
 namespace etude {
-
-/// Two successive frames: where a body is, and, by difference, how it moves.
-struct PosePair {
-  BodyPose before;
-  BodyPose now;
-};
 
 /// The join one would use today (Bollo 2018; Holden's critically damped spring): at the switch, keep
 /// what the old motion was off from the new one, in pose and in velocity, and let it die away while
@@ -22,14 +17,11 @@ class Inertialiser {
  public:
   /// `shown`: the last two frames shown. `target`: the frames of the new motion, already aligned on
   /// the floor, that would stand in their place. `half_life`: seconds until half an offset is gone.
-  Inertialiser(const PosePair& shown, const PosePair& target, double rate_hz, double half_life = kHalfLife);
+  Inertialiser(const PosePair& shown, const PosePair& target, double rate_hz, double half_life);
 
   /// The new motion's frame `seconds` after the switch, still pulled towards the old one; at 0 it is
   /// the last frame shown.
   BodyPose Apply(const BodyPose& target, double seconds) const;
-
-  /// Half of an offset gone in 0.1 s, all but 2 % of it in 0.5 s; ours.
-  static constexpr double kHalfLife = 0.1;
 
  private:
   /// A critically damped spring on its way to rest at zero.
@@ -43,5 +35,8 @@ class Inertialiser {
   Decay hips_;
   std::array<Decay, kRoleCount> limbs_;  ///< rotation vectors, by child joint
 };
+
+/// The join of that name.
+Blend InertialiseSpring(const Meeting& meeting, const JoinSettings& settings);
 
 }  // namespace etude

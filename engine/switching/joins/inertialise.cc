@@ -1,4 +1,4 @@
-#include "engine/bridging/inertialise.h"
+#include "engine/switching/joins/inertialise.h"
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -60,6 +60,13 @@ BodyPose Inertialiser::Apply(const BodyPose& target, double seconds) const {
     pose[bone.child] = pose[bone.parent] + Rotate(rotation, Limb(target, bone));
   }
   return pose;
+}
+
+Blend InertialiseSpring(const Meeting& meeting, const JoinSettings& settings) {
+  const Inertialiser offsets(meeting.shown, meeting.target, meeting.rate_hz, settings.half_life_s);
+  return [offsets, rate_hz = meeting.rate_hz](const BodyPose& target, int frames) {
+    return offsets.Apply(target, frames / rate_hz);
+  };
 }
 
 }  // namespace etude

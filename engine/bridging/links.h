@@ -16,7 +16,6 @@ enum class Pick {
 struct SwitchRules {
   FeatureWeights weights = PaperWeights();
   double threshold = kPaperThreshold;
-  double max_wait_s = 1;  ///< ours
   Pick pick = Pick::kFirst;
   bool within_class = false;  ///< ours: compare only frames with the same ten tags
 };
@@ -41,8 +40,8 @@ struct FrameWindow {
   bool Contains(int frame) const { return first <= frame && frame <= last; }
 };
 
-/// The frames that paper A's wait allows: from `request` to `request` + the longest wait, inside the clip.
-FrameWindow WaitWindow(const TaggedClip& playing, int request, const SwitchRules& rules);
+/// The frames that a budget of waiting allows: from `request` to `request` + `budget_s` seconds, inside the clip.
+FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s);
 
 /// Whether two frames match under the rules.
 bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const SwitchRules& rules);

@@ -1,4 +1,4 @@
-#include "engine/bridging/training_pairs.h"
+#include "bench/training/training_pairs.h"
 
 #include <gtest/gtest.h>
 

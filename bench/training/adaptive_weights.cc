@@ -1,13 +1,13 @@
-#include "bench/tasks/transition/adaptive_weights.h"
+#include "bench/training/adaptive_weights.h"
 
 #include <algorithm>
 
 namespace etude {
 
-AdaptiveWeights::AdaptiveWeights(const Stage& training) : training_(training) {}
+AdaptiveWeights::AdaptiveWeights(const TrainingClips& training) : training_(training) {}
 
 TrainingClip AdaptiveWeights::ClipAt(std::size_t index) const {
-  return {&training_.motions[index], &training_.tagged[index]};
+  return {&training_.library.motions[index], &training_.library.tagged[index]};
 }
 
 const WeightFit& AdaptiveWeights::Without(const std::string& judged_a, const std::string& judged_b) {

@@ -1,4 +1,4 @@
-#include "engine/bridging/switching.h"
+#include "engine/bridging/links.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +61,8 @@ LinkSearch FindSmallest(const TaggedClip& playing, FrameWindow window, const Tag
 
 }  // namespace
 
-FrameWindow WaitWindow(const TaggedClip& playing, int request, const SwitchRules& rules) {
-  const int wait = static_cast<int>(std::floor(rules.max_wait_s * playing.rate_hz));
+FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s) {
+  const int wait = static_cast<int>(std::floor(budget_s * playing.rate_hz));
   return {request, std::min(request + wait, playing.FrameCount() - 1)};
 }
 

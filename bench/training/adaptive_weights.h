@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/tasks/transition/stage.h"
-#include "engine/bridging/training_pairs.h"
+#include "bench/training/training_clips.h"
+#include "bench/training/training_pairs.h"
 
 namespace etude {
 
@@ -15,7 +15,7 @@ namespace etude {
 class AdaptiveWeights {
  public:
   /// `training` must outlive this.
-  explicit AdaptiveWeights(const Stage& training);
+  explicit AdaptiveWeights(const TrainingClips& training);
 
   /// Learnt without the two clips of these identities.
   const WeightFit& Without(const std::string& judged_a, const std::string& judged_b);
@@ -23,7 +23,7 @@ class AdaptiveWeights {
  private:
   TrainingClip ClipAt(std::size_t index) const;
 
-  const Stage& training_;
+  const TrainingClips& training_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<LabelledPair>> pairs_;
   std::map<std::pair<std::string, std::string>, WeightFit> fits_;
 };

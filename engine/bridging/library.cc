@@ -1,0 +1,18 @@
+#include "engine/bridging/library.h"
+
+#include <utility>
+
+namespace etude {
+
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips, const Physique& physique,
+                          const TagRules& rules) {
+  MotionLibrary library{
+      .physique = physique, .names = std::move(names), .motions = {}, .tagged = {}, .in_betweens = {}};
+  library.motions.reserve(clips.size());
+  for (const BodyMotion& clip : clips) library.motions.push_back(PerformedBy(physique, clip));
+  library.tagged = TagClips(library.motions, physique.standing_hip_height, rules);
+  library.in_betweens = BuildInBetweens(library.motions, library.tagged);
+  return library;
+}
+
+}  // namespace etude

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/bridging/bridge_frames.h"
+#include "engine/bridging/in_between.h"
+#include "engine/bridging/one_character.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// Clips made ready for switching: all danced by one body, at 30 Hz, tagged, and joined by in-betweens.
+struct MotionLibrary {
+  Physique physique;
+  std::vector<std::string> names;
+  std::vector<BodyMotion> motions;
+  std::vector<TaggedClip> tagged;  ///< as `motions`, frame by frame
+  InBetweenNet in_betweens;
+};
+
+/// Makes a library of clips as they came: lets `physique` dance them, tags them by `rules`, and builds the in-betweens.
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips, const Physique& physique,
+                          const TagRules& rules = {});
+
+}  // namespace etude

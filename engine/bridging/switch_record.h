@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/fuzzy/distance.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// What is asked: clip `from` shows its frame `request_frame` when clip `to` is wanted.
+struct SwitchRequest {
+  int from = 0;
+  int request_frame = 0;
+  int to = 0;
+  double budget_s = 1;  ///< how long the switch may be waited for, seconds; ours
+};
+
+/// Which way a switch took.
+enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kInBetween, kForced };
+/// "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced".
+std::string_view BranchName(Branch branch);
+
+/// A run of frames that is shown: of a clip, or made by the method itself.
+///
+/// The first leg's `first` is the frame shown at the request. Of every later leg, frame `first` counts as one with the
+/// last frame shown: it is laid on it (yaw, x, z) and the next is shown after it.
+struct Leg {
+  static constexpr int kOwnFrames = -1;
+  int clip = kOwnFrames;      ///< of the library
+  int first = 0;              ///< index into the clip, or into `own`
+  int last = 0;               ///< the last frame shown
+  std::vector<BodyPose> own;  ///< only of kOwnFrames
+  bool in_place = false;      ///< `own` stands where it is to be shown: it is not laid on anything
+};
+
+/// What became of a pair of frames that a choice looked at.
+enum class Fate {
+  kTaken,
+  kTooFar,  ///< its distance is not below the threshold
+  kLater,   ///< it matches, but the first match is taken
+  kWorse,   ///< it matches, but another ranks before it
+};
+/// "taken", "too far", "later", "worse".
+std::string_view FateName(Fate fate);
+
+/// A pair of frames that a choice looked at.
+struct Candidate {
+  int from_frame = 0;  ///< of the clip that was left, or (through an in-between) of the in-between
+  int to_frame = 0;    ///< of the clip entered, or of the in-between
+  FuzzyDistance distance;
+  std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
+  Fate fate = Fate::kTooFar;
+};
+
+/// How to get from one clip into another, and how that was found. The record that explains a switch.
+struct SwitchRecord {
+  Branch branch = Branch::kNone;
+  int request_frame = 0;
+  std::vector<Leg> legs;  ///< none when there is no way; two for a direct switch, three with an in-between
+  std::vector<FuzzyDistance> meetings;  ///< of the frames that meet, one per seam: legs.size() − 1
+  std::vector<Candidate> candidates;    ///< taken, and the best of the others: at most kMostCandidates, by frames
+  std::int64_t pairs_seen = 0;          ///< pairs of frames compared on the way
+  std::int64_t pairs_matched = 0;       ///< those of them that may be switched
+  double wait_s = 0;                    ///< from the request until the wanted clip plays
+  std::string cost_unit;                ///< of the candidates' `cost`: "cm", … ; empty when there is none
+  std::string why;                      ///< one sentence: why this way won, or why there is none
+};
+constexpr std::size_t kMostCandidates = 12;
+
+/// The time that the legs take from the request until the last one begins, seconds.
+double WaitOf(const std::vector<Leg>& legs, double rate_hz);
+
+}  // namespace etude
