@@ -6,8 +6,10 @@
 #include <memory>
 
 #include "bench/run/worker.h"
+#include "cli/bridge_arguments.h"
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
+#include "cli/train_arguments.h"
 #include "cli/validators.h"
 
 namespace etude {
@@ -186,7 +188,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
-  command->add_option("--task", options->task, "ik, tracking, transition, detection or capture")->required();
+  command->add_option("--task", options->task, "ik, tracking, transition, detection, capture or search")->required();
   command->add_option("--time", options->time_s, "Seconds per problem")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
@@ -241,6 +243,8 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineCheckMethod(app, action);
   DefineList(app, action);
   DefineClip(app, action);
+  DefineBridge(app, action);
+  DefineTrain(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

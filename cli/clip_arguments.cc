@@ -21,14 +21,6 @@ constexpr const char* kExamples =
     "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
     "  etude clip map odd.bvh -o odd.yaml                     to teach names: edit it, then --joint-map odd.yaml";
 
-void AddReading(CLI::App& command, ClipReading& reading) {
-  command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
-  command.add_option("--unit", reading.unit,
-                     "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
-  command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
-      ->check(CLI::IsMember({"y", "z"}));
-}
-
 void DefineInfo(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipInfoOptions>();
   CLI::App* command = clip.add_subcommand("info", "Frames, joints, roles, unit, speeds, foot slide");
@@ -85,6 +77,18 @@ void DefineRender(CLI::App& clip, Action& action) {
   command->callback([=, &action] { action = [=] { return ClipRenderCommand(*options); }; });
 }
 
+void DefineGrades(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipGradesOptions>();
+  CLI::App* command =
+      clip.add_subcommand("grades", "Fuzzy features, grades, tags and poses of every frame; how alike clips are");
+  command->add_option("clips", options->clips, "Clips")->required();
+  command->add_option("-o,--output", options->output, "A table (.csv) of one clip, a line per frame");
+  command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return ClipGradesCommand(*options); }; });
+}
+
 void DefineMap(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipMapOptions>();
   CLI::App* command = clip.add_subcommand("map", "Which joint plays which role");
@@ -98,6 +102,14 @@ void DefineMap(CLI::App& clip, Action& action) {
 
 }  // namespace
 
+void AddReading(CLI::App& command, ClipReading& reading) {
+  command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
+  command.add_option("--unit", reading.unit,
+                     "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");
+  command.add_option("--up", reading.up, "Axis of the file that points up: y or z (default: found)")
+      ->check(CLI::IsMember({"y", "z"}));
+}
+
 void DefineClip(CLI::App& app, Action& action) {
   CLI::App* clip = app.add_subcommand("clip", "Look at motion clips, convert and render them");
   clip->footer(kExamples);
@@ -106,6 +118,7 @@ void DefineClip(CLI::App& app, Action& action) {
   DefineConvert(*clip, action);
   DefineRender(*clip, action);
   DefineMap(*clip, action);
+  DefineGrades(*clip, action);
 }
 
 }  // namespace etude

@@ -55,4 +55,14 @@ struct ClipMapOptions {
 /// `etude clip map`: which joint plays which role.
 int ClipMapCommand(const ClipMapOptions& options);
 
+struct ClipGradesOptions {
+  std::vector<std::string> clips;
+  std::string output;                   ///< a CSV file of one clip, "" = none
+  std::string fuzzy = "builtin:paper";  ///< builtin:NAME or a file (docs/fuzzy-system.md)
+  bool overwrite = false;
+  ClipReading reading;
+};
+/// `etude clip grades`: what paper A's fuzzy system sees in clips, and how alike they are.
+int ClipGradesCommand(const ClipGradesOptions& options);
+
 }  // namespace etude

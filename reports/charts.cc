@@ -10,6 +10,7 @@
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
+#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
@@ -126,7 +127,7 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
       chart.description += fmt::format("{}{}: {}. ", method, where,
                                        mark.value ? FormatNumber(*mark.value) + words.suffix : std::string(kNoValue));
     }
-    methods.push_back({{"name", method}, {"marks", std::move(marks)}});
+    methods.push_back({{"name", MethodLabel(scenario, method)}, {"marks", std::move(marks)}});
   }
   if (drawn.empty()) return std::nullopt;
 
@@ -188,7 +189,7 @@ std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scena
                     FormatNumber(curve.back()) + words.suffix, Plural(static_cast<long long>(curve.size()) - 1, axis));
     Json values = Json::array();
     for (const double value : Thinned(curve, stride)) values.push_back(value);
-    methods.push_back({{"name", method}, {"values", std::move(values)}});
+    methods.push_back({{"name", MethodLabel(scenario, method)}, {"values", std::move(values)}});
   }
   Json json{{"kind", "curves"},
             {"label", words.label},

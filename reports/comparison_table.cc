@@ -7,9 +7,13 @@
 #include "reports/badge.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
+#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
+
+// Where all comparisons are that a page has no room for.
+constexpr std::string_view kAllComparisons = "the CSV file of comparisons in report/tables";
 
 /// One comparison as the texts of its cells, not yet escaped.
 struct Line {
@@ -110,6 +114,7 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
   }
   html += "<th scope=\"col\">Verdict</th></tr></thead>";
   const int columns = swept ? 8 : 7;
+  std::size_t rows = 0;
   for (const std::string& metric : scenario.headline_metrics) {
     html += fmt::format("<tbody><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>", columns,
                         EscapeMarkup(MetricHeading(metric)));
@@ -117,14 +122,15 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
     for (const std::string& method : scenario.methods) {
       for (const ConditionSummary& condition : scenario.conditions) {
         for (const Comparison& c : condition.comparisons) {
-          if (c.metric == metric && c.method == method)
-            html += RowHtml(LineOf(condition, c), c.verdict, swept, columns);
+          if (c.metric != metric || c.method != method || ++rows > kMostTableRows) continue;
+          html += RowHtml(LineOf(condition, c), c.verdict, swept, columns);
         }
       }
     }
     html += "</tbody>";
   }
-  return html + fmt::format("</table></div><p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
+  return html + "</table></div>" + LeftOutHtml(rows, kMostTableRows, "comparisons", kAllComparisons) +
+         fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
 }
 
 std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
@@ -135,8 +141,10 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
       "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | verdict | mind |\n"
       "|---|---|---|---|---|---|---|---|---|\n",
       count);
+  std::size_t rows = 0;
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const Comparison& c : condition.comparisons) {
+      if (++rows > kMostTableRows) continue;
       const Line line = LineOf(condition, c);
       text += fmt::format("| {} | {} | {} | {} | {} ({}) | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
                           EscapeMarkdown(line.methods), EscapeMarkdown(line.condition), line.pairs, line.difference,
@@ -144,6 +152,8 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
                           EscapeMarkdown(line.notes));
     }
   }
+  const std::string rest = LeftOutWords(rows, kMostTableRows, "comparisons", kAllComparisons);
+  if (!rest.empty()) text += fmt::format("\n{}\n", EscapeMarkdown(rest));
   return text + fmt::format("\n{}\n\n</details>\n", EscapeMarkdown(Legend(scenario)));
 }
 

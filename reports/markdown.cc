@@ -2,28 +2,44 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <span>
+
 #include "reports/comparison_table.h"
+#include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/switches/switch_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
+#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
+
+std::string MethodsText(const ScenarioFindings& findings) {
+  const std::size_t others = findings.methods.size() > 1 ? findings.methods.size() : 0;
+  if (others + findings.yardsticks.size() == 0) return "";
+  std::string text = "\n| method | against | verdict | |\n|---|---|---|---|\n";
+  for (std::size_t i = 0; i < std::min(others, kMostListed); ++i) {
+    const MethodFinding& method = findings.methods[i];
+    text += fmt::format("| {} | {} | {} | {} |\n", EscapeMarkdown(method.method), EscapeMarkdown(method.baseline),
+                        method.Words(), EscapeMarkdown(method.sentence));
+  }
+  for (const std::string& yardstick : findings.yardsticks) {
+    text += fmt::format("| {} | | yardstick | Compared with none: what the others are measured by. |\n",
+                        EscapeMarkdown(yardstick));
+  }
+  const std::string rest = LeftOutWords(others, kMostListed, "methods", "the CSV file of comparisons in report/tables");
+  return rest.empty() ? text : text + "\n" + EscapeMarkdown(rest) + "\n";
+}
 
 std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
   std::string text =
       fmt::format("\n## {}\n\n{}\n\n**{}**: {}\n", EscapeMarkdown(scenario.name), EscapeMarkdown(scenario.question),
                   findings.answer.Words(), EscapeMarkdown(findings.answer.sentence));
-  if (findings.methods.size() > 1) {
-    text += "\n| method | against | verdict | |\n|---|---|---|---|\n";
-    for (const MethodFinding& method : findings.methods) {
-      text += fmt::format("| {} | {} | {} | {} |\n", EscapeMarkdown(method.method), EscapeMarkdown(method.baseline),
-                          method.Words(), EscapeMarkdown(method.sentence));
-    }
-  }
-  text += '\n';
+  text += MethodsText(findings) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view outcome = e.outcome == Outcome::kMet     ? "met"
                                      : e.outcome == Outcome::kUnmet ? "**not met**"
@@ -32,11 +48,14 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));
   }
   text += fmt::format("- {}\n", EscapeMarkdown(StatusSentence(findings)));
-  for (const ReasonCount& reason : findings.reasons) {
+  for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
     text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
                         EscapeMarkdown(reason.method), EscapeMarkdown(reason.reason));
   }
-  return text + PaperBMarkdown(run, scenario) + ComparisonTableMarkdown(scenario);
+  const std::string rest = LeftOutWords(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
+  if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
+  return text + SwitchesMarkdown(SwitchWorldsOf(run, scenario)) + PaperAMarkdown(scenario) +
+         PaperBMarkdown(run, scenario) + ComparisonTableMarkdown(scenario);
 }
 
 }  // namespace

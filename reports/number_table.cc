@@ -7,6 +7,8 @@
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
+#include "reports/words/left_out.h"
+#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
@@ -28,6 +30,26 @@ std::string MissingText(const RunData& run, const ScenarioSummary& scenario, con
   return MissingReasons(run, scenario.name, condition.condition, method.method, metric.id);
 }
 
+std::string OkCells(const ScenarioSummary& scenario, const MethodSummary& method) {
+  return Cell("<span title=\"ok_share\">cells that ended ok</span>") +
+         Cell(EscapeMarkup(MethodLabel(scenario, method.method))) + NumberCell(kNoValue) +
+         NumberCell(FormatInterval(method.ok_low, method.ok_high, kShare)) +
+         NumberCell(FormatShare(method.ok, method.attempted)) + NumberCell(FormatCount(method.attempted)) + Cell("");
+}
+
+std::string MetricCells(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
+                        const MethodSummary& method, const MetricSummary& metric) {
+  const MetricWords words = WordsFor(metric.id);
+  const std::string missing = metric.missing == 0
+                                  ? ""
+                                  : fmt::format("{} of {}: {}", metric.missing, metric.missing + metric.present,
+                                                EscapeMarkup(MissingText(run, scenario, condition, method, metric)));
+  return Cell(fmt::format("<span title=\"{}\">{}</span>", EscapeMarkup(metric.id), EscapeMarkup(words.label))) +
+         Cell(EscapeMarkup(MethodLabel(scenario, method.method))) + NumberCell(FormatValue(metric.median, words)) +
+         NumberCell(FormatInterval(metric.ci_low, metric.ci_high, words)) +
+         NumberCell(FormatValue(metric.mean, words)) + NumberCell(FormatCount(metric.present)) + Cell(missing);
+}
+
 }  // namespace
 
 std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario) {
@@ -39,40 +61,30 @@ std::string NumberTableHtml(const RunData& run, const ScenarioSummary& scenario)
       "<th scope=\"col\">Metric</th><th scope=\"col\">Method</th><th scope=\"col\" class=\"n\">Median</th>"
       "<th scope=\"col\" class=\"n\">95 % interval</th><th scope=\"col\" class=\"n\">Mean</th>"
       "<th scope=\"col\" class=\"n\">Values</th><th scope=\"col\">Missing, and why</th></tr></thead><tbody>";
+  std::size_t rows = 0;
+  // The text of a row is made only while there is room for it.
+  const auto add = [&](const ConditionSummary& condition, const std::string& method, const auto& figures) {
+    if (++rows > kMostTableRows) return;
+    html += IsYardstick(scenario, method) ? "<tr class=\"yardstick\">" : "<tr>";
+    if (swept) html += Cell(EscapeMarkup(ConditionLabel(condition.condition)));
+    html += figures() + "</tr>";
+  };
   for (const ConditionSummary& condition : scenario.conditions) {
     if (condition.methods.empty()) continue;
     for (const MethodSummary& method : condition.methods) {
       if (method.attempted == 0) continue;
-      html += "<tr>";
-      if (swept) html += Cell(EscapeMarkup(ConditionLabel(condition.condition)));
-      html += Cell("<span title=\"ok_share\">cells that ended ok</span>") + Cell(EscapeMarkup(method.method));
-      html += NumberCell(kNoValue) + NumberCell(FormatInterval(method.ok_low, method.ok_high, kShare)) +
-              NumberCell(FormatShare(method.ok, method.attempted)) + NumberCell(FormatCount(method.attempted)) +
-              Cell("") + "</tr>";
+      add(condition, method.method, [&] { return OkCells(scenario, method); });
     }
     // Grouped by metric, so that methods stand under each other.
     for (const MetricSummary& first : condition.methods.front().metrics) {
-      const MetricWords words = WordsFor(first.id);
       for (const MethodSummary& method : condition.methods) {
         const MetricSummary* metric = FindSummary(method, first.id);
         if (metric == nullptr) continue;
-        html += "<tr>";
-        if (swept) html += Cell(EscapeMarkup(ConditionLabel(condition.condition)));
-        html += Cell(fmt::format("<span title=\"{}\">{}</span>", EscapeMarkup(metric->id), EscapeMarkup(words.label)));
-        html += Cell(EscapeMarkup(method.method));
-        html += NumberCell(FormatValue(metric->median, words));
-        html += NumberCell(FormatInterval(metric->ci_low, metric->ci_high, words));
-        html += NumberCell(FormatValue(metric->mean, words));
-        html += NumberCell(FormatCount(metric->present));
-        html += Cell(metric->missing == 0
-                         ? ""
-                         : fmt::format("{} of {}: {}", metric->missing, metric->missing + metric->present,
-                                       EscapeMarkup(MissingText(run, scenario, condition, method, *metric))));
-        html += "</tr>";
+        add(condition, method.method, [&] { return MetricCells(run, scenario, condition, method, *metric); });
       }
     }
   }
-  return html + "</tbody></table></div>";
+  return html + "</tbody></table></div>" + LeftOutHtml(rows, kMostTableRows, "rows", "the CSV file in report/tables");
 }
 
 std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) {

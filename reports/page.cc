@@ -7,8 +7,11 @@
 #include "reports/assets/assets.h"
 #include "reports/badge.h"
 #include "reports/film_element.h"
+#include "reports/growth/growth_section.h"
+#include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/scenario_card.h"
+#include "reports/switches/switch_worlds.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
@@ -21,9 +24,13 @@ constexpr std::string_view kPolicy =
 
 // A page carries only the styles that it uses.
 std::string Styles(const RunData& run) {
-  const bool shows_paper_b =
-      std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) { return ShowsPaperB(run, scenario); });
-  return std::string(ReportCss()) + std::string(shows_paper_b ? PaperCss() : "");
+  const bool shows_curves = std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
+    return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsGrowth(scenario);
+  });
+  const bool shows_switches = std::ranges::any_of(
+      run.scenarios, [&](const ScenarioSummary& scenario) { return !SwitchWorldsOf(run, scenario).empty(); });
+  return std::string(ReportCss()) + std::string(shows_curves ? PaperCss() : "") +
+         std::string(shows_switches ? SwitchesCss() : "");
 }
 
 std::string Head(const RunData& run) {

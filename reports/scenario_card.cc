@@ -2,14 +2,21 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <span>
+
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
 #include "reports/film_element.h"
+#include "reports/growth/growth_section.h"
 #include "reports/number_table.h"
+#include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/switches/switch_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
+#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
@@ -36,15 +43,24 @@ std::string Charts(const RunData& run, const ScenarioSummary& scenario, std::siz
 }
 
 std::string Methods(const ScenarioFindings& findings) {
-  if (findings.methods.empty()) return "";
+  // With one alternative the answer has said it all.
+  const std::size_t others = findings.methods.size() > 1 ? findings.methods.size() : 0;
+  if (others + findings.yardsticks.size() == 0) return "";
   std::string html = "<ul class=\"methods\" aria-label=\"Every method compared with its baseline\">";
-  for (const MethodFinding& method : findings.methods) {
+  for (std::size_t i = 0; i < std::min(others, kMostListed); ++i) {
+    const MethodFinding& method = findings.methods[i];
     html +=
         fmt::format("<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
                     EscapeMarkup(method.sentence), VerdictBadge(method.verdict), EscapeMarkup(method.method),
                     EscapeMarkup(method.baseline));
   }
-  return html + "</ul>";
+  for (const std::string& yardstick : findings.yardsticks) {
+    html += fmt::format(
+        "<li title=\"Compared with none: what the others are measured by.\"><span class=\"badge same\">"
+        "yardstick</span> <span class=\"name\">{}</span></li>",
+        EscapeMarkup(yardstick));
+  }
+  return html + "</ul>" + LeftOutHtml(others, kMostListed, "methods", "the CSV file of comparisons in report/tables");
 }
 
 std::string Expectations(const ScenarioSummary& scenario) {
@@ -69,11 +85,11 @@ std::string Expectations(const ScenarioSummary& scenario) {
 std::string Failures(const ScenarioFindings& findings) {
   if (findings.reasons.empty()) return "";
   std::string html = "<details><summary>What did not end well, and why</summary><ul class=\"reasons\">";
-  for (const ReasonCount& reason : findings.reasons) {
+  for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
     html += fmt::format("<li><b>{} × {}</b> in {}: {}</li>", FormatCount(reason.cells), StatusName(reason.status),
                         EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
   }
-  return html + "</ul></details>";
+  return html + "</ul>" + LeftOutHtml(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl") + "</details>";
 }
 
 // How the cells ended, as a bar whose widths are shares; the words below it say the same.
@@ -119,11 +135,13 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Strip(scenario, media);
   html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);
-  // With one alternative the answer has said it all.
-  if (findings.methods.size() > 1) html += Methods(findings);
+  html += Methods(findings);
   html += Expectations(scenario);
   html += StatusBar(findings);
+  html += SwitchesHtml(SwitchWorldsOf(run, scenario));
+  html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
+  html += GrowthHtml(run, scenario);
   html += Failures(findings);
   if (const std::string table = ComparisonTableHtml(scenario); !table.empty()) {
     html += fmt::format("<details><summary>Every comparison</summary>{}</details>", table);

@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "reports/comparison_table.h"
+#include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
+#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
@@ -47,15 +49,15 @@ void Begin(Group& group, const std::string& heading) {
   group.rows = 1;
 }
 
-Group EndedOk(const ConditionSummary& condition) {
+Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition) {
   const MetricWords share{.label = "", .suffix = " %", .difference_suffix = "", .scale = 100, .is_share = true};
   Group group;
   Begin(group, "cells that ended ok");
   for (const MethodSummary& method : condition.methods) {
     if (method.attempted == 0) continue;
-    group.latex +=
-        fmt::format("{} & {} & {} & & & & \\\\\n", EscapeLatex(method.method), FormatCount(method.attempted),
-                    WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
+    group.latex += fmt::format(
+        "{} & {} & {} & & & & \\\\\n", EscapeLatex(MethodLabel(scenario, method.method)), FormatCount(method.attempted),
+        WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
     ++group.rows;
   }
   return group;
@@ -68,7 +70,7 @@ std::string ComparisonCells(const Comparison& c, const MetricWords& words) {
                      VerdictName(c.verdict));
 }
 
-Group OfMetric(const ConditionSummary& condition, const std::string& metric) {
+Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& condition, const std::string& metric) {
   const MetricWords words = WordsFor(metric);
   Group group;
   Begin(group, MetricHeading(metric));
@@ -76,7 +78,8 @@ Group OfMetric(const ConditionSummary& condition, const std::string& metric) {
     const MetricSummary* summary = FindSummary(method, metric);
     if (summary == nullptr) continue;
     std::string figures = fmt::format(
-        "{} & {} & {}", EscapeLatex(method.method), CountText(summary->present, summary->present + summary->missing),
+        "{} & {} & {}", EscapeLatex(MethodLabel(scenario, method.method)),
+        CountText(summary->present, summary->present + summary->missing),
         WithInterval(FormatValue(TypicalValue(*summary, words), words), summary->ci_low, summary->ci_high, words));
     // A method may be compared with several baselines: its own figures stand in the first line only.
     bool compared = false;
@@ -118,8 +121,8 @@ std::string Float(const std::string& caption, const std::string& rows) {
 
 /// As many floats as the rows of this condition need.
 std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSummary& condition) {
-  std::vector<Group> groups{EndedOk(condition)};
-  for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(condition, metric));
+  std::vector<Group> groups{EndedOk(scenario, condition)};
+  for (const std::string& metric : scenario.headline_metrics) groups.push_back(OfMetric(scenario, condition, metric));
 
   std::string text, rows;
   std::string caption = EscapeLatex(Caption(scenario, condition)) + std::string(kStarsCaption);
@@ -142,7 +145,7 @@ std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSumm
 std::string ScenarioLatex(const RunData& run, const ScenarioSummary& scenario) {
   std::string text(kHead);
   for (const ConditionSummary& condition : scenario.conditions) text += ConditionFloats(scenario, condition);
-  return text + PaperBLatex(run, scenario);
+  return text + PaperALatex(scenario) + PaperBLatex(run, scenario);
 }
 
 }  // namespace etude

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
@@ -60,24 +59,6 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
     }
   }
   return finished;
-}
-
-Result<std::map<std::string, double>> LoadTimes(const fs::path& path) {
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  std::map<std::string, double> seconds;
-  std::istringstream lines(*text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const auto json = ReadJson(line, path.string(), number);
-    if (!json) return tl::unexpected(json.error());
-    try {
-      seconds[json->at("cell").get<std::string>()] = json->at("cpu_s").get<double>();
-    } catch (const Json::exception& error) {
-      return Fail({path.string(), number, 0}, "not a line of times: {}", error.what());
-    }
-  }
-  return seconds;
 }
 
 /// The identities of all cells that a scenario asks for, in canonical order.
@@ -137,10 +118,8 @@ Result<FinishedRun> LoadFinishedRun(const fs::path& folder) {
   if (auto checked = CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}); !checked) {
     return tl::unexpected(checked.error());
   }
-  if (std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
-    auto seconds = LoadTimes(folder / "timings.jsonl");
-    if (!seconds) return tl::unexpected(seconds.error());
-    run.cpu_seconds = std::move(*seconds);
+  if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
+    return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");
   }
   return run;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -22,7 +21,6 @@ struct FinishedScenario {
 struct FinishedRun {
   RunData data;
   std::vector<FinishedScenario> scenarios;
-  std::map<std::string, double> cpu_seconds;  ///< by Row::Id()
   /// Why it cannot be judged as a whole: it did not come to its end, or rows are missing. Empty = it is whole.
   std::vector<std::string> incomplete;
 };

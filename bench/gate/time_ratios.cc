@@ -16,8 +16,8 @@ std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, 
   std::map<std::pair<std::string, int>, double> seconds;
   for (const Row& row : run.data.rows) {
     if (row.scenario != scenario || row.method != method) continue;
-    const auto measured = run.cpu_seconds.find(row.Id());
-    if (measured == run.cpu_seconds.end() || measured->second <= 0) continue;
+    const auto measured = run.data.cpu_seconds.find(row.Id());
+    if (measured == run.data.cpu_seconds.end() || measured->second <= 0) continue;
     if (DependsOnMachine(StatusLetter(row.result.status))) continue;
     seconds[{CompactLabel(row.condition), row.trial}] = measured->second;
   }

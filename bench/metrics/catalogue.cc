@@ -10,9 +10,11 @@ std::vector<MetricInfo> PutTogether() {
     const char* domain;
     std::vector<MetricInfo> metrics;
   };
-  Part parts[] = {{"Inverse kinematics", IkCatalogue()},  {"Tracking", TrackingCatalogue()},
-                  {"Camera capture", CaptureCatalogue()}, {"Person masks", MaskCatalogue()},
-                  {"Transitions", TransitionCatalogue()}, {"Move detection", DetectionCatalogue()}};
+  Part parts[] = {{"Inverse kinematics", IkCatalogue()},   {"Tracking", TrackingCatalogue()},
+                  {"Camera capture", CaptureCatalogue()},  {"Person masks", MaskCatalogue()},
+                  {"Transitions", TransitionCatalogue()},  {"Matching", MatchingCatalogue()},
+                  {"Search", SearchCatalogue()},           {"Pose distances", PoseDistanceCatalogue()},
+                  {"Move detection", DetectionCatalogue()}};
   std::vector<MetricInfo> all;
   for (Part& part : parts) {
     for (MetricInfo& metric : part.metrics) {

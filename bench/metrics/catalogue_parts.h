@@ -13,6 +13,9 @@ std::vector<MetricInfo> TrackingCatalogue();
 std::vector<MetricInfo> CaptureCatalogue();
 std::vector<MetricInfo> MaskCatalogue();
 std::vector<MetricInfo> TransitionCatalogue();
+std::vector<MetricInfo> MatchingCatalogue();
+std::vector<MetricInfo> SearchCatalogue();
+std::vector<MetricInfo> PoseDistanceCatalogue();
 std::vector<MetricInfo> DetectionCatalogue();
 
 /// Ends the null rule of a metric that only a built-in method's stages can tell.

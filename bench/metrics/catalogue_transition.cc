@@ -15,7 +15,15 @@ const std::vector<MetricInput> kMeetings = {
      "per switch four poses, aligned: `leaving_before` and `leaving`, the old clip's frame before the switch and at "
      "it; `arriving` and `arriving_after`, the new clip's at the switch and after it"}};
 
+const std::vector<MetricInput> kSpeedInputs = {kMotion,
+                                               kSeams,
+                                               {"speed_mps", "instead of these two: the speed profile itself"},
+                                               {"rate_hz", "its samples per second"}};
+
 const char* const kNoWay = "When no way was found (status unsolved).";
+const std::string kSpeedProfile =
+    "The speed profile: the mean over the twenty joints of ‖p_j(f+1) − p_j(f)‖ · rate for f from one second before the "
+    "first seam to one second after the last, as far as the motion goes. ";
 
 }  // namespace
 
@@ -84,9 +92,12 @@ std::vector<MetricInfo> TransitionCatalogue() {
        .practical = 1,
        .definition = "Mean horizontal foot speed, weighted by closeness to the floor, for 1 s after the seam.",
        .practical_reason = "A centimetre a second is a third of a millimetre a frame.",
-       .formula = "Mean over both feet and the frames f = s … s+29 (as far as f+1 exists) of v · clamp(2 − 2^(h / 2.5 "
-                  "cm), 0, 1): v = 100 · rate · √(Δx² + Δz²) from f to f+1, h the foot joint's height y at f. Every "
-                  "foot and frame is in the denominator, lifted or not; the worst seam counts.",
+       .formula =
+           "Mean over both feet and the frames f = s … s+29 (as far as f+1 exists) of v · clamp(2 − 2^(h / 2.5 "
+           "cm), 0, 1): v = 100 · rate · √(Δx² + Δz²) from f to f+1, h the foot joint's height y at f, above the "
+           "floor on which every clip was set down before it was switched, not above the foot's own lowest "
+           "point: a foot that a join pushes through the floor would lift all others. Every foot and frame is "
+           "in the denominator, lifted or not; the worst seam counts.",
        .null_rule = kNoWay,
        .source = "Zhang et al. 2018, Mode-Adaptive Neural Networks (foot skating).",
        .inputs = kSeamInputs},
@@ -98,9 +109,11 @@ std::vector<MetricInfo> TransitionCatalogue() {
        .practical = 1,
        .definition = "Distance of the worst joint between the two seam frames after alignment on the floor.",
        .practical_reason = "A joint that moves at 30 cm/s moves so far in a frame.",
-       .formula = "100 · max_j ‖leaving_j − arriving_j‖ of the two frames that meet: the old clip's last and the new "
-                  "clip's frame at the switch, the new clip turned about the vertical axis and moved on the floor so "
-                  "that heading and hip centre agree (heights and limbs stay). The worst switch counts.",
+       .formula =
+           "100 · max_j ‖leaving_j − arriving_j‖ of the two frames that meet: the old clip's last and the new "
+           "clip's frame at the switch, the new clip turned about the vertical axis and moved on the floor so "
+           "that heading and hip centre agree (heights and limbs stay). The worst switch counts. Unbroken motion meets "
+           "itself, and has 0.",
        .null_rule = kNoWay,
        .source = "Kovar et al. 2002, Motion Graphs, section 3.1 (distance after alignment on the floor), worst joint.",
        .inputs = kMeetings},
@@ -115,7 +128,8 @@ std::vector<MetricInfo> TransitionCatalogue() {
        .practical_reason = "5 cm/s are 1.7 mm in a frame.",
        .formula = "100 · rate · max_j ‖(leaving − leaving_before)_j − (arriving_after − arriving)_j‖, aligned as in "
                   "pose_gap_cm: the velocity on arriving at the frame left, against that on leaving the frame entered. "
-                  "The worst switch counts.",
+                  "The worst switch counts. Of unbroken motion it is the second difference at that frame, times rate: "
+                  "what velocity naturally changes in a frame.",
        .null_rule = kNoWay,
        .source = "Etude.",
        .inputs = kMeetings},
@@ -129,7 +143,8 @@ std::vector<MetricInfo> TransitionCatalogue() {
        .practical_reason = "One switch in fifty.",
        .formula = "1 if pose_gap_cm > 20, else 0 (exactly 20 is 0), for switches that a choice by fuzzy distance "
                   "allowed: d below the method's threshold, paper A's 0.4 unless the scenario says otherwise.",
-       .null_rule = "When no way was found, or the choice matches no frames (now, wait-for-end).",
+       .null_rule = "When no way was found, or the choice matches no frames (now, wait-for-end); in task "
+                    "pose-distance, when the poses were not called alike.",
        .source = "Etude: what paper A's distance cannot see.",
        .inputs = {{"matched", "whether a fuzzy distance chose the frames"}, {"pose_gap_cm", "the pose gap"}}},
       {.id = "natural_share",
@@ -196,18 +211,30 @@ std::vector<MetricInfo> TransitionCatalogue() {
        .practical = 0.1,
        .definition = "Spectral arc length of the speed profile: amplitude threshold 0.05, cut-off 10 Hz, padding 4.",
        .practical_reason = "A fourteenth of the arc of one smooth stroke (−1.41).",
-       .formula = "The speed profile: the mean over the twenty joints of ‖p_j(f+1) − p_j(f)‖ · rate for f from one "
-                  "second before the first seam to one second after the last, as far as the motion goes. Its N samples "
-                  "are padded with zeros to K = 2^(⌈log₂ N⌉ + 4); V_i is the magnitude of its Fourier transform at i · "
-                  "rate / K, for all i up to 10 Hz included, divided by the largest. From the first to the last i with "
-                  "V_i ≥ 0.05, m steps: −Σ √((1/m)² + (V_{i+1} − V_i)²).",
+       .formula = kSpeedProfile +
+                  "Its N samples are padded with zeros to K = 2^(⌈log₂ N⌉ + 4); V_i is the magnitude of its Fourier "
+                  "transform at i · rate / K, for all i up to 10 Hz included, divided by the largest. From the first "
+                  "to the last i with V_i ≥ 0.05, m steps: −Σ √((1/m)² + (V_{i+1} − V_i)²).",
        .null_rule = "When no way was found; when nothing moves, or there are fewer than two samples; when one V_i "
                     "alone reaches 0.05.",
        .source = "Balasubramanian, Melendez-Calderon, Roby-Brami and Burdet 2015.",
-       .inputs = {kMotion,
-                  kSeams,
-                  {"speed_mps", "instead of these two: the speed profile itself"},
-                  {"rate_hz", "its samples per second"}}},
+       .inputs = kSpeedInputs},
+      {.id = "ldlj",
+       .label = "smoothness (LDLJ)",
+       .unit = "",
+       .direction = kHigherIsBetter,
+       .aggregate = kMedian,
+       .practical = 0.2,
+       .definition = "Log dimensionless jerk of the speed profile around the seam.",
+       .practical_reason = "A tenth more jerk: 2 ln 1.1.",
+       .formula = kSpeedProfile +
+                  "Of its N samples v, dt = 1 / rate apart: −ln((N dt)³ / max|v|² · Σ ((v_{i+1} − 2 v_i + v_{i−1}) / "
+                  "dt²)² dt) over i = 1 … N−2; dt cancels. The longer the profile, the lower: a switch through an "
+                  "in-between has a longer one.",
+       .null_rule = "When no way was found; when nothing moves, the speed changes evenly (no jerk), or there are fewer "
+                    "than three samples.",
+       .source = "Balasubramanian, Melendez-Calderon and Burdet 2012; Balasubramanian et al. 2015.",
+       .inputs = kSpeedInputs},
   };
 }
 

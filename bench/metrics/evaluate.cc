@@ -5,23 +5,21 @@
 #include <vector>
 
 #include "bench/metrics/detection.h"
+#include "bench/metrics/evaluate_parts.h"
 #include "bench/metrics/ik_cost.h"
 #include "bench/metrics/ik_error.h"
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
-#include "bench/metrics/seam.h"
 #include "bench/metrics/segmentation.h"
 #include "bench/metrics/share.h"
-#include "bench/metrics/spectral_arc_length.h"
 #include "bench/metrics/tracking.h"
 #include "bench/metrics/vector_input.h"
 #include "engine/base/angles.h"
-#include "engine/fuzzy/distance.h"
 
 namespace etude {
 namespace {
 
-using Value = std::optional<double>;
+using Value = EvaluatedMetric;
 
 // Inverse kinematics.
 
@@ -127,81 +125,6 @@ MaskScore MasksOf(const Json& in) {
   return MeanScore(scores);
 }
 
-// Transitions.
-
-std::vector<int> SeamsOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
-
-SeamSmoothness SmoothnessOf(const Json& in) { return MeasureSeams(ReadMotion(in.at("motion")), SeamsOf(in)); }
-
-bool IsNaturalJump(const Json& in) {
-  std::vector<double> jumps;
-  for (const Json& clip : in.at("clips")) {
-    const std::vector<double> own = NaturalJumpsCm(ReadMotion(clip));
-    jumps.insert(jumps.end(), own.begin(), own.end());
-  }
-  const Json& jump = in.at("jump_cm");
-  return IsNatural(jump.is_null() ? std::nullopt : std::optional(jump.get<double>()), std::move(jumps));
-}
-
-double WorstFootSlide(const Json& in) {
-  const BodyMotion motion = ReadMotion(in.at("motion"));
-  double worst = 0;
-  for (int seam : SeamsOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
-  return worst;
-}
-
-double WorstPoseGap(const Json& in) {
-  double worst = 0;
-  for (const Json& meeting : in.at("meetings")) {
-    worst = std::max(worst, PoseGapCm(ReadPose(meeting.at("leaving")), ReadPose(meeting.at("arriving"))));
-  }
-  return worst;
-}
-
-double WorstVelocityGap(const Json& in) {
-  double worst = 0;
-  for (const Json& meeting : in.at("meetings")) {
-    const auto pose = [&](const char* key) { return ReadPose(meeting.at(key)); };
-    worst = std::max(worst, VelocityGapCmps(pose("leaving_before"), pose("leaving"), pose("arriving"),
-                                            pose("arriving_after"), in.at("rate_hz").get<double>()));
-  }
-  return worst;
-}
-
-Value FalseSmooth(const Json& in) {
-  if (!in.at("matched").get<bool>()) return std::nullopt;
-  return IsFalselySmooth(in.at("pose_gap_cm").get<double>()) ? 1 : 0;
-}
-
-double Waited(const Json& in) {
-  std::vector<Stay> stays;
-  for (const Json& stay : in.at("stays")) {
-    stays.push_back({stay.at("from_frame").get<int>(), stay.at("until_frame").get<int>()});
-  }
-  return WaitSeconds(stays, in.at("rate_hz").get<double>());
-}
-
-double WorstFuzzyDistance(const Json& in) {
-  const auto weights = in.at("weights").get<FeatureWeights>();
-  double worst = 0;
-  for (const Json& change : in.at("switches")) {
-    const PoseFeatures from{change.at("from_features").get<PerFeature>()};
-    const PoseFeatures to{change.at("to_features").get<PerFeature>()};
-    worst = std::max(worst, ComputeDistance(Fuzzify(from), Fuzzify(to), weights).value);
-  }
-  return worst;
-}
-
-Value SparcOf(const Json& in) {
-  if (in.contains("speed_mps")) {
-    return SpectralArcLength(in.at("speed_mps").get<std::vector<double>>(), in.at("rate_hz").get<double>());
-  }
-  const BodyMotion motion = ReadMotion(in.at("motion"));
-  const std::vector<int> seams = SeamsOf(in);
-  const int second = static_cast<int>(motion.rate_hz);
-  return SpectralArcLength(MeanJointSpeed(motion, seams.at(0) - second, seams.back() + second), motion.rate_hz);
-}
-
 // Move detection.
 
 std::vector<JudgedEvent> EventsOf(const Json& in) {
@@ -237,11 +160,6 @@ double FalseAlarms(const Json& in) {
   }
   return FalseAlarmsPerMinute(alarms, in.at("frames").get<double>() / in.at("rate_hz").get<double>());
 }
-
-struct Evaluator {
-  std::string_view metric;
-  Value (*value)(const Json& in);
-};
 
 constexpr Evaluator kEvaluators[] = {
     {"position_error_cm", [](const Json& in) -> Value { return IkErrors(in).position_cm; }},
@@ -288,19 +206,6 @@ constexpr Evaluator kEvaluators[] = {
     {"mask_f1", [](const Json& in) -> Value { return MasksOf(in).f1; }},
     {"shadow_error", [](const Json& in) -> Value { return MasksOf(in).shadow_error; }},
 
-    {"jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).jump_cm; }},
-    {"mean_joint_jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).mean_joint_jump_cm; }},
-    {"rotation_step_change_deg", [](const Json& in) -> Value { return SmoothnessOf(in).rotation_step_change_deg; }},
-    {"jerk_peak_mps3", [](const Json& in) -> Value { return SmoothnessOf(in).jerk_peak_mps3; }},
-    {"foot_slide_cmps", [](const Json& in) -> Value { return WorstFootSlide(in); }},
-    {"pose_gap_cm", [](const Json& in) -> Value { return WorstPoseGap(in); }},
-    {"velocity_gap_cmps", [](const Json& in) -> Value { return WorstVelocityGap(in); }},
-    {"false_smooth", FalseSmooth},
-    {"natural_share", [](const Json& in) -> Value { return IsNaturalJump(in) ? 1 : 0; }},
-    {"wait_s", [](const Json& in) -> Value { return Waited(in); }},
-    {"fuzzy_distance", [](const Json& in) -> Value { return WorstFuzzyDistance(in); }},
-    {"sparc", SparcOf},
-
     {"precision", [](const Json& in) -> Value { return Precision(ConfusionOf(in)); }},
     {"recall", [](const Json& in) -> Value { return Recall(ConfusionOf(in)); }},
     {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
@@ -309,12 +214,17 @@ constexpr Evaluator kEvaluators[] = {
     {"false_alarms_per_min", [](const Json& in) -> Value { return FalseAlarms(in); }},
 };
 
+const Evaluator* Find(std::span<const Evaluator> evaluators, std::string_view metric) {
+  const auto found = std::ranges::find(evaluators, metric, &Evaluator::metric);
+  return found == evaluators.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 Result<std::optional<double>> EvaluateMetric(std::string_view metric, const std::string& input_json) {
-  const auto* evaluator = std::find_if(std::begin(kEvaluators), std::end(kEvaluators),
-                                       [&](const Evaluator& entry) { return entry.metric == metric; });
-  if (evaluator == std::end(kEvaluators)) return Fail({}, "no function evaluates the metric '{}'", metric);
+  const Evaluator* evaluator = Find(kEvaluators, metric);
+  if (evaluator == nullptr) evaluator = Find(SwitchEvaluators(), metric);
+  if (evaluator == nullptr) return Fail({}, "no function evaluates the metric '{}'", metric);
   try {
     return evaluator->value(Json::parse(input_json));
   } catch (const Json::exception& error) {

@@ -41,7 +41,9 @@ double NaturalLimitCm(std::vector<double> natural_jumps);
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm);
 
 /// Mean over both feet and the second after frame `seam` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1):
-/// the horizontal speed of feet that should be standing. Needs a frame after the seam.
+/// the horizontal speed of feet that should be standing. Needs a frame after the seam. Heights are above y = 0, where
+/// every clip of a stage was set down: `FootSlide` (engine/motion/statistics), of clips whose floor nobody knows, takes
+/// each foot's lowest point instead, which a foot that a join pushes through the floor would move.
 double FootSlideCmps(const BodyMotion& motion, int seam);
 
 /// The worst joint between the frame left and the frame entered, already aligned on the floor.

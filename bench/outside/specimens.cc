@@ -25,6 +25,9 @@ const std::vector<Recipe>& Recipes() {
       {"detection", {"builtin:clap", "builtin:sway"}, {"{events: 4}", "{events: 8, noise: 2}"}},
       {"ik", {}, {"{joint_noise_deg: 5}", "{joint_noise_deg: 15}"}},
       {"tracking", {"builtin:clap"}, {"{duration_s: 0.2}", "{duration_s: 0.4, rate_hz: 15}"}},
+      {"search",
+       {"builtin:clap", "builtin:sway"},
+       {"{frames: 500, queries: 5}", "{frames: 500, queries: 5, query: within}"}},
       {"capture", {"builtin:clap"}, {"{duration_s: 0.1}", "{duration_s: 0.1, clothes: everyday}"}}};
   return recipes;
 }

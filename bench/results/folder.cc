@@ -75,6 +75,19 @@ Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   return {};
 }
 
+Result<void> LoadTimes(const fs::path& folder, RunData& run) {
+  const fs::path path = folder / "timings.jsonl";
+  if (std::error_code none; !fs::exists(path, none)) return {};
+  return ForEachLine(path, [&](const Json& json, const Place& place) -> Result<void> {
+    try {
+      run.cpu_seconds[json.at("cell").get<std::string>()] = json.at("cpu_s").get<double>();
+      return {};
+    } catch (const Json::exception& error) {
+      return Fail(place, "not a line of times: {}", error.what());
+    }
+  });
+}
+
 Result<void> LoadManifest(const fs::path& folder, RunData& run) {
   const auto manifest = ReadJsonFile(folder / "manifest.json");
   if (!manifest) return tl::unexpected(manifest.error());
@@ -158,6 +171,7 @@ Result<RunData> LoadRun(const fs::path& folder) {
   run.scenarios = std::move(*scenarios);
   if (auto loaded = LoadSeries(folder, run); !loaded) return tl::unexpected(loaded.error());
   if (auto loaded = LoadRecordings(folder, run); !loaded) return tl::unexpected(loaded.error());
+  if (auto loaded = LoadTimes(folder, run); !loaded) return tl::unexpected(loaded.error());
   return run;
 }
 

@@ -4,14 +4,30 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/scenario/methods.h"
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {
 namespace {
 
+/// The fuzzy system that a condition names, from the suite's texts.
+Result<FuzzySystem> FuzzySystemOf(const Condition& condition, const SourceTexts& texts) {
+  const Node* named = condition.node.Find(kFuzzyKey);
+  if (named == nullptr) return FuzzySystem{};
+  if (named->kind != Node::Kind::kScalar) {
+    return Fail(named->place, "'{}' must be builtin:NAME or a file, found {}", kFuzzyKey, Describe(*named));
+  }
+  return OpenFuzzySystem(named->scalar, named->place, [&](const std::string& file) -> Result<std::string> {
+    const auto text = texts.find(file);
+    if (text == texts.end()) return Fail(named->place, "the text of '{}' is missing", file);
+    return text->second;
+  });
+}
+
 /// One task per condition. The task reads its own keys from the condition's mapping; what neither it nor
 /// the scenario knows is refused here.
-Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, const ClipLibrary& clips) {
+Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, const ClipLibrary& clips,
+                                                     const SourceTexts& texts) {
   std::vector<Node> built_in;
   for (const MethodEntry& method : scenario.methods) {
     if (method.exec.empty()) built_in.push_back(method.node);
@@ -20,7 +36,9 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, c
   for (const Condition& condition : scenario.conditions) {
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
-    TaskInput input{fields, built_in, clips};
+    auto fuzzy = FuzzySystemOf(condition, texts);
+    if (!fuzzy) return tl::unexpected(fuzzy.error());
+    TaskInput input{fields, built_in, clips, *std::move(fuzzy)};
     auto task = FindTaskKind(scenario.task)->make(input);
     if (!task) return tl::unexpected(task.error());
     if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
@@ -95,7 +113,7 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   if (!clips) return tl::unexpected(clips.error());
   prepared.clips_ = std::make_unique<ClipLibrary>(std::move(*clips));
   prepared.setup_ = setup;
-  auto tasks = MakeTasks(prepared.scenario_, *prepared.clips_);
+  auto tasks = MakeTasks(prepared.scenario_, *prepared.clips_, suite.sources);
   if (!tasks) return tl::unexpected(tasks.error());
   prepared.tasks_ = std::move(*tasks);
   if (suite.scored) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "bench/files/files.h"
+#include "bench/tasks/base/fuzzy_key.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -23,12 +24,24 @@ std::string SuiteName(const std::vector<std::string>& paths) {
   return name.empty() || name == "." ? "suite" : name;
 }
 
-/// Keeps the text of a joint map among the sources, so that the manifest alone repeats the run.
-Result<void> ReadJointMap(const std::string& file, SourceTexts& texts) {
+/// Keeps the text of a file that a scenario names among the sources, so that the manifest alone repeats the run.
+Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   if (file.empty() || texts.contains(file)) return {};
   auto text = ReadWholeFile(file);
   if (!text) return tl::unexpected(text.error());
   texts[file] = std::move(*text);
+  return {};
+}
+
+/// Likewise of the fuzzy systems that its conditions name. What is no text is refused when the tasks are made.
+Result<void> KeepFuzzySystems(const Scenario& scenario, SourceTexts& texts) {
+  for (const Condition& condition : scenario.conditions) {
+    const Node* named = condition.node.Find(kFuzzyKey);
+    if (named == nullptr || named->kind != Node::Kind::kScalar || !IsFuzzyFile(named->scalar)) continue;
+    if (auto kept = KeepText(named->scalar, texts); !kept) {
+      return Fail(named->place, "{}", ToString(kept.error()));
+    }
+  }
   return {};
 }
 
@@ -85,7 +98,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       }
       const bool replaced = !options.clips.empty() && !scenario.clips.empty();
       const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
-      if (auto read = ReadJointMap(joint_map, suite.sources); !read) return tl::unexpected(read.error());
+      if (auto kept = KeepText(joint_map, suite.sources); !kept) return tl::unexpected(kept.error());
+      if (auto kept = KeepFuzzySystems(scenario, suite.sources); !kept) return tl::unexpected(kept.error());
       suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
                                  replaced ? options.clips : scenario.clips, joint_map, digest.Hex()});
     }

@@ -5,27 +5,56 @@
 #include "sim/choreography/move.h"
 
 namespace etude {
+namespace {
+
+std::vector<TrainingFrame> SampleFrames(const BodyMotion& motion, double standing_hip_height) {
+  const int all = static_cast<int>(motion.poses.size());
+  const int count = std::min(all, kFramesPerClip);
+  std::vector<TrainingFrame> frames;
+  for (int i = 0; i < count; ++i) {
+    const BodyPose& pose = motion.poses[(2 * i + 1) * all / (2 * count)];
+    frames.push_back({pose, ComputeFeatures(pose, standing_hip_height)});
+  }
+  return frames;
+}
+
+}  // namespace
 
 std::string MoveIdentity(const std::string& move) { return "builtin:" + move; }
 
-Result<TrainingClips> GatherTrainingClips(const MotionLibrary& library, const std::vector<std::string>& identities,
-                                          const TagRules& rules) {
-  TrainingClips training;
-  std::vector<BodyMotion> clips;
+TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
+                          const Physique& physique) {
+  TrainingClips training{.identities = std::move(identities), .frames = {}};
+  for (const BodyMotion& clip : clips) {
+    training.frames.push_back(SampleFrames(PerformedBy(physique, clip), physique.standing_hip_height));
+  }
+  return training;
+}
+
+Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
+                                          const Physique& physique) {
+  std::vector<std::string> known;
+  std::vector<BodyMotion> all;
   for (const std::string& name : BuiltinMoveNames()) {
     auto move = LoadBuiltinMove(name);
     if (!move) return tl::unexpected(move.error());
-    training.identities.push_back(MoveIdentity(name));
-    clips.push_back(std::move(move->motion));
+    known.push_back(MoveIdentity(name));
+    all.push_back(std::move(move->motion));
   }
+  std::vector<std::size_t> others;
+  std::vector<std::string> seen = known;
   for (std::size_t i = 0; i < identities.size(); ++i) {
-    const auto& known = training.identities;
-    if (std::find(known.begin(), known.end(), identities[i]) != known.end()) continue;
-    training.identities.push_back(identities[i]);
-    clips.push_back(library.motions[i]);
+    if (std::find(seen.begin(), seen.end(), identities[i]) != seen.end()) continue;
+    seen.push_back(identities[i]);
+    others.push_back(i);
   }
-  training.library = MakeLibrary(training.identities, clips, library.physique, rules);
-  return training;
+  const std::size_t wanted = std::min(others.size(), kMostTrainingClips - known.size());
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const std::size_t other = others[i * others.size() / wanted];
+    known.push_back(identities[other]);
+    all.push_back(clips[other]);
+  }
+  return SampleClips(std::move(known), all, physique);
 }
 
 }  // namespace etude

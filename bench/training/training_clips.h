@@ -1,24 +1,44 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/bridging/library.h"
+#include "engine/bridging/one_character.h"
+#include "engine/fuzzy/features.h"
 
 namespace etude {
 
-/// Clips to learn from. What is learnt for a switch never saw the two clips that it is judged by.
-struct TrainingClips {
-  std::vector<std::string> identities;  ///< equal for equal dances: "builtin:clap", or the file
-  MotionLibrary library;
+/// A frame to learn from. Its grades are left open, because membership functions may be what is learnt.
+struct TrainingFrame {
+  BodyPose pose;
+  PoseFeatures features;
 };
+
+/// Clips to learn from, danced by one body. What is learnt for a switch never saw the two clips that it is judged by.
+struct TrainingClips {
+  std::vector<std::string> identities;             ///< equal for equal dances: "builtin:clap", or the file
+  std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
+};
+
+/// Frames taken of a clip, in the middles of as many equal parts, so that long clips count no more than short ones;
+/// all frames of a shorter clip.
+constexpr int kFramesPerClip = 16;
 
 /// The name of a built-in move's dance.
 std::string MoveIdentity(const std::string& move);
 
-/// Every built-in move, and the clips of `library` that are none, by their identities; tagged anew by `rules`.
-Result<TrainingClips> GatherTrainingClips(const MotionLibrary& library, const std::vector<std::string>& identities,
-                                          const TagRules& rules = {});
+/// Samples clips as they came, after `physique` has danced them.
+TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
+                          const Physique& physique);
+
+/// Pairs grow with the square of the clips: more would make learning slow, and teach little.
+constexpr std::size_t kMostTrainingClips = 40;
+
+/// Every built-in move, and those of `clips` that are none, by their identities; all danced by `physique`. Of more than
+/// kMostTrainingClips, evenly chosen ones.
+Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
+                                          const Physique& physique);
 
 }  // namespace etude

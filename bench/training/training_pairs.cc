@@ -1,33 +1,56 @@
 #include "bench/training/training_pairs.h"
 
+#include "bench/metrics/pose_distance.h"
 #include "engine/bridging/alignment.h"
 
 namespace etude {
 namespace {
 
-/// `wanted` frames in the middles of equal parts of the clip; all frames of a shorter one.
-std::vector<int> SampleFrames(int frame_count, int wanted) {
-  std::vector<int> frames;
-  const int count = std::min(frame_count, wanted);
-  for (int i = 0; i < count; ++i) frames.push_back((2 * i + 1) * frame_count / (2 * count));
-  return frames;
+std::vector<Grades> GradesOf(std::span<const TrainingFrame> frames, const Memberships& memberships) {
+  std::vector<Grades> grades;
+  for (const TrainingFrame& frame : frames) grades.push_back(Fuzzify(frame.features, memberships));
+  return grades;
 }
 
 }  // namespace
 
-std::vector<LabelledPair> LabelPairs(const TrainingClip& a, const TrainingClip& b, const TrainingOptions& options) {
+std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
+                                     const Memberships& memberships) {
+  const std::vector<Grades> grades_a = GradesOf(a, memberships), grades_b = GradesOf(b, memberships);
   std::vector<LabelledPair> pairs;
-  const std::vector<int> frames_a = SampleFrames(a.tagged->FrameCount(), options.frames_per_clip);
-  const std::vector<int> frames_b = SampleFrames(b.tagged->FrameCount(), options.frames_per_clip);
-  pairs.reserve(frames_a.size() * frames_b.size());
-  for (int frame_a : frames_a) {
-    for (int frame_b : frames_b) {
-      const double gap = PoseGap(a.motion->poses[frame_a], b.motion->poses[frame_b]);
-      pairs.push_back(
-          {SquaredGradeGaps(a.tagged->grades[frame_a], b.tagged->grades[frame_b]), gap < options.close_gap});
+  pairs.reserve(a.size() * b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      pairs.push_back({SquaredGradeGaps(grades_a[i], grades_b[j]), PoseGap(a[i].pose, b[j].pose) < kCloseGap});
     }
   }
   return pairs;
+}
+
+std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingFrame>> clips,
+                                           const Memberships& memberships) {
+  std::vector<LabelledPair> all;
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    for (std::size_t j = i + 1; j < clips.size(); ++j) {
+      const std::vector<LabelledPair> pairs = LabelPairs(clips[i], clips[j], memberships);
+      all.insert(all.end(), pairs.begin(), pairs.end());
+    }
+  }
+  return all;
+}
+
+void GradeAnew(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
+               std::span<LabelledPair> pairs) {
+  std::vector<std::vector<Grades>> grades;
+  for (const std::vector<TrainingFrame>& frames : clips) grades.push_back(GradesOf(frames, memberships));
+  auto pair = pairs.begin();
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    for (std::size_t j = i + 1; j < clips.size(); ++j) {
+      for (const Grades& a : grades[i]) {
+        for (const Grades& b : grades[j]) (pair++)->squared_gaps = SquaredGradeGaps(a, b);
+      }
+    }
+  }
 }
 
 }  // namespace etude

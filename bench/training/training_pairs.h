@@ -1,24 +1,25 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "engine/bridging/bridge_frames.h"
+#include "bench/training/training_clips.h"
+#include "engine/fuzzy/membership.h"
 #include "engine/fuzzy/weights.h"
 
 namespace etude {
 
-/// A clip to learn from: its poses and what the fuzzy side makes of them.
-struct TrainingClip {
-  const BodyMotion* motion = nullptr;
-  const TaggedClip* tagged = nullptr;
-};
+/// Every pair of a frame of `a` and one of `b`, labelled close when its true pose gap is below kCloseGap.
+std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
+                                     const Memberships& memberships = PaperMemberships());
 
-struct TrainingOptions {
-  double close_gap = 0.15;   ///< metres: a pair is "close" when its PoseGap is below
-  int frames_per_clip = 16;  ///< evenly spaced, so that long clips count no more than short ones
-};
+/// The pairs of all these clips, two different clips each.
+std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingFrame>> clips,
+                                           const Memberships& memberships = PaperMemberships());
 
-/// Every pair of sampled frames of the two clips, labelled by its true pose gap.
-std::vector<LabelledPair> LabelPairs(const TrainingClip& a, const TrainingClip& b, const TrainingOptions& options = {});
+/// Puts other memberships' gaps into the pairs that LabelPairsAcross made of the same clips: much quicker, because
+/// poses are not compared again.
+void GradeAnew(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
+               std::span<LabelledPair> pairs);
 
 }  // namespace etude

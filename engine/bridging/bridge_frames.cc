@@ -1,8 +1,9 @@
 #include "engine/bridging/bridge_frames.h"
 
-#include <cmath>
-#include <cstdint>
+#include <algorithm>
 #include <map>
+
+#include "engine/bridging/frame_ratings.h"
 
 namespace etude {
 namespace {
@@ -23,30 +24,20 @@ glm::dvec3 NeckInTrunk(const BodyPose& pose) {
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 
-/// The ten tags as one number; no feature has more than four terms.
-std::uint32_t TagKey(const Tags& tags) {
-  std::uint32_t key = 0;
-  for (std::uint8_t tag : tags) key = key * 4 + tag;
-  return key;
-}
-
-struct Occurrence {
-  int clips = 0;
-  std::size_t last_clip = 0;
-};
-
-/// In how many clips each combination of tags occurs.
-std::map<std::uint32_t, Occurrence> CountClips(const std::vector<TaggedClip>& clips) {
-  std::map<std::uint32_t, Occurrence> occurrences;
-  for (std::size_t c = 0; c < clips.size(); ++c) {
-    for (const Tags& tags : clips[c].tags) {
-      Occurrence& occurrence = occurrences[TagKey(tags)];
-      if (occurrence.clips > 0 && occurrence.last_clip == c) continue;
-      ++occurrence.clips;
-      occurrence.last_clip = c;
-    }
+/// Keeps of each class the frames of smallest difference, the earlier one on a tie.
+std::vector<int> KeepMostAlike(const std::vector<int>& frames, const TaggedClip& clip,
+                               const std::vector<FrameRating>& ratings, int most_per_class) {
+  std::map<Tags, std::vector<int>> classes;
+  for (int frame : frames) classes[clip.tags[frame]].push_back(frame);
+  std::vector<int> kept;
+  for (auto& [tags, members] : classes) {
+    std::stable_sort(members.begin(), members.end(),
+                     [&](int a, int b) { return ratings[a].difference < ratings[b].difference; });
+    const std::size_t count = std::min(members.size(), static_cast<std::size_t>(most_per_class));
+    kept.insert(kept.end(), members.begin(), members.begin() + static_cast<std::ptrdiff_t>(count));
   }
-  return occurrences;
+  std::sort(kept.begin(), kept.end());
+  return kept;
 }
 
 }  // namespace
@@ -78,13 +69,14 @@ std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double stand
       clip.tags.push_back(ChooseTags(clip.grades.back()));
     }
   }
-  const std::map<std::uint32_t, Occurrence> occurrences = CountClips(tagged);
+  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, rules.weights);
   for (std::size_t c = 0; c < clips.size(); ++c) {
     const std::vector<bool> quiet = FindQuietHeads(clips[c], rules.head);
+    std::vector<int>& frames = tagged[c].bridge_frames;
     for (int f = 0; f < tagged[c].FrameCount(); ++f) {
-      const bool is_frequent = occurrences.at(TagKey(tagged[c].tags[f])).clips >= rules.min_clips;
-      if (quiet[f] && is_frequent) tagged[c].bridge_frames.push_back(f);
+      if (quiet[f] && ratings[c][f].clips >= rules.min_clips) frames.push_back(f);
     }
+    if (rules.most_per_class > 0) frames = KeepMostAlike(frames, tagged[c], ratings[c], rules.most_per_class);
   }
   return tagged;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/fuzzy/distance.h"
 #include "engine/fuzzy/membership.h"
 #include "engine/motion/body.h"
 
@@ -33,10 +34,15 @@ struct TagRules {
   Memberships memberships = PaperMemberships();
   HeadRule head;
   int min_clips = 2;  ///< in how many clips a bridge frame's ten tags occur together at least; ours
+  /// Of each clip's frames with the same ten tags, only so many: those of smallest difference to the other clips
+  /// (RateFrames). 0 = all: paper A wants "those of smallest difference", and as many as can be, for freedom.
+  int most_per_class = 0;
+  FeatureWeights weights = PaperWeights();  ///< of that difference
 };
 
 /// Marks the bridge frames of a library (algorithms A4): frames whose ten tags occur together in enough of its clips,
-/// and whose head is quiet. `standing_hip_height` is the one of the body that performs all clips, metres.
+/// and whose head is quiet; of those `most_per_class`. `standing_hip_height` is the one of the body that performs all
+/// clips, metres.
 std::vector<TaggedClip> TagClips(std::span<const BodyMotion> clips, double standing_hip_height,
                                  const TagRules& rules = {});
 

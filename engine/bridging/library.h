@@ -5,6 +5,7 @@
 
 #include "engine/bridging/bridge_frames.h"
 #include "engine/bridging/in_between.h"
+#include "engine/bridging/motion_features.h"
 #include "engine/bridging/one_character.h"
 #include "engine/motion/body.h"
 
@@ -15,12 +16,14 @@ struct MotionLibrary {
   Physique physique;
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
-  std::vector<TaggedClip> tagged;  ///< as `motions`, frame by frame
+  std::vector<TaggedClip> tagged;                     ///< as `motions`, frame by frame
+  std::vector<std::vector<MotionFeatures>> features;  ///< as `motions`, frame by frame
   InBetweenNet in_betweens;
 };
 
-/// Makes a library of clips as they came: lets `physique` dance them, tags them by `rules`, and builds the in-betweens.
+/// Makes a library of clips as they came: lets `physique` dance them, tags them by `rules`, and builds in-betweens that
+/// move by `tween`.
 MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips, const Physique& physique,
-                          const TagRules& rules = {});
+                          const TagRules& rules = {}, const TweenRules& tween = {});
 
 }  // namespace etude

@@ -18,6 +18,12 @@ struct SwitchRules {
   double threshold = kPaperThreshold;
   Pick pick = Pick::kFirst;
   bool within_class = false;  ///< ours: compare only frames with the same ten tags
+  /// Of the choices that compare stretches of motion instead of frames. Kovar, Gleicher and Pighin (2002) take about a
+  /// third of a second.
+  double window_s = 1.0 / 3;
+  /// Of the choices that may enter any frame: what must be left to play after it, seconds; but a clip's front half may
+  /// always be entered. Ours.
+  double least_play_s = 1;
 };
 
 /// Two bridge frames that may be switched: `from` in the playing clip, `to` in the next one.

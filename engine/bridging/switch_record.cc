@@ -20,6 +20,8 @@ std::string_view BranchName(Branch branch) {
       return "in-between";
     case Branch::kForced:
       return "forced";
+    case Branch::kUnbroken:
+      return "unbroken";
   }
   return "";
 }

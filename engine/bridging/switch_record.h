@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,8 +20,8 @@ struct SwitchRequest {
 };
 
 /// Which way a switch took.
-enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kInBetween, kForced };
-/// "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced".
+enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kInBetween, kForced, kUnbroken };
+/// "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
 /// A run of frames that is shown: of a clip, or made by the method itself.
@@ -62,7 +63,7 @@ struct SwitchRecord {
   std::vector<Leg> legs;  ///< none when there is no way; two for a direct switch, three with an in-between
   std::vector<FuzzyDistance> meetings;  ///< of the frames that meet, one per seam: legs.size() − 1
   std::vector<Candidate> candidates;    ///< taken, and the best of the others: at most kMostCandidates, by frames
-  std::int64_t pairs_seen = 0;          ///< pairs of frames compared on the way
+  std::int64_t pairs_seen = 0;          ///< pairs of frames that the budget allowed, those after a first match too
   std::int64_t pairs_matched = 0;       ///< those of them that may be switched
   double wait_s = 0;                    ///< from the request until the wanted clip plays
   std::string cost_unit;                ///< of the candidates' `cost`: "cm", … ; empty when there is none

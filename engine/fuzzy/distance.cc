@@ -17,14 +17,6 @@ double SquaredGap(const Grades& a, const Grades& b, Feature feature) {
 
 }  // namespace
 
-FeatureWeights PaperWeights() {
-  using enum Feature;
-  FeatureWeights weights;
-  weights.fill(1.0);
-  for (Feature foot : {kRF, kLF, kRFK, kLFK}) weights[static_cast<std::size_t>(foot)] = 0.5;
-  return weights;
-}
-
 PerFeature SquaredGradeGaps(const Grades& a, const Grades& b) {
   PerFeature gaps;
   for (std::size_t k = 0; k < kFeatureCount; ++k) gaps[k] = SquaredGap(a, b, AllFeatures()[k]);

@@ -13,7 +13,8 @@ using PerFeature = std::array<double, kFeatureCount>;
 using FeatureWeights = PerFeature;
 constexpr double kWeightSum = 8;
 
-/// Paper A's weights: hands and body 1, feet 0.5 (A says only hands = body > feet; the values are ours).
+/// Paper A's weights, as scenarios/fuzzy/paper.yaml holds them: hands and body 1, feet 0.5 (A says only hands = body >
+/// feet; the values are ours).
 FeatureWeights PaperWeights();
 
 /// Two frames closer than this may be switched (paper A).

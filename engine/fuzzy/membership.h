@@ -35,7 +35,8 @@ struct Memberships {
   std::array<Shape, kTermCount> shapes{};  ///< in the order of `AllTerms`
 };
 
-/// Equations 2–16. Elbow, trunk and knee grades do not sum to 1: so printed, so kept.
+/// Equations 2–16, as scenarios/fuzzy/paper.yaml holds them. Elbow, trunk and knee grades do not sum to 1: so printed,
+/// so kept.
 const Memberships& PaperMemberships();
 
 /// How far a pose belongs to each of the 24 terms, in the order of `AllTerms`.

@@ -23,8 +23,25 @@ struct At {
   double operator()(const Singleton& s) const { return x == s.at ? 1.0 : 0.0; }
 };
 
+struct CutAt {
+  double grade;
+  Cut operator()(const Triangular& s) const { return Sides(s.left, s.peak, s.peak, s.right); }
+  Cut operator()(const Trapezoidal& s) const { return Sides(s.left, s.left_top, s.right_top, s.right); }
+  Cut operator()(const Gaussian& s) const {
+    const double reach = s.sigma * std::sqrt(-2 * std::log(grade));
+    return {s.mean - reach, s.mean + reach};
+  }
+  Cut operator()(const Singleton& s) const { return {s.at, s.at}; }
+  Cut Sides(double left, double left_top, double right_top, double right) const {
+    // From the top, so that grade 1 gives the top itself.
+    return {left_top - (1 - grade) * (left_top - left), right_top + (1 - grade) * (right - right_top)};
+  }
+};
+
 }  // namespace
 
 double GradeOf(const Shape& shape, double input) { return std::visit(At{input}, shape); }
+
+Cut CutOf(const Shape& shape, double grade) { return std::visit(CutAt{grade}, shape); }
 
 }  // namespace etude

@@ -22,4 +22,12 @@ using Shape = std::variant<Triangular, Trapezoidal, Gaussian, Singleton>;
 /// The grade of membership of an input, in [0, 1].
 double GradeOf(const Shape& shape, double input);
 
+struct Cut {
+  double low = 0, high = 0;  ///< closed
+};
+
+/// The α-cut: the inputs of at least this grade, in (0, 1]. One interval, since every shape is convex. Grade 0 gives
+/// the support of a shape with straight sides.
+Cut CutOf(const Shape& shape, double grade);
+
 }  // namespace etude

@@ -47,18 +47,6 @@ std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, st
   return std::nullopt;
 }
 
-std::string ClipInWords(std::string name) {
-  constexpr std::string_view kBuiltin = "builtin:";
-  if (name.starts_with(kBuiltin)) name.erase(0, kBuiltin.size());
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
-const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
-  const auto found = std::ranges::find(recording.tracks, name, &Track::name);
-  return found == recording.tracks.end() ? nullptr : &found->motion;
-}
-
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name) {
   const auto cell = std::ranges::find(run.series, row.Id(), &CellSeries::cell);
   if (cell == run.series.end()) return nullptr;

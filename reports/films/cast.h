@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/results/run_data.h"
+#include "reports/switches/switch_facts.h"
 
 namespace etude {
 
@@ -18,12 +19,6 @@ struct CastCell {
 /// this track, those of the method that answers the scenario's question (else of any method), and of
 /// these the one in the middle by the first headline metric. A typical cell, not the best one.
 std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
-
-/// A clip's name as people say it: "builtin:side_kick" is "side kick".
-std::string ClipInWords(std::string name);
-
-/// The motion of that name, or null.
-const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
 
 /// The curve of that name of a cell, or null.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);

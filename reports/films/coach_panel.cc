@@ -3,11 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "reports/films/followed_way.h"
+#include "reports/films/jump_strip.h"
 #include "reports/films/look.h"
+#include "reports/films/seam_bars.h"
+#include "reports/films/switch_panel.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 
@@ -25,26 +26,11 @@ constexpr double kDetail = 1.5;
 constexpr int kFollowFrames = 30;
 // How close to the room's wall the hips may come.
 constexpr double kNearestToWall = 1.0;
-// How long the change stays marked after the seam.
+// How long the change stays marked after the seam, and how long its distances are shown around it.
 constexpr int kMarkFrames = 15;
-
-std::string TextOf(const Json& json, const char* key) {
-  const auto found = json.find(key);
-  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
-}
-
-// "seam_frames" when the change went through an in-between clip, else "seam_frame"; those inside the motion.
-std::vector<int> SeamsOf(const Json& extras, int frames) {
-  const Json all = extras.value("seam_frames", Json::array());
-  std::vector<int> seams;
-  const auto add = [&](const Json& seam) {
-    if (seam.is_number_integer() && seam >= 0 && seam < frames) seams.push_back(seam.get<int>());
-  };
-  for (const Json& seam : all.is_array() ? all : Json::array()) add(seam);
-  if (seams.empty()) add(extras.value("seam_frame", Json()));
-  std::ranges::sort(seams);
-  return seams;
-}
+constexpr int kBarsBefore = 15, kBarsAfter = 60;
+// Beside the feet, above the time line.
+constexpr double kBarsWidth = 320, kBarsLift = 34;
 
 // Turned to face the camera at the seam, in the middle of the room, never behind its wall.
 void PutOnStage(BodyMotion& motion, int seam) {
@@ -63,32 +49,34 @@ Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 }  // namespace
 
 Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
-  const Json extras = Json::parse(cell.recording->extras_json, nullptr, false);
-  const Place place{.file = "recording " + cell.row->Id()};
-  if (!extras.is_object()) return Fail(place, "its extras are no JSON object");
+  auto facts = ReadSwitchFacts(*cell.recording, cell.row->Id());
+  if (!facts) return tl::unexpected(facts.error());
+  if (facts->seam_frames.empty()) {
+    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole seam_frame within the motion");
+  }
   CoachPanel panel;
   panel.bear_ = BearCharacter();
-  panel.from_ = ClipInWords(TextOf(extras, "from"));
-  panel.to_ = ClipInWords(TextOf(extras, "to"));
-  panel.branch_ = TextOf(extras, "branch");
+  panel.facts_ = *std::move(facts);
   panel.method_ = cell.row->method;
   panel.motion_ = *FindTrack(*cell.recording, "coach");
-  auto& poses = panel.motion_.poses;
-  const int count = static_cast<int>(poses.size());
-  panel.seams_ = SeamsOf(extras, count);
-  if (panel.seams_.empty()) return Fail(place, "its extras lack a whole seam_frame within the motion");
-  if (count > longest) {
-    const int first = std::clamp(panel.Seam() - longest / 2, 0, count - longest);
-    poses = {poses.begin() + first, poses.begin() + first + longest};
-    for (int& seam : panel.seams_) seam -= first;
-    std::erase_if(panel.seams_, [&](int seam) { return seam >= longest; });
-  }
+  panel.CutTo(longest);
   PutOnStage(panel.motion_, panel.Seam());
   panel.followed_ = FollowedWay(panel.motion_, kFollowFrames);
   return panel;
 }
 
-std::string CoachPanel::Title() const { return fmt::format("{} → {}, by {}", from_, to_, method_); }
+void CoachPanel::CutTo(int longest) {
+  auto& poses = motion_.poses;
+  const int count = static_cast<int>(poses.size());
+  if (count <= longest) return;
+  const int first = std::clamp(Seam() - longest / 2, 0, count - longest);
+  poses = {poses.begin() + first, poses.begin() + first + longest};
+  for (int& seam : facts_.seam_frames) seam -= first;
+  std::erase_if(facts_.seam_frames, [&](int seam) { return seam >= longest; });
+  if (facts_.request_frame) *facts_.request_frame -= first;
+}
+
+std::string CoachPanel::Title() const { return fmt::format("{} → {}, by {}", facts_.from, facts_.to, method_); }
 
 Camera CoachPanel::CameraAt(int frame, double width, double height) const {
   Intrinsics inside;
@@ -108,29 +96,52 @@ void CoachPanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int 
   const Camera camera = CameraAt(frame, panel.width * kDetail, panel.height * kDetail);
   canvas.DrawImage(renderer.Render(Room{}, coach, camera, Targets::kColour).colour, panel, kPanelRadius);
   DrawTag(canvas, panel, shown_before ? "The coach · shown again" : "The coach");
-  const std::string how = branch_.empty() ? method_ : fmt::format("{} · {}", method_, branch_);
-  DrawCaption(canvas, panel, fmt::format("{}  →  {}", from_, to_), "changes moves by " + how, 18);
+  const std::string how = facts_.branch.empty() ? method_ : fmt::format("{} · {}", method_, facts_.branch);
+  const std::string countdown = CountdownAt(frame);
+  DrawCaption(canvas, panel, fmt::format("{}  →  {}", facts_.from, facts_.to),
+              fmt::format("changes moves by {}{}{}", how, countdown.empty() ? "" : " · ", countdown), 18);
   DrawTimeline(canvas, panel, frame);
+  DrawSeam(canvas, panel, frame);
+}
+
+std::string CoachPanel::CountdownAt(int frame) const {
+  if (!facts_.request_frame) return "";
+  const int request = *facts_.request_frame;
+  return CountdownWords(facts_.to, frame - request, facts_.seam_frames.back() - request, motion_.rate_hz);
 }
 
 void CoachPanel::DrawTimeline(Canvas& canvas, const Box& panel, int frame) const {
   const double left = panel.x + 16, width = panel.width - 32, y = panel.y + panel.height - 18;
   const double last = std::max(1, Frames() - 1);
   const auto place = [&](int at) { return left + width * at / last; };
-  const double first = place(seams_.front()), second = place(seams_.back());
-  canvas.DrawLine({left, y}, {first, y}, 4, Faded(kAccent));
-  canvas.DrawLine({first, y}, {second, y}, 4, Faded(kSoftInk));
-  canvas.DrawLine({second, y}, {left + width, y}, 4, Faded(kWarm));
-  for (const int seam : seams_) canvas.DrawLine({place(seam), y - 8}, {place(seam), y + 8}, 2, kInk);
-  canvas.DrawDot({place(frame), y}, 6, frame < seams_.front() ? kAccent : frame < seams_.back() ? kSoftInk : kWarm);
-  const bool just_changed =
-      std::ranges::any_of(seams_, [&](int seam) { return frame >= seam && frame < seam + kMarkFrames; });
-  if (just_changed) {
-    const double label_width = canvas.TextWidth("change", 13, true) + 20;
-    const double x = panel.x + panel.width - 12 - label_width;
-    canvas.FillBox({x, panel.y + 12, label_width, 24}, kWarm, 12);
-    canvas.DrawText({x + 10, panel.y + 28.5}, "change", 13, kBackdrop, label_width, true);
+  const std::vector<int>& seams = facts_.seam_frames;
+  double from = left;
+  for (std::size_t leg = 0; leg <= seams.size(); ++leg) {
+    const double to = leg < seams.size() ? place(seams[leg]) : left + width;
+    canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfLeg(facts_, leg)));
+    from = to;
   }
+  for (const int seam : seams) canvas.DrawLine({place(seam), y - 8}, {place(seam), y + 8}, 2, kInk);
+  if (facts_.request_frame && *facts_.request_frame >= 0) {
+    canvas.DrawRing({place(std::min(*facts_.request_frame, Frames() - 1)), y}, 5, 2, kInk);
+  }
+  const auto passed = static_cast<std::size_t>(std::ranges::count_if(seams, [&](int seam) { return seam <= frame; }));
+  canvas.DrawDot({place(frame), y}, 6, PaintOfLeg(facts_, passed));
+}
+
+void CoachPanel::DrawSeam(Canvas& canvas, const Box& panel, int frame) const {
+  const std::vector<int>& seams = facts_.seam_frames;
+  const auto is_near = [&](int seam) { return frame >= seam - kBarsBefore && frame < seam + kBarsAfter; };
+  const auto near = std::ranges::find_if(seams.rbegin(), seams.rend(), is_near);
+  if (near == seams.rend()) return;
+  const auto meeting = static_cast<std::size_t>(seams.rend() - near) - 1;
+  const Box bars{panel.x + panel.width - kBarsWidth - 12, panel.y + panel.height - kBarsLift - kSeamBarsHeight,
+                 kBarsWidth, kSeamBarsHeight};
+  if (meeting < facts_.meetings.size() && facts_.meetings[meeting].partials) {
+    canvas.FillBox(bars, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
+    DrawSeamBars(canvas, bars, facts_, meeting);
+  }
+  if (frame >= *near && frame < *near + kMarkFrames) DrawMark(canvas, panel, "change");
 }
 
 }  // namespace etude

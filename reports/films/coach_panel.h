@@ -6,12 +6,13 @@
 #include "engine/motion/character.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
+#include "reports/switches/switch_facts.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
 
 /// The left half of the film: the coach changes from one move to another, seen from the front by a
-/// camera that follows when it must.
+/// camera that follows when it must. Around each seam stand the distances of the frames that met.
 class CoachPanel {
  public:
   /// Cuts the recording to at most `longest` frames around the seam. Fails when the recording's facts
@@ -20,20 +21,24 @@ class CoachPanel {
 
   int Frames() const { return static_cast<int>(motion_.poses.size()); }
   /// The first frame after the change (after the first change, when it goes through an in-between clip).
-  int Seam() const { return seams_.front(); }
+  int Seam() const { return facts_.seam_frames.front(); }
   /// "clap → side kick, by fuzzy-bridge"
   std::string Title() const;
   void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
 
  private:
   Camera CameraAt(int frame, double width, double height) const;
+  /// Keeps at most `longest` frames around the first seam.
+  void CutTo(int longest);
+  std::string CountdownAt(int frame) const;
   void DrawTimeline(Canvas& canvas, const Box& panel, int frame) const;
+  void DrawSeam(Canvas& canvas, const Box& panel, int frame) const;
 
   Character bear_;
   BodyMotion motion_;
   std::vector<glm::dvec3> followed_;  ///< what the camera follows, one per frame
-  std::vector<int> seams_;            ///< in order; at least one
-  std::string from_, to_, method_, branch_;
+  SwitchFacts facts_;                 ///< of the motion as cut; at least one seam
+  std::string method_;
 };
 
 }  // namespace etude

@@ -1,18 +1,29 @@
 #include "reports/films/look.h"
 
+#include <algorithm>
+
 namespace etude {
 namespace {
 
 constexpr double kMargin = 16;
+constexpr double kTagSize = 13, kTagHeight = 24, kTagInset = 12;
 constexpr double kStrongSize = 19;
 constexpr double kSoftSize = 14;
 
 }  // namespace
 
-void DrawTag(Canvas& canvas, const Box& panel, const std::string& text) {
-  const double width = canvas.TextWidth(text, 13, true) + 20;
-  canvas.FillBox({panel.x + 12, panel.y + 12, width, 24}, {0.05, 0.06, 0.07, 0.72}, 12);
-  canvas.DrawText({panel.x + 22, panel.y + 28.5}, text, 13, kInk, width, true);
+void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free) {
+  const double width = std::min(canvas.TextWidth(text, kTagSize, true) + 20, panel.width - 2 * kTagInset - free);
+  canvas.FillBox({panel.x + kTagInset, panel.y + kTagInset, width, kTagHeight}, {0.05, 0.06, 0.07, 0.72},
+                 kTagHeight / 2);
+  canvas.DrawText({panel.x + kTagInset + 10, panel.y + 28.5}, text, kTagSize, kInk, width - 19, true);
+}
+
+void DrawMark(Canvas& canvas, const Box& panel, const std::string& text) {
+  const double width = canvas.TextWidth(text, kTagSize, true) + 20;
+  const double x = panel.x + panel.width - kTagInset - width;
+  canvas.FillBox({x, panel.y + kTagInset, width, kTagHeight}, kWarm, kTagHeight / 2);
+  canvas.DrawText({x + 10, panel.y + 28.5}, text, kTagSize, kBackdrop, width, true);
 }
 
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift) {

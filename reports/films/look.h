@@ -14,8 +14,11 @@ inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
 inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
 inline constexpr double kPanelRadius = 10;
 
-/// A small label in the upper left corner: what this picture is.
-void DrawTag(Canvas& canvas, const Box& panel, const std::string& text);
+/// A small label in the upper left corner: what this picture is. It leaves `free` pixels on its right.
+void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free = 0);
+
+/// A small bright label in the upper right corner: something has just happened.
+void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 
 /// One or two lines in the lower left corner over a soft shade; `strong` may be empty.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);

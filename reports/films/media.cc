@@ -11,6 +11,8 @@
 #include "reports/films/film.h"
 #include "reports/films/picture_strip.h"
 #include "reports/films/stage_scene.h"
+#include "reports/films/switch_race.h"
+#include "reports/films/switch_scene.h"
 #include "reports/words/file_name.h"
 
 namespace etude {
@@ -39,6 +41,9 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& la
   std::string& why = media.film.why_not;
   const auto coach_cell = ChooseCell(run, "transition", "coach");
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
+  // A coach alone is seen better beside the other methods.
+  const auto compares = [&](const ScenarioSummary& scenario) { return FindSwitchRace(run, scenario).has_value(); };
+  if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
     why = "There is no film of coach and cameras: this run kept no recordings of a coach or a capture.";
     return;
@@ -76,13 +81,14 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& la
   media.film = std::move(film);
 }
 
-Film MakeConvergenceFilm(const RunData& run, const ScenarioSummary& scenario, const std::filesystem::path& path,
-                         LazyRenderer& lazy) {
+/// Methods side by side in one world; or, in words, why there is no film of `what`.
+template <typename SideBySide, typename Race>
+Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
+                       const std::filesystem::path& path, LazyRenderer& lazy) {
   Film film;
   film.file = path.filename().string();
-  auto race = FindIkRace(run, scenario);
   if (!race) {
-    film.why_not = "There is no film of two methods settling: " + ToString(race.error()) + ".";
+    film.why_not = fmt::format("There is no film of {}: {}.", what, ToString(race.error()));
     return film;
   }
   const auto renderer = lazy.Get();
@@ -90,8 +96,15 @@ Film MakeConvergenceFilm(const RunData& run, const ScenarioSummary& scenario, co
     film.why_not = "There are no pictures: " + ToString(renderer.error());
     return film;
   }
-  ConvergenceScene scene(std::move(*race), scenario.name, **renderer);
+  SideBySide scene(std::move(*race), scenario, **renderer);
   return Shoot(scene, path);
+}
+
+/// "convergence.mp4", or, of several scenarios of one task, "convergence-SCENARIO.mp4".
+std::string FilmName(const RunData& run, std::size_t index, std::string_view what) {
+  const ScenarioSummary& scenario = run.scenarios[index];
+  const bool alone = std::ranges::count(run.scenarios, scenario.task, &ScenarioSummary::task) == 1;
+  return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
 }  // namespace
@@ -100,13 +113,19 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths) {
   Media media;
   LazyRenderer renderer;
   MakeStageFilm(run, paths, renderer, media);
-  const auto is_ik = [](const ScenarioSummary& scenario) { return scenario.task == "ik"; };
-  const bool alone = std::ranges::count_if(run.scenarios, is_ik) == 1;
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
-    if (!is_ik(scenario)) continue;
-    const std::string file = alone ? "convergence.mp4" : "convergence-" + FileNameOf(scenario.name, i) + ".mp4";
-    media.scenario_films.push_back({scenario.name, MakeConvergenceFilm(run, scenario, paths.films / file, renderer)});
+    Film film;
+    if (scenario.task == "ik") {
+      film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
+                                                 paths.films / FilmName(run, i, "convergence"), renderer);
+    } else if (auto race = FindSwitchRace(run, scenario)) {
+      film = MakeComparingFilm<SwitchScene>(std::move(race), scenario.name, "methods switching",
+                                            paths.films / FilmName(run, i, "switches"), renderer);
+    } else {
+      continue;
+    }
+    media.scenario_films.push_back({scenario.name, std::move(film)});
   }
   return media;
 }

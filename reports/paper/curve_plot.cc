@@ -43,15 +43,18 @@ std::string Line(const PlotCurve& curve, const PlotAxes& axes) {
     points += fmt::format("{}{:.1f},{:.1f}", i == 0 ? "" : " ", Across(static_cast<double>(i), axes),
                           Down(DecadeOf(curve.values[i], axes), axes));
   }
-  return fmt::format("<polyline class=\"c{}{}\"{} points=\"{}\"/>", curve.style % 8, curve.faint ? " faint" : "",
-                     DashesOf(curve.style), points);
+  return fmt::format("<polyline {} points=\"{}\"/>", CurveStyle(curve.style, curve.faint), points);
+}
+
+}  // namespace
+
+std::string CurveStyle(std::size_t style, bool faint) {
+  return fmt::format("class=\"c{}{}\"{}", style % 8, faint ? " faint" : "", DashesOf(style));
 }
 
 std::string DecadeText(int decade) {
   return decade >= -2 && decade <= 3 ? fmt::format("{:g}", std::pow(10.0, decade)) : fmt::format("1e{}", decade);
 }
-
-}  // namespace
 
 PlotAxes AxesFor(const std::vector<const PlotCurve*>& curves) {
   PlotAxes axes;
@@ -90,9 +93,8 @@ std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, const PlotAxes& a
 
 std::string CurveKeySvg(std::size_t style) {
   return fmt::format(
-      "<svg class=\"panel key\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><polyline class=\"c{}\"{} "
-      "points=\"1,5 27,5\"/></svg>",
-      style % 8, DashesOf(style));
+      "<svg class=\"panel key\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><polyline {} points=\"1,5 27,5\"/></svg>",
+      CurveStyle(style));
 }
 
 }  // namespace etude

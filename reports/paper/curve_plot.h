@@ -25,6 +25,12 @@ PlotAxes AxesFor(const std::vector<const PlotCurve*>& curves);
 /// One panel as an SVG element of the page. What lies below the axis is drawn on its lower end.
 std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, const PlotAxes& axes, const std::string& title);
 
+/// The attributes that give a line its colour and dashes: `class="c2" stroke-dasharray="6 4"`.
+std::string CurveStyle(std::size_t style, bool faint = false);
+
+/// How an axis names a power of ten: "0.01", "1000", "1e6".
+std::string DecadeText(int decade);
+
 /// The short line that stands for a method in a legend.
 std::string CurveKeySvg(std::size_t style);
 

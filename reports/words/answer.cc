@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reports/words/figures.h"
+#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
@@ -171,10 +172,10 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
 }
 
 MethodFinding AnswerInWords(const ScenarioSummary& scenario, const std::string& metric) {
-  if (scenario.methods.size() < 2) {
-    return {"", "", Verdict::kInconclusive, "Only one method ran, so there is nothing to compare it with."};
+  for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
+    if (!IsYardstick(scenario, scenario.methods[i])) return CompareInWords(scenario, scenario.methods[i], metric);
   }
-  return CompareInWords(scenario, scenario.methods[1], metric);
+  return {"", "", Verdict::kInconclusive, "Only one method ran, so there is nothing to compare it with."};
 }
 
 }  // namespace etude

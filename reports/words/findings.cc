@@ -8,6 +8,7 @@
 
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
+#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
@@ -43,7 +44,11 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   if (!scenario.headline_metrics.empty()) findings.metric = scenario.headline_metrics.front();
   findings.answer = AnswerInWords(scenario, findings.metric);
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
-    findings.methods.push_back(CompareInWords(scenario, scenario.methods[i], findings.metric));
+    if (IsYardstick(scenario, scenario.methods[i])) {
+      findings.yardsticks.push_back(scenario.methods[i]);
+    } else {
+      findings.methods.push_back(CompareInWords(scenario, scenario.methods[i], findings.metric));
+    }
   }
 
   std::map<Status, int> statuses;

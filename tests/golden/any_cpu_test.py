@@ -25,6 +25,10 @@ WORLDS = [  # scenario, condition, trial
     ("every-solver", 0, 0),
     ("every-solver", 1, 3),
     ("every-solver-tracks", 0, 0),
+    ("every-search", 0, 0),
+    ("every-search", 0, 1),
+    ("every-switch", 0, 0),
+    ("every-switch", 0, 5),
 ]
 EVERY_SOLVER = """defaults: {seed: 1, methods: [METHODS]}
 scenarios:
@@ -32,6 +36,15 @@ scenarios:
      record: [effector_errors, angle_changes, effector_curves], metrics: [solved_tight], question: 'Same bytes?'}
   - {scenario: every-solver-tracks, task: tracking, max_sweeps: 5, duration_s: 0.4, clips: ['builtin:*'],
      metrics: [mpjpe_mm], question: 'Same bytes?'}
+  - {scenario: every-search, task: search, frames: 2000, queries: 20, clips: ['builtin:*'],
+     metrics: [distances_per_query], question: 'Same bytes?',
+     methods: [{name: first, query: first}, {name: within, query: within}, {name: nearest}, {name: ten, query: nearest-10}]}
+  - {scenario: every-switch, task: transition, clips: ['builtin:*'], metrics: [jump_cm], question: 'Same bytes?',
+     methods: [{name: paper}, {name: genetic, weights: genetic, join: crossfade},
+               {name: kovar, choice: fuzzy-kovar, join: inertialised-quintic}, {name: window, choice: fuzzy-window},
+               {name: cloud, choice: point-cloud, join: inertialised-spring}, {name: matching, choice: motion-matching},
+               {name: standing, choice: through-standing, join: crossfade}, {name: end, choice: wait-for-end},
+               {name: natural, choice: unbroken}]}
 """
 
 

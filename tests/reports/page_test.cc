@@ -133,6 +133,34 @@ TEST(Page, SaysWhyThereIsNoFilm) {
   EXPECT_THAT(WritePage(ExampleRun(), media), HasSubstr(media.film.why_not));
 }
 
+TEST(Page, ExplainsRecordedSwitches) {
+  RunData run = ExampleRun();
+  EXPECT_THAT(WritePage(run, {}), Not(HasSubstr("Partial distances")));
+  AddSwitches(run);
+  const std::string page = WritePage(run, {});
+  EXPECT_THAT(page, HasSubstr("Why each switch went where it went: clap → side kick, trial 7"));
+  EXPECT_THAT(page, HasSubstr(".partials"));
+}
+
+TEST(Page, OfHundredsOfMethodsCutsItsListsAndSaysSo) {
+  RunData run = ExampleRun();
+  ScenarioSummary& scenario = run.scenarios.front();
+  ConditionSummary& condition = scenario.conditions[0];
+  const MethodSummary method = condition.methods[1];
+  const Comparison comparison = condition.comparisons[0];
+  for (int i = 0; i < 500; ++i) {
+    const std::string name = "method-" + std::to_string(i);
+    scenario.methods.push_back(name);
+    condition.methods.push_back(method);
+    condition.comparisons.push_back(comparison);
+    condition.methods.back().method = condition.comparisons.back().method = name;
+  }
+  const std::string page = WritePage(run, {});
+  EXPECT_THAT(page, HasSubstr("464 more methods are left out here"));
+  EXPECT_THAT(page, HasSubstr("more rows are left out here; the CSV file in report/tables has all."));
+  EXPECT_THAT(page, HasSubstr("more comparisons are left out here"));
+}
+
 TEST(Page, OfAnEmptyRunIsStillAPage) {
   const std::string page = WritePage(RunData{}, {});
   EXPECT_THAT(page, HasSubstr("No cell ran."));

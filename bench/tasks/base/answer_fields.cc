@@ -58,6 +58,8 @@ AnswerFields::AnswerFields(const Json& json, std::string path) : json_(json), pa
 
 bool AnswerFields::Has(std::string_view key) { return Find(key) != nullptr; }
 
+const Json* AnswerFields::Raw(std::string_view key) { return Find(key); }
+
 int AnswerFields::Integer(std::string_view key, int lowest, int highest) {
   const Json* value = Require(key);
   if (value == nullptr) return lowest;

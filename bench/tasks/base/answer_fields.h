@@ -21,6 +21,8 @@ class AnswerFields {
 
   /// Whether the key is there; marks it as known.
   bool Has(std::string_view key);
+  /// What stands under the key, whatever its type; null when it is absent.
+  const Json* Raw(std::string_view key);
   int Integer(std::string_view key, int lowest, int highest);
   /// Null means nothing; the key must be there.
   std::optional<int> NullableInteger(std::string_view key, int lowest, int highest);

@@ -10,6 +10,7 @@
 #include "bench/clips/clip_library.h"
 #include "bench/files/json.h"
 #include "engine/document/fields.h"
+#include "engine/fuzzy/fuzzy_system.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -135,6 +136,7 @@ struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
+  FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
 };
 
 /// What another key of the same mapping must say for a key to be allowed beside it.

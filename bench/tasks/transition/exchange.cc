@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -29,19 +30,29 @@ Result<void> CheckLimbs(const BodyPose& pose, const Physique& character, const s
   return {};
 }
 
-std::vector<BodyPose> ReadBetween(AnswerFields& fields, const Physique& character) {
-  std::vector<BodyPose> poses;
-  for (const Json& entry : fields.List("between", 0, kMostBetween)) {
-    const std::string path = fields.PathOf("between", poses.size());
-    const auto pose = ReadPose(entry, path);
-    const auto fits = pose ? CheckLimbs(*pose, character, path) : tl::unexpected(pose.error());
-    if (!fits) {
-      fields.Note(fits.error());
-      return {};
-    }
-    poses.push_back(*pose);
+/// A pose that the character can take; complaints go to `fields`.
+BodyPose ReadOwnPose(const Json& json, const std::string& path, const Physique& character, AnswerFields& fields) {
+  const auto pose = ReadPose(json, path);
+  const auto fits = pose ? CheckLimbs(*pose, character, path) : tl::unexpected(pose.error());
+  if (!fits) fields.Note(fits.error());
+  return pose.value_or(BodyPose{});
+}
+
+/// Frames of the method's own making. Frame 0 of the leg is its version of the frame left, which is not shown.
+std::optional<Leg> ReadBetween(AnswerFields& fields, const Physique& character) {
+  const Json& entries = fields.List("between", 0, kMostBetween);
+  Leg leg{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    leg.own.push_back(ReadOwnPose(entries[i], fields.PathOf("between", i), character, fields));
   }
-  return poses;
+  const Json* start = fields.Raw("between_start");
+  if (entries.empty()) {
+    if (start != nullptr) fields.Note({{}, "between_start: only together with 'between'"});
+    return std::nullopt;
+  }
+  leg.own.front() = start != nullptr ? ReadOwnPose(*start, "between_start", character, fields)
+                                     : FrameBefore(leg.own[1], leg.own[std::min<std::size_t>(2, entries.size())]);
+  return leg;
 }
 
 /// The clips played on the way.
@@ -58,18 +69,6 @@ void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Leg>& leg
   }
 }
 
-/// Frames of the method's own as a leg: frame 0 is what would stand in the place of the frame left, were they to begin
-/// at a steady speed.
-Leg OwnLeg(std::vector<BodyPose> between) {
-  Leg leg{.first = 0, .last = static_cast<int>(between.size()), .own = {}, .in_place = true};
-  const BodyPose &first = between.front(), &second = between[between.size() > 1 ? 1 : 0];
-  BodyPose before;
-  for (std::size_t i = 0; i < kRoleCount; ++i) before.joints[i] = 2.0 * first.joints[i] - second.joints[i];
-  leg.own.push_back(before);
-  leg.own.insert(leg.own.end(), between.begin(), between.end());
-  return leg;
-}
-
 SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRequest& request) {
   SwitchAnswer answer;
   const int last_of_from = stage.library.tagged[request.from].FrameCount() - 1;
@@ -78,16 +77,12 @@ SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRe
   answer.legs.push_back({.clip = request.from, .first = request.request_frame, .last = left, .own = {}});
   ReadThrough(fields, stage, answer.legs);
   const int entered = fields.Integer("enter_frame", 0, last_of_to - 1);  // a frame must follow
-  std::vector<BodyPose> between = ReadBetween(fields, stage.library.physique);
-  const bool is_through = answer.legs.size() > 1, has_between = !between.empty();
-  if (has_between) answer.legs.push_back(OwnLeg(std::move(between)));
+  std::optional<Leg> between = ReadBetween(fields, stage.library.physique);
+  if (between && answer.legs.size() > 1) fields.Note({{}, "through: not together with 'between'"});
+  if (between) answer.legs.push_back(*std::move(between));
   answer.legs.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   answer.matched = fields.Boolean("matched", false);
-  if (has_between) {
-    if (is_through) fields.Note({{}, "through: not together with 'between'"});
-    if (answer.join != &AllJoins().front()) fields.Note({{}, "join: only 'cut' together with 'between'"});
-  }
   return answer;
 }
 

@@ -44,12 +44,14 @@ Exhibit ExhibitNature(const Stage& stage, const SwitchRequest& request);
 /// lies on the last frame shown: heading on heading, hip centre over hip centre. May be said beside:
 ///
 /// - `"through": [{"clip": 2, "enter_frame": 3, "leave_frame": 40}]`: clips played on the way, entered and left alike.
-/// - `"join"`: any of the built-in ones, `cut` by default.
-/// - `"between": [[x, y, z, …], …]`: frames of the method's own making, shown as they are after `leave_frame`, in the
-///   place and heading of clip `from` as the setting has it. Then clip `to` is laid on the last of them, so that one
-///   should be the method's version of `enter_frame`. They are danced by the same character: a limb more than 2 cm
-///   longer or shorter than in the clips is refused. At most 300. Not together with `through` or a join other than
-///   `cut`.
+/// - `"join"`: any of the built-in ones, `cut` by default, with what it is set by left at its defaults.
+/// - `"between": [[x, y, z, …], …]`: frames of the method's own making, shown after `leave_frame` in the place and
+///   heading of clip `from` as the setting has it. Then clip `to` is laid on the last of them, so that one should be
+///   the method's version of `enter_frame`. They are danced by the same character: a limb more than 2 cm longer or
+///   shorter than in the clips is refused. At most 300. Not together with `through`.
+/// - `"between_start": [x, y, z, …]`: beside `between`, the method's version of `leave_frame`: not shown, but the gaps
+/// at
+///   the seam are those to it. When left out, the frames between are taken to begin at a steady speed.
 /// - `"matched": true`: the frames left and entered were chosen because they are alike. Then `false_smooth` is
 ///   measured, which is missing else.
 ///
@@ -57,7 +59,7 @@ Exhibit ExhibitNature(const Stage& stage, const SwitchRequest& request);
 struct SwitchAnswer {
   std::optional<std::string> unsolved;  ///< why; the rest is then empty
   std::vector<Leg> legs;                ///< as in a SwitchRecord
-  const Join* join = nullptr;           ///< never null when there are legs
+  const Join* join = nullptr;           ///< never null when there are legs; its settings are the defaults
   bool matched = false;
 };
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "bench/tasks/transition/exchange.h"
-#include "bench/tasks/transition/scoring.h"
+#include "bench/tasks/transition/outcome.h"
 
 namespace etude {
 
 /// Does what a method outside answered, which must have a way: the clips spliced, or its own frames put between them.
-/// The distances are by paper A's weights, whatever the method went by.
+/// The distances are by the fixed weights, whatever the method went by.
 SwitchOutcome FollowAnswer(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request);
 
 }  // namespace etude

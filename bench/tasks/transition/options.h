@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
+#include "bench/training/learnt_weights.h"
 #include "engine/document/fields.h"
 #include "engine/switching/switch_clips.h"
 
@@ -16,7 +17,7 @@ namespace etude {
 struct TransitionMethod {
   std::string name;
   SwitchMethod way;  ///< its weights are paper A's; learnt ones depend on the world
-  bool adaptive_weights = false;
+  WeightSource weights = WeightSource::kFixed;
   double wait_s = 1;  ///< the budget of its requests
 };
 

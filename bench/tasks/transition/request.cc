@@ -8,7 +8,7 @@ bool IsLongEnough(const Stage& stage, int clip) { return stage.library.tagged[cl
 }  // namespace
 
 int FromClip(const Stage& stage, const WorldKey& key) {
-  return key.trial % static_cast<int>(stage.library.names.size());
+  return stage.playing[key.trial % static_cast<int>(stage.playing.size())];
 }
 
 Result<SwitchRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
@@ -22,7 +22,7 @@ Result<SwitchRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
                 frames, kShortestClip);
   }
   std::vector<int> others;
-  for (int clip = 0; clip < count; ++clip) {
+  for (int clip : stage.wanted) {
     if (clip != request.from && IsLongEnough(stage, clip)) others.push_back(clip);
   }
   if (others.empty()) return Fail({}, "no other clip of this library has {} frames", kShortestClip);

@@ -2,32 +2,29 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
+#include "bench/metrics/dimensionless_jerk.h"
 #include "bench/metrics/seam.h"
 #include "bench/metrics/spectral_arc_length.h"
 
 namespace etude {
 namespace {
 
-constexpr std::array kMetricIds = {"jump_cm",
-                                   "mean_joint_jump_cm",
-                                   "rotation_step_change_deg",
-                                   "jerk_peak_mps3",
-                                   "natural_share",
-                                   "pose_gap_cm",
-                                   "velocity_gap_cmps",
-                                   "false_smooth",
-                                   "foot_slide_cmps",
-                                   "sparc",
-                                   "wait_s",
-                                   "fuzzy_distance"};
-
-/// The meeting that the fuzzy distance thinks worst.
-const FuzzyDistance& WorstMeeting(const SwitchRecord& record) {
-  return *std::max_element(record.meetings.begin(), record.meetings.end(),
-                           [](const FuzzyDistance& a, const FuzzyDistance& b) { return a.value < b.value; });
-}
+constexpr std::array kSwitchMetrics = {"jump_cm",
+                                       "mean_joint_jump_cm",
+                                       "rotation_step_change_deg",
+                                       "jerk_peak_mps3",
+                                       "natural_share",
+                                       "pose_gap_cm",
+                                       "velocity_gap_cmps",
+                                       "false_smooth",
+                                       "foot_slide_cmps",
+                                       "sparc",
+                                       "ldlj",
+                                       "wait_s",
+                                       "fuzzy_distance",
+                                       "in_between"};
+constexpr std::array kMatchingMetrics = {"direct_match", "matching_share", "false_smooth_share"};
 
 /// What played from the request on, until the wanted clip did.
 std::vector<Stay> StaysOf(const SwitchRecord& record) {
@@ -36,31 +33,10 @@ std::vector<Stay> StaysOf(const SwitchRecord& record) {
   return stays;
 }
 
-std::string NameOf(const Leg& leg, const Stage& stage) {
-  return leg.clip == Leg::kOwnFrames ? "in-between" : stage.library.names[leg.clip];
-}
-
 std::vector<int> SeamFrames(const Splice& splice) {
   std::vector<int> frames;
   for (const Seam& seam : splice.seams) frames.push_back(seam.frame);
   return frames;
-}
-
-/// Frames `first` … `last` of a motion, clamped to it.
-struct Cut {
-  int first, last;
-};
-Cut Around(const Splice& splice, double seconds) {
-  const int reach = static_cast<int>(seconds * splice.motion.rate_hz);
-  return {std::max(splice.seams.front().frame - reach, 0),
-          std::min(splice.seams.back().frame + reach, static_cast<int>(splice.motion.poses.size()) - 1)};
-}
-
-nlohmann::ordered_json Partials(const FuzzyDistance& distance) {
-  nlohmann::ordered_json json;
-  for (std::size_t k = 0; k < kFeatureCount; ++k)
-    json[std::string(FeatureName(AllFeatures()[k]))] = distance.partials[k];
-  return json;
 }
 
 }  // namespace
@@ -88,67 +64,44 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   if (outcome.matched) {
     result.Measure("false_smooth", IsFalselySmooth(pose_gap) ? 1 : 0);
   } else {
-    result.Missing("false_smooth", "this choice matches no frames");
+    result.Missing("false_smooth", "the frames were not chosen because they match");
   }
   result.Measure("foot_slide_cmps", foot_slide);
-  const Cut second = Around(splice, 1);
-  const auto arc = SpectralArcLength(MeanJointSpeed(splice.motion, second.first, second.last), splice.motion.rate_hz);
-  result.MeasureOr("sparc", arc, "nothing moves around the seam");
+  const FrameWindow second = AroundSeams(splice, 1);
+  const std::vector<double> speed = MeanJointSpeed(splice.motion, second.first, second.last);
+  constexpr const char* kStill = "nothing moves around the seam, or too shortly";
+  result.MeasureOr("sparc", SpectralArcLength(speed, splice.motion.rate_hz), kStill);
+  result.MeasureOr("ldlj", LogDimensionlessJerk(speed), kStill);
   result.Measure("wait_s", WaitSeconds(StaysOf(outcome.record), splice.motion.rate_hz));
   result.Measure("fuzzy_distance", WorstMeeting(outcome.record).value);
+  result.Measure("in_between", legs.size() > 2 ? 1 : 0);
 }
 
-std::vector<std::string> TransitionMetrics() { return {kMetricIds.begin(), kMetricIds.end()}; }
+void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result) {
+  if (!tally) {
+    for (const char* id : kMatchingMetrics) result.Missing(id, "this method matches no frames by a threshold");
+    return;
+  }
+  result.Measure("direct_match", HasDirectMatch(*tally) ? 1 : 0);
+  result.MeasureOr("matching_share", MatchingShare(*tally), "no pair of frames could be compared");
+  result.MeasureOr("false_smooth_share", FalseSmoothShare(*tally), "no pair matches");
+}
+
+std::vector<std::string> TransitionMetrics() {
+  std::vector<std::string> ids(kSwitchMetrics.begin(), kSwitchMetrics.end());
+  ids.insert(ids.end(), kMatchingMetrics.begin(), kMatchingMetrics.end());
+  return ids;
+}
 
 std::optional<double> SwitchFailureValue(std::string_view metric) {
   return metric == "natural_share" ? std::optional(0.0) : std::nullopt;
 }
 
 void MeasureNoWay(CellResult& result) {
-  for (const char* id : kMetricIds) {
+  for (const char* id : kSwitchMetrics) {
     const std::optional<double> value = SwitchFailureValue(id);
     value ? result.Measure(id, *value) : result.Missing(id, "no way was found");
   }
-}
-
-Series SeamSeries(const SwitchOutcome& outcome) {
-  const Cut cut = Around(outcome.splice, 1);
-  const std::vector<double> all = SecondDifferencesCm(outcome.splice.motion);
-  return {"second_difference_cm", "frame", {all.begin() + cut.first, all.begin() + cut.last + 1}};
-}
-
-Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage) {
-  constexpr double kSeconds = 2.5;
-  const Cut cut = Around(outcome.splice, kSeconds);
-  const std::vector<BodyPose>& all = outcome.splice.motion.poses;
-  Track coach{"coach", {outcome.splice.motion.rate_hz, {all.begin() + cut.first, all.begin() + cut.last + 1}}};
-
-  const SwitchRecord& record = outcome.record;
-  const FuzzyDistance& distance = WorstMeeting(record);
-  nlohmann::ordered_json facts;
-  facts["seam_frame"] = outcome.splice.seams.front().frame - cut.first;
-  facts["seam_frames"] = nlohmann::json::array();
-  for (const Seam& seam : outcome.splice.seams) facts["seam_frames"].push_back(seam.frame - cut.first);
-  facts["from"] = NameOf(record.legs.front(), stage);
-  facts["to"] = NameOf(record.legs.back(), stage);
-  facts["branch"] = BranchName(record.branch);
-  facts["distance"] = distance.value;
-  facts["partials"] = Partials(distance);
-  facts["request_frame"] = record.request_frame - cut.first;  // negative: before this recording begins
-  facts["wait_s"] = record.wait_s;
-  facts["pairs_seen"] = record.pairs_seen;
-  facts["switches"] = nlohmann::json::array();
-  for (std::size_t i = 0; i < record.meetings.size(); ++i) {
-    const Leg &old = record.legs[i], &next = record.legs[i + 1];
-    nlohmann::ordered_json entry;
-    entry["from"] = NameOf(old, stage);
-    entry["from_frame"] = old.last;
-    entry["to"] = NameOf(next, stage);
-    entry["to_frame"] = next.first;
-    entry["distance"] = record.meetings[i].value;
-    facts["switches"].push_back(std::move(entry));
-  }
-  return {{std::move(coach)}, facts.dump()};
 }
 
 }  // namespace etude

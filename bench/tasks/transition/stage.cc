@@ -1,15 +1,33 @@
 #include "bench/tasks/transition/stage.h"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "bench/metrics/seam.h"
 #include "bench/training/training_clips.h"
 #include "sim/choreography/canonical_body.h"
+#include "sim/choreography/move.h"
 
 namespace etude {
 namespace {
 
 constexpr double kJudgedHipHeight = 0.90;  // docs/metrics.md
+
+bool IsAct(const LibraryClip& clip) {
+  const std::vector<std::string> acts = BuiltinActNames();
+  return std::ranges::any_of(acts, [&](const std::string& act) { return clip.source == "builtin:" + act; });
+}
+
+void CastClips(const ClipLibrary& library, bool asks_for_acts, Stage& stage) {
+  for (int clip = 0; clip < static_cast<int>(library.clips.size()); ++clip) {
+    (asks_for_acts && IsAct(library.clips[clip]) ? stage.wanted : stage.playing).push_back(clip);
+  }
+  if (!stage.wanted.empty() && !stage.playing.empty()) return;
+  stage.playing.resize(library.clips.size());
+  std::iota(stage.playing.begin(), stage.playing.end(), 0);
+  stage.wanted = stage.playing;
+}
 
 }  // namespace
 
@@ -19,8 +37,9 @@ std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
   return jumps;
 }
 
-Stage SetStage(const ClipLibrary& library) {
+Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
   Stage stage;
+  stage.fuzzy = rules.fuzzy;
   std::vector<std::string> names;
   std::vector<BodyMotion> clips;
   for (const LibraryClip& clip : library.clips) {
@@ -28,8 +47,15 @@ Stage SetStage(const ClipLibrary& library) {
     stage.identities.push_back(clip.move ? MoveIdentity(clip.move->name) : clip.source);
     clips.push_back(clip.motion);
   }
-  stage.library = MakeLibrary(std::move(names), clips, MakePhysique(PoseOf(Controls{}), kJudgedHipHeight));
+  const TagRules tags{.memberships = rules.fuzzy.memberships,
+                      .head = rules.head,
+                      .min_clips = rules.min_clips,
+                      .most_per_class = rules.most_per_class,
+                      .weights = rules.fuzzy.weights};
+  const Physique physique = MakePhysique(PoseOf(Controls{}), kJudgedHipHeight);
+  stage.library = MakeLibrary(std::move(names), clips, physique, tags, rules.tween);
   for (const BodyMotion& motion : stage.library.motions) stage.natural_jumps_cm.push_back(NaturalJumpsCm(motion));
+  CastClips(library, rules.asks_for_acts, stage);
   return stage;
 }
 

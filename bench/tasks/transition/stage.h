@@ -5,8 +5,19 @@
 
 #include "bench/clips/clip_library.h"
 #include "engine/bridging/library.h"
+#include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {
+
+/// How a library is made ready for switching.
+struct StageRules {
+  FuzzySystem fuzzy;
+  HeadRule head;
+  int min_clips = TagRules{}.min_clips;
+  int most_per_class = TagRules{}.most_per_class;
+  TweenRules tween;            ///< of in-betweens
+  bool asks_for_acts = false;  ///< the coach's acts are asked for while other clips play, where there are both
+};
 
 /// A library of clips made ready for switching: all danced by one character whose hips stand at
 /// 0.90 m, tagged, and each with nature's own jumps to be compared with.
@@ -14,6 +25,9 @@ struct Stage {
   MotionLibrary library;                ///< its names are as rows and videos show them
   std::vector<std::string> identities;  ///< equal for equal dances: the move's name, or the file
   std::vector<std::vector<double>> natural_jumps_cm;
+  FuzzySystem fuzzy;         ///< by which they are tagged
+  std::vector<int> playing;  ///< the clips that play when another is asked for: all, unless acts are
+  std::vector<int> wanted;   ///< those that are asked for
 };
 
 /// Shorter clips have no unbroken window of eleven frames to be judged by.
@@ -23,6 +37,6 @@ constexpr int kShortestClip = 13;
 /// the standard, not one played in between.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 
-Stage SetStage(const ClipLibrary& library);
+Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});
 
 }  // namespace etude

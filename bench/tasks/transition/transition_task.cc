@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/transition/exchange.h"
+#include "bench/tasks/transition/stage_options.h"
 #include "bench/tasks/transition/transition_world.h"
 
 namespace etude {
@@ -14,11 +16,10 @@ class TransitionTask final : public Task {
       : methods_(std::move(methods)),
         max_wait_s_(max_wait_s),
         stage_(std::move(stage)),
-        training_(std::move(training)),
-        adaptive_(training_) {}
+        learnt_(std::move(training), stage_.fuzzy) {}
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
-    const TransitionBasis basis{methods_, stage_, adaptive_, max_wait_s_};
+    const TransitionBasis basis{methods_, stage_, learnt_, max_wait_s_};
     return std::make_unique<TransitionWorld>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
@@ -34,16 +35,15 @@ class TransitionTask final : public Task {
   const std::vector<TransitionMethod> methods_;
   const double max_wait_s_;
   const Stage stage_;
-  const TrainingClips training_;
-  mutable AdaptiveWeights adaptive_;
+  mutable LearntWeights learnt_;
 };
 
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   const CommonLimits common = ReadCommonLimits(input.condition);
   auto methods = ReadTransitionMethods(common, input.methods);
   if (!methods) return tl::unexpected(methods.error());
-  Stage stage = SetStage(input.clips);
-  auto training = GatherTrainingClips(stage.library, stage.identities);
+  Stage stage = SetStage(input.clips, ReadStageRules(input.condition, FuzzyOf(input)));
+  auto training = GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique);
   if (!training) return tl::unexpected(training.error());
   return std::make_unique<TransitionTask>(*std::move(methods), common.wait_s, std::move(stage), *std::move(training));
 }

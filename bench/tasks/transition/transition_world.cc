@@ -1,11 +1,11 @@
 #include "bench/tasks/transition/transition_world.h"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/follow.h"
+#include "bench/tasks/transition/recording.h"
+#include "bench/tasks/transition/tally.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -24,6 +24,12 @@ std::string BridgeFramesDigest(const TaggedClip& from, const TaggedClip& to) {
   for (const TaggedClip* clip : {&from, &to}) {
     for (int frame : clip->bridge_frames) digest.Add(std::int64_t{frame});
   }
+  return digest.Hex();
+}
+
+std::string KeysDigest(const InBetweenNet& net) {
+  Digest digest;
+  for (const InBetweenNet::Key& key : net.keys) digest.Add(std::int64_t{key.clip}).Add(std::int64_t{key.frame});
   return digest.Hex();
 }
 
@@ -49,17 +55,34 @@ TransitionWorld::TransitionWorld(const TransitionBasis& basis, Result<SwitchRequ
     : basis_(basis), request_(std::move(request)), keeps_motion_(keeps_motion) {
   if (!request_) return;
   const TaggedClip &from = basis_.stage.library.tagged[request_->from], &to = basis_.stage.library.tagged[request_->to];
-  clip_digests_ = {{"features", GradesDigest(from, to)}, {"bridge_frames", BridgeFramesDigest(from, to)}};
+  stage_digests_ = {{"features", GradesDigest(from, to)},
+                    {"bridge_frames", BridgeFramesDigest(from, to)},
+                    {"in_between_keys", KeysDigest(basis_.stage.library.in_betweens)}};
 }
 
 std::optional<std::string> TransitionWorld::WhySkipped() const {
   return request_ ? std::nullopt : std::optional(request_.error().message);
 }
 
-CellResult TransitionWorld::Run(std::size_t method) {
-  const SwitchOutcome outcome = Switch(basis_.methods[method]);
-  CellResult result = Score(outcome);
-  if (result.status == Status::kUnsolved) result.reason = WhyNoWay(basis_.methods[method], outcome.record);
+void TransitionWorld::PrepareShared() {
+  for (const TransitionMethod& method : basis_.methods) WeightsOf(method.weights);  // learnt once, then remembered
+}
+
+CellResult TransitionWorld::Run(std::size_t index) {
+  const TransitionMethod& method = basis_.methods[index];
+  SwitchRequest request = *request_;
+  request.budget_s = method.wait_s;
+  SwitchMethod way = method.way;
+  way.rules.weights = WeightsOf(method.weights);
+  SwitchResult switched = SwitchClips(basis_.stage.library, request, way);
+  // A forced way takes what is nearest, although no frames match.
+  CellResult result = Score({.matched = way.choice->matches_poses && switched.record.branch != Branch::kForced,
+                             .rules = way.rules,
+                             .record = std::move(switched.record),
+                             .splice = std::move(switched.splice)});
+  std::optional<MatchTally> tally;
+  if (way.choice->uses_fuzzy) tally = TallyMatches(basis_.stage, request, *way.choice, way.rules);
+  ScoreMatching(tally, result);
   return result;
 }
 
@@ -77,36 +100,32 @@ Result<CellResult> TransitionWorld::Judge(const Json& answer) {
   if (!request_) return tl::unexpected(request_.error());
   const auto read = ReadSwitchAnswer(answer, basis_.stage, *request_);
   if (!read) return tl::unexpected(read.error());
-  if (!read->unsolved) return Score(FollowAnswer(*read, basis_.stage, *request_));
-  CellResult result = Score({.weights = PaperWeights(), .record = {}, .splice = {}});
-  result.reason = *read->unsolved;
+  SwitchOutcome outcome;
+  if (read->unsolved) {
+    outcome.rules.weights = basis_.stage.fuzzy.weights;
+    outcome.record.why = *read->unsolved;
+  } else {
+    outcome = FollowAnswer(*read, basis_.stage, *request_);
+  }
+  CellResult result = Score(outcome);
+  ScoreMatching(std::nullopt, result);
   return result;
 }
 
-SwitchOutcome TransitionWorld::Switch(const TransitionMethod& method) const {
-  const Stage& stage = basis_.stage;
-  SwitchMethod way = method.way;
-  if (method.adaptive_weights) {
-    way.rules.weights =
-        basis_.adaptive.Without(stage.identities[request_->from], stage.identities[request_->to]).weights;
-  }
-  SwitchRequest request = *request_;
-  request.budget_s = method.wait_s;
-  SwitchResult result = SwitchClips(stage.library, request, way);
-  return {.matched = way.choice->matches_poses,
-          .weights = way.rules.weights,
-          .record = std::move(result.record),
-          .splice = std::move(result.splice)};
+const FeatureWeights& TransitionWorld::WeightsOf(WeightSource source) const {
+  const std::vector<std::string>& identities = basis_.stage.identities;
+  return basis_.learnt.For(source, identities[request_->from], identities[request_->to]);
 }
 
 CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
   CellResult result = CellResult::Ended(Status::kOk, "");
-  result.digests = clip_digests_;
-  result.digests.emplace_back("weights", Digest().Add(std::span<const double>(outcome.weights)).Hex());
+  result.digests = stage_digests_;
+  result.digests.emplace_back("weights", Digest().Add(std::span<const double>(outcome.rules.weights)).Hex());
   result.digests.emplace_back("switches", SwitchesDigest(outcome.record));
   result.digests.emplace_back("motion", MotionDigest(outcome.splice.motion));
   if (outcome.record.legs.empty()) {
     result.status = Status::kUnsolved;
+    result.reason = outcome.record.why;
     MeasureNoWay(result);
     return result;
   }
@@ -114,14 +133,6 @@ CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
   result.series.push_back(SeamSeries(outcome));
   if (keeps_motion_) result.recording = RecordSwitch(outcome, basis_.stage);
   return result;
-}
-
-std::string TransitionWorld::WhyNoWay(const TransitionMethod& method, const SwitchRecord& record) const {
-  const std::string when = fmt::format("within {:g} s of the request", method.wait_s);
-  const std::string &from = basis_.stage.library.names[request_->from], &to = basis_.stage.library.names[request_->to];
-  if (record.pairs_seen == 0) return fmt::format("{} has no bridge frame {}", from, when);
-  return fmt::format("no bridge frame of {} {} matches one of {}, directly or through a third clip ({} pairs compared)",
-                     from, when, to, record.pairs_seen);
 }
 
 }  // namespace etude

@@ -9,7 +9,7 @@
 #include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/scoring.h"
 #include "bench/tasks/transition/stage.h"
-#include "bench/training/adaptive_weights.h"
+#include "bench/training/learnt_weights.h"
 
 namespace etude {
 
@@ -17,8 +17,8 @@ namespace etude {
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
-  AdaptiveWeights& adaptive;  ///< remembers fits; what it answers depends on the question only
-  double max_wait_s = 0;      ///< told to methods outside; built-in ones have their own
+  LearntWeights& learnt;  ///< remembers fits; what it answers depends on the question only
+  double max_wait_s = 0;  ///< told to methods outside; built-in ones have their own
 };
 
 /// A world of the task: one request, on the task's stage.
@@ -28,20 +28,20 @@ class TransitionWorld final : public TaskWorld {
   TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion);
 
   std::optional<std::string> WhySkipped() const override;
+  void PrepareShared() override;
   CellResult Run(std::size_t method) override;
   Result<Exhibit> MakeProblem() override;
   Result<Exhibit> MakeTruth() override;
   Result<CellResult> Judge(const Json& answer) override;
 
  private:
-  SwitchOutcome Switch(const TransitionMethod& method) const;
+  const FeatureWeights& WeightsOf(WeightSource source) const;
   CellResult Score(const SwitchOutcome& outcome) const;
-  std::string WhyNoWay(const TransitionMethod& method, const SwitchRecord& record) const;
 
   const TransitionBasis basis_;
   const Result<SwitchRequest> request_;
   const bool keeps_motion_;
-  std::vector<std::pair<std::string, std::string>> clip_digests_;
+  std::vector<std::pair<std::string, std::string>> stage_digests_;
 };
 
 }  // namespace etude

@@ -1,5 +1,7 @@
 #include "engine/switching/choices/abrupt.h"
 
+#include <fmt/format.h>
+
 #include "engine/switching/choices/direct.h"
 
 namespace etude {
@@ -7,7 +9,7 @@ namespace etude {
 SwitchRecord PlanNow(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
   SwitchRecord record = DirectSwitch(library, request, request.request_frame, 0, rules);
   record.branch = Branch::kNow;
-  record.why = "asked for, and shown";
+  record.why = fmt::format("at once into the first frame, whatever the poses; d = {:.2f}", record.meetings[0].value);
   return record;
 }
 
@@ -15,7 +17,8 @@ SwitchRecord PlanWaitForEnd(const MotionLibrary& library, const SwitchRequest& r
   const int end = library.tagged[request.from].FrameCount() - 1;
   SwitchRecord record = DirectSwitch(library, request, end, 0, rules);
   record.branch = Branch::kEnd;
-  record.why = "the playing clip has ended";
+  record.why = fmt::format("the playing clip ended, after {:.2f} s; d = {:.2f} to the first frame", record.wait_s,
+                           record.meetings[0].value);
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/number_setting.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -27,8 +28,10 @@ struct Meeting {
 /// Numbers that some joins can be set by.
 struct JoinSettings {
   double half_life_s = 0.1;  ///< of the spring: seconds until half an offset is gone; ours
-  double blend_s = 0.33;     ///< of the crossfade and the quintic: until the new motion is shown alone (A5)
+  double blend_s = 0.33;     ///< of the crossfade and the quintic: until the new motion is shown alone; ours
 };
+
+using JoinSetting = NumberSetting<JoinSettings>;
 
 /// The frame to show, `frames` (≥ 1) after the seam, from the new motion's frame there.
 using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
@@ -37,6 +40,7 @@ using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
 struct Join {
   std::string name;
   std::string description;  ///< one line, for people
+  std::vector<JoinSetting> settings = {};
   Blend (*begin)(const Meeting& meeting, const JoinSettings& settings) = nullptr;
 };
 

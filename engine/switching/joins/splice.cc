@@ -1,36 +1,48 @@
 #include "engine/switching/joins/splice.h"
 
-#include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "engine/bridging/alignment.h"
 
 namespace etude {
 namespace {
 
-/// The frame before the first one, as if the motion had begun at a steady speed.
-BodyPose Extrapolate(const BodyPose& first, const BodyPose& second) {
-  BodyPose before;
-  for (std::size_t i = 0; i < kRoleCount; ++i) before.joints[i] = 2.0 * first.joints[i] - second.joints[i];
-  return before;
-}
-
 std::span<const BodyPose> FramesOf(const Leg& leg, std::span<const BodyMotion> clips) {
   return leg.clip == Leg::kOwnFrames ? std::span(leg.own) : std::span(clips[leg.clip].poses);
 }
 
-/// What the old motion would have shown after `frame`.
-std::vector<BodyPose> Continuation(std::span<const BodyPose> old, int frame, const FloorMove& place,
-                                   std::size_t count) {
-  std::vector<BodyPose> next;
-  for (const BodyPose& pose : old.subspan(frame + 1)) {
-    if (next.size() == count) break;
-    next.push_back(place.Apply(pose));
+/// A leg in the place where it is shown.
+struct PlacedLeg {
+  std::span<const BodyPose> frames;
+  int first = 0;
+  FloorMove place;
+  Blend blend;
+
+  BodyPose At(int frame) const { return place.Apply(frames[frame]); }
+  BodyPose Shown(int frame) const { return blend(At(frame), frame - first); }
+  /// The frame before `frame`; a clip is taken to have begun at a steady speed.
+  BodyPose Before(int frame) const {
+    if (frame > 0) return At(frame - 1);
+    return frames.size() > 1 ? FrameBefore(At(0), At(1)) : At(0);
   }
-  return next;
-}
+  /// What would be shown after `frame`, if there was no switch: at most `count` frames.
+  std::vector<BodyPose> After(int frame, std::size_t count) const {
+    std::vector<BodyPose> next;
+    for (std::size_t f = frame + 1; f < frames.size() && next.size() < count; ++f) {
+      next.push_back(Shown(static_cast<int>(f)));
+    }
+    return next;
+  }
+};
 
 }  // namespace
+
+BodyPose FrameBefore(const BodyPose& first, const BodyPose& second) {
+  BodyPose before;
+  for (std::size_t i = 0; i < kRoleCount; ++i) before.joints[i] = 2.0 * first.joints[i] - second.joints[i];
+  return before;
+}
 
 Splice SpliceLegs(std::span<const BodyMotion> clips, std::span<const Leg> legs, const Join& join,
                   const JoinSettings& settings) {
@@ -40,35 +52,33 @@ Splice SpliceLegs(std::span<const BodyMotion> clips, std::span<const Leg> legs, 
   const double rate_hz = splice.motion.rate_hz = start.rate_hz;
   std::vector<BodyPose>& shown = splice.motion.poses;
   shown.assign(start.poses.begin(), start.poses.begin() + legs.front().last + 1);
+  const auto most_blended = static_cast<std::size_t>(settings.blend_s * rate_hz) + 1;
 
-  FloorMove place;  // of the leg that plays
+  const Blend as_it_is = [](const BodyPose& target, int /*frames*/) { return target; };
+  PlacedLeg old{.frames = FramesOf(legs.front(), clips), .place = {}, .blend = as_it_is};
   for (std::size_t i = 1; i < legs.size(); ++i) {
-    const std::span<const BodyPose> old = FramesOf(legs[i - 1], clips), next = FramesOf(legs[i], clips);
     const int left = legs[i - 1].last, entered = legs[i].first;
     assert(entered < legs[i].last);
+    PlacedLeg next{.frames = FramesOf(legs[i], clips), .first = entered, .place = {}, .blend = {}};
 
     // The clips' own frames, not what a join made of them: a seam's gap belongs to the choice of frames.
     Seam seam;
     seam.frame = static_cast<int>(shown.size()) - 1;
-    seam.leaving = place.Apply(old[left]);
-    seam.leaving_before = place.Apply(old[std::max(left - 1, 0)]);
-    const auto blended = static_cast<std::size_t>(settings.blend_s * rate_hz) + 1;
-    const std::vector<BodyPose> continuation = Continuation(old, left, place, blended);
-    place = legs[i].in_place ? FloorMove{} : AlignOnFloor(next[entered], seam.leaving);
-    seam.arriving = place.Apply(next[entered]);
-    seam.arriving_after = place.Apply(next[entered + 1]);
+    seam.leaving = old.At(left);
+    seam.leaving_before = old.Before(left);
+    if (!legs[i].in_place) next.place = AlignOnFloor(next.frames[entered], seam.leaving);
+    seam.arriving = next.At(entered);
+    seam.arriving_after = next.At(entered + 1);
 
-    const BodyPose arriving_before =
-        entered > 0 ? place.Apply(next[entered - 1]) : Extrapolate(seam.arriving, seam.arriving_after);
-    const Meeting meeting{.shown = {shown[std::max(seam.frame - 1, 0)], shown[seam.frame]},
-                          .target = {arriving_before, seam.arriving},
+    const std::vector<BodyPose> continuation = old.After(left, most_blended);
+    const Meeting meeting{.shown = {seam.frame > 0 ? shown[seam.frame - 1] : seam.leaving_before, shown[seam.frame]},
+                          .target = {next.Before(entered), seam.arriving},
                           .continuation = continuation,
                           .rate_hz = rate_hz};
-    const Blend blend = join.begin(meeting, settings);
-    for (int frame = entered + 1; frame <= legs[i].last; ++frame) {
-      shown.push_back(blend(place.Apply(next[frame]), frame - entered));
-    }
+    next.blend = join.begin(meeting, settings);
+    for (int frame = entered + 1; frame <= legs[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.seams.push_back(seam);
+    old = std::move(next);
   }
   return splice;
 }

@@ -22,6 +22,9 @@ struct Splice {
   std::vector<Seam> seams;  ///< in order, one per switch
 };
 
+/// The frame before the first one, as if a motion had begun at a steady speed.
+BodyPose FrameBefore(const BodyPose& first, const BodyPose& second);
+
 /// Plays the first leg's clip from its start (not from the request) to the leg's end, and so on to the last leg's end.
 /// Every leg is turned and moved on the floor (yaw, x, z) to continue where the one before it stood, unless it is in
 /// place. There must be two legs at least, and each must have a frame to play.

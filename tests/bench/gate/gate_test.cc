@@ -111,7 +111,7 @@ FinishedRun Timed(double ratio, int worlds) {
   for (const Row& row : run.data.rows) {
     if (row.trial >= worlds) continue;
     const double world = 1 + row.trial;  // worlds differ in size, which a ratio of medians would mix up
-    run.cpu_seconds[row.Id()] = row.method == "a" ? world : world * (ratio + 0.01 * (row.trial % 5));
+    run.data.cpu_seconds[row.Id()] = row.method == "a" ? world : world * (ratio + 0.01 * (row.trial % 5));
   }
   return run;
 }

@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
-from independent import capture, common, detection, ik, tracking, transition  # noqa: E402
+from independent import capture, common, detection, ik, pose_distance, search, tracking, transition  # noqa: E402
 from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
 
@@ -28,13 +28,14 @@ MUTANTS = {
         "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
         "mpjpe_before_ik_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg",
         "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "roc_auc", "frames_solved", "frames_solved_tight",
-        "iterations_per_frame"]),
+        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "ldlj", "roc_auc", "frames_solved", "frames_solved_tight",
+        "iterations_per_frame", "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "worst for mean": (common, {"mean": or_nothing(max)}, [
         "position_error_cm", "orientation_error_deg", "orientation_error_max_deg", "hidden_angle_error_deg",
         "mpjpe_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg", "triangulation_error_mm",
         "reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-        "mean_joint_jump_cm", "foot_slide_cmps", "frames_solved", "frames_solved_tight", "iterations_per_frame"]),
+        "mean_joint_jump_cm", "foot_slide_cmps", "ldlj", "frames_solved", "frames_solved_tight", "iterations_per_frame",
+        "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "mean for worst": (common, {"worst": lambda values: statistics.fmean(values) if values else 0.0}, [
         "position_error_max_cm", "orientation_error_max_deg", "solved_practical", "jump_cm", "mean_joint_jump_cm",
         "jerk_peak_mps3", "rotation_step_change_deg", "foot_slide_cmps", "pose_gap_cm", "velocity_gap_cmps",
@@ -58,8 +59,8 @@ MUTANTS = {
     "an area up to 15 cm": (capture, {"AUC_MM": 150}, ["auc_200mm"]),
     "no alignment": (capture, {"aligned": lambda pose, truth: pose}, ["pa_mpjpe_mm"]),
     "feet to 5 cm": (transition, {"FOOT_HEIGHT_CM": 5}, ["foot_slide_cmps"]),
-    "gaps above 19 cm": (transition, {"FALSE_SMOOTH_CM": 19}, ["false_smooth"]),
-    "gaps above 21 cm": (transition, {"FALSE_SMOOTH_CM": 21}, ["false_smooth"]),
+    "gaps above 19 cm": (transition, {"FALSE_SMOOTH_CM": 19}, ["false_smooth", "false_smooth_share"]),
+    "gaps above 21 cm": (transition, {"FALSE_SMOOTH_CM": 21}, ["false_smooth", "false_smooth_share"]),
     "the 90th percentile": (transition, {"NATURAL_QUANTILE": 0.9}, ["natural_share"]),
     "the 90th percentile of steps": (tracking, {"PERCENTILE": 0.9}, ["iterations_per_frame_p95"]),
     "acceleration for jerk": (tracking, {"JERK_ORDER": 2}, ["angle_jerk_ratio"]),
@@ -70,6 +71,19 @@ MUTANTS = {
     "a cut-off at 5 Hz": (transition, {"SPARC_CUT_OFF_HZ": 5}, ["sparc"]),
     "a cut-off at 20 Hz": (transition, {"SPARC_CUT_OFF_HZ": 20}, ["sparc"]),
     "a threshold of 0.1": (transition, {"SPARC_THRESHOLD": 0.1}, ["sparc"]),
+    "acceleration for the speed's jerk": (transition, {"JERK_ORDER": 1}, ["ldlj"]),
+    "the position's jerk": (transition, {"JERK_ORDER": 3}, ["ldlj"]),
+    "matches up to the threshold, it included": (transition, {"matching": lambda given: [
+        pair for pair in given["pairs"] if pair["distance"] <= given["threshold"]]}, [
+            "direct_match", "matching_share", "false_smooth_share"]),
+    "all pairs match": (transition, {"matching": lambda given: given["pairs"]}, [
+        "direct_match", "matching_share", "false_smooth_share"]),
+    "answers in any order": (search, {"agreement": lambda given: common.share(
+        [sorted(a) == sorted(b) for a, b in zip(given["found"], given["truth"])])}, ["search_agreement"]),
+    "close within 16 cm": (pose_distance, {"CLOSE_CM": 16}, ["close_auc", "close_f1"]),
+    "level pairs lost": (pose_distance, {"TIE_CREDIT": 0.0}, ["close_auc"]),
+    "alike up to the threshold, it included": (pose_distance, {
+        "alike": lambda given, pair: pair["distance"] <= given["threshold"]}, ["called_alike", "close_f1"]),
     "padding by 3": (transition, {"SPARC_PADDING": 3}, ["sparc"]),
     "all asked of every world": (ik, {"asked": lambda given: "both"}, ["solved_practical", "solved_tight"]),
     "limits to a hundredth of a degree": (ik, {"ROUNDING": 0.01}, ["limit_violations"]),

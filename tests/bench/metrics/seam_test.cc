@@ -125,5 +125,14 @@ TEST(PoseAndVelocityGap, AreTheWorstJoints) {
   EXPECT_NEAR(VelocityGapCmps(still, faster, still, faster, 30), 0, 1e-10) << "both move alike";
 }
 
+// Nature's yardstick: a motion that goes on meets itself.
+TEST(PoseAndVelocityGap, OfUnbrokenMotionAreNothingAndTheSecondDifferenceTimesRate) {
+  const BodyMotion motion = MotionAlongX([](int f) { return 0.01 * f * f; });
+  const std::vector<BodyPose>& poses = motion.poses;
+  EXPECT_EQ(PoseGapCm(poses[kSeam], poses[kSeam]), 0);
+  const double gap = VelocityGapCmps(poses[kSeam - 1], poses[kSeam], poses[kSeam], poses[kSeam + 1], motion.rate_hz);
+  EXPECT_NEAR(gap, motion.rate_hz * SecondDifferencesCm(motion)[kSeam], 1e-9);
+}
+
 }  // namespace
 }  // namespace etude

@@ -9,7 +9,7 @@ disagrees, when a metric has no vector, or when this file does not know a metric
 import json
 import sys
 
-from independent import capture, common, detection, ik, tracking, transition
+from independent import capture, common, detection, ik, pose_distance, search, tracking, transition
 
 METRICS = {  # version 1 of each, but for NEWER
     "position_error_cm": lambda g: common.mean(ik.effector_positions_cm(g)),
@@ -59,6 +59,19 @@ METRICS = {  # version 1 of each, but for NEWER
     "wait_s": transition.wait,
     "fuzzy_distance": transition.fuzzy_distance,
     "sparc": transition.sparc,
+    "ldlj": transition.ldlj,
+    "direct_match": transition.direct_match,
+    "matching_share": transition.matching_share,
+    "false_smooth_share": transition.false_smooth_share,
+    "in_between": transition.in_between,
+    "search_agreement": lambda g: search.agreement(g),
+    "matches_per_query": search.matches,
+    "distances_per_query": lambda g: search.counted(g, "distances"),
+    "boxes_per_query": lambda g: search.counted(g, "boxes"),
+    "called_alike": pose_distance.called_alike,
+    "joint_distance_cm": pose_distance.joint_distance,
+    "close_auc": pose_distance.auc,
+    "close_f1": pose_distance.f1,
     "precision": detection.precision,
     "recall": detection.recall,
     "f1": detection.f1,

@@ -41,7 +41,8 @@ TEST_P(Examples, PassEveryCheck) {
 INSTANTIATE_TEST_SUITE_P(Conformance, Examples,
                          ::testing::Values(Example{"ik", "ik_dls.py"}, Example{"tracking", "tracking_dls.py"},
                                            Example{"transition", "transition_nearest.py"},
-                                           Example{"detection", "detection_correlation.py"}),
+                                           Example{"detection", "detection_correlation.py"},
+                                           Example{"search", "search_loop.py"}),
                          [](const auto& tested) { return tested.param.task; });
 
 TEST(Conformance, KnowsEveryTask) {

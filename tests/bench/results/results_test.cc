@@ -160,6 +160,12 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
                                   fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
   ASSERT_TRUE(WriteFileAtomically(folder / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
   ASSERT_TRUE(LoadRun(folder)) << ToString(LoadRun(folder).error());
+  EXPECT_TRUE(LoadRun(folder)->cpu_seconds.empty()) << "a folder may tell of no times";
+  ASSERT_TRUE(WriteFileAtomically(folder / "timings.jsonl", "{\"cell\":\"x\",\"cpu_s\":0.25}\n"));
+  EXPECT_EQ(LoadRun(folder)->cpu_seconds, (std::map<std::string, double>{{"x", 0.25}}));
+  ASSERT_TRUE(WriteFileAtomically(folder / "timings.jsonl", "{\"cell\":\"x\",\"cpu_s\":0.25}\n{\"cell\":\"y\"}\n"));
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("timings.jsonl:2: not a line of times"));
+  std::filesystem::remove(folder / "timings.jsonl");
   std::ofstream(folder / "cells.jsonl", std::ios::app) << R"({"cell":"x","scen)";
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("cells.jsonl:2: not valid JSON"));
   ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json", R"({"schema":99})"));

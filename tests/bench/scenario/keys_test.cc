@@ -104,10 +104,16 @@ TEST(Keys, OfATasksScenarioAreTheCommonOnesAndItsOwn) {
 struct Probe {
   std::string task, method;
 };
-const std::vector<Probe> kProbes = {{"ik", ""},         {"ik", "solver: damped-least-squares"},
-                                    {"transition", ""}, {"detection", "weights: adaptive"},
-                                    {"detection", ""},  {"capture", ""},
-                                    {"tracking", ""}};
+const std::vector<Probe> kProbes = {{"ik", ""},
+                                    {"ik", "solver: damped-least-squares"},
+                                    {"transition", ""},
+                                    {"detection", "weights: adaptive"},
+                                    {"detection", ""},
+                                    {"capture", ""},
+                                    {"tracking", ""},
+                                    {"search", ""},
+                                    {"pose-distance", ""},
+                                    {"pose-distance", "distance: point-cloud"}};
 
 /// What the task complains of when it is made of a condition and one method. It has no clips: whether it gets as far
 /// as to miss them does not matter here.

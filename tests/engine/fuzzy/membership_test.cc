@@ -16,8 +16,11 @@ struct Sample {
 };
 
 double GradeOf(Feature feature, std::string_view term, double input) {
-  for (const Term& candidate : TermsOf(feature)) {
-    if (candidate.name == term) return GradeOf(PaperMemberships().shapes[static_cast<std::size_t>(&candidate - AllTerms().data())], input);
+  PoseFeatures pose;
+  pose[feature] = input;
+  const Grades grades = Fuzzify(pose);
+  for (std::size_t t = 0; t < TermsOf(feature).size(); ++t) {
+    if (TermsOf(feature)[t].name == term) return grades[FirstTermOf(feature) + t];
   }
   ADD_FAILURE() << "no term " << term << " of " << FeatureName(feature);
   return -1;

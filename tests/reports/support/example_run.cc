@@ -238,6 +238,34 @@ Recording CoachRecording() {
       R"({"seam_frame": 80, "from": "clap", "to": "side kick", "branch": "matched in the front half", "distance": 0.31})"};
 }
 
+/// A coach who dances as one clip does until `first`, as an in-between until `second`, and then as the wanted clip.
+BodyMotion Switching(int first, int second) {
+  BodyMotion coach;
+  for (int frame = 0; frame < 150; ++frame) {
+    const double t = frame / 30.0;
+    coach.poses.push_back(frame <= first    ? Dancing(1.2 + 0.9 * std::sin(4 * t), 0.4, 0.02 * std::sin(2 * t))
+                          : frame <= second ? Dancing(0.3, 0.2, 0)
+                                            : Dancing(0.5, 1.2 + 0.8 * std::sin(5 * t), 0.12 * std::sin(3 * t)));
+  }
+  return coach;
+}
+
+constexpr std::string_view kWeights =
+    R"({"RH":1,"LH":1,"RHE":1,"LHE":1,"Posture":1,"Trunk":1,"RF":0.5,"LF":0.5,"RFK":0.5,"LFK":0.5})";
+
+/// Ten partial distances that sum to 2.5 × `unit`.
+std::string Partials(double unit) {
+  return fmt::format(R"({{"RH":{},"LH":{},"RHE":0,"LHE":0,"Posture":0,"Trunk":0,"RF":{},"LF":0,"RFK":0,"LFK":0}})",
+                     unit, unit, unit / 2);
+}
+
+Recording Explained(int first, int second, const std::string& rest) {
+  return {{{"coach", Switching(first, second)}},
+          fmt::format(R"({{"request_frame": 60, "seam_frame": {}, "from": "builtin:clap", "to": "builtin:side_kick",)"
+                      R"( "threshold": 0.4, "natural_limit_cm": 4.5, "weights": {}, {}}})",
+                      first, kWeights, rest)};
+}
+
 Recording CaptureRecording(std::vector<double>& errors) {
   constexpr int kFrames = 60;
   BodyMotion truth, recovered;
@@ -305,6 +333,38 @@ void AddRecordings(RunData& run) {
   const std::string capture = CellOf(run, "capture", "ccd-adaptive", 5);
   run.recordings.push_back({capture, CaptureRecording(errors)});
   run.series.push_back({capture, {{"mpjpe_mm", "frame", std::move(errors)}}});
+}
+
+void AddSwitches(RunData& run) {
+  constexpr int kTrial = 7;
+  const auto add = [&](const std::string& method, Recording recording) {
+    run.recordings.push_back({CellOf(run, "transition", method, kTrial), std::move(recording)});
+  };
+  add("now", Explained(60, 60,
+                       fmt::format(R"("branch": "now", "wait_s": 0, "why": "It asks nothing & <changes> at once.",)"
+                                   R"( "distance": 0.5, "partials": {})",
+                                   Partials(0.1))));
+  add("fuzzy-bridge",
+      Explained(
+          70, 85,
+          fmt::format(R"("seam_frames": [70, 85], "branch": "in-between", "wait_s": 0.8333, "pairs_seen": 40,)"
+                      R"( "pairs_matched": 0, "why": "No pair was close enough, so it goes through an in-between.",)"
+                      R"( "switches": [{{"from": "builtin:clap", "from_frame": 30, "to": "in-between", "to_frame": 0,)"
+                      R"( "distance": 0.3, "partials": {}}}, {{"from": "in-between", "from_frame": 14,)"
+                      R"( "to": "builtin:side_kick", "to_frame": 2, "distance": 0.35, "partials": {}}}])",
+                      Partials(0.036), Partials(0.049))));
+  add("gate-inertialised",
+      Explained(
+          68, 68,
+          fmt::format(
+              R"("branch": "front half", "wait_s": 0.2667, "why": "Of 3 pairs, it is the nearest.",)"
+              R"( "pairs_seen": 120, "pairs_matched": 3, "cost_unit": "cm", "switches": [{{"from": "builtin:clap",)"
+              R"( "from_frame": 28, "to": "builtin:side_kick", "to_frame": 4, "distance": 0.2, "partials": {}}}],)"
+              R"( "candidates": [{{"from_frame": 27, "to_frame": 3, "distance": 0.25, "partials": {}, "cost": 14.5,)"
+              R"( "fate": "worse"}}, {{"from_frame": 28, "to_frame": 4, "distance": 0.2, "partials": {},)"
+              R"( "cost": 9.25, "fate": "taken"}}, {{"from_frame": 29, "to_frame": 4, "distance": 0.5,)"
+              R"( "partials": {}, "cost": null, "fate": "too far"}}])",
+              Partials(0.016), Partials(0.025), Partials(0.016), Partials(0.1))));
 }
 
 }  // namespace etude

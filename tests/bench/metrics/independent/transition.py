@@ -175,3 +175,42 @@ def sparc(given):
     if steps == 0:
         return None
     return -math.fsum(math.hypot(1 / steps, spectrum[i + 1] - spectrum[i]) for i in range(loud[0], loud[-1]))
+
+
+JERK_ORDER = 2  # of the speed
+
+
+def ldlj(given):
+    speed, rate = (given["speed_mps"], given["rate_hz"]) if "speed_mps" in given else speed_profile(given)
+    derivative = list(speed)
+    for _ in range(JERK_ORDER):
+        derivative = [(b - a) * rate for a, b in zip(derivative, derivative[1:])]
+    jerk = math.fsum(j * j for j in derivative) / rate
+    if jerk == 0:
+        return None
+    duration = len(speed) / rate
+    return -math.log(duration ** 3 / max(abs(v) for v in speed) ** 2 * jerk)
+
+
+def in_between(given):
+    return None if given["legs"] is None else int(given["legs"] > 2)
+
+
+def matching(given):
+    return [pair for pair in given["pairs"] if pair["distance"] < given["threshold"]]
+
+
+def direct_match(given):
+    return None if given["threshold"] is None else int(len(matching(given)) > 0)
+
+
+def matching_share(given):
+    if given["threshold"] is None or not given["pairs"]:
+        return None
+    return len(matching(given)) / len(given["pairs"])
+
+
+def false_smooth_share(given):
+    if given["threshold"] is None or not matching(given):
+        return None
+    return sum(pair["pose_gap_cm"] > FALSE_SMOOTH_CM for pair in matching(given)) / len(matching(given))

@@ -1,12 +1,16 @@
 #include "bench/tasks/transition/transition_task.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/stage.h"
-#include "bench/training/adaptive_weights.h"
+#include "bench/tasks/transition/tally.h"
+#include "engine/switching/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
@@ -15,7 +19,6 @@ namespace {
 using ::testing::HasSubstr;
 
 class TransitionTaskTest : public TransitionFixture {};
-class LearntWeights : public TransitionFixture {};
 
 TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
   const ClipLibrary library = SmallLibrary();
@@ -31,35 +34,64 @@ TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
     EXPECT_EQ(cells[4].status, Status::kOk);
     EXPECT_GT(ValueOf(cells[4], "wait_s"), 0);
     EXPECT_EQ(cells[0].digests[0], cells[4].digests[0]) << "same clips, same features";
-    if (cells[1].status != Status::kOk) continue;
-    EXPECT_LT(ValueOf(cells[1], "fuzzy_distance"), 0.4);
+    if (ValueOf(cells[1], "in_between") == 0) {
+      EXPECT_LT(ValueOf(cells[1], "fuzzy_distance"), 0.4);
+    }
     EXPECT_EQ(ValueOf(cells[1], "pose_gap_cm"), ValueOf(cells[3], "pose_gap_cm")) << "same choice, other join";
     smoother += ValueOf(cells[3], "jump_cm") < ValueOf(cells[1], "jump_cm");
   }
   EXPECT_GT(smoother, 0);
 }
 
-TEST_F(TransitionTaskTest, SaysWhyNoWayWasFound) {
-  const ClipLibrary library = SmallLibrary();
-  const CellResult never = CellsOf(**Make(kMethods, library), 0)[5];
-  EXPECT_EQ(never.status, Status::kUnsolved);
-  EXPECT_THAT(never.reason, HasSubstr("matches one of"));
-  ASSERT_EQ(never.metrics.size(), MakeTransitionTaskKind().metrics.size());
-  for (const MetricValue& metric : never.metrics) {
-    if (metric.id == "natural_share") continue;
-    EXPECT_FALSE(metric.value) << metric.id;
-    EXPECT_FALSE(metric.null_reason.empty()) << metric.id;
-  }
-  EXPECT_EQ(ValueOf(never, "natural_share"), 0) << "a switch that never came was not natural";
-}
-
-TEST_F(TransitionTaskTest, CreditsAMethodWithoutAnswerLikeOneThatFoundNoWay) {
+TEST_F(TransitionTaskTest, CountsAWorldWithoutAWayAndSaysWhy) {
   const ClipLibrary library = SmallLibrary();
   const auto task = Make(kMethods, library);
-  const CellResult never = CellsOf(**task, 0)[5];
-  for (const MetricValue& metric : never.metrics) {
+  const auto cell = (*task)->MakeWorld(Trial(0), false)->Judge({{"unsolved", "nothing fits"}});
+  ASSERT_TRUE(cell);
+  EXPECT_EQ(cell->status, Status::kUnsolved);
+  EXPECT_EQ(cell->reason, "nothing fits");
+  ASSERT_EQ(cell->metrics.size(), MakeTransitionTaskKind().metrics.size());
+  for (const MetricValue& metric : cell->metrics) {
     EXPECT_EQ((*task)->ValueOfFailure(metric.id), metric.value) << metric.id;
+    EXPECT_EQ(metric.value.has_value(), metric.null_reason.empty()) << metric.id;
   }
+  EXPECT_EQ(ValueOf(*cell, "natural_share"), 0) << "a switch that never came was not natural";
+}
+
+TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {
+  const ClipLibrary library = SmallLibrary();
+  const CellResult never = CellsOf(**Make(kMethods, library), 0, true)[5];
+  EXPECT_EQ(never.status, Status::kOk);
+  EXPECT_EQ(ValueOf(never, "in_between"), 1);
+  EXPECT_EQ(ValueOf(never, "direct_match"), 0);
+  EXPECT_EQ(ValueOf(never, "matching_share"), 0);
+  const Json facts = Json::parse(never.recording->extras_json);
+  EXPECT_EQ(facts["branch"], "forced");
+  EXPECT_EQ(facts["switches"].size(), 2u);
+  EXPECT_EQ(facts["switches"][0]["to"], "in-between");
+}
+
+TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
+  const ClipLibrary library = SmallLibrary();
+  const Stage stage = SetStage(library);
+  const Choice& choice = *FindChoice("fuzzy-bridge");
+  int looser = 0;
+  for (int trial = 0; trial < 6; ++trial) {
+    const SwitchRequest request = *DrawRequest(stage, Trial(trial));
+    const TaggedClip &from = stage.library.tagged[request.from], &to = stage.library.tagged[request.to];
+    std::int64_t pairs = 0;
+    for (int leave : from.bridge_frames) {
+      if (leave < request.request_frame || leave > request.request_frame + 30) continue;
+      for (int enter : to.bridge_frames) pairs += enter < to.FrameCount() - 1 ? 1 : 0;
+    }
+    const auto tally = [&](double threshold) { return TallyMatches(stage, request, choice, {.threshold = threshold}); };
+    EXPECT_EQ(tally(0).matching, 0);
+    EXPECT_EQ(tally(6).matching, pairs) << "no distance is larger";
+    EXPECT_EQ(tally(0.4).pairs, pairs);
+    EXPECT_EQ(tally(0.4).matching > 0, choice.plan(stage.library, request, {}).legs.size() == 2);
+    looser += tally(0.8).matching > tally(0.4).matching ? 1 : 0;
+  }
+  EXPECT_GT(looser, 0);
 }
 
 TEST_F(TransitionTaskTest, ReportsTheMetricsThatItsKindNames) {
@@ -69,6 +101,23 @@ TEST_F(TransitionTaskTest, ReportsTheMetricsThatItsKindNames) {
     for (const MetricValue& metric : cell.metrics) ids.push_back(metric.id);
     EXPECT_EQ(ids, MakeTransitionTaskKind().metrics);
   }
+}
+
+TEST_F(TransitionTaskTest, AsksForActsWhileMovesPlay) {
+  const ClipLibrary library{{Builtin("puzzled"), Builtin("sway"), Builtin("clap"), Builtin("head_shake")}};
+  const Stage acts = SetStage(library, {.fuzzy = {}, .head = {}, .tween = {}, .asks_for_acts = true});
+  const ClipLibrary none = SmallLibrary();
+  const Stage any = SetStage(none, {.fuzzy = {}, .head = {}, .tween = {}, .asks_for_acts = true});
+  std::vector<int> wanted(library.clips.size());
+  for (int trial = 0; trial < 20; ++trial) {
+    const SwitchRequest request = *DrawRequest(acts, Trial(trial));
+    EXPECT_EQ(request.from, 1 + trial % 2);
+    ++wanted[request.to];
+    EXPECT_NE(DrawRequest(any, Trial(trial))->from, DrawRequest(any, Trial(trial))->to) << "no acts: any clip";
+  }
+  EXPECT_GT(wanted[0], 0);
+  EXPECT_GT(wanted[3], 0);
+  EXPECT_EQ(wanted[0] + wanted[3], 20);
 }
 
 TEST_F(TransitionTaskTest, IsAFunctionOfTheWorldAlone) {
@@ -94,7 +143,7 @@ TEST_F(TransitionTaskTest, SkipsALibraryThatHoldsNothingToSwitchTo) {
   EXPECT_THAT(CellsOf(**task, 1)[0].reason, HasSubstr("has 5 frames"));
 }
 
-TEST_F(TransitionTaskTest, RecordsTheSwitchWithItsFacts) {
+TEST_F(TransitionTaskTest, RecordsTheSwitchWithWhatExplainsIt) {
   const ClipLibrary library = SmallLibrary();
   const auto cells = CellsOf(**Make(kMethods, library), 0, true);
   ASSERT_TRUE(cells[0].recording);
@@ -102,10 +151,27 @@ TEST_F(TransitionTaskTest, RecordsTheSwitchWithItsFacts) {
   ASSERT_EQ(recording.tracks.size(), 1u);
   EXPECT_EQ(recording.tracks[0].name, "coach");
   EXPECT_GT(recording.tracks[0].motion.poses.size(), 30u);
-  EXPECT_THAT(recording.extras_json, HasSubstr(R"("seam_frame":)"));
-  EXPECT_THAT(recording.extras_json, HasSubstr(R"("from":"builtin:sway")"));
-  EXPECT_THAT(recording.extras_json, HasSubstr(R"("branch":"now")"));
   EXPECT_FALSE(CellsOf(**Make(kMethods, library), 0)[0].recording);
+
+  const Json facts = Json::parse(recording.extras_json);
+  EXPECT_EQ(facts["from"], "builtin:sway");
+  EXPECT_EQ(facts["branch"], "now");
+  EXPECT_FALSE(facts["why"].get<std::string>().empty());
+  for (const CellResult& cell : cells) {
+    const Json told = Json::parse(cell.recording->extras_json);
+    for (const Json& change : told["switches"]) {
+      double sum = 0;
+      for (const auto& [feature, part] : change["partials"].items()) sum += part.get<double>();
+      EXPECT_NEAR(std::sqrt(sum), change["distance"], 1e-12);
+    }
+    for (const Json& candidate : told["candidates"]) {
+      EXPECT_EQ(candidate["partials"].size(), kFeatureCount);
+      EXPECT_TRUE(candidate["cost"].is_number() == !told["cost_unit"].get<std::string>().empty());
+    }
+    double weights = 0;
+    for (const auto& [feature, weight] : told["weights"].items()) weights += weight.get<double>();
+    EXPECT_NEAR(weights, kWeightSum, 1e-12);
+  }
 }
 
 TEST_F(TransitionTaskTest, ComplainsAboutUnknownNames) {
@@ -116,36 +182,42 @@ TEST_F(TransitionTaskTest, ComplainsAboutUnknownNames) {
   EXPECT_FALSE(Make("methods: [{name: x, join: glue}]", SmallLibrary()));
   EXPECT_FALSE(Make("methods: [{name: x, treshold: 1}]", SmallLibrary()));
   EXPECT_FALSE(Make("methods: [{name: x, threshold: -1}]", SmallLibrary()));
+  for (const char* misplaced :
+       {"choice: now, threshold: 0.3", "choice: now, pick: smallest", "join: cut, blend_s: 0.2"}) {
+    const auto task = Make(fmt::format("methods: [{{name: x, {}}}]", misplaced), SmallLibrary());
+    ASSERT_FALSE(task) << misplaced;
+    EXPECT_THAT(ToString(task.error()), HasSubstr("; allowed with ")) << misplaced;
+  }
+}
+
+TEST_F(TransitionTaskTest, MakesBridgeFramesAsTheConditionSays) {
+  const auto digest = [&](const std::string& says, std::size_t stage) {
+    const ClipLibrary library = SmallLibrary();
+    return CellsOf(**Make(says + kMethods, library), 0)[0].digests[stage];
+  };
+  const auto features = digest("", 0), frames = digest("", 1), keys = digest("", 2);
+  EXPECT_EQ(frames.first, "bridge_frames");
+  EXPECT_EQ(keys.first, "in_between_keys");
+  for (const char* says : {"min_clips: 1", "head_bend_deg: 5", "head_turn_dps: 10", "most_per_class: 2"}) {
+    EXPECT_EQ(digest(says, 0), features) << says;
+    EXPECT_NE(digest(says, 1), frames) << says;
+  }
+  EXPECT_NE(digest("fuzzy: builtin:gaussian", 0), features);
 }
 
 TEST_F(TransitionTaskTest, WeighsFeaturesAsLearntWhenAskedTo) {
   const ClipLibrary library = SmallLibrary();
-  const auto task =
-      Make("methods: [{name: fixed, choice: now}, {name: adaptive, choice: now, weights: adaptive}]", library);
-  const auto cells = RunWorld(**task, Trial(0), 2);
+  const auto task = Make(R"(
+methods:
+  - {name: fixed, choice: now}
+  - {name: adaptive, choice: now, weights: adaptive}
+  - {name: genetic, choice: now, weights: genetic}
+)",
+                         library);
+  const auto cells = RunWorld(**task, Trial(0), 3);
   EXPECT_EQ(ValueOf(cells[0], "jump_cm"), ValueOf(cells[1], "jump_cm"));
   EXPECT_NE(ValueOf(cells[0], "fuzzy_distance"), ValueOf(cells[1], "fuzzy_distance"));
-}
-
-TEST_F(LearntWeights, NeverSawTheJudgedClips) {
-  const Stage stage = SetStage(SmallLibrary());
-  const auto training = GatherTrainingClips(stage.library, stage.identities);
-  ASSERT_TRUE(training);
-  EXPECT_EQ(training->identities, [] {
-    std::vector<std::string> names = BuiltinMoveNames();
-    for (std::string& name : names) name = "builtin:" + name;
-    return names;
-  }()) << "every built-in move once, though the library names three of them again";
-
-  AdaptiveWeights adaptive(*training);
-  const WeightFit& fit = adaptive.Without("builtin:clap", "builtin:sway");
-  const auto n = static_cast<int>(BuiltinMoveNames().size());
-  EXPECT_EQ(fit.pairs, (n - 2) * (n - 3) / 2 * 16 * 16);
-  EXPECT_EQ(adaptive.Without("mine.bvh", "builtin:sway").pairs, (n - 1) * (n - 2) / 2 * 16 * 16);
-  ASSERT_EQ(fit.status, WeightFitStatus::kFitted);
-  EXPECT_NEAR(std::accumulate(fit.weights.begin(), fit.weights.end(), 0.0), 8, 1e-12);
-  EXPECT_NE(fit.weights, PaperWeights());
-  EXPECT_EQ(&fit, &adaptive.Without("builtin:sway", "builtin:clap")) << "learnt once";
+  EXPECT_NE(ValueOf(cells[1], "fuzzy_distance"), ValueOf(cells[2], "fuzzy_distance"));
 }
 
 }  // namespace

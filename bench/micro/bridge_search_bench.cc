@@ -1,0 +1,286 @@
+// Searching a library for frames by fuzzy distance: our index beside a loop, the same loop over vectors, and
+// nanoflann's k-d tree, on the same frames and queries, one after the other in one process. Arguments that are no
+// options are clips to make the library of (bridge_search_data.h). All answers are compared first.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "bench/micro/bridge_search_data.h"
+#include "bench/micro/search_peers.h"
+#include "engine/bridging/search/grade_index.h"
+#include "engine/bridging/search/partners.h"
+
+namespace etude {
+namespace {
+
+using Queries = std::vector<Grades>;
+
+/// One way of searching, as it answers.
+struct Searcher {
+  std::function<std::optional<Neighbour>(const Grades&)> first;
+  std::function<std::vector<Neighbour>(const Grades&)> within;
+  std::function<std::vector<Neighbour>(const Grades&, int)> nearest;
+};
+
+template <class Index>
+Searcher Ask(std::shared_ptr<const Index> index) {
+  return {.first = [index](const Grades& query) { return index->First(query, kPaperThreshold); },
+          .within = [index](const Grades& query) { return index->Within(query, kPaperThreshold); },
+          .nearest = [index](const Grades& query, int k) { return index->Nearest(query, k); }};
+}
+
+/// Ours comes first.
+#ifdef ETUDE_HAS_NANOFLANN
+constexpr int kNanoflannLeaves[] = {10, 20, 40, 64};
+constexpr const char* kSearcherNames[] = {"index",        "loop",         "vector-loop", "nanoflann-10",
+                                          "nanoflann-20", "nanoflann-40", "nanoflann-64"};
+#else
+constexpr const char* kSearcherNames[] = {"index", "loop", "vector-loop"};
+#endif
+
+std::vector<Searcher> MakeSearchers(std::span<const Grades> frames) {
+  const FeatureWeights weights = PaperWeights();
+  std::vector<Searcher> searchers = {Ask(std::make_shared<const GradeIndex>(frames, weights)),
+                                     Ask(std::make_shared<const LoopPeer>(frames, weights)),
+                                     Ask(std::make_shared<const VectorLoopPeer>(frames, weights))};
+#ifdef ETUDE_HAS_NANOFLANN
+  for (int leaf : kNanoflannLeaves) {
+    searchers.push_back(Ask(std::make_shared<const NanoflannPeer>(frames, weights, leaf)));
+  }
+#endif
+  return searchers;
+}
+
+[[noreturn]] void Disagree(std::size_t who, const char* about) {
+  std::fprintf(stderr, "%s: another answer of '%s' than the index\n", kSearcherNames[who], about);
+  std::exit(1);
+}
+
+/// Peers round distances in their own way, and take any of equals.
+void CompareAnswers(const std::vector<Searcher>& searchers, const Queries& queries) {
+  constexpr double kRounding = 1e-12;
+  const Searcher& ours = searchers.front();
+  for (std::size_t p = 1; p < searchers.size(); ++p) {
+    const Searcher& peer = searchers[p];
+    for (std::size_t q = 0; q < queries.size(); q += 5) {
+      const auto first = ours.first(queries[q]), peers_first = peer.first(queries[q]);
+      if (first.has_value() != peers_first.has_value()) Disagree(p, "first");
+      if (first && first->frame != peers_first->frame) Disagree(p, "first");
+      if (ours.within(queries[q]).size() != peer.within(queries[q]).size()) Disagree(p, "within");
+      const auto nearest = ours.nearest(queries[q], 10), peers_nearest = peer.nearest(queries[q], 10);
+      if (nearest.size() != peers_nearest.size()) Disagree(p, "nearest");
+      for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (std::abs(nearest[i].distance - peers_nearest[i].distance) > kRounding) Disagree(p, "nearest");
+      }
+    }
+  }
+}
+
+/// What hurts: the query with the most frames within the threshold, and those that have none.
+struct HardQueries {
+  Queries most, none;
+};
+
+HardQueries FindHardQueries(const Searcher& ours, const SearchData& data) {
+  HardQueries hard;
+  std::size_t most = 0;
+  for (const Queries* queries : {&data.own, &data.varied, &data.foreign}) {
+    for (const Grades& query : *queries) {
+      const std::size_t count = ours.within(query).size();
+      if (count == 0) hard.none.push_back(query);
+      if (count <= most) continue;
+      most = count;
+      hard.most = {query};
+    }
+  }
+  return hard;
+}
+
+/// A library of one size with everyone's index of it.
+struct Measured {
+  SearchData data;
+  std::vector<Searcher> searchers;
+  HardQueries hard;
+
+  Measured(std::span<const BodyMotion> seeds, int count)
+      : data(MakeSearchData(seeds, count)), searchers(MakeSearchers(data.frames)) {
+    for (const Queries* queries : {&data.own, &data.varied, &data.foreign}) CompareAnswers(searchers, *queries);
+    hard = FindHardQueries(searchers.front(), data);
+  }
+
+  const Queries& QueriesOf(std::string_view kind) const {
+    if (kind == "own") return data.own;
+    if (kind == "varied") return data.varied;
+    if (kind == "foreign") return data.foreign;
+    return kind == "most" ? hard.most : hard.none;
+  }
+};
+constexpr const char* kQueryKinds[] = {"own", "varied", "foreign", "most", "none"};
+
+/// Makes libraries when they are asked for, and holds one at a time: a million frames in every form take gigabytes.
+class Libraries {
+ public:
+  explicit Libraries(std::vector<BodyMotion> seeds) : seeds_(std::move(seeds)) {}
+  const Measured& Of(int count) {
+    if (count != count_) {
+      held_.reset();
+      held_ = std::make_unique<Measured>(seeds_, count);
+      count_ = count;
+    }
+    return *held_;
+  }
+
+ private:
+  std::vector<BodyMotion> seeds_;
+  int count_ = 0;
+  std::unique_ptr<Measured> held_;
+};
+
+/// What is asked of a searcher; the number of frames in its answer.
+using Question = std::size_t (*)(const Searcher&, const Grades&);
+
+/// Asks all queries in turn, everyone the same ones; the time shown is the mean over them.
+void AskAll(benchmark::State& state, const Searcher& searcher, const Queries& queries, Question ask) {
+  if (queries.empty()) return state.SkipWithError("there is no such query");
+  std::size_t answers = 0;
+  while (state.KeepRunningBatch(static_cast<std::int64_t>(queries.size()))) {
+    for (const Grades& query : queries) answers += ask(searcher, query);
+  }
+  state.counters["answers"] = benchmark::Counter(static_cast<double>(answers), benchmark::Counter::kAvgIterations);
+}
+
+void RegisterSearches(Libraries& libraries, int count) {
+  const std::map<std::string, Question> questions = {
+      {"nearest", [](const Searcher& s, const Grades& query) { return s.nearest(query, 1).size(); }},
+      {"nearest10", [](const Searcher& s, const Grades& query) { return s.nearest(query, 10).size(); }},
+      {"first", [](const Searcher& s, const Grades& query) { return std::size_t{s.first(query).has_value()}; }},
+      {"within", [](const Searcher& s, const Grades& query) { return s.within(query).size(); }},
+  };
+  for (const auto& [name, ask] : questions) {
+    for (const char* kind : kQueryKinds) {
+      for (std::size_t i = 0; i < std::size(kSearcherNames); ++i) {
+        const auto run = [&libraries, count, kind, i, ask = ask](benchmark::State& state) {
+          const Measured& of = libraries.Of(count);
+          AskAll(state, of.searchers[i], of.QueriesOf(kind), ask);
+        };
+        const std::string full_name = name + "/" + std::to_string(count) + "/" + kind + "/" + kSearcherNames[i];
+        benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMicrosecond)->MinTime(0.1);
+      }
+    }
+  }
+}
+
+template <class Index>
+void RegisterBuild(Libraries& libraries, int count, const std::string& name, auto... options) {
+  const auto run = [=, &libraries](benchmark::State& state) {
+    const std::vector<Grades>& frames = libraries.Of(count).data.frames;
+    double bytes = 0;
+    for (auto _ : state) {
+      const Index index(frames, PaperWeights(), options...);
+      bytes = static_cast<double>(index.Bytes());
+    }
+    state.counters["bytes_per_frame"] = bytes / count;
+  };
+  const std::string full_name = "build/" + std::to_string(count) + "/" + name;
+  benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond)->MinTime(0.2);
+}
+
+/// Every frame's partners in every other clip, and the matrix.
+void FindAllPartners(benchmark::State& state, const std::vector<std::vector<Grades>>& clips) {
+  std::vector<PartnerClip> partner_clips;
+  double frames = 0;
+  for (const std::vector<Grades>& clip : clips) {
+    partner_clips.push_back({.grades = clip});
+    frames += static_cast<double>(clip.size());
+  }
+  double shares = 0;
+  SearchWork work;
+  for (auto _ : state) {
+    work = {};
+    const PartnerTable table = FindPartners(partner_clips, {}, &work);
+    shares = 0;
+    for (int a = 0; a < table.ClipCount(); ++a) {
+      for (int b = 0; b < table.ClipCount(); ++b) shares += table.Share(a, b);
+    }
+  }
+  const double count = static_cast<double>(clips.size());
+  state.counters["frames"] = frames;
+  state.counters["clips"] = count;
+  state.counters["distances"] = static_cast<double>(work.distances);
+  state.counters["boxes"] = static_cast<double>(work.boxes);
+  state.counters["share"] = shares / (count * (count - 1));
+}
+
+/// The same by an index of each clip that is asked for every frame of the others.
+template <class Index>
+void AskForPartners(benchmark::State& state, const std::vector<std::vector<Grades>>& clips, auto... options) {
+  double found = 0;
+  for (auto _ : state) {
+    found = 0;
+    for (const std::vector<Grades>& to : clips) {
+      const Index index(std::span<const Grades>(to).first(to.size() - 1), PaperWeights(), options...);
+      for (const std::vector<Grades>& from : clips) {
+        if (&from == &to) continue;
+        for (const Grades& frame : from) {
+          if (!index.First(frame, kPaperThreshold)) continue;
+          benchmark::DoNotOptimize(index.Nearest(frame, 1));
+          ++found;
+        }
+      }
+    }
+  }
+  const double count = static_cast<double>(clips.size());
+  state.counters["share"] = found / (count * (count - 1) * static_cast<double>(clips[0].size()));
+}
+
+void RegisterPartners(Libraries& libraries, int count) {
+  constexpr std::size_t kClipLength = 1000;
+  const std::string name = "partners/" + std::to_string(count) + "/";
+  const auto add = [&](const std::string& variant, auto run) {
+    benchmark::RegisterBenchmark((name + variant).c_str(), [=, &libraries](benchmark::State& state) {
+      run(state, libraries.Of(count).data);
+    })->Unit(benchmark::kMillisecond);
+  };
+  add("1000-each/index", [](benchmark::State& state, const SearchData& data) {
+    FindAllPartners(state, ClipsOfLength(data.frames, kClipLength));
+  });
+  add("as-they-are/index", [](benchmark::State& state, const SearchData& data) { FindAllPartners(state, data.clips); });
+  add("1000-each/loop", [](benchmark::State& state, const SearchData& data) {
+    AskForPartners<LoopPeer>(state, ClipsOfLength(data.frames, kClipLength));
+  });
+#ifdef ETUDE_HAS_NANOFLANN
+  add("1000-each/nanoflann-20", [](benchmark::State& state, const SearchData& data) {
+    AskForPartners<NanoflannPeer>(state, ClipsOfLength(data.frames, kClipLength), 20);
+  });
+#endif
+}
+
+void RegisterAll(Libraries& libraries) {
+  for (int count : {1000, 10'000, 100'000, 1'000'000}) {
+    RegisterBuild<GradeIndex>(libraries, count, "index");
+#ifdef ETUDE_HAS_NANOFLANN
+    for (int leaf : kNanoflannLeaves) {
+      RegisterBuild<NanoflannPeer>(libraries, count, "nanoflann-" + std::to_string(leaf), leaf);
+    }
+#endif
+    RegisterSearches(libraries, count);
+    if (count == 10'000 || count == 100'000) RegisterPartners(libraries, count);
+  }
+}
+
+}  // namespace
+}  // namespace etude
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  etude::Libraries libraries(etude::LoadSeeds({argv + 1, argv + argc}));
+  etude::RegisterAll(libraries);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,94 @@
+#include "bench/micro/bridge_search_data.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include "bench/clips/builtin_clip.h"
+#include "bench/clips/clip_library.h"
+#include "engine/fuzzy/features.h"
+#include "sim/choreography/varied_library.h"
+
+namespace etude {
+namespace {
+
+constexpr int kQueries = 100;
+
+std::vector<Grades> GradesOf(const BodyMotion& motion) {
+  std::vector<Grades> grades;
+  const double hip_height = StandingHipHeight(motion.poses.front());
+  for (const BodyPose& pose : motion.poses) grades.push_back(Fuzzify(ComputeFeatures(pose, hip_height)));
+  return grades;
+}
+
+/// Poses are large: they are made and turned into grades a part at a time.
+std::vector<std::vector<Grades>> VaryGrades(std::span<const BodyMotion> seeds, int count, RandomStream& stream) {
+  constexpr int kPart = 50'000;
+  std::vector<std::vector<Grades>> clips;
+  for (int done = 0; done < count; done += kPart) {
+    for (const BodyMotion& clip : VariedLibrary(seeds, std::min(kPart, count - done), stream)) {
+      clips.push_back(GradesOf(clip));
+    }
+  }
+  return clips;
+}
+
+std::vector<Grades> Joined(std::span<const std::vector<Grades>> clips) {
+  std::vector<Grades> all;
+  for (const std::vector<Grades>& clip : clips) all.insert(all.end(), clip.begin(), clip.end());
+  return all;
+}
+
+/// Evenly from all over.
+std::vector<Grades> Some(std::span<const Grades> frames) {
+  std::vector<Grades> some;
+  for (std::size_t i = 0; i < kQueries; ++i) some.push_back(frames[i * frames.size() / kQueries]);
+  return some;
+}
+
+}  // namespace
+
+std::vector<BodyMotion> LoadSeeds(const std::vector<std::string>& files) {
+  std::vector<std::string> references = files;
+  if (files.empty()) {
+    for (const char* name : {"01_01", "01_03", "Boxing_Toes"}) {
+      const std::string path = std::string("/usr/share/assimp/models/BVH/") + name + ".bvh";
+      if (std::filesystem::exists(path)) references.push_back(path);
+    }
+  }
+  for (const std::string& name : BuiltinMoveNames()) references.push_back(std::string(kBuiltinPrefix) + name);
+  for (const std::string& name : BuiltinActNames()) references.push_back(std::string(kBuiltinPrefix) + name);
+  const auto library = LoadClips(references, {});
+  if (!library) {
+    std::fprintf(stderr, "%s\n", ToString(library.error()).c_str());
+    std::exit(2);
+  }
+  std::vector<BodyMotion> seeds;
+  for (const LibraryClip& clip : library->clips) seeds.push_back(clip.motion);
+  return seeds;
+}
+
+SearchData MakeSearchData(std::span<const BodyMotion> seeds, int count) {
+  std::vector<BodyMotion> known, foreign;
+  for (std::size_t i = 0; i < seeds.size(); ++i) (i % 5 == 1 ? foreign : known).push_back(seeds[i]);
+  const WorldKey world{.suite_seed = 1, .scenario = "bridge_search_bench", .trial = 0};
+  RandomStream library_dice(world, "library"), varied_dice(world, "varied"), foreign_dice(world, "foreign");
+  SearchData data;
+  data.clips = VaryGrades(known, count, library_dice);
+  data.frames = Joined(data.clips);
+  data.own = Some(data.frames);
+  data.varied = Some(Joined(VaryGrades(known, 20'000, varied_dice)));
+  data.foreign = Some(Joined(VaryGrades(foreign, 20'000, foreign_dice)));
+  return data;
+}
+
+std::vector<std::vector<Grades>> ClipsOfLength(std::span<const Grades> frames, std::size_t length) {
+  std::vector<std::vector<Grades>> clips;
+  for (std::size_t i = 0; i + length <= frames.size(); i += length) {
+    clips.emplace_back(frames.begin() + i, frames.begin() + i + length);
+  }
+  return clips;
+}
+
+}  // namespace etude

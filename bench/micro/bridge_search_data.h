@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/fuzzy/membership.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// What searches are measured on: the grades of clips that were danced with varied tempo and amplitude
+/// (sim/choreography/varied_library.h), out of the built-in moves and acts and real clips.
+struct SearchData {
+  std::vector<std::vector<Grades>> clips;
+  std::vector<Grades> frames;   ///< of all clips
+  std::vector<Grades> own;      ///< queries: some of `frames`
+  std::vector<Grades> varied;   ///< queries: of other performances of the same seeds
+  std::vector<Grades> foreign;  ///< queries: of seeds that the library does not know
+};
+
+/// Motions to vary. `files`: clips instead of the real ones of Debian's assimp-testmodels. Ends the program if one
+/// cannot be read; goes without the real ones where they are not installed.
+std::vector<BodyMotion> LoadSeeds(const std::vector<std::string>& files);
+
+/// A library of `count` frames. Every fifth seed stays out of it and gives the foreign queries.
+SearchData MakeSearchData(std::span<const BodyMotion> seeds, int count);
+
+/// The clips cut off and put together to clips of `length` frames each.
+std::vector<std::vector<Grades>> ClipsOfLength(std::span<const Grades> frames, std::size_t length);
+
+}  // namespace etude

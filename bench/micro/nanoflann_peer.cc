@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+
+#include "bench/micro/search_peers.h"
+
+namespace etude {
+namespace {
+
+struct Cloud {
+  std::vector<GradePoint> points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t frame, std::size_t term) const { return points[frame][term]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud,
+                                                   static_cast<int>(kTermCount), std::uint32_t>;
+
+/// nanoflann's interface for results of one's own: the least frame below a distance.
+class FirstFrame {
+ public:
+  explicit FirstFrame(double squared_limit) : limit_(squared_limit) {}
+  bool full() const { return true; }
+  double worstDist() const { return limit_; }
+  bool addPoint(double squared, std::uint32_t frame) {
+    if (squared < limit_ && frame < frame_) {
+      frame_ = frame;
+      squared_ = squared;
+    }
+    return true;
+  }
+  std::optional<Neighbour> Found() const {
+    if (frame_ == kNone) return std::nullopt;
+    return Neighbour{static_cast<int>(frame_), std::sqrt(squared_)};
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  double limit_;
+  std::uint32_t frame_ = kNone;
+  double squared_ = 0;
+};
+
+}  // namespace
+
+struct NanoflannPeer::Tree {
+  Cloud cloud;
+  std::unique_ptr<KdTree> kd_tree;
+};
+
+NanoflannPeer::NanoflannPeer(std::span<const Grades> frames, const FeatureWeights& weights, int leaf_size)
+    : roots_(RootsOf(weights)), tree_(std::make_unique<Tree>()) {
+  for (const Grades& grades : frames) tree_->cloud.points.push_back(PointOf(grades, roots_));
+  const nanoflann::KDTreeSingleIndexAdaptorParams params(static_cast<std::size_t>(leaf_size));
+  tree_->kd_tree = std::make_unique<KdTree>(static_cast<int>(kTermCount), tree_->cloud, params);
+  tree_->kd_tree->buildIndex();
+}
+
+NanoflannPeer::~NanoflannPeer() = default;
+
+std::optional<Neighbour> NanoflannPeer::First(const Grades& query, double threshold) const {
+  const GradePoint point = PointOf(query, roots_);
+  FirstFrame first(threshold * threshold);
+  tree_->kd_tree->findNeighbors(first, point.data(), {});
+  return first.Found();
+}
+
+std::vector<Neighbour> NanoflannPeer::Within(const Grades& query, double threshold) const {
+  const GradePoint point = PointOf(query, roots_);
+  std::vector<std::pair<std::uint32_t, double>> near;
+  nanoflann::SearchParams unsorted;
+  unsorted.sorted = false;
+  tree_->kd_tree->radiusSearch(point.data(), threshold * threshold, near, unsorted);
+  std::vector<Neighbour> found;
+  for (const auto& [frame, squared] : near) found.push_back({static_cast<int>(frame), std::sqrt(squared)});
+  std::ranges::sort(found, {}, &Neighbour::frame);
+  return found;
+}
+
+std::vector<Neighbour> NanoflannPeer::Nearest(const Grades& query, int k) const {
+  const GradePoint point = PointOf(query, roots_);
+  std::vector<std::uint32_t> frames(static_cast<std::size_t>(k));
+  std::vector<double> squared(frames.size());
+  const std::size_t count = tree_->kd_tree->knnSearch(point.data(), frames.size(), frames.data(), squared.data());
+  std::vector<Neighbour> found;
+  for (std::size_t i = 0; i < count; ++i) found.push_back({static_cast<int>(frames[i]), std::sqrt(squared[i])});
+  return found;
+}
+
+std::size_t NanoflannPeer::Bytes() const {
+  return tree_->cloud.points.size() * sizeof(GradePoint) + tree_->kd_tree->usedMemory(*tree_->kd_tree);
+}
+
+}  // namespace etude

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/bridging/search/grade_index.h"
+#include "engine/fuzzy/distance.h"
+
+namespace etude {
+
+/// A frame as a point whose Euclidean distances are equation 1's: √S·μ.
+using GradePoint = std::array<double, kTermCount>;
+GradePoint PointOf(const Grades& grades, const GradePoint& roots);
+/// √S of every term.
+GradePoint RootsOf(const FeatureWeights& weights);
+
+/// What one would write: a loop over all frames in time order that stops adding up when a frame is too far.
+class LoopPeer {
+ public:
+  LoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);
+  std::optional<Neighbour> First(const Grades& query, double threshold) const;
+  std::vector<Neighbour> Within(const Grades& query, double threshold) const;
+  std::vector<Neighbour> Nearest(const Grades& query, int k) const;
+
+ private:
+  GradePoint roots_;
+  std::vector<GradePoint> points_;
+};
+
+/// The same with our vectors: sixteen frames at once, all of them. How much the tree gives beyond them.
+class VectorLoopPeer {
+ public:
+  VectorLoopPeer(std::span<const Grades> frames, const FeatureWeights& weights);
+  std::optional<Neighbour> First(const Grades& query, double threshold) const;
+  std::vector<Neighbour> Within(const Grades& query, double threshold) const;
+  std::vector<Neighbour> Nearest(const Grades& query, int k) const;
+
+ private:
+  GradeMetric metric_;
+  int frame_count_ = 0;
+  std::vector<FrameBlock> blocks_;
+};
+
+#ifdef ETUDE_HAS_NANOFLANN
+/// nanoflann's k-d tree over the points, in double.
+class NanoflannPeer {
+ public:
+  NanoflannPeer(std::span<const Grades> frames, const FeatureWeights& weights, int leaf_size);
+  ~NanoflannPeer();
+  /// The least frame of all within, kept while searching.
+  std::optional<Neighbour> First(const Grades& query, double threshold) const;
+  std::vector<Neighbour> Within(const Grades& query, double threshold) const;
+  std::vector<Neighbour> Nearest(const Grades& query, int k) const;
+  std::size_t Bytes() const;
+
+ private:
+  struct Tree;
+  GradePoint roots_;
+  std::unique_ptr<Tree> tree_;
+};
+#endif
+
+}  // namespace etude

@@ -1,0 +1,29 @@
+#include "bench/tasks/base/fuzzy_key.h"
+
+namespace etude {
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+}  // namespace
+
+KeyInfo FuzzyKey() {
+  return {kFuzzyKey, "`builtin:paper`, `builtin:gaussian`, a file", "builtin:paper",
+          "The fuzzy system that poses are graded by: membership functions, weights, rules."};
+}
+
+const FuzzySystem& FuzzyOf(TaskInput& input) {
+  input.condition.Raw(kFuzzyKey);
+  return input.fuzzy;
+}
+
+bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBuiltin); }
+
+Result<FuzzySystem> OpenFuzzySystem(const std::string& reference, const Place& asked_at, const FuzzyTextOf& text_of) {
+  if (!IsFuzzyFile(reference)) return LoadBuiltinFuzzySystem(reference.substr(kBuiltin.size()), asked_at);
+  const auto text = text_of(reference);
+  if (!text) return tl::unexpected(text.error());
+  return ReadFuzzySystem(*text, reference);
+}
+
+}  // namespace etude

@@ -1,0 +1,55 @@
+#include "bench/tasks/pose_distance/exchange.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/answer_fields.h"
+#include "bench/tasks/base/pose_json.h"
+
+namespace etude {
+namespace {
+
+constexpr double kLargestDistance = 1e9;
+
+Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+
+}  // namespace
+
+Exhibit ExhibitBody() { return Show(DescribeBody()); }
+
+Exhibit ExhibitPairs(const PairWorld& world) {
+  Json pairs = Json::array();
+  for (const PosePair& pair : world.pairs) {
+    pairs.push_back({{"a", EncodePose(pair.a.pose)}, {"b", EncodePose(pair.b.pose)}});
+  }
+  return Show({{"pairs", std::move(pairs)}});
+}
+
+Exhibit ExhibitGaps(const PairWorld& world) {
+  Json gaps = Json::array();
+  for (const PosePair& pair : world.pairs) gaps.push_back(100 * pair.gap_m);
+  return Show({{"name", world.name}, {"pose_gap_cm", std::move(gaps)}});
+}
+
+Result<PairVerdict> ReadPairAnswer(const Json& answer, const PairWorld& world) {
+  AnswerFields fields(answer);
+  PairVerdict verdict;
+  const std::size_t count = world.pairs.size();
+  const auto distances = ReadNumbers(fields.List("distances", count, count), "distances", count, {0, kLargestDistance});
+  if (distances) {
+    verdict.distances = *distances;
+  } else {
+    fields.Note(distances.error());
+  }
+  for (const Json& entry : fields.List("alike", count, count)) {
+    if (!entry.is_boolean()) {
+      const std::string path = fields.PathOf("alike", verdict.alike.size());
+      fields.Note(Error{{}, path + ": " + ShowJson(entry) + " is neither true nor false"});
+      break;
+    }
+    verdict.alike.push_back(entry.get<bool>());
+  }
+  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  return verdict;
+}
+
+}  // namespace etude

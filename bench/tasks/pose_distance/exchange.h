@@ -1,0 +1,34 @@
+#pragma once
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/pose_distance/pose_distances.h"
+
+namespace etude {
+
+/// What methods outside the program are told about pairs of poses, and what they answer. A pose is sixty numbers
+/// (EncodePose).
+///
+/// Setting: the body.
+///
+///     {"joints": ["hip_centre", …], "parents": [null, "hip_centre", …]}
+Exhibit ExhibitBody();
+
+/// Problem: poses, two by two.
+///
+///     {"pairs": [{"a": [x, y, z, …], "b": [x, y, z, …]}, …]}
+Exhibit ExhibitPairs(const PairWorld& world);
+
+/// Truth: how far the worst joint is off once heading and hips agree.
+///
+///     {"name": "arm forward or sideways", "pose_gap_cm": [103.2, …]}
+Exhibit ExhibitGaps(const PairWorld& world);
+
+/// Answer: how unlike the two poses of each pair are, larger = more unlike, on any scale from 0 up; and whether a
+/// switch from the one to the other would go unnoticed.
+///
+///     {"distances": [0.31, …], "alike": [true, …]}
+///
+/// Refuses what is not as told here, naming where in the answer.
+Result<PairVerdict> ReadPairAnswer(const Json& answer, const PairWorld& world);
+
+}  // namespace etude

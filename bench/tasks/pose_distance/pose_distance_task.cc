@@ -1,0 +1,105 @@
+#include "bench/tasks/pose_distance/pose_distance_task.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/pose_distance/blind_spots.h"
+#include "bench/tasks/pose_distance/exchange.h"
+#include "bench/tasks/pose_distance/options.h"
+#include "bench/tasks/pose_distance/scoring.h"
+
+namespace etude {
+namespace {
+
+/// What the worlds of a condition share.
+struct PairStudy {
+  PairOptions options;
+  std::vector<PoseDistanceMethod> methods;
+  DancedClips clips;
+  FuzzySystem fuzzy;
+  mutable LearntWeights learnt;  ///< remembers fits; what it answers depends on the question only
+};
+
+class PoseDistanceWorld final : public TaskWorld {
+ public:
+  PoseDistanceWorld(const PairStudy& study, PairWorld world) : study_(study), world_(std::move(world)) {}
+
+  CellResult Run(std::size_t index) override {
+    const PoseDistanceMethod& method = study_.methods[index];
+    const FeatureWeights& weights = study_.learnt.For(method.weights, world_.clip_a, world_.clip_b);
+    return ScorePairs(world_, TellPairs(world_, method, study_.fuzzy.memberships, weights), &method.distance);
+  }
+
+  Result<Exhibit> MakeProblem() override { return ExhibitPairs(world_); }
+  Result<Exhibit> MakeTruth() override { return ExhibitGaps(world_); }
+
+  Result<CellResult> Judge(const Json& answer) override {
+    const auto verdict = ReadPairAnswer(answer, world_);
+    if (!verdict) return tl::unexpected(verdict.error());
+    return ScorePairs(world_, *verdict, nullptr);
+  }
+
+ private:
+  const PairStudy& study_;
+  const PairWorld world_;
+};
+
+class PoseDistanceTask final : public Task {
+ public:
+  explicit PoseDistanceTask(PairStudy study) : study_(std::move(study)) {}
+
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool /*keeps_motion*/) const override {
+    return std::make_unique<PoseDistanceWorld>(study_, WorldOf(key));
+  }
+
+  /// The blind spot, or the clip of the pairs' first poses.
+  std::string ClipOf(const WorldKey& key) const override {
+    if (study_.options.source == PairSource::kBlindSpots) return ShowBlindSpot(key.trial).name;
+    return study_.clips.names[static_cast<std::size_t>(key.trial) % study_.clips.names.size()];
+  }
+
+  Result<Exhibit> Setting() const override { return ExhibitBody(); }
+
+ private:
+  PairWorld WorldOf(const WorldKey& key) const {
+    if (study_.options.source == PairSource::kBlindSpots) return ShowBlindSpot(key.trial);
+    return DrawFramePairs(study_.clips, study_.options.pairs_per_world, key);
+  }
+
+  const PairStudy study_;
+};
+
+Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
+  const PairOptions options = ReadPairOptions(input.condition);
+  auto methods = ReadPoseDistanceMethods(input.methods);
+  const FuzzySystem& fuzzy = FuzzyOf(input);
+  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  if (!methods) return tl::unexpected(methods.error());
+  DancedClips clips = DanceClips(input.clips);
+  if (options.source == PairSource::kFrames && !HoldsTwoDances(clips)) {
+    return Fail(input.condition.node().place,
+                "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
+                "['builtin:*']");
+  }
+  auto training = GatherTrainingClips(clips.motions, clips.identities, clips.physique);
+  if (!training) return tl::unexpected(training.error());
+  return std::make_unique<PoseDistanceTask>(
+      PairStudy{options, *std::move(methods), std::move(clips), fuzzy, LearntWeights(*std::move(training), fuzzy)});
+}
+
+}  // namespace
+
+TaskKind MakePoseDistanceTaskKind() {
+  return {.name = "pose-distance",
+          .question = "How well does a distance know that two poses look alike?",
+          .default_metrics = {"called_alike", "fuzzy_distance", "joint_distance_cm", "pose_gap_cm", "close_auc",
+                              "close_f1"},
+          .metrics = PoseDistanceMetrics(),
+          .make = MakePoseDistanceTask,
+          .condition_keys = PoseDistanceConditionKeys(),
+          .method_keys = PoseDistanceMethodKeys()};
+}
+
+}  // namespace etude

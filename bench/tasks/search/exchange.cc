@@ -1,0 +1,81 @@
+#include "bench/tasks/search/exchange.h"
+
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/tasks/base/answer_fields.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kFile = "library.f64";
+
+std::string BytesOf(const std::vector<Grades>& frames) {
+  static_assert(std::endian::native == std::endian::little, "the file is little-endian");
+  std::string bytes(frames.size() * sizeof(Grades), '\0');
+  std::memcpy(bytes.data(), frames.data(), bytes.size());
+  return bytes;
+}
+
+Json DescribeTerms(const FeatureWeights& weights) {
+  Json terms = Json::array();
+  for (const Term& term : AllTerms()) {
+    terms.push_back({{"feature", FeatureName(term.feature)},
+                     {"term", term.name},
+                     {"weight", weights[static_cast<std::size_t>(term.feature)]}});
+  }
+  return terms;
+}
+
+Result<FoundFrames> ReadFrames(const Json& list, const std::string& path, std::size_t frames) {
+  if (!list.is_array()) return Fail({}, "{}: {} is not a list", path, ShowJson(list));
+  if (list.size() > frames) return Fail({}, "{}: {} frames; the library has {}", path, list.size(), frames);
+  auto numbers = ReadNumbers(list, path, list.size(), {0, static_cast<double>(frames) - 1});
+  if (!numbers) return tl::unexpected(numbers.error());
+  FoundFrames found;
+  std::set<int> seen;
+  for (std::size_t i = 0; i < numbers->size(); ++i) {
+    const int frame = static_cast<int>((*numbers)[i]);
+    if (frame != (*numbers)[i]) return Fail({}, "{}[{}]: {} is not a whole number", path, i, (*numbers)[i]);
+    if (!seen.insert(frame).second) return Fail({}, "{}[{}]: frame {} stands there twice", path, i, frame);
+    found.push_back(frame);
+  }
+  return found;
+}
+
+}  // namespace
+
+Exhibit ExhibitLibrary(const SearchProblem& problem, Question question) {
+  Json json{{"frames", problem.library.frames.size()},
+            {"terms", DescribeTerms(problem.weights)},
+            {"query", QuestionName(question)},
+            {"threshold", problem.threshold},
+            {"file", kFile}};
+  return {std::make_unique<Json>(std::move(json)), {{kFile, BytesOf(problem.library.frames)}}};
+}
+
+Json DescribeQueries(std::span<const Grades> queries) {
+  Json list = Json::array();
+  for (const Grades& query : queries) list.push_back(query);
+  return {{"queries", std::move(list)}};
+}
+
+Json DescribeFound(const std::vector<FoundFrames>& found) { return {{"found", found}}; }
+
+Result<SearchAnswer> ReadSearchAnswer(const Json& json, const SearchProblem& problem, std::size_t queries,
+                                      Question question) {
+  AnswerFields fields(json);
+  const Json& lists = fields.List("found", queries, queries);
+  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  SearchAnswer answer{.question = question, .found = {}, .distances = {}, .boxes = {}};
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    auto found = ReadFrames(lists[i], fields.PathOf("found", i), problem.library.frames.size());
+    if (!found) return tl::unexpected(found.error());
+    answer.found.push_back(*std::move(found));
+  }
+  return answer;
+}
+
+}  // namespace etude

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/search/find.h"
+
+namespace etude {
+
+/// What methods outside the program are told about a library to search, and what they answer.
+///
+/// Setting; the library lies beside it as `library.f64`: `frames` times 24 numbers, frame by frame in time order, the
+/// grades of paper A's terms in the order of `terms`, each a little-endian IEEE 754 number of 64 bits:
+///
+///     {"frames": 10000, "terms": [{"feature": "RH", "term": "down", "weight": 1}, …],
+///      "query": "nearest", "threshold": 0.4, "file": "library.f64"}
+///
+/// The distance of two frames is √(Σ weight · (difference of the grades)²) over the terms (paper A, equation 1).
+Exhibit ExhibitLibrary(const SearchProblem& problem, Question question);
+
+/// Problem: the frames asked about, as their grades.
+///
+///     {"queries": [[twenty-four numbers], …]}
+///
+/// Asked for is per query a list of frames of the library (their numbers, from 0): for `first` the one of smallest
+/// number whose distance is below the threshold, or none; for `within` all of these, by number; for `nearest` and
+/// `nearest-10` the one, or ten, of smallest distance, by distance, those of equal distance by number.
+Json DescribeQueries(std::span<const Grades> queries);
+
+/// Truth, and itself a perfect answer; also what a method outside answers:
+///
+///     {"found": [[4711], …]}
+Json DescribeFound(const std::vector<FoundFrames>& found);
+
+/// Refuses what is not as told above: another number of lists, and frames that the library does not have or that stand
+/// twice in a list.
+Result<SearchAnswer> ReadSearchAnswer(const Json& answer, const SearchProblem& problem, std::size_t queries,
+                                      Question question);
+
+}  // namespace etude

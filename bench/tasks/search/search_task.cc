@@ -1,0 +1,130 @@
+#include "bench/tasks/search/search_task.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/search/exchange.h"
+#include "bench/tasks/search/find.h"
+#include "bench/tasks/search/library.h"
+#include "bench/tasks/search/scoring.h"
+#include "bench/tasks/search/search_options.h"
+
+namespace etude {
+namespace {
+
+/// Everything that the worlds of one condition have in common.
+struct SearchStudy {
+  SearchOptions options;
+  std::vector<SearchMethod> methods;
+  FuzzySystem fuzzy;
+};
+
+SearchProblem ProblemOf(const SearchStudy& study, const SearchLibrary& library) {
+  return {library, study.fuzzy.weights, study.options.threshold};
+}
+
+class SearchWorld final : public TaskWorld {
+ public:
+  SearchWorld(const SearchStudy& study, const SearchLibrary& library, const WorldKey& key)
+      : study_(study),
+        problem_(ProblemOf(study, library)),
+        queries_(DrawQueries(library, study.options.queries, key)) {}
+
+  void PrepareShared() override {
+    std::set<Question> questions;
+    for (const SearchMethod& method : study_.methods) questions.insert(method.question);
+    truth_ = FindPlainly(problem_, queries_, questions);
+  }
+
+  CellResult Run(std::size_t index) override {
+    const SearchMethod& method = study_.methods[index];
+    const auto find = method.way == SearchWay::kIndex ? FindByIndex : FindByBruteForce;
+    return Score(find(problem_, queries_, method.question));
+  }
+
+  Result<Exhibit> MakeProblem() override { return Exhibit{std::make_unique<Json>(DescribeQueries(queries_)), {}}; }
+
+  Result<Exhibit> MakeTruth() override {
+    return Exhibit{std::make_unique<Json>(DescribeFound(TruthOf(study_.options.question))), {}};
+  }
+
+  Result<CellResult> Judge(const Json& json) override {
+    const auto answer = ReadSearchAnswer(json, problem_, queries_.size(), study_.options.question);
+    if (!answer) return tl::unexpected(answer.error());
+    return Score(*answer);
+  }
+
+ private:
+  const std::vector<FoundFrames>& TruthOf(Question question) {
+    if (!truth_.contains(question)) truth_.merge(FindPlainly(problem_, queries_, {question}));
+    return truth_.at(question);
+  }
+
+  CellResult Score(const SearchAnswer& answer) {
+    return ScoreSearch(problem_.library, queries_, answer, TruthOf(answer.question));
+  }
+
+  const SearchStudy& study_;
+  const SearchProblem problem_;
+  const std::vector<Grades> queries_;
+  std::map<Question, std::vector<FoundFrames>> truth_;
+};
+
+class SearchTask final : public Task {
+ public:
+  SearchTask(SearchStudy study, ClipLibrary clips)
+      : study_(std::move(study)), library_(std::move(clips), study_.fuzzy, study_.options.frames) {}
+
+  std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool /*keeps_motion*/) const override {
+    return std::make_unique<SearchWorld>(study_, library_.Get(), key);
+  }
+
+  std::string ClipOf(const WorldKey&) const override { return ""; }
+
+  Result<Exhibit> Setting() const override {
+    return ExhibitLibrary(ProblemOf(study_, library_.Get()), study_.options.question);
+  }
+
+  std::optional<double> ValueOfFailure(std::string_view metric) const override { return SearchFailureValue(metric); }
+
+ private:
+  const SearchStudy study_;
+  mutable SharedLibrary library_;
+};
+
+/// Refuses clips that nothing can be made of.
+Result<void> CheckClips(const ClipLibrary& clips, const Place& place) {
+  if (clips.clips.empty()) return Fail(place, "a search scenario needs clips, e.g. clips: ['builtin:*']");
+  for (const LibraryClip& clip : clips.clips) {
+    if (clip.motion.poses.size() < 2) return Fail(place, "clip {} has one frame; at least 2 are needed", clip.name);
+  }
+  return {};
+}
+
+Result<std::unique_ptr<Task>> MakeSearchTask(TaskInput& input) {
+  SearchStudy study{.options = ReadSearchOptions(input.condition), .methods = {}, .fuzzy = FuzzyOf(input)};
+  auto methods = ReadSearchMethods(input.methods, study.options);
+  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  if (!methods) return tl::unexpected(methods.error());
+  if (auto usable = CheckClips(input.clips, input.condition.node().place); !usable) {
+    return tl::unexpected(usable.error());
+  }
+  study.methods = *std::move(methods);
+  return std::make_unique<SearchTask>(std::move(study), input.clips);
+}
+
+}  // namespace
+
+TaskKind MakeSearchTaskKind() {
+  return {.name = "search",
+          .question = "How does finding matching frames grow with the library?",
+          .default_metrics = {"distances_per_query", "search_agreement", "boxes_per_query", "matches_per_query"},
+          .metrics = {"search_agreement", "matches_per_query", "distances_per_query", "boxes_per_query"},
+          .make = MakeSearchTask,
+          .condition_keys = SearchConditionKeys(),
+          .method_keys = SearchMethodKeys()};
+}
+
+}  // namespace etude

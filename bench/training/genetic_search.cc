@@ -1,0 +1,54 @@
+#include "bench/training/genetic_search.h"
+
+#include <cassert>
+#include <pagmo/algorithm.hpp>
+#include <pagmo/algorithms/sga.hpp>
+#include <pagmo/population.hpp>
+#include <pagmo/problem.hpp>
+
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+constexpr double kCrossover = 0.9;
+constexpr double kSpreadIndex = 1;      // of a crossover that is not used
+constexpr double kMutation = 0.2;       // the chance of a gene
+constexpr double kMutationWidth = 0.1;  // standard deviation
+constexpr unsigned kTournament = 2;
+
+/// What Pagmo minimises.
+struct Problem {
+  const std::function<double(std::span<const double>)>* score = nullptr;
+  std::size_t genes = 0;
+
+  pagmo::vector_double fitness(const pagmo::vector_double& genome) const { return {-(*score)(genome)}; }
+  std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
+    return {pagmo::vector_double(genes, 0.0), pagmo::vector_double(genes, 1.0)};
+  }
+};
+
+}  // namespace
+
+GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
+                                std::span<const Genome> ancestors, const GeneticOptions& options) {
+  assert(!ancestors.empty());
+  RandomStream dice({.suite_seed = options.seed, .scenario = "training"}, "genetic-search");
+  const auto draw_seed = [&dice] { return static_cast<unsigned>(dice.Bits()); };
+
+  pagmo::population population(pagmo::problem(Problem{&score, ancestors.front().size()}), 0u, draw_seed());
+  for (const Genome& ancestor : ancestors) population.push_back(ancestor);
+  while (population.size() < static_cast<std::size_t>(options.population))
+    population.push_back(population.random_decision_vector());
+
+  // One generation a call, so that progress can be told; the algorithm keeps its dice between the calls.
+  const pagmo::algorithm algorithm(pagmo::sga(1u, kCrossover, kSpreadIndex, kMutation, kMutationWidth, kTournament,
+                                              "binomial", "gaussian", "tournament", draw_seed()));
+  for (int generation = 1; generation <= options.generations; ++generation) {
+    population = algorithm.evolve(population);
+    if (options.progress) options.progress(generation, -population.champion_f()[0]);
+  }
+  return {population.champion_x(), -population.champion_f()[0], options.generations};
+}
+
+}  // namespace etude

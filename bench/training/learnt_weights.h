@@ -1,0 +1,51 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "bench/training/training_clips.h"
+#include "bench/training/training_pairs.h"
+#include "engine/fuzzy/fuzzy_system.h"
+
+namespace etude {
+
+/// Where S of equation 1 comes from.
+enum class WeightSource {
+  kFixed,     ///< the fuzzy system's own, paper A's unless a file says otherwise
+  kAdaptive,  ///< a logistic regression (engine/fuzzy/weights.h)
+  kGenetic,   ///< a genetic algorithm (genetic_weights.h)
+};
+
+/// "fixed", "adaptive", "genetic".
+std::vector<std::string> WeightSourceNames();
+/// `name` must be one of them.
+WeightSource FindWeightSource(std::string_view name);
+
+/// The weights of each pair of judged clips, learnt from all other clips: a weight never saw what it is judged by.
+/// Remembers what it has learnt, because trials meet the same pairs again; what it answers depends on the question
+/// alone, so any number of workers gives the same.
+class LearntWeights {
+ public:
+  explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
+
+  /// The weights of `rule` for a switch between clips of these identities, in either order; the system's own where
+  /// nothing could be learnt.
+  const FeatureWeights& For(WeightSource rule, const std::string& judged_a, const std::string& judged_b);
+
+  /// How the learning went; `rule` is not kFixed.
+  const WeightFit& FitOf(WeightSource rule, const std::string& judged_a, const std::string& judged_b);
+
+ private:
+  const std::vector<LabelledPair>& PairsOf(std::size_t clip_a, std::size_t clip_b);
+  std::vector<LabelledPair> PairsWithout(const std::string& judged_a, const std::string& judged_b);
+
+  const TrainingClips training_;
+  const FuzzySystem system_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<LabelledPair>> pairs_;
+  std::map<std::tuple<WeightSource, std::string, std::string>, WeightFit> fits_;
+};
+
+}  // namespace etude

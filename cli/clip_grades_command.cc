@@ -1,0 +1,94 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "bench/clips/clip_library.h"
+#include "bench/files/files.h"
+#include "bench/tasks/base/fuzzy_key.h"
+#include "cli/clip_commands.h"
+#include "cli/clip_reading.h"
+#include "cli/commands.h"
+#include "engine/fuzzy/fuzzy_motion.h"
+#include "engine/fuzzy/motion_similarity.h"
+
+namespace etude {
+namespace {
+
+/// A line per frame: ten features, 24 grades, ten tags, the pose.
+std::string GradesCsv(const FuzzyMotion& motion) {
+  std::string csv = "frame,time_s";
+  for (Feature feature : AllFeatures()) csv += fmt::format(",{}", FeatureName(feature));
+  for (const Term& term : AllTerms()) csv += fmt::format(",{}_{}", FeatureName(term.feature), term.name);
+  for (Feature feature : AllFeatures()) csv += fmt::format(",{}_tag", FeatureName(feature));
+  csv += ",pose\n";
+  for (std::size_t i = 0; i < motion.grades.size(); ++i) {
+    csv += fmt::format("{},{}", i, static_cast<double>(i) / motion.rate_hz);
+    for (double value : motion.features[i].values) csv += fmt::format(",{}", value);
+    for (double grade : motion.grades[i]) csv += fmt::format(",{}", grade);
+    for (Feature feature : AllFeatures()) csv += fmt::format(",{}", TagName(motion.tags[i], feature));
+    csv += fmt::format(",{}\n", motion.poses[i]);  // names of poses need no quotes
+  }
+  return csv;
+}
+
+/// "at rest 62 %, arms up 20 %, no rule holds 18 %", the commonest first.
+std::string PoseShares(const FuzzyMotion& motion, const RuleBase& rules) {
+  std::vector<std::pair<std::size_t, std::string>> counts;
+  for (const std::string& pose : rules.poses) {
+    counts.emplace_back(static_cast<std::size_t>(std::ranges::count(motion.poses, pose)), pose);
+  }
+  counts.emplace_back(static_cast<std::size_t>(std::ranges::count(motion.poses, "")), "no rule holds");
+  std::ranges::stable_sort(counts, std::ranges::greater{}, &std::pair<std::size_t, std::string>::first);
+  std::string text;
+  for (const auto& [count, pose] : counts) {
+    if (count == 0) continue;
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", pose,
+                        100.0 * static_cast<double>(count) / static_cast<double>(motion.poses.size()));
+  }
+  return text;
+}
+
+void PrintSimilarities(const ClipLibrary& clips, const std::vector<FuzzyMotion>& motions,
+                       const FeatureWeights& weights) {
+  fmt::print("\nfuzzy similarity of whole motions, 1 = alike, 0.5 = {} apart on average:\n", kPaperThreshold);
+  for (std::size_t a = 0; a < motions.size(); ++a) {
+    for (std::size_t b = a + 1; b < motions.size(); ++b) {
+      const auto similarity = ComputeMotionSimilarity(motions[a].grades, motions[b].grades, {.weights = weights});
+      if (similarity) fmt::print("  {:.3f}  {} – {}\n", *similarity, clips.clips[a].name, clips.clips[b].name);
+    }
+  }
+}
+
+}  // namespace
+
+int ClipGradesCommand(const ClipGradesOptions& options) {
+  if (!options.output.empty()) {
+    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+  }
+  const auto system =
+      OpenFuzzySystem(options.fuzzy, {"--fuzzy", 0, 0}, [](const std::string& file) { return ReadWholeFile(file); });
+  if (!system) return Complain(system.error());
+  const auto reading = ReadOptions(options.reading);
+  if (!reading) return Complain(reading.error());
+  const auto clips = LoadClips(options.clips, {}, *reading);
+  if (!clips) return Complain(clips.error());
+  if (!options.output.empty() && clips->clips.size() != 1) {
+    return Complain(
+        {{options.output, 0, 0}, fmt::format("holds the grades of one clip, found {}", clips->clips.size())});
+  }
+  std::vector<FuzzyMotion> motions;
+  for (const LibraryClip& clip : clips->clips) {
+    motions.push_back(FuzzifyMotion(clip.motion, StandingHipHeight(clip.motion.poses.front()), *system));
+    fmt::print("{}: {} frames; {}\n", clip.name, motions.back().grades.size(),
+               PoseShares(motions.back(), system->rules));
+  }
+  if (motions.size() > 1) PrintSimilarities(*clips, motions, system->weights);
+  if (options.output.empty()) return kSuccess;
+  if (auto saved = WriteFileAtomically(options.output, GradesCsv(motions.front())); !saved) {
+    return Complain(saved.error());
+  }
+  fmt::print("{}\n", options.output);
+  return kSuccess;
+}
+
+}  // namespace etude

@@ -1,0 +1,53 @@
+#include "cli/train_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/clip_arguments.h"
+#include "cli/train_command.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kExamples =
+    "\nPaper A's distance says that two frames may be switched when d < 0.4. How much each of its ten features\n"
+    "counts (S), and where its membership functions bend, were chosen by hand. This command learns them: it takes\n"
+    "frames of every clip, two clips at a time, calls a pair close when its worst joint is less than 15 cm off\n"
+    "(after turning and moving one onto the other on the floor), and looks for the system by which d < 0.4 tells\n"
+    "the close pairs best. Clips held out are never learnt from: only what is known about them counts.\n\n"
+    "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md tells what is in it.\n\n"
+    "Try:\n"
+    "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
+    "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
+    "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
+    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judge by these";
+
+}  // namespace
+
+void DefineTrain(CLI::App& app, Action& action) {
+  auto options = std::make_shared<TrainOptions>();
+  CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system from clips");
+  command->add_option("clips", options->clips, "Clips to learn from, and to judge by")->required();
+  command->add_option("-o,--output", options->output, "The fuzzy system file to write (YAML)")->required();
+  command->add_option("--method", options->method, "How to learn")
+      ->check(CLI::IsMember({"adaptive", "genetic"}))
+      ->capture_default_str();
+  command->add_flag("--memberships", options->memberships, "Tune the membership functions, too (genetic)");
+  command
+      ->add_option("--hold-out", options->hold_out,
+                   "Clips to judge by: a share of them (0: none), drawn by the seed, or a pattern of names")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of all dice")->capture_default_str();
+  command->add_option("--population", options->population, "Genomes of a generation")
+      ->check(CLI::Range(5, 1000))
+      ->capture_default_str();
+  command->add_option("--generations", options->generations, "How long the genetic algorithm searches")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddReading(*command, options->reading);
+  command->footer(kExamples);
+  command->callback([=, &action] { action = [=] { return TrainCommand(*options); }; });
+}
+
+}  // namespace etude

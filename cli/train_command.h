@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/clip_commands.h"
+
+namespace etude {
+
+struct TrainOptions {
+  std::vector<std::string> clips;
+  std::string output;              ///< a fuzzy system file
+  std::string method = "genetic";  ///< or "adaptive"
+  bool memberships = false;        ///< tune the membership functions, too
+  std::uint64_t seed = 1;
+  int population = 40, generations = 60;
+  std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
+  bool overwrite = false;
+  ClipReading reading;
+};
+/// `etude train`: learns a fuzzy system from clips, writes its file, and prints what it knows of clips held out.
+int TrainCommand(const TrainOptions& options);
+
+}  // namespace etude

@@ -1,0 +1,165 @@
+#include "engine/fuzzy/defuzzify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace etude {
+namespace {
+
+using enum Defuzzification;
+constexpr std::array<Defuzzification, 4> kMethods = {kMaximum, kCentroid, kHeight, kArea};
+constexpr std::array<std::string_view, 4> kNames = {"maximum", "centroid", "height", "area"};
+
+/// What is added up to become a weighted mean.
+struct Moment {
+  double weight = 0, sum = 0;
+
+  void Add(double share, double at) {
+    weight += share;
+    sum += share * at;
+  }
+  std::optional<double> Mean() const { return weight > 0 ? std::optional(sum / weight) : std::nullopt; }
+};
+
+double ClippedAt(const ActivatedTerm& term, double x) { return std::min(term.grade, GradeOf(term.shape, x)); }
+
+/// A cut, as far as it lies in the universe; low > high when it does not.
+Cut Within(const Universe& universe, const Cut& cut) {
+  return {std::max(cut.low, universe.low), std::min(cut.high, universe.high)};
+}
+
+/// Where a term alone has its largest grade.
+double PeakOf(const Shape& shape, const Universe& universe) {
+  const Cut top = Within(universe, CutOf(shape, 1));
+  return 0.5 * (top.low + top.high);
+}
+
+std::optional<double> MeanOfMaxima(std::span<const ActivatedTerm> terms, const Universe& universe) {
+  double highest = 0;
+  for (const ActivatedTerm& term : terms) highest = std::max(highest, term.grade);
+  std::vector<Cut> maxima;
+  for (const ActivatedTerm& term : terms) {
+    if (term.grade == highest) maxima.push_back(Within(universe, CutOf(term.shape, highest)));
+  }
+  std::ranges::sort(maxima,
+                    [](const Cut& a, const Cut& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  Moment lengths, points;
+  double covered = universe.low;
+  for (const Cut& cut : maxima) {
+    const double low = std::max(cut.low, covered);  // what two terms share counts once
+    if (cut.high > low) lengths.Add(cut.high - low, 0.5 * (low + cut.high));
+    points.Add(1, 0.5 * (cut.low + cut.high));
+    covered = std::max(covered, cut.high);
+  }
+  return lengths.weight > 0 ? lengths.Mean() : points.Mean();
+}
+
+/// Where a straight-sided term bends, and steps small enough for one that is not.
+void AddBends(const ActivatedTerm& term, const Universe& universe, std::vector<double>& bends) {
+  for (double grade : {1.0, term.grade}) {
+    const Cut cut = CutOf(term.shape, grade);
+    bends.insert(bends.end(), {cut.low, cut.high});
+  }
+  if (const auto* gaussian = std::get_if<Gaussian>(&term.shape)) {
+    constexpr int kSteps = 128;
+    constexpr double kReach = 8;  // sigmas; beyond, the grade is below 1e-13
+    for (int i = 0; i <= kSteps; ++i) {
+      bends.push_back(gaussian->mean + gaussian->sigma * kReach * (2.0 * i / kSteps - 1));
+    }
+  } else if (!std::holds_alternative<Singleton>(term.shape)) {
+    const Cut support = CutOf(term.shape, 0);
+    bends.insert(bends.end(), {support.low, support.high});
+  }
+  std::erase_if(bends, [&](double x) { return x <= universe.low || x >= universe.high; });
+}
+
+/// Where the union of the terms may bend: where one does, and where two cross.
+std::vector<double> BendsOf(std::span<const ActivatedTerm> terms, const Universe& universe) {
+  std::vector<double> bends;
+  for (const ActivatedTerm& term : terms) AddBends(term, universe, bends);
+  bends.insert(bends.end(), {universe.low, universe.high});
+  std::ranges::sort(bends);
+  std::vector<double> all = bends;
+  for (std::size_t i = 0; i + 1 < bends.size(); ++i) {
+    const double low = bends[i], high = bends[i + 1];
+    if (high <= low) continue;
+    for (std::size_t a = 0; a < terms.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const double at_low = ClippedAt(terms[a], low) - ClippedAt(terms[b], low);
+        const double at_high = ClippedAt(terms[a], high) - ClippedAt(terms[b], high);
+        if (at_low * at_high < 0) all.push_back(low + (high - low) * at_low / (at_low - at_high));
+      }
+    }
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+/// Area and first moment of the union of the terms: Simpson's rule between bends, where it is exact for straight lines.
+Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe) {
+  const auto height = [&](double x) {
+    double highest = 0;
+    for (const ActivatedTerm& term : terms) highest = std::max(highest, ClippedAt(term, x));
+    return highest;
+  };
+  const std::vector<double> bends = BendsOf(terms, universe);
+  Moment area;
+  for (std::size_t i = 0; i + 1 < bends.size(); ++i) {
+    const double low = bends[i], high = bends[i + 1], middle = 0.5 * (low + high);
+    // An upright side belongs to the piece that it stands in, so ends are taken a hair inside.
+    const double hair = (high - low) * 1e-9;
+    const double at_low = height(low + hair), at_middle = height(middle), at_high = height(high - hair);
+    area.weight += (high - low) / 6 * (at_low + 4 * at_middle + at_high);
+    area.sum += (high - low) / 6 * (at_low * low + 4 * at_middle * middle + at_high * high);
+  }
+  return area;
+}
+
+Moment HeightOf(std::span<const ActivatedTerm> terms, const Universe& universe) {
+  Moment heights;
+  for (const ActivatedTerm& term : terms) heights.Add(term.grade, PeakOf(term.shape, universe));
+  return heights;
+}
+
+}  // namespace
+
+std::span<const Defuzzification, 4> AllDefuzzifications() { return kMethods; }
+
+std::string_view DefuzzificationName(Defuzzification method) { return kNames[static_cast<std::size_t>(method)]; }
+
+std::optional<double> Defuzzify(std::span<const ActivatedTerm> terms, const Universe& universe,
+                                Defuzzification method) {
+  std::vector<ActivatedTerm> active;
+  std::vector<ActivatedTerm> wide;  // those with an area
+  for (const ActivatedTerm& term : terms) {
+    const Cut top = Within(universe, CutOf(term.shape, 1));
+    if (term.grade <= 0 || top.low > top.high) continue;
+    active.push_back(term);
+    if (!std::holds_alternative<Singleton>(term.shape)) wide.push_back(term);
+  }
+  if (active.empty()) return std::nullopt;
+  if (method == kMaximum) return MeanOfMaxima(active, universe);
+  Moment moment;
+  if (method == kCentroid) moment = AreaUnder(wide, universe);
+  if (method == kArea) {
+    for (const ActivatedTerm& term : wide) {
+      const Moment own = AreaUnder(std::span(&term, 1), universe);
+      moment.weight += own.weight;
+      moment.sum += own.sum;
+    }
+  }
+  if (moment.weight == 0) moment = HeightOf(active, universe);
+  return moment.Mean();
+}
+
+std::optional<double> DefuzzifyFeature(const Grades& grades, Feature feature, const Memberships& memberships,
+                                       Defuzzification method) {
+  std::vector<ActivatedTerm> terms;
+  for (std::size_t i = FirstTermOf(feature); i < FirstTermOf(feature) + TermsOf(feature).size(); ++i) {
+    terms.push_back({memberships.shapes[i], grades[i]});
+  }
+  return Defuzzify(terms, memberships.universes[static_cast<std::size_t>(feature)], method);
+}
+
+}  // namespace etude

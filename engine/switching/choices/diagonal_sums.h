@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace etude {
+
+/// Sums along the diagonals of a table of two clips' frames, whose rows come one after the other: what two stretches of
+/// motion that run side by side have in common. Each sum takes two look-ups, however long the stretch.
+class DiagonalSums {
+ public:
+  /// Keeps the last `depth` rows (up to the next power of two), which bounds the memory; the first row will be
+  /// `first_row`.
+  DiagonalSums(int first_row, int columns, int depth);
+
+  /// Room for the next row's values; CloseRow counts them in.
+  std::span<double> OpenRow();
+  void CloseRow();
+  int NextRow() const { return next_row_; }
+
+  /// The sum of `count` values that end at (row, column) and go up along the diagonal, which must stay in the table.
+  /// Row − `count` must be among the kept rows, or before the first.
+  double SumEndingAt(int row, int column, int count) const { return At(row, column) - At(row - count, column - count); }
+
+ private:
+  std::size_t Start(int row) const {
+    return static_cast<std::size_t>((row - first_row_) & (depth_ - 1)) * static_cast<std::size_t>(columns_);
+  }
+  std::span<double> Row(int row);
+  /// Everything on the diagonal down to here; 0 outside.
+  double At(int row, int column) const {
+    if (row < first_row_ || column < 0) return 0;
+    assert(row < next_row_ && row >= next_row_ - depth_ && column < columns_);
+    return sums_[Start(row) + static_cast<std::size_t>(column)];
+  }
+
+  int first_row_, next_row_, columns_;
+  int depth_;                 ///< a power of two: places in the ring are found without dividing
+  std::vector<double> sums_;  ///< a ring of rows
+};
+
+/// How far a stretch around a pair of frames reaches, both sides alike in both clips, as far as both clips go.
+struct Reach {
+  int before = 0, after = 0;
+
+  int Count() const { return before + 1 + after; }
+};
+inline Reach ReachAround(int frame_a, int frames_a, int frame_b, int frames_b, int half) {
+  return {.before = std::min({half, frame_a, frame_b}),
+          .after = std::min({half, frames_a - 1 - frame_a, frames_b - 1 - frame_b})};
+}
+
+}  // namespace etude

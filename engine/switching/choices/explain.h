@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/bridging/library.h"
+#include "engine/bridging/links.h"
+#include "engine/bridging/switch_record.h"
+
+namespace etude {
+
+/// A pair of frames as a choice thinks of it.
+struct RankedPair {
+  int from = 0, to = 0;
+  bool matches = false;        ///< it may be switched at
+  double rank = 0;             ///< less is better, among those that match or among those that do not
+  std::optional<double> cost;  ///< as the record shows it
+};
+
+/// The taken pair and the best of the others, kMostCandidates at most, by frames. `others` does not hold the taken one;
+/// those of them that match have the fate `passed_over`.
+std::vector<Candidate> ListCandidates(const MotionLibrary& library, const SwitchRequest& request,
+                                      const SwitchRules& rules, const RankedPair& taken, std::vector<RankedPair> others,
+                                      Fate passed_over);
+
+/// "boxing frame 41 (0.37 s after the request) and clap frame 3".
+std::string DescribePair(const MotionLibrary& library, const SwitchRequest& request, int from, int to);
+
+}  // namespace etude

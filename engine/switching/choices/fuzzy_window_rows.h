@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+
+#include "engine/switching/choices/diagonal_sums.h"
+#include "engine/switching/choices/fuzzy_rows.h"
+#include "engine/switching/choices/pair_rows.h"
+
+namespace etude {
+
+/// WindowDistance of all pairs of a row, `half` frames to each side: two frames are compared once, not once per window.
+class FuzzyWindowRows : public PairRows {
+ public:
+  /// Rows begin at `first_leave_frame`; the playing clip's grades must outlive this.
+  FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int half,
+                  const FeatureWeights& weights);
+  void Compute(int leave_frame, std::span<double> costs) override;
+
+ private:
+  std::span<const Grades> playing_;
+  int next_frames_, half_;
+  FuzzyRows rows_;
+  DiagonalSums distances_;
+};
+
+}  // namespace etude

@@ -1,0 +1,62 @@
+#include "engine/switching/choices/matching.h"
+
+#include <cmath>
+
+#include "engine/switching/choices/fuzzy_window_rows.h"
+#include "engine/switching/choices/point_cloud_rows.h"
+#include "engine/switching/choices/ranked.h"
+
+namespace etude {
+namespace {
+
+class MotionFeatureRows : public PairRows {
+ public:
+  MotionFeatureRows(std::span<const MotionFeatures> playing, std::span<const MotionFeatures> next)
+      : playing_(playing), next_(next) {}
+
+  void Compute(int leave_frame, std::span<double> costs) override {
+    const MotionFeatures& leaving = playing_[leave_frame];
+    for (std::size_t enter = 0; enter < costs.size(); ++enter) {
+      double squares = 0;
+      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {
+        const double gap = leaving[i] - next_[enter][i];
+        squares += gap * gap;
+      }
+      costs[enter] = std::sqrt(squares);
+    }
+  }
+
+ private:
+  std::span<const MotionFeatures> playing_, next_;
+};
+
+SwitchRecord PlanByPointCloud(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
+                              bool gated) {
+  PointCloudRows costs(library.motions[request.from], library.motions[request.to], request.request_frame,
+                       rules.window_s);
+  return PlanRanked(library, request, rules, {.name = "point-cloud distance", .unit = "cm", .gated = gated}, costs);
+}
+
+}  // namespace
+
+SwitchRecord PlanFuzzyKovar(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+  return PlanByPointCloud(library, request, rules, true);
+}
+
+SwitchRecord PlanPointCloud(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+  return PlanByPointCloud(library, request, rules, false);
+}
+
+SwitchRecord PlanMotionMatching(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+  MotionFeatureRows costs(library.features[request.from], library.features[request.to]);
+  return PlanRanked(library, request, rules, {.name = "distance of positions and velocities", .unit = "SD"}, costs);
+}
+
+SwitchRecord PlanFuzzyWindow(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  const int half = static_cast<int>(std::lround(rules.window_s * playing.rate_hz));
+  FuzzyWindowRows costs(playing.grades, next.grades, request.request_frame, half, rules.weights);
+  return PlanRanked(library, request, rules, {.name = "mean fuzzy distance", .unit = "d", .gated = true}, costs);
+}
+
+}  // namespace etude

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <span>
+
+#include "engine/bridging/library.h"
+#include "engine/bridging/links.h"
+
+namespace etude {
+
+/// The pairs of frames that a choice may take: every frame of the playing clip in `leave` × every frame of the wanted
+/// clip before `enter_end`. One row of pairs belongs to each frame that may be left.
+struct PairRange {
+  FrameWindow leave;
+  int enter_end = 0;
+
+  int Rows() const { return leave.last - leave.first + 1; }
+};
+
+/// All pairs that budget and `rules.least_play_s` allow; one at least when the wanted clip has two frames.
+PairRange AllowedPairs(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules);
+
+/// What one kind of cost says of the pairs of a row. Rows are asked for in rising order.
+class PairRows {
+ public:
+  virtual ~PairRows() = default;
+  /// The costs of leaving at `leave_frame` and entering at 0, 1, …: as many as `costs` has room for.
+  virtual void Compute(int leave_frame, std::span<double> costs) = 0;
+};
+
+}  // namespace etude

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/bridging/coverage.h"
+#include "engine/bridging/library.h"
+#include "engine/bridging/links.h"
+#include "engine/fuzzy/fuzzy_system.h"
+
+namespace etude {
+
+/// The clips of `etude bridge`, danced by one body and tagged.
+struct BridgeLibrary {
+  FuzzySystem system;
+  TagRules tag_rules;
+  SwitchRules switch_rules;
+  MotionLibrary library;
+  std::vector<std::string> sources;  ///< what opens the clips again
+  std::vector<int> corrective;       ///< the clips that every other one must lead into
+};
+
+/// Candidates, reachability and the ways into the corrective clips, for people at a terminal.
+std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
+
+/// The same for programs (docs/schemas/bridge-summary.schema.json), one line.
+Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Coverage& coverage, double wait_s);
+
+}  // namespace etude

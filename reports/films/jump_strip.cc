@@ -1,0 +1,110 @@
+#include "reports/films/jump_strip.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "bench/metrics/seam.h"
+#include "reports/films/look.h"
+#include "reports/words/figures.h"
+
+namespace etude {
+namespace {
+
+constexpr Paint kFloor{0.30, 0.34, 0.37, 1};
+constexpr Paint kNature{0.55, 0.82, 0.50, 1};
+constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
+constexpr double kTextSize = 13, kJumpRoom = 184;
+constexpr double kSide = 12, kTop = 24, kBottom = 34, kClipHeight = 6;
+
+// The metric jump_cm, as far as it is known at a frame.
+std::optional<double> JumpAtSeams(const SwitchPath& path, int frame) {
+  std::optional<double> most;
+  for (const int seam : path.facts.seam_frames) {
+    const int last = std::min({seam + kSeamReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
+    for (int at = std::max(0, seam - kSeamReach); frame > seam && at <= last; ++at) {
+      most = std::max(most.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+/// The inside of the axes, and where a value lies in it.
+struct JumpStrip::Frame {
+  Box box;
+  const JumpStrip& strip;
+
+  double X(double time) const {
+    const double share = (time - strip.first_) / std::max(1, strip.last_ - strip.first_);
+    return box.x + box.width * std::clamp(share, 0.0, 1.0);
+  }
+  double Y(double cm) const { return box.y + box.height * (1 - std::clamp(cm / strip.highest_cm_, 0.0, 1.0)); }
+  double Bottom() const { return box.y + box.height; }
+};
+
+const Paint& PaintOfLeg(const SwitchFacts& facts, std::size_t seams_before) {
+  if (seams_before == 0) return kAccent;
+  return seams_before < facts.seam_frames.size() ? kSoftInk : kWarm;
+}
+
+void JumpStrip::Draw(Canvas& canvas, const Box& box, const SwitchPath& path, int time) const {
+  const Frame frame{{box.x + kSide, box.y + kTop, box.width - 2 * kSide, box.height - kTop - kBottom}, *this};
+  const int shown = path.FrameAt(time);
+  std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
+  if (const auto most = JumpAtSeams(path, shown)) jump += fmt::format(", switch {}", FormatFixed(*most, 1));
+  canvas.DrawText({frame.box.x, box.y + 16}, path.IsRecordedAt(time) ? jump : "jump —", kTextSize, kInk, kJumpRoom);
+  if (path.facts.natural_limit_cm) {
+    const double y = frame.Y(*path.facts.natural_limit_cm);
+    canvas.DrawLine({frame.box.x, y}, {frame.box.x + frame.box.width, y}, 1.2, kNature);
+    const std::string words = fmt::format("nature {} cm", FormatFixed(*path.facts.natural_limit_cm, 1));
+    const double width = canvas.TextWidth(words, kTextSize);
+    const double left = std::max(frame.box.x + frame.box.width - width, frame.box.x + kJumpRoom + 6);
+    canvas.DrawText({left, box.y + 16}, words, kTextSize, kNature, frame.box.x + frame.box.width - left + 1);
+  }
+  DrawCurve(canvas, frame, path, last_, kFaint);
+  DrawCurve(canvas, frame, path, time, kInk);
+  DrawClips(canvas, frame, path);
+  const double x = frame.X(time), y = frame.Bottom() + 8 + kClipHeight / 2;
+  canvas.DrawLine({x, frame.box.y}, {x, y}, 1, {0.95, 0.955, 0.96, 0.5});
+  canvas.DrawDot({x, y}, 6, PaintOfLeg(path.facts, path.SeamsBefore(time)));
+}
+
+void JumpStrip::DrawCurve(Canvas& canvas, const Frame& frame, const SwitchPath& path, int until,
+                          const Paint& paint) const {
+  std::vector<glm::dvec2> points;
+  for (int time = first_; time <= std::min(until, last_); ++time) {
+    const int at = path.request + time;
+    if (at < 0 || at >= static_cast<int>(path.jumps_cm.size())) continue;
+    points.emplace_back(frame.X(time), frame.Y(path.jumps_cm[static_cast<std::size_t>(at)]));
+  }
+  if (points.size() > 1) canvas.DrawPath(points, 1.8, paint);
+}
+
+void JumpStrip::DrawClips(Canvas& canvas, const Frame& frame, const SwitchPath& path) const {
+  const double y = frame.Bottom() + 8;
+  canvas.DrawLine({frame.box.x, frame.Bottom()}, {frame.box.x + frame.box.width, frame.Bottom()}, 1, kFloor);
+  double from = frame.box.x;
+  const std::size_t seams = path.facts.seam_frames.size();
+  for (std::size_t leg = 0; leg <= seams; ++leg) {
+    const double to =
+        leg < seams ? frame.X(path.TimeOf(path.facts.seam_frames[leg]) + 0.5) : frame.box.x + frame.box.width;
+    if (to > from) canvas.FillBox({from, y, to - from, kClipHeight}, PaintOfLeg(path.facts, leg));
+    from = to;
+  }
+  const double request = frame.X(0), baseline = y + kClipHeight + 15;
+  canvas.DrawLine({request, y - 5}, {request, y + kClipHeight + 3}, 2, kInk);
+  const std::string words = "request";
+  canvas.DrawText({request - canvas.TextWidth(words, kTextSize) / 2, baseline}, words, kTextSize, kSoftInk, 80);
+  for (int second = 1; second * path.motion.rate_hz <= last_; ++second) {
+    const double x = frame.X(second * path.motion.rate_hz);
+    const std::string label = fmt::format("{} s", second);
+    const double width = canvas.TextWidth(label, kTextSize);
+    if (x + width / 2 > frame.box.x + frame.box.width) break;
+    canvas.DrawLine({x, y + kClipHeight}, {x, y + kClipHeight + 3}, 1, kSoftInk);
+    if (x - width / 2 > request + 40) canvas.DrawText({x - width / 2, baseline}, label, kTextSize, kSoftInk, width + 1);
+  }
+}
+
+}  // namespace etude

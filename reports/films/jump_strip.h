@@ -1,0 +1,29 @@
+#pragma once
+
+#include "reports/films/canvas.h"
+#include "reports/films/switch_race.h"
+
+namespace etude {
+
+/// How jerky a path is along time, the largest second difference of any joint, with nature's limit where it is known;
+/// beneath it which clip plays: left, in-between, wanted. Time is marked from the request on.
+class JumpStrip {
+ public:
+  /// Shows the moments `first` … `last`, in frames after the request. Values up to `highest_cm` > 0 fit.
+  JumpStrip(int first, int last, double highest_cm) : first_(first), last_(last), highest_cm_(highest_cm) {}
+
+  void Draw(Canvas& canvas, const Box& box, const SwitchPath& path, int time) const;
+
+ private:
+  struct Frame;
+  void DrawClips(Canvas& canvas, const Frame& frame, const SwitchPath& path) const;
+  void DrawCurve(Canvas& canvas, const Frame& frame, const SwitchPath& path, int until, const Paint& paint) const;
+
+  int first_, last_;
+  double highest_cm_;
+};
+
+/// The colour of what plays after so many of a path's seams: the clip left, an in-between, or the clip wanted.
+const Paint& PaintOfLeg(const SwitchFacts& facts, std::size_t seams_before);
+
+}  // namespace etude

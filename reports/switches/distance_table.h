@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/switches/switch_facts.h"
+
+namespace etude {
+
+/// A partial distance below this is written as 0.
+constexpr double kLeastShown = 0.0005;
+
+/// The ten partial distances of frames that met, one row per meeting, each with a bar: a full bar alone would reach the
+/// threshold. Weights stand above, once for all methods that share them.
+class DistanceTable {
+ public:
+  void AddWeights(const std::string& method, const FeatureWeights& weights);
+  /// `meeting` has partials.
+  void AddMeeting(const std::string& method, const MeetingFacts& meeting, std::optional<double> threshold);
+
+  /// "" without meetings.
+  std::string Html() const;
+
+ private:
+  struct Meeting {
+    std::string method;
+    MeetingFacts facts;
+    std::optional<double> threshold;
+  };
+
+  std::vector<std::pair<std::string, FeatureWeights>> weights_;  ///< whose they are, in words
+  std::vector<Meeting> meetings_;
+};
+
+}  // namespace etude

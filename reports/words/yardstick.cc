@@ -1,0 +1,20 @@
+#include "reports/words/yardstick.h"
+
+#include <algorithm>
+
+namespace etude {
+
+bool IsYardstick(const ScenarioSummary& scenario, const std::string& method) {
+  // Nobody is compared by no metric: that says nothing of this method.
+  if (scenario.methods.empty() || method == scenario.methods.front()) return false;
+  if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
+  // Whoever is compared is compared under every condition.
+  const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
+  return std::ranges::find(comparisons, method, &Comparison::method) == comparisons.end();
+}
+
+std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method) {
+  return IsYardstick(scenario, method) ? method + " (yardstick)" : method;
+}
+
+}  // namespace etude

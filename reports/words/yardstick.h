@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "bench/results/run_data.h"
+
+namespace etude {
+
+/// Whether a method is compared with none, as its scenario wishes (`against` itself): not a competitor, but what the
+/// others are measured by, like natural motion. The first method is everyone's baseline, and no yardstick.
+bool IsYardstick(const ScenarioSummary& scenario, const std::string& method);
+
+/// The method's name; "natural (yardstick)".
+std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method);
+
+}  // namespace etude

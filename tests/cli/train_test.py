@@ -1,0 +1,67 @@
+"""`etude train`: learns a fuzzy system that scenarios use."""
+import unittest
+
+from etude_case import EtudeCase
+
+MOVES = ["builtin:clap", "builtin:sway", "builtin:boxing", "builtin:stretch", "builtin:bird"]
+QUICK = ["--population", "8", "--generations", "3"]
+
+SCENARIO = """scenario: tuned
+question: Is the learnt system used?
+task: pose-distance
+pairs: blindspots
+fuzzy: tuned.yaml
+trials: 8
+methods:
+  - {name: fuzzy, distance: fuzzy}
+"""
+
+
+class Train(EtudeCase):
+    def train(self, *arguments, code=0):
+        result = self.etude("train", *arguments, "-o", self.folder / "tuned.yaml")
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result
+
+    def test_writes_a_system_that_a_scenario_uses(self):
+        for method in (["--method", "adaptive"], [], ["--memberships"]):
+            with self.subTest(method):
+                result = self.train(*MOVES, "--hold-out", "builtin:b*", *QUICK, "--overwrite", *method)
+                self.assertIn("3 clips learnt from, 2 held out", result.stdout)
+                self.assertEqual(result.stdout.count("held out  F1"), 2)
+                text = (self.folder / "tuned.yaml").read_text()
+                self.assertIn("# Learnt by `etude train", text)
+                self.assertIn("#   builtin:boxing, builtin:bird", text)
+        scenario = self.folder / "tuned_scenario.yaml"
+        scenario.write_text(SCENARIO)
+        rows = self.run_suite(scenario)
+        self.assertEqual(len(rows), 8)
+
+    def test_the_same_seed_gives_the_same_bytes(self):
+        files = []
+        for seed in ("1", "1", "2"):
+            self.train(*MOVES, "--hold-out", "0", "--seed", seed, *QUICK, "--overwrite")
+            files.append((self.folder / "tuned.yaml").read_bytes())
+        self.assertEqual(files[0], files[1])
+        self.assertNotEqual(files[0].split(b"features:")[1], files[2].split(b"features:")[1])
+
+    def test_bad_input_is_refused_and_nothing_written(self):
+        for arguments, word in (([MOVES[0]], "two clips"), ([*MOVES, "--hold-out", "zzz*"], "no clip is called"),
+                                ([*MOVES, "--hold-out", "1.5"], "nor a share"),
+                                ([*MOVES, "--method", "adaptive", "--memberships"], "--method genetic"),
+                                ([*MOVES, "--generations", "0"], "--generations"),
+                                (["builtin:nothing"], "nothing")):
+            with self.subTest(word):
+                result = self.train(*arguments, code=2)
+                self.assertIn(word, result.stderr)
+                self.assertEqual(len(result.stderr.strip().splitlines()), 1)
+                self.assertFalse((self.folder / "tuned.yaml").exists())
+
+    def test_a_file_that_is_there_is_kept(self):
+        (self.folder / "tuned.yaml").write_text("mine")
+        self.train(*MOVES, code=2)
+        self.assertEqual((self.folder / "tuned.yaml").read_text(), "mine")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,147 @@
+#include "engine/bridging/in_between.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/bridging/frame_ratings.h"
+#include "engine/bridging/library.h"
+#include "tests/engine/bridging/connection.h"
+#include "tests/engine/bridging/test_clips.h"
+
+namespace etude {
+namespace {
+
+/// Clips of arms that stay down, wave, and stay up: the first has nothing in common with the last.
+MotionLibrary SmallLibrary(const TagRules& rules = {}) {
+  const BodyMotion clips[] = {StandingClip(60, 0), WavingClip(80), WavingClip(70, 1.5), StandingClip(40, 150)};
+  return MakeLibrary({"down", "wave", "wave too", "up"}, clips, MakePhysique(StandingClip(1, 0).poses[0], 0.9), rules);
+}
+
+double DistanceToKey(const MotionLibrary& library, const InBetweenNet& net, int clip, int frame) {
+  double nearest = 1e9;
+  for (const InBetweenNet::Key& key : net.keys) {
+    nearest = std::min(nearest, ComputeDistance(library.tagged[clip].grades[frame],
+                                                library.tagged[key.clip].grades[key.frame], PaperWeights())
+                                    .value);
+  }
+  return nearest;
+}
+
+/// How many bridge frames have no key within the threshold.
+int CountUncovered(const MotionLibrary& library, const InBetweenNet& net) {
+  int uncovered = 0;
+  for (int clip = 0; clip < static_cast<int>(library.tagged.size()); ++clip) {
+    for (int frame : library.tagged[clip].bridge_frames) {
+      uncovered += DistanceToKey(library, net, clip, frame) >= kPaperThreshold;
+    }
+  }
+  return uncovered;
+}
+
+SwitchRecord Take(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules = {}) {
+  SwitchRecord record;
+  const FrameWindow window = WaitWindow(library.tagged[request.from], request.request_frame, request.budget_s);
+  EXPECT_TRUE(TakeInBetween(library, request, window, rules, record));
+  return record;
+}
+
+TEST(InBetweenKeys, CoverEveryBridgeFrame) {
+  const MotionLibrary library = BuiltinLibrary();
+  EXPECT_EQ(CountUncovered(library, library.in_betweens), 0);
+  InBetweenNet without_hub = library.in_betweens;
+  without_hub.keys.erase(without_hub.keys.begin());
+  EXPECT_GT(CountUncovered(library, without_hub), 0) << "no key is idle, the first least of all";
+}
+
+TEST(InBetweenKeys, BeginWithTheMostFrequentPose) {
+  const MotionLibrary library = SmallLibrary();
+  const InBetweenNet::Key hub = library.in_betweens.keys.front();
+  const auto ratings = RateFrames(library.tagged, PaperWeights());
+  for (int clip = 0; clip < 4; ++clip) {
+    for (int frame : library.tagged[clip].bridge_frames) {
+      EXPECT_LE(ratings[clip][frame].clips, ratings[hub.clip][hub.frame].clips);
+    }
+  }
+}
+
+TEST(InBetweenKeys, OfALibraryWithoutBridgeFramesAreOfAllFrames) {
+  TagRules rules;
+  rules.min_clips = 5;
+  const MotionLibrary library = SmallLibrary(rules);
+  EXPECT_FALSE(library.in_betweens.keys.empty());
+  EXPECT_EQ(Take(library, {.from = 0, .request_frame = 5, .to = 3}).branch, Branch::kForced);
+}
+
+TEST(InBetween, LeadsFromOneKeyPoseToAnother) {
+  const MotionLibrary library = SmallLibrary();
+  const SwitchRecord record = Take(library, {.from = 0, .request_frame = 5, .to = 3});
+  EXPECT_EQ(record.branch, Branch::kInBetween);
+  ASSERT_EQ(record.legs.size(), 3u);
+  EXPECT_EQ(record.legs[0].last, 5) << "the very first frame is a bridge frame";
+  EXPECT_EQ(record.legs[1].clip, Leg::kOwnFrames);
+  EXPECT_EQ(record.legs[1].last + 1, static_cast<int>(record.legs[1].own.size()));
+  EXPECT_LT(record.legs[2].first, 20) << "the front half";
+  ASSERT_EQ(record.meetings.size(), 2u);
+  const auto grades = [](const BodyPose& pose) { return Fuzzify(ComputeFeatures(pose, 0.9)); };
+  const auto distance = [](const Grades& a, const Grades& b) { return ComputeDistance(a, b, PaperWeights()).value; };
+  const double leaving = distance(library.tagged[0].grades[5], grades(record.legs[1].own.front()));
+  const double entering = distance(grades(record.legs[1].own.back()), library.tagged[3].grades[record.legs[2].first]);
+  EXPECT_NEAR(record.meetings[0].value, leaving, 1e-9);
+  EXPECT_NEAR(record.meetings[1].value, entering, 1e-6);
+  EXPECT_LT(std::max(leaving, entering), kPaperThreshold);
+  EXPECT_NEAR(record.wait_s, record.legs[1].last / 30.0, 1e-12);
+  EXPECT_FALSE(record.why.empty());
+}
+
+TEST(InBetween, TellsWhatItTookAtBothEnds) {
+  const MotionLibrary library = SmallLibrary();
+  const SwitchRecord record = Take(library, {.from = 1, .request_frame = 20, .to = 3});
+  int taken = 0;
+  for (const Candidate& candidate : record.candidates) taken += candidate.fate == Fate::kTaken;
+  EXPECT_EQ(taken, 2);
+  EXPECT_LE(record.candidates.size(), kMostCandidates);
+  EXPECT_GE(record.pairs_seen, record.pairs_matched);
+  EXPECT_GE(record.pairs_matched, 2);
+}
+
+TEST(InBetween, IsForcedWhereTheWindowHasNoBridgeFrame) {
+  MotionLibrary library = SmallLibrary();
+  library.tagged[1].bridge_frames = {70};
+  const SwitchRecord record = Take(library, {.from = 1, .request_frame = 10, .to = 3});
+  EXPECT_EQ(record.branch, Branch::kForced);
+  EXPECT_GE(record.legs[0].last, 10);
+  EXPECT_LE(record.legs[0].last, 40);
+  double nearest = 1e9;
+  for (int frame = 10; frame <= 40; ++frame) {
+    nearest = std::min(nearest, DistanceToKey(library, library.in_betweens, 1, frame));
+  }
+  EXPECT_EQ(record.meetings[0].value, nearest) << "left where a key is nearest";
+}
+
+TEST(InBetween, GoesByTheHubWhenALimbWouldTurnTooFar) {
+  MotionLibrary library = SmallLibrary();
+  const auto frames = [&] { return Take(library, {.from = 0, .request_frame = 5, .to = 3}).legs[1].own.size(); };
+  library.in_betweens.keys.insert(library.in_betweens.keys.begin(), {1, 0});  // arms at 80 degrees
+  const std::size_t by_hub = frames();
+  library.in_betweens.tween.widest_turn = kPi;
+  EXPECT_GT(by_hub, frames());
+}
+
+TEST(InBetween, NeedsKeys) {
+  MotionLibrary library = SmallLibrary();
+  library.in_betweens.keys.clear();
+  SwitchRecord record;
+  EXPECT_FALSE(TakeInBetween(library, {.from = 0, .request_frame = 0, .to = 1}, {0, 30}, {}, record));
+}
+
+TEST(InBetween, ConnectsTheBuiltInClipsInBoundedTime) {
+  const MotionLibrary library = BuiltinLibrary();
+  const double bound = 1 + LongestInBetween(library.in_betweens.tween, kJudgedRateHz);
+  const Connections connections = TryAll(library, 40);
+  EXPECT_EQ(connections.found, connections.tried);
+  EXPECT_GT(connections.tried, 1000);
+  EXPECT_LE(connections.worst_wait_s, bound);
+  EXPECT_GT(connections.worst_wait_s, bound / 2) << "a bound that means something";
+}
+
+}  // namespace
+}  // namespace etude
