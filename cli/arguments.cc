@@ -188,7 +188,8 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
-  command->add_option("--task", options->task, "ik, tracking, transition, detection, capture or search")->required();
+  command->add_option("--task", options->task, "ik, tracking, transition, detection, capture, pose-distance or search")
+      ->required();
   command->add_option("--time", options->time_s, "Seconds per problem")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();

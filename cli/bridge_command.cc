@@ -31,6 +31,9 @@ BridgeOptions OptionsOf(const BridgeTags& tags, BridgeOptions options) {
 }
 
 int CheckTags(const BridgeOptions& options) {
+  if (options.clips.empty() && !options.fuzzy.empty()) {
+    return Complain({{"--fuzzy", 0, 0}, "is for tagging clips again; name those that the file should fit"});
+  }
   const auto text = ReadWholeFile(options.check);
   if (!text) return Complain(text.error());
   const auto tags = ReadTagsFile(*text, options.check);
@@ -46,9 +49,10 @@ int CheckTags(const BridgeOptions& options) {
   if (!loaded) return Complain(loaded.error());
   const TagsComparison comparison = CompareTags(*tags, TagsOf(*loaded));
   if (!comparison.differences.empty()) {
-    return Complain({{options.check, 0, 0},
-                     fmt::format("does not fit the clips: {}; {} differences in all", comparison.differences.front(),
-                                 comparison.differences.size())});
+    const std::size_t count = comparison.differences.size();
+    const std::string rest = count == 1 ? "" : fmt::format("; {} differences in all", count);
+    return Complain(
+        {{options.check, 0, 0}, fmt::format("does not fit the clips: {}{}", comparison.differences.front(), rest)});
   }
   fmt::print("{}: {} clips, {} bridge frames, {} key poses; valid, and fits the clips\n", options.check,
              comparison.clips, comparison.bridge_frames, tags->keys.size());

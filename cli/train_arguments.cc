@@ -37,7 +37,9 @@ void DefineTrain(CLI::App& app, Action& action) {
       ->add_option("--hold-out", options->hold_out,
                    "Clips to judge by: a share of them (0: none), drawn by the seed, or a pattern of names")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of all dice")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of all dice")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->capture_default_str();
   command->add_option("--population", options->population, "Genomes of a generation")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();

@@ -22,6 +22,8 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return "open";
 }
 
+}  // namespace
+
 std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
   if (!verdict) return "±";
   switch (*verdict) {
@@ -37,7 +39,10 @@ std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
   return "?";
 }
 
-}  // namespace
+std::string VerdictMark(Verdict verdict) {
+  return fmt::format("<b class=\"{}\" role=\"img\" aria-label=\"{}\">{}</b>", VerdictClass(verdict),
+                     VerdictName(verdict), VerdictSign(verdict));
+}
 
 std::string VerdictBadge(const std::optional<Verdict>& verdict) {
   return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", VerdictClass(verdict),

@@ -6,8 +6,10 @@
 #include <span>
 
 #include "reports/comparison_table.h"
+#include "reports/overview_table.h"
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/pose_pairs.h"
 #include "reports/switches/switch_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
@@ -39,7 +41,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   std::string text =
       fmt::format("\n## {}\n\n{}\n\n**{}**: {}\n", EscapeMarkdown(scenario.name), EscapeMarkdown(scenario.question),
                   findings.answer.Words(), EscapeMarkdown(findings.answer.sentence));
-  text += MethodsText(findings) + '\n';
+  text += MethodsText(findings) + PosePairsMarkdown(run, scenario) + OverviewTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view outcome = e.outcome == Outcome::kMet     ? "met"
                                      : e.outcome == Outcome::kUnmet ? "**not met**"

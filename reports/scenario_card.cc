@@ -11,8 +11,10 @@
 #include "reports/film_element.h"
 #include "reports/growth/growth_section.h"
 #include "reports/number_table.h"
+#include "reports/overview_table.h"
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/pose_pairs.h"
 #include "reports/switches/switch_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
@@ -138,6 +140,8 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += Methods(findings);
   html += Expectations(scenario);
   html += StatusBar(findings);
+  html += PosePairsHtml(run, scenario);
+  html += OverviewTableHtml(scenario);
   html += SwitchesHtml(SwitchWorldsOf(run, scenario));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);

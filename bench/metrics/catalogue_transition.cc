@@ -148,21 +148,25 @@ std::vector<MetricInfo> TransitionCatalogue() {
        .source = "Etude: what paper A's distance cannot see.",
        .inputs = {{"matched", "whether a fuzzy distance chose the frames"}, {"pose_gap_cm", "the pose gap"}}},
       {.id = "natural_share",
-       .version = 2,
+       .version = 3,
        .label = "as smooth as nature",
        .unit = "",
        .direction = kHigherIsBetter,
        .aggregate = kMean,
        .practical = 0.02,
-       .definition =
-           "1 when jump_cm is below the 95th percentile of unbroken windows of the same clips, else 0, also where no "
-           "way was found.",
+       .definition = "1 when jump_cm does not exceed the 95th percentile of unbroken windows of the same clips, else "
+                     "0, also where no "
+                     "way was found.",
        .practical_reason = "One switch in fifty.",
-       .formula = "1 if jump_cm < q, else 0. q: jump_cm of every window of eleven frames of the two clips asked for, "
-                  "played unbroken by the same dancer (all eleven frames have both neighbours: a clip of n frames has "
-                  "n − 12 windows), both clips' in one sorted list x₀ … xₘ₋₁; its 95th percentile is linear between "
-                  "neighbours: at rank 0.95 (m − 1). An in-between's own clip sets no standard. The denominator of its "
-                  "mean is every cell: where no way was found it is 0 (since version 2; version 1 had no value there).",
+       .formula =
+           "1 if jump_cm ≤ q (1 + 10⁻⁹), else 0. q: jump_cm of every window of eleven frames of the two clips asked "
+           "for, "
+           "played unbroken by the same dancer (all eleven frames have both neighbours: a clip of n frames has "
+           "n − 12 windows), both clips' in one sorted list x₀ … xₘ₋₁; its 95th percentile is linear between "
+           "neighbours: at rank 0.95 (m − 1). An in-between's own clip sets no standard. The denominator of its "
+           "mean is every cell: where no way was found it is 0 (since version 2; version 1 had no value there). "
+           "Until version 2 a jump equal to q counted 0: q of few windows, or of a dance that repeats itself, is "
+           "their largest, so that unbroken motion failed by itself.",
        .null_rule = "Never: no way, or no answer, is 0.",
        .source = "Etude.",
        .inputs = {{"jump_cm", "the switch's jump, null when no way was found"},

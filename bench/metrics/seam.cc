@@ -111,7 +111,9 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
 double NaturalLimitCm(std::vector<double> natural_jumps) { return Percentile95(std::move(natural_jumps)); }
 
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm) {
-  return jump_cm && *jump_cm < NaturalLimitCm(std::move(natural_jumps_cm));
+  // The percentile of few windows is one of them: without the slack, rounding would judge motion against itself.
+  constexpr double kSlack = 1 + 1e-9;
+  return jump_cm && *jump_cm <= kSlack * NaturalLimitCm(std::move(natural_jumps_cm));
 }
 
 double FootSlideCmps(const BodyMotion& motion, int seam) {

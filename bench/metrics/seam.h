@@ -36,7 +36,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip);
 /// Needs a value.
 double NaturalLimitCm(std::vector<double> natural_jumps);
 
-/// `natural_share` of one switch: its jump is below the limit of the natural jumps, of which it needs one. A switch
+/// `natural_share` of one switch: its jump does not exceed the limit of the natural jumps (by more than rounding), of which it needs one. A switch
 /// that found no way has no jump, and is not natural.
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm);
 

@@ -256,8 +256,8 @@ void RegisterPartners(Libraries& libraries, int count) {
     AskForPartners<LoopPeer>(state, ClipsOfLength(data.frames, kClipLength));
   });
 #ifdef ETUDE_HAS_NANOFLANN
-  add("1000-each/nanoflann-20", [](benchmark::State& state, const SearchData& data) {
-    AskForPartners<NanoflannPeer>(state, ClipsOfLength(data.frames, kClipLength), 20);
+  add("1000-each/nanoflann-10", [](benchmark::State& state, const SearchData& data) {
+    AskForPartners<NanoflannPeer>(state, ClipsOfLength(data.frames, kClipLength), 10);
   });
 #endif
 }

@@ -14,7 +14,7 @@ namespace {
 Result<FuzzySystem> FuzzySystemOf(const Condition& condition, const SourceTexts& texts) {
   const Node* named = condition.node.Find(kFuzzyKey);
   if (named == nullptr) return FuzzySystem{};
-  if (named->kind != Node::Kind::kScalar) {
+  if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
     return Fail(named->place, "'{}' must be builtin:NAME or a file, found {}", kFuzzyKey, Describe(*named));
   }
   return OpenFuzzySystem(named->scalar, named->place, [&](const std::string& file) -> Result<std::string> {

@@ -20,8 +20,6 @@ std::vector<TrainingFrame> SampleFrames(const BodyMotion& motion, double standin
 
 }  // namespace
 
-std::string MoveIdentity(const std::string& move) { return "builtin:" + move; }
-
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const Physique& physique) {
   TrainingClips training{.identities = std::move(identities), .frames = {}};
@@ -38,7 +36,7 @@ Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, con
   for (const std::string& name : BuiltinMoveNames()) {
     auto move = LoadBuiltinMove(name);
     if (!move) return tl::unexpected(move.error());
-    known.push_back(MoveIdentity(name));
+    known.push_back("builtin:" + name);
     all.push_back(std::move(move->motion));
   }
   std::vector<std::size_t> others;

@@ -26,9 +26,6 @@ struct TrainingClips {
 /// all frames of a shorter clip.
 constexpr int kFramesPerClip = 16;
 
-/// The name of a built-in move's dance.
-std::string MoveIdentity(const std::string& move);
-
 /// Samples clips as they came, after `physique` has danced them.
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const Physique& physique);

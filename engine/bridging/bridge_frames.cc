@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/base/unit_vector.h"
 #include "engine/bridging/frame_ratings.h"
 
 namespace etude {
@@ -13,14 +14,11 @@ using enum Role;
 /// The unit direction of the neck in the trunk's own frame (left, up, front), so that a body that
 /// turns as a whole keeps its head still.
 glm::dvec3 NeckInTrunk(const BodyPose& pose) {
-  const auto unit = [](const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 ? v / length : glm::dvec3(0);
-  };
-  const glm::dvec3 up = unit(pose[kShoulderCentre] - pose[kHipCentre]);
+  const glm::dvec3 none(0);
+  const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], none);
   const glm::dvec3 across = pose[kLeftShoulder] - pose[kRightShoulder];
-  const glm::dvec3 left = unit(across - glm::dot(across, up) * up);
-  const glm::dvec3 neck = unit(pose[kHead] - pose[kShoulderCentre]);
+  const glm::dvec3 left = UnitOr(across - glm::dot(across, up) * up, none);
+  const glm::dvec3 neck = UnitOr(pose[kHead] - pose[kShoulderCentre], none);
   return {glm::dot(neck, left), glm::dot(neck, up), glm::dot(neck, glm::cross(left, up))};
 }
 

@@ -27,6 +27,7 @@ struct TaggedClip {
   std::vector<int> bridge_frames;  ///< rising
 
   int FrameCount() const { return static_cast<int>(grades.size()); }
+  bool InFrontHalf(int frame) const { return frame < FrameCount() / 2; }
 };
 
 /// How frames are tagged, and which become bridge frames.

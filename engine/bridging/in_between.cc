@@ -3,40 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <optional>
-#include <tuple>
 #include <utility>
-
-#include "engine/bridging/frame_ratings.h"
-#include "engine/bridging/library.h"
+#include <vector>
 
 namespace etude {
 namespace {
 
 using Key = InBetweenNet::Key;
-
-/// What keys may be made of, the most typical of the most frequent pose first.
-std::vector<Key> RankForKeys(std::span<const TaggedClip> tagged, const FeatureWeights& weights) {
-  const bool has_bridge_frames =
-      std::any_of(tagged.begin(), tagged.end(), [](const TaggedClip& clip) { return !clip.bridge_frames.empty(); });
-  const std::vector<std::vector<FrameRating>> ratings = RateFrames(tagged, weights);
-  std::vector<Key> ranked;
-  for (int c = 0; c < static_cast<int>(tagged.size()); ++c) {
-    if (has_bridge_frames) {
-      for (int frame : tagged[c].bridge_frames) ranked.push_back({c, frame});
-    } else {
-      for (int frame = 0; frame < tagged[c].FrameCount(); ++frame) ranked.push_back({c, frame});
-    }
-  }
-  const auto rank = [&](const Key& key) {
-    const FrameRating& rating = ratings[key.clip][key.frame];
-    return std::tuple(-rating.clips, -rating.frames, tagged[key.clip].tags[key.frame], rating.difference);
-  };
-  std::stable_sort(ranked.begin(), ranked.end(), [&](const Key& a, const Key& b) { return rank(a) < rank(b); });
-  return ranked;
-}
 
 /// Where a clip and the in-between meet.
 struct Junction {
@@ -70,8 +43,20 @@ class KeySearch {
     return nearest;
   }
 
-  FuzzyDistance DistanceTo(int key, int frame) const {
-    return ComputeDistance(clip_.grades[frame], GradesOf(key), rules_.weights);
+  /// The junction, and beside it those of `frames` that come nearest to the same key: half of the record's room.
+  /// Their `from_frame` is the clip's.
+  std::vector<Candidate> ListCandidates(const Junction& junction, std::span<const int> frames) const {
+    std::vector<Candidate> listed;
+    for (int frame : frames) {
+      if (frame == junction.frame) continue;
+      const Fate fate = MatchesKey(frame, junction.key) ? Fate::kLater : Fate::kTooFar;
+      listed.push_back({.from_frame = frame, .distance = DistanceTo(junction.key, frame), .cost = {}, .fate = fate});
+    }
+    std::ranges::stable_sort(listed, {}, [](const Candidate& candidate) { return candidate.distance.value; });
+    listed.resize(std::min(listed.size(), kMostCandidates / 2 - 1));
+    listed.push_back({.from_frame = junction.frame, .distance = junction.distance, .cost = {}, .fate = Fate::kTaken});
+    std::ranges::stable_sort(listed, {}, &Candidate::from_frame);
+    return listed;
   }
 
  private:
@@ -81,11 +66,18 @@ class KeySearch {
     return library_.tagged[place.clip].grades[place.frame];
   }
 
+  FuzzyDistance DistanceTo(int key, int frame) const {
+    return ComputeDistance(clip_.grades[frame], GradesOf(key), rules_.weights);
+  }
+  bool MatchesKey(int frame, int key) const {
+    const Key& place = library_.in_betweens.keys[key];
+    return Matches(clip_, frame, library_.tagged[place.clip], place.frame, rules_);
+  }
+
   Junction MatchKeys(int frame) const {
     Junction best{.frame = frame, .key = -1, .distance = {}, .matches = false};
     for (int key = 0; key < KeyCount(); ++key) {
-      const Key& place = library_.in_betweens.keys[key];
-      if (!Matches(clip_, frame, library_.tagged[place.clip], place.frame, rules_)) continue;
+      if (!MatchesKey(frame, key)) continue;
       ++record_.pairs_matched;
       const FuzzyDistance distance = DistanceTo(key, frame);
       if (!best.matches || distance.value < best.distance.value) best = {frame, key, distance, true};
@@ -100,20 +92,6 @@ class KeySearch {
   SwitchRecord& record_;
 };
 
-std::vector<int> Range(int first, int end) {
-  std::vector<int> frames(static_cast<std::size_t>(std::max(end - first, 0)));
-  std::iota(frames.begin(), frames.end(), first);
-  return frames;
-}
-
-std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window) {
-  std::vector<int> frames;
-  for (int frame : clip.bridge_frames) {
-    if (window.Contains(frame)) frames.push_back(frame);
-  }
-  return frames;
-}
-
 /// The frames from one key to another, directly unless a limb would have to turn too far.
 std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int to, double rate_hz) {
   const InBetweenNet& net = library.in_betweens;
@@ -124,32 +102,8 @@ std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int 
     return SampleTween(direct, rate_hz, net.tween);
   }
   std::vector<BodyPose> frames = SampleTween(Tween(pose(from), pose(kHub)), rate_hz, net.tween);
-  const std::vector<BodyPose> rest = SampleTween(Tween(frames.back(), pose(to)), rate_hz, net.tween);
-  frames.insert(frames.end(), rest.begin() + 1, rest.end());
+  AppendTween(pose(to), rate_hz, net.tween, frames);
   return frames;
-}
-
-/// The junction, and beside it the frames of the clip that come nearest to the same key, `most` in all.
-void AddCandidates(const KeySearch& search, const Junction& junction, std::span<const int> frames, double threshold,
-                   std::size_t most, std::vector<Candidate>& candidates) {
-  std::vector<Candidate> added;
-  for (int frame : frames) {
-    if (frame == junction.frame) continue;
-    const FuzzyDistance distance = search.DistanceTo(junction.key, frame);
-    const Fate fate = distance.value < threshold ? Fate::kLater : Fate::kTooFar;
-    added.push_back({.from_frame = frame, .to_frame = 0, .distance = distance, .cost = std::nullopt, .fate = fate});
-  }
-  std::stable_sort(added.begin(), added.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.distance.value < b.distance.value; });
-  if (added.size() >= most) added.resize(most - 1);
-  added.push_back({.from_frame = junction.frame,
-                   .to_frame = 0,
-                   .distance = junction.distance,
-                   .cost = std::nullopt,
-                   .fate = Fate::kTaken});
-  std::stable_sort(added.begin(), added.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.from_frame < b.from_frame; });
-  candidates.insert(candidates.end(), added.begin(), added.end());
 }
 
 std::string Explain(const MotionLibrary& library, const SwitchRequest& request, const Junction& exit,
@@ -172,19 +126,25 @@ std::string Explain(const MotionLibrary& library, const SwitchRequest& request, 
 
 }  // namespace
 
-bool TakeInBetween(const MotionLibrary& library, const SwitchRequest& request, FrameWindow window,
-                   const SwitchRules& rules, SwitchRecord& record) {
-  if (library.in_betweens.keys.empty()) return false;
+SwitchRecord ThroughInBetween(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
+                              const std::string& why_not, std::int64_t pairs_seen) {
+  SwitchRecord record;
+  record.request_frame = request.request_frame;
+  record.pairs_seen = pairs_seen;
+  if (library.in_betweens.keys.empty()) {
+    record.why = why_not + "; and the library has no in-between";
+    return record;
+  }
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
   const KeySearch exits(library, request.from, rules, record), entrances(library, request.to, rules, record);
+  const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
-  const Junction exit = exits.Find(exit_frames, Range(window.first, window.last + 1));
+  const Junction exit = exits.Find(exit_frames, FramesWithin(window));
   // In rising order the front half comes first by itself.
-  const std::vector<int> entrance_frames = BridgeFramesWithin(next, {0, next.FrameCount() - 2});
-  const Junction entrance = entrances.Find(entrance_frames, Range(0, std::max(next.FrameCount() / 2, 1)));
+  const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
+  const Junction entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 
   record.branch = exit.matches && entrance.matches ? Branch::kInBetween : Branch::kForced;
-  record.request_frame = request.request_frame;
   std::vector<BodyPose> own = MakeInBetween(library, exit.key, entrance.key, playing.rate_hz);
   const int last = static_cast<int>(own.size()) - 1;
   record.legs = {{.clip = request.from, .first = request.request_frame, .last = exit.frame, .own = {}},
@@ -192,33 +152,14 @@ bool TakeInBetween(const MotionLibrary& library, const SwitchRequest& request, F
                  {.clip = request.to, .first = entrance.frame, .last = next.FrameCount() - 1, .own = {}}};
   record.meetings = {exit.distance, entrance.distance};
   record.wait_s = WaitOf(record.legs, playing.rate_hz);
-  AddCandidates(exits, exit, exit_frames, rules.threshold, kMostCandidates / 2, record.candidates);
-  const std::size_t of_entrance = record.candidates.size();
-  AddCandidates(entrances, entrance, entrance_frames, rules.threshold, kMostCandidates / 2, record.candidates);
-  for (Candidate& candidate : std::span(record.candidates).subspan(of_entrance)) {
+  record.candidates = exits.ListCandidates(exit, exit_frames);
+  for (Candidate& candidate : entrances.ListCandidates(entrance, entrance_frames)) {
     candidate.to_frame = std::exchange(candidate.from_frame, last);
+    candidate.meeting = 1;
+    record.candidates.push_back(std::move(candidate));
   }
-  record.why = Explain(library, request, exit, entrance, rules.threshold);
-  return true;
-}
-
-InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules) {
-  InBetweenNet net{.keys = {}, .tween = rules.tween};
-  std::vector<Grades> taken;  // the keys' own, side by side
-  for (const Key& key : RankForKeys(tagged, rules.weights)) {
-    const Grades& grades = tagged[key.clip].grades[key.frame];
-    const bool is_covered = std::any_of(taken.begin(), taken.end(), [&](const Grades& other) {
-      return IsCloser(grades, other, rules.weights, rules.threshold);
-    });
-    if (is_covered) continue;
-    net.keys.push_back(key);
-    taken.push_back(grades);
-  }
-  return net;
-}
-
-double LongestInBetween(const TweenRules& rules, double rate_hz) {
-  return 2 * std::ceil(LongestTween(rules) * rate_hz) / rate_hz;
+  record.why = why_not + "; " + Explain(library, request, exit, entrance, rules.threshold);
+  return record;
 }
 
 }  // namespace etude

@@ -1,53 +1,23 @@
 #pragma once
 
-#include <span>
-#include <vector>
+#include <cstdint>
+#include <string>
 
+#include "engine/bridging/library.h"
 #include "engine/bridging/links.h"
 #include "engine/bridging/switch_record.h"
-#include "engine/bridging/tween.h"
 
 namespace etude {
 
-struct MotionLibrary;
-
-/// How the keys of in-betweens are chosen. Ours, as paper A draws its in-between by hand.
-struct InBetweenRules {
-  FeatureWeights weights = PaperWeights();
-  double threshold = kPaperThreshold;  ///< every bridge frame has a key nearer than this
-  TweenRules tween;
-};
-
-/// Paper A's in-between motion (補間動作, section 3.5, figures 13 and 14): made of bridge frames, so that it can be
-/// joined to any two clips. Ours is a star: key poses all over the library, and the tweening from any of them to any
-/// other, directly or by way of the hub.
-struct InBetweenNet {
-  /// A bridge frame that in-betweens are built of.
-  struct Key {
-    int clip = 0;
-    int frame = 0;
-  };
-  std::vector<Key> keys;  ///< the first is the hub: the most typical frame of the most frequent pose
-  TweenRules tween;
-};
-
-/// The keys of a library's in-betweens: going from the most frequent poses to the rarest, and in each from the most
-/// typical frame on, every bridge frame becomes a key that has none within the threshold. A library without bridge
-/// frames gets its keys of all frames. Needs a frame.
-InBetweenNet BuildInBetweens(std::span<const TaggedClip> tagged, const InBetweenRules& rules = {});
-
-/// The longest that any in-between takes, seconds: two tweens, in whole frames.
-double LongestInBetween(const TweenRules& rules, double rate_hz);
-
-/// A way through an in-between: out of the playing clip at the first bridge frame of `window` that a key matches, and
-/// into clip `request.to` at the first bridge frame that a key matches, front half first and never the last frame; of
-/// several keys the nearest. Where none matches at either end, the frame that is nearest to a key is taken there: that
-/// way is forced, and its meeting may be further apart than the threshold. Fills branch, legs, meetings, counts, wait
-/// and `why` of the record, and adds candidates.
+/// What a choice does when no pair of frames matches (paper A, section 3.5): out of the playing clip at the first
+/// bridge frame within the budget that a key of an in-between matches, and into the wanted clip at the first bridge
+/// frame that a key matches, front half first; of several keys the nearest. Where none matches at either end, the frame
+/// that is nearest to a key is taken there: that way is forced, and its distance may not be below the threshold.
 ///
-/// There always is a way, of at most the window and LongestInBetween; false only without keys. `request.to` must have
-/// two frames.
-bool TakeInBetween(const MotionLibrary& library, const SwitchRequest& request, FrameWindow window,
-                   const SwitchRules& rules, SwitchRecord& record);
+/// There always is a way, of at most the budget and LongestInBetween; no legs only when the library has no keys.
+/// `request.to` must have two frames. `why_not` says why there is no direct way; `pairs_seen` were compared to know
+/// that.
+SwitchRecord ThroughInBetween(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
+                              const std::string& why_not, std::int64_t pairs_seen);
 
 }  // namespace etude

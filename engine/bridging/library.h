@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/bridging/bridge_frames.h"
-#include "engine/bridging/in_between.h"
+#include "engine/bridging/in_between_net.h"
 #include "engine/bridging/motion_features.h"
 #include "engine/bridging/one_character.h"
 #include "engine/motion/body.h"

@@ -2,68 +2,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <iterator>
+#include <numeric>
+#include <tuple>
 
 namespace etude {
-namespace {
-
-struct Halves {
-  std::span<const int> front, rear;
-};
-
-Halves SplitTargets(const TaggedClip& next) {
-  const std::vector<int>& frames = next.bridge_frames;
-  const auto middle = std::lower_bound(frames.begin(), frames.end(), next.FrameCount() / 2);
-  const auto end = std::lower_bound(frames.begin(), frames.end(), next.FrameCount() - 1);
-  const auto split = std::min(middle, end);
-  return {{frames.begin(), split}, {split, end}};
-}
-
-Link MakeLink(const TaggedClip& playing, int from, const TaggedClip& next, int to, const SwitchRules& rules) {
-  return {from, to, ComputeDistance(playing.grades[from], next.grades[to], rules.weights)};
-}
-
-LinkSearch FindFirst(const TaggedClip& playing, FrameWindow window, const TaggedClip& next, const SwitchRules& rules) {
-  LinkSearch search;
-  const Halves halves = SplitTargets(next);
-  for (int from : playing.bridge_frames) {
-    if (!window.Contains(from)) continue;
-    for (std::span<const int> half : {halves.front, halves.rear}) {
-      for (int to : half) {
-        ++search.pairs_seen;
-        if (!Matches(playing, from, next, to, rules)) continue;
-        search.link = MakeLink(playing, from, next, to, rules);
-        return search;
-      }
-    }
-  }
-  return search;
-}
-
-LinkSearch FindSmallest(const TaggedClip& playing, FrameWindow window, const TaggedClip& next,
-                        const SwitchRules& rules) {
-  LinkSearch search;
-  const Halves halves = SplitTargets(next);
-  for (std::span<const int> half : {halves.front, halves.rear}) {
-    for (int from : playing.bridge_frames) {
-      if (!window.Contains(from)) continue;
-      for (int to : half) {
-        ++search.pairs_seen;
-        if (!Matches(playing, from, next, to, rules)) continue;
-        const Link link = MakeLink(playing, from, next, to, rules);
-        if (!search.link || link.distance.value < search.link->distance.value) search.link = link;
-      }
-    }
-    if (search.link) return search;
-  }
-  return search;
-}
-
-}  // namespace
 
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s) {
-  const int wait = static_cast<int>(std::floor(budget_s * playing.rate_hz));
+  constexpr double kRounding = 1e-9;  // 4.1 s are 123 frames, although 4.1 · 30 comes out below
+  const int wait = static_cast<int>(std::floor(budget_s * playing.rate_hz + kRounding));
   return {request, std::min(request + wait, playing.FrameCount() - 1)};
+}
+
+FrameWindow EntryWindow(const TaggedClip& next) { return {0, next.FrameCount() - 2}; }
+
+std::vector<int> FramesWithin(FrameWindow window) {
+  std::vector<int> frames(static_cast<std::size_t>(std::max(window.last - window.first + 1, 0)));
+  std::iota(frames.begin(), frames.end(), window.first);
+  return frames;
+}
+
+std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window) {
+  std::vector<int> frames;
+  std::ranges::copy_if(clip.bridge_frames, std::back_inserter(frames), [&](int f) { return window.Contains(f); });
+  return frames;
 }
 
 bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const SwitchRules& rules) {
@@ -71,9 +33,21 @@ bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b,
   return IsCloser(a.grades[frame_a], b.grades[frame_b], rules.weights, rules.threshold);
 }
 
-LinkSearch FindLink(const TaggedClip& playing, FrameWindow window, const TaggedClip& next, const SwitchRules& rules) {
-  return rules.pick == Pick::kFirst ? FindFirst(playing, window, next, rules)
-                                    : FindSmallest(playing, window, next, rules);
+std::optional<Link> FindLink(const TaggedClip& playing, FrameWindow window, const TaggedClip& next,
+                             const SwitchRules& rules) {
+  // In rising order the front half comes first by itself.
+  const std::vector<int> entering = BridgeFramesWithin(next, EntryWindow(next));
+  const auto rank = [&](const Link& link) { return std::tuple(!next.InFrontHalf(link.to), link.distance.value); };
+  std::optional<Link> best;
+  for (int from : BridgeFramesWithin(playing, window)) {
+    for (int to : entering) {
+      if (!Matches(playing, from, next, to, rules)) continue;
+      const Link link{from, to, ComputeDistance(playing.grades[from], next.grades[to], rules.weights)};
+      if (rules.pick == Pick::kFirst) return link;
+      if (!best || rank(link) < rank(*best)) best = link;
+    }
+  }
+  return best;
 }
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "engine/bridging/bridge_frames.h"
 #include "engine/fuzzy/distance.h"
@@ -18,9 +19,11 @@ struct SwitchRules {
   double threshold = kPaperThreshold;
   Pick pick = Pick::kFirst;
   bool within_class = false;  ///< ours: compare only frames with the same ten tags
-  /// Of the choices that compare stretches of motion instead of frames. Kovar, Gleicher and Pighin (2002) take about a
-  /// third of a second.
+  /// Of the choices that compare point clouds: how much motion a cloud holds, half of it after the frame. Kovar,
+  /// Gleicher and Pighin (2002) take about a third of a second.
   double window_s = 1.0 / 3;
+  /// Of the choice that averages distances: over how much motion before the frame, and as much after it. Ours.
+  double reach_s = 1.0 / 3;
   /// Of the choices that may enter any frame: what must be left to play after it, seconds; but a clip's front half may
   /// always be entered. Ours.
   double least_play_s = 1;
@@ -33,12 +36,7 @@ struct Link {
   FuzzyDistance distance;
 };
 
-struct LinkSearch {
-  std::optional<Link> link;
-  int pairs_seen = 0;  ///< how many pairs of bridge frames were compared
-};
-
-/// Frames `first` … `last` of the playing clip, both included.
+/// Frames `first` … `last` of a clip, both included; none when `last` < `first`.
 struct FrameWindow {
   int first = 0;
   int last = 0;
@@ -48,13 +46,19 @@ struct FrameWindow {
 
 /// The frames that a budget of waiting allows: from `request` to `request` + `budget_s` seconds, inside the clip.
 FrameWindow WaitWindow(const TaggedClip& playing, int request, double budget_s);
+/// The frames that may be entered: all but the last, after which nothing would follow.
+FrameWindow EntryWindow(const TaggedClip& next);
+
+/// In rising order.
+std::vector<int> FramesWithin(FrameWindow window);
+std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window);
 
 /// Whether two frames match under the rules.
 bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const SwitchRules& rules);
 
-/// Paper A's search (algorithms A5): at each bridge frame of `playing` in the window, look at the
-/// bridge frames of `next`, front half first, because a switch into the tail looks unnatural, then
-/// rear half. The last frame of `next` is never a target: nothing would follow it.
-LinkSearch FindLink(const TaggedClip& playing, FrameWindow window, const TaggedClip& next, const SwitchRules& rules);
+/// Paper A's search (algorithms A5): at each bridge frame of `playing` in the window, look at the bridge frames of
+/// `next` that may be entered, front half first, because a switch into the tail looks unnatural, then rear half.
+std::optional<Link> FindLink(const TaggedClip& playing, FrameWindow window, const TaggedClip& next,
+                             const SwitchRules& rules);
 
 }  // namespace etude

@@ -54,6 +54,7 @@ struct Candidate {
   FuzzyDistance distance;
   std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
   Fate fate = Fate::kTooFar;
+  int meeting = 0;  ///< which of the record's meetings it was looked at for
 };
 
 /// How to get from one clip into another, and how that was found. The record that explains a switch.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/smoothstep.h"
+#include "engine/base/unit_vector.h"
 #include "engine/bridging/alignment.h"
 
 namespace etude {
@@ -14,18 +15,12 @@ using enum Role;
 /// The greatest slope of Smootherstep, at its middle.
 constexpr double kPeakSlope = 1.875;
 
-glm::dvec3 Unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
-  const double length = glm::length(v);
-  constexpr double kNoLimb = 1e-9;
-  return length > kNoLimb ? v / length : otherwise;
-}
-
 /// Left, up and front of the upper body.
 glm::dquat TrunkFrame(const BodyPose& pose) {
-  const glm::dvec3 up = Unit(pose[kShoulderCentre] - pose[kHipCentre], {0, 1, 0});
+  const glm::dvec3 up = UnitOr(pose[kShoulderCentre] - pose[kHipCentre], {0, 1, 0});
   const glm::dvec3 across = pose[kLeftShoulder] - pose[kRightShoulder];
-  const glm::dvec3 fallback = Unit(glm::cross(up, Facing(pose)), {1, 0, 0});
-  const glm::dvec3 left = Unit(across - glm::dot(across, up) * up, fallback);
+  const glm::dvec3 fallback = UnitOr(glm::cross(up, Facing(pose)), {1, 0, 0});
+  const glm::dvec3 left = UnitOr(across - glm::dot(across, up) * up, fallback);
   return glm::quat_cast(glm::dmat3(left, up, glm::cross(left, up)));
 }
 
@@ -50,8 +45,8 @@ glm::dvec3 Tween::Turn::At(double part) const { return angle > 0 ? glm::angleAxi
 
 Tween::Turn Tween::MakeTurn(const glm::dvec3& from, const glm::dvec3& to) {
   // Opposite directions have no shorter way: limbs then swing sideways, about the axis that points to the front.
-  const glm::dvec3 aside = Unit(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
-  return {.start = from, .axis = Unit(glm::cross(from, to), aside), .angle = AngleBetween(from, to)};
+  const glm::dvec3 aside = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
+  return {.start = from, .axis = UnitOr(glm::cross(from, to), aside), .angle = AngleBetween(from, to)};
 }
 
 Tween::Tween(const BodyPose& from, const BodyPose& to) : from_(from) {
@@ -70,9 +65,9 @@ Tween::Tween(const BodyPose& from, const BodyPose& to) : from_(from) {
     const glm::dquat no_turn(1, 0, 0, 0);
     const glm::dvec3 down(0, -1, 0);
     const glm::dvec3 start =
-        glm::conjugate(with_trunk ? trunk_from_ : no_turn) * Unit(from[bone.child] - from[bone.parent], down);
+        glm::conjugate(with_trunk ? trunk_from_ : no_turn) * UnitOr(from[bone.child] - from[bone.parent], down);
     const glm::dvec3 end =
-        glm::conjugate(with_trunk ? trunk_to_ : no_turn) * Unit(aligned[bone.child] - aligned[bone.parent], down);
+        glm::conjugate(with_trunk ? trunk_to_ : no_turn) * UnitOr(aligned[bone.child] - aligned[bone.parent], down);
     turns_[i] = MakeTurn(start, end);
   }
 }
@@ -106,6 +101,11 @@ std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const Twee
   frames.reserve(static_cast<std::size_t>(steps) + 1);
   for (int i = 0; i <= steps; ++i) frames.push_back(tween.At(Smootherstep(static_cast<double>(i) / steps)));
   return frames;
+}
+
+void AppendTween(const BodyPose& to, double rate_hz, const TweenRules& rules, std::vector<BodyPose>& frames) {
+  const std::vector<BodyPose> rest = SampleTween(Tween(frames.back(), to), rate_hz, rules);
+  frames.insert(frames.end(), rest.begin() + 1, rest.end());
 }
 
 }  // namespace etude

@@ -51,4 +51,7 @@ class Tween {
 /// at both. As many as the rules' speed asks for.
 std::vector<BodyPose> SampleTween(const Tween& tween, double rate_hz, const TweenRules& rules);
 
+/// Goes on from the last of `frames`, of which there must be one, to `to` on its new place.
+void AppendTween(const BodyPose& to, double rate_hz, const TweenRules& rules, std::vector<BodyPose>& frames);
+
 }  // namespace etude

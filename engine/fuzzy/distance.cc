@@ -36,13 +36,15 @@ FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWei
 }
 
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold) {
-  const double limit = threshold * threshold;
+  // Rounding keeps order: a sum above the rounded square has no root below the threshold. At the square itself only
+  // the root can tell.
+  const double square = threshold * threshold;
   double sum = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) {
     sum += weights[k] * SquaredGap(a, b, AllFeatures()[k]);
-    if (sum >= limit) return false;
+    if (sum > square) return false;
   }
-  return true;
+  return std::sqrt(sum) < threshold;
 }
 
 }  // namespace etude

@@ -32,7 +32,7 @@ struct FuzzyDistance {
 /// Equation 1, d = sqrt(Σ_k S_k Σ_terms (μ₁ − μ₂)²): a Euclidean distance in 24 dimensions.
 FuzzyDistance ComputeDistance(const Grades& a, const Grades& b, const FeatureWeights& weights);
 
-/// Whether d < `threshold`; stops adding up as soon as the answer is known.
+/// Whether ComputeDistance's d < `threshold`, to the last bit; stops adding up as soon as the answer is known.
 bool IsCloser(const Grades& a, const Grades& b, const FeatureWeights& weights, double threshold);
 
 }  // namespace etude

@@ -8,8 +8,8 @@
   // Colours begin again after eight methods: then with other shapes and dashes.
   const shape = (i) => shapes[(i + Math.floor(i / 8)) % 8];
   const dashes = (i) => i >= 8 ? [10, 3, 2, 3] : [[], [], [6, 4], [2, 3]][Math.floor(i / 2)];
-  const short = (v) => v === 0 ? '0' : Math.abs(v) < 0.001 || Math.abs(v) >= 1e6 ? v.toExponential(1) :
-      String(Number(v.toPrecision(3)));
+  const short = (v) => v === 0 ? '0' : Math.abs(v) < 0.001 || Math.abs(v) >= 1e8 ? v.toExponential(1) :
+      Number(v.toPrecision(3)).toLocaleString('en', {maximumFractionDigits: 6});
 
   // A line from low to high through each dot, with the dot's own colour.
   const whiskers = {

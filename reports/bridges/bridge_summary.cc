@@ -156,6 +156,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
     text += fmt::format("\nThe matrix of {} × {} clips is in --json.\n", clips.size(), clips.size());
   }
   text += WaysAsText(loaded, coverage);
+  if (coverage.ClipCount() == 1) return text + "It is the only clip: there is no other to lead into.\n";
   text += fmt::format(
       "From any frame into any other clip within {} s: {:.0f} % directly, {:.0f} % through an in-between, made of {} "
       "key\n"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reports/films/look.h"
+#include "reports/switches/distance_table.h"
 #include "reports/words/figures.h"
 
 namespace etude {
@@ -67,8 +68,8 @@ std::string SwitchScene::Words() const {
   return fmt::format(
       "The same request, {}, under {} methods, left to right {}; {}: {}. Ghost: the pose that was left. Beneath: the "
       "largest second difference of any joint, and the ten partial distances of the frames that met; a full bar alone "
-      "reaches the threshold. At the end once more, {} times slower.",
-      race_.request, race_.paths.size(), methods, race_.world, race_.choice, SwitchClock::kSlowness);
+      "reaches the threshold ({}) At the end once more, {} times slower.",
+      race_.request, race_.paths.size(), methods, race_.world, race_.choice, kFeatureLegend, SwitchClock::kSlowness);
 }
 
 Canvas SwitchScene::Draw(int frame) {

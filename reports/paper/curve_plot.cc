@@ -53,7 +53,9 @@ std::string CurveStyle(std::size_t style, bool faint) {
 }
 
 std::string DecadeText(int decade) {
-  return decade >= -2 && decade <= 3 ? fmt::format("{:g}", std::pow(10.0, decade)) : fmt::format("1e{}", decade);
+  if (decade < -2 || decade > 8) return fmt::format("1e{}", decade);
+  if (decade < 3) return fmt::format("{:g}", std::pow(10.0, decade));
+  return fmt::format("{:g}{}", std::pow(10.0, decade % 3), decade < 6 ? 'k' : 'M');
 }
 
 PlotAxes AxesFor(const std::vector<const PlotCurve*>& curves) {

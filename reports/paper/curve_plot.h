@@ -28,7 +28,7 @@ std::string CurvePlotSvg(const std::vector<PlotCurve>& curves, const PlotAxes& a
 /// The attributes that give a line its colour and dashes: `class="c2" stroke-dasharray="6 4"`.
 std::string CurveStyle(std::size_t style, bool faint = false);
 
-/// How an axis names a power of ten: "0.01", "1000", "1e6".
+/// How an axis names a power of ten: "0.01", "100k", "1M", "1e-3".
 std::string DecadeText(int decade);
 
 /// The short line that stands for a method in a legend.

@@ -70,9 +70,10 @@ std::string DistanceTable::Html() const {
     html += fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", FormatFixed(sum, 3),
                         DistanceWords(meeting.facts.distance.value_or(std::sqrt(sum)), meeting.threshold));
   }
-  return html +
-         "</tbody></table></div><p class=\"quiet legend\">They sum to d². A full bar alone reaches the threshold; "
-         "without one, it is the largest of its row.</p>";
+  return html + fmt::format(
+                    "</tbody></table></div><p class=\"quiet legend\">They sum to d². A full bar alone reaches the "
+                    "threshold; without one, it is the largest of its row. {}</p>",
+                    EscapeMarkup(std::string(kFeatureLegend)));
 }
 
 }  // namespace etude

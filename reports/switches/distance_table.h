@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,11 @@ namespace etude {
 
 /// A partial distance below this is written as 0.
 constexpr double kLeastShown = 0.0005;
+
+/// What paper A's short names of the ten features stand for.
+constexpr std::string_view kFeatureLegend =
+    "RH, LH: how far the right and the left arm are raised; RHE, LHE: their elbows; Posture: lying to jumping; Trunk: "
+    "its lean; RF, LF: how far the legs are spread; RFK, LFK: their knees.";
 
 /// The ten partial distances of frames that met, one row per meeting, each with a bar: a full bar alone would reach the
 /// threshold. Weights stand above, once for all methods that share them.

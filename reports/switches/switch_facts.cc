@@ -86,7 +86,8 @@ std::optional<CandidateFacts> CandidateOf(const Json& json) {
                         .distance = *distance,
                         .partials = FeaturesOf(json, "partials"),
                         .cost = NumberOf(json, "cost"),
-                        .fate = TextOf(json, "fate")};
+                        .fate = TextOf(json, "fate"),
+                        .meeting = FrameOf(json, "meeting")};
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct CandidateFacts {
   std::optional<PerFeature> partials;
   std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
   std::string fate;            ///< "taken", "too far", "later", "worse"
+  std::optional<int> meeting;  ///< which of the meetings it was looked at for
 
   bool operator==(const CandidateFacts&) const = default;
 };

@@ -88,33 +88,56 @@ std::string Distances(const SwitchWorld& world) {
   return table.Html();
 }
 
-std::string CandidateRow(const CandidateFacts& candidate, bool has_costs) {
+/// "clap 28", or the frame alone
+std::string FrameIn(const std::string& clip, int frame) {
+  return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", EscapeMarkup(clip), frame);
+}
+
+/// Through an in-between two pairs of clips meet, each with candidates of its own. Clips unknown are not named.
+MeetingFacts MeetingOf(const CandidateFacts& candidate, const SwitchFacts& facts) {
+  const int meeting = candidate.meeting.value_or(facts.meetings.size() == 1 ? 0 : -1);
+  const bool is_told = meeting >= 0 && meeting < static_cast<int>(facts.meetings.size());
+  return is_told ? facts.meetings[static_cast<std::size_t>(meeting)] : MeetingFacts{};
+}
+
+std::string CandidateRow(const CandidateFacts& candidate, const SwitchFacts& facts, bool has_costs) {
   const bool taken = candidate.fate == "taken";
+  const MeetingFacts meeting = MeetingOf(candidate, facts);
   std::string html =
       fmt::format("<tr{}><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
                   taken ? " class=\"taken\"" : "", taken ? "✓ " : "", EscapeMarkup(Dashed(candidate.fate)),
-                  candidate.from_frame, candidate.to_frame, FormatFixed(candidate.distance, 3));
+                  FrameIn(meeting.from, candidate.from_frame), FrameIn(meeting.to, candidate.to_frame),
+                  FormatFixed(candidate.distance, 3));
   if (has_costs)
     html += fmt::format("<td class=\"n\">{}</td>", candidate.cost ? FormatNumber(*candidate.cost) : kNoValue);
   return html +
          fmt::format("<td>{}</td></tr>", candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
 }
 
+/// The record holds but a few of all the pairs.
+std::string HowMany(const SwitchFacts& facts) {
+  const auto listed = static_cast<long long>(facts.candidates.size());
+  if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
+  return fmt::format("<p class=\"quiet legend\">{} of {} pairs of frames: the taken, and the best of the others.</p>",
+                     FormatCount(listed), FormatCount(*facts.pairs_seen));
+}
+
 std::string CandidatesTable(const std::string& methods, const SwitchFacts& facts) {
   if (facts.candidates.empty()) return "";
   const bool has_costs = std::ranges::any_of(facts.candidates, [](const auto& c) { return c.cost.has_value(); });
   std::string html = fmt::format(
-      "<h4>What {} looked at</h4><div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Candidates of {}\">"
+      "<h4>What {} looked at</h4>{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Candidates of "
+      "{}\">"
       "<table><thead><tr><th scope=\"col\">Fate</th><th scope=\"col\" class=\"n\">Leaves at</th>"
       "<th scope=\"col\" class=\"n\">Enters at</th><th scope=\"col\" class=\"n\">d</th>",
-      EscapeMarkup(methods), EscapeMarkup(methods));
+      EscapeMarkup(methods), HowMany(facts), EscapeMarkup(methods));
   if (has_costs) {
     const std::string unit = facts.cost_unit.empty() ? "" : fmt::format(" ({})", facts.cost_unit);
     html += fmt::format("<th scope=\"col\" class=\"n\">Cost{}</th>", EscapeMarkup(unit));
   }
   html += "<th scope=\"col\">d² is mostly</th></tr></thead><tbody>";
   const std::size_t shown = std::min(facts.candidates.size(), kMostCandidates);
-  for (std::size_t i = 0; i < shown; ++i) html += CandidateRow(facts.candidates[i], has_costs);
+  for (std::size_t i = 0; i < shown; ++i) html += CandidateRow(facts.candidates[i], facts, has_costs);
   return html + "</tbody></table></div>" + LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording");
 }
 
@@ -132,7 +155,10 @@ std::string AllCandidates(const SwitchWorld& world) {
     }
     html += CandidatesTable(methods, world.switches[i].facts);
   }
-  return html;
+  if (html.empty()) return html;
+  return html +
+         "<p class=\"quiet legend\">Too far: d is not below the threshold. Later: it matches, but the first match is "
+         "taken. Worse: it matches, but another ranks before it.</p>";
 }
 
 std::string WorldHtml(const SwitchWorld& world, bool open) {

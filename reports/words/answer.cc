@@ -173,7 +173,7 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
 
 MethodFinding AnswerInWords(const ScenarioSummary& scenario, const std::string& metric) {
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
-    if (!IsYardstick(scenario, scenario.methods[i])) return CompareInWords(scenario, scenario.methods[i], metric);
+    if (!IsComparedWithNone(scenario, scenario.methods[i])) return CompareInWords(scenario, scenario.methods[i], metric);
   }
   return {"", "", Verdict::kInconclusive, "Only one method ran, so there is nothing to compare it with."};
 }

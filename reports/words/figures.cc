@@ -9,6 +9,9 @@
 namespace etude {
 namespace {
 
+// Less than any unit here can mean: what computing leaves over of zero.
+constexpr double kRounding = 1e-12;
+
 // Angles read better with their sign; every other unit stands in the catalogue as people write it.
 std::string Suffix(const std::string& unit) {
   if (unit == "deg") return "°";
@@ -72,7 +75,8 @@ std::string FormatFixed(double value, int decimals) {
 std::string FormatNumber(double value) {
   if (!std::isfinite(value)) return std::string(kNoValue);
   const double size = std::abs(value);
-  if (size != 0 && (size < 0.001 || size >= 1e9)) return fmt::format("{}{:.1e}", value < 0 ? "−" : "", size);
+  if (size < kRounding) return "0";
+  if (size < 0.001 || size >= 1e9) return fmt::format("{}{:.1e}", value < 0 ? "−" : "", size);
   return FormatFixed(value, DecimalsFor(value));
 }
 

@@ -46,7 +46,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);
-    } else {
+    } else if (!IsComparedWithNone(scenario, scenario.methods[i])) {
       findings.methods.push_back(CompareInWords(scenario, scenario.methods[i], findings.metric));
     }
   }

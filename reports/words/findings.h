@@ -37,7 +37,7 @@ struct ReasonCount {
 struct ScenarioFindings {
   std::string metric;  ///< the first headline metric, which the answer is about; "" without any
   MethodFinding answer;
-  std::vector<MethodFinding> methods;  ///< every method but the first and the yardsticks, in the scenario's order
+  std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;
   int cells = 0;
   std::vector<std::pair<Status, int>> statuses;  ///< in the order of Status; those that occur

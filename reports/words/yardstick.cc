@@ -4,13 +4,19 @@
 
 namespace etude {
 
-bool IsYardstick(const ScenarioSummary& scenario, const std::string& method) {
+bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
   // Nobody is compared by no metric: that says nothing of this method.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
   // Whoever is compared is compared under every condition.
   const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
   return std::ranges::find(comparisons, method, &Comparison::method) == comparisons.end();
+}
+
+bool IsYardstick(const ScenarioSummary& scenario, const std::string& method) {
+  if (!IsComparedWithNone(scenario, method)) return false;
+  const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
+  return std::ranges::find(comparisons, method, &Comparison::baseline) == comparisons.end();
 }
 
 std::string MethodLabel(const ScenarioSummary& scenario, const std::string& method) {

@@ -105,7 +105,7 @@ BodyPose PoseOf(const Controls& controls) {
   for (Side side : {Side::kLeft, Side::kRight}) {
     PlaceArm(controls, side, chest, pose);
     const LegRoles roles = LegOf(side);
-    const Leg leg = PlaceLeg(controls, side, pelvis, pose[kHipCentre] + HipOffset(side, pelvis));
+    const LegJoints leg = PlaceLeg(controls, side, pelvis, pose[kHipCentre] + HipOffset(side, pelvis));
     pose[roles.hip] = leg.hip;
     pose[roles.knee] = leg.knee;
     pose[roles.ankle] = leg.ankle;

@@ -75,7 +75,7 @@ double Freedom(const Controls& controls, Side side) { return std::clamp(controls
 
 }  // namespace
 
-Leg PlaceLeg(const Controls& controls, Side side, const glm::dmat3& pelvis, const glm::dvec3& hip) {
+LegJoints PlaceLeg(const Controls& controls, Side side, const glm::dmat3& pelvis, const glm::dvec3& hip) {
   const double free = Freedom(controls, side);
   const FootGoal standing = StandingGoal(controls, side), swinging = FreeGoal(controls, side, pelvis, hip);
   // A foot rises before it travels, so that it does not brush along the floor.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/base/unit_vector.h"
 #include "engine/motion/edit.h"
 
 namespace etude {
@@ -62,12 +63,6 @@ struct Wander {
 
 /// Directions of the limbs, by their child joint, in the frame of a body that faces +Z.
 using Directions = std::array<glm::dvec3, kRoleCount>;
-
-glm::dvec3 UnitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
-  const double length = glm::length(v);
-  constexpr double kNoLimb = 1e-9;
-  return length < kNoLimb ? otherwise : v / length;
-}
 
 Directions DirectionsOf(const BodyPose& pose) {
   const FloorMove to_front{.yaw = -Heading(pose)};

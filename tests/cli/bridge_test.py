@@ -100,6 +100,12 @@ class Bridge(EtudeCase):
             self.skipTest("no assimp-testmodels")
         self.assertIn("01_03", self.works(WALK, "builtin:wave"))
 
+    def test_one_clip_has_no_other_to_lead_into(self):
+        said = self.works(FEW[0], "-o", self.tags)
+        self.assertIn("the only clip", said)
+        self.assertNotIn("directly", said)
+        self.assertIn("fits the clips", self.works("--check", self.tags, FEW[0]))
+
     def test_bad_input_is_one_line_and_leaves_nothing(self):
         self.refuses("-o", self.tags, says=["needs clips"])
         self.refuses("builtin:nothing", "-o", self.tags, says=["nothing"])
@@ -108,6 +114,7 @@ class Bridge(EtudeCase):
         self.refuses(*FEW, "-o", self.tags, "--fuzzy", "builtin:none", says=["none"])
         self.refuses(*FEW, "-o", self.tags, "--check", self.tags, says=["check"])
         self.refuses("--check", self.tags, says=["tags.xml"])
+        self.refuses("--check", self.tags, "--fuzzy", "builtin:paper", says=["--fuzzy", "name those"])
         self.assertFalse(self.tags.exists())
         self.tags.write_text("mine")
         self.refuses(*FEW, "-o", self.tags, says=["is there already"])

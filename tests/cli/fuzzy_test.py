@@ -61,6 +61,8 @@ class Fuzzy(EtudeCase):
         self.refuses("run", self.write("s.yaml", SCENARIO.format(f"fuzzy: '{wrong}'")), "-o", self.folder / "run",
                      says="wrong.yaml:12:")
         self.refuses("clip", "grades", "builtin:clap", "--fuzzy", "builtin:papper", says="did you mean 'paper'?")
+        self.refuses("run", self.write("s.yaml", SCENARIO.format("fuzzy: ''")), "-o", self.folder / "run",
+                     says="s.yaml:6:8: 'fuzzy' must be builtin:NAME or a file")
         self.assertFalse((self.folder / "run").exists())
 
 

@@ -10,10 +10,10 @@ SCENARIO = """scenario: tuned
 question: Is the learnt system used?
 task: pose-distance
 pairs: blindspots
-fuzzy: tuned.yaml
+fuzzy: '{}'
 trials: 8
 methods:
-  - {name: fuzzy, distance: fuzzy}
+  - {{name: fuzzy, distance: fuzzy}}
 """
 
 
@@ -33,7 +33,7 @@ class Train(EtudeCase):
                 self.assertIn("# Learnt by `etude train", text)
                 self.assertIn("#   builtin:boxing, builtin:bird", text)
         scenario = self.folder / "tuned_scenario.yaml"
-        scenario.write_text(SCENARIO)
+        scenario.write_text(SCENARIO.format(self.folder / "tuned.yaml"))
         rows = self.run_suite(scenario)
         self.assertEqual(len(rows), 8)
 
@@ -49,7 +49,7 @@ class Train(EtudeCase):
         for arguments, word in (([MOVES[0]], "two clips"), ([*MOVES, "--hold-out", "zzz*"], "no clip is called"),
                                 ([*MOVES, "--hold-out", "1.5"], "nor a share"),
                                 ([*MOVES, "--method", "adaptive", "--memberships"], "--method genetic"),
-                                ([*MOVES, "--generations", "0"], "--generations"),
+                                ([*MOVES, "--generations", "0"], "--generations"), ([*MOVES, "--seed", "-1"], "--seed"),
                                 (["builtin:nothing"], "nothing")):
             with self.subTest(word):
                 result = self.train(*arguments, code=2)

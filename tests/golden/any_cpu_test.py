@@ -29,6 +29,7 @@ WORLDS = [  # scenario, condition, trial
     ("every-search", 0, 1),
     ("every-switch", 0, 0),
     ("every-switch", 0, 5),
+    ("every-distance", 0, 0),
 ]
 EVERY_SOLVER = """defaults: {seed: 1, methods: [METHODS]}
 scenarios:
@@ -39,6 +40,10 @@ scenarios:
   - {scenario: every-search, task: search, frames: 2000, queries: 20, clips: ['builtin:*'],
      metrics: [distances_per_query], question: 'Same bytes?',
      methods: [{name: first, query: first}, {name: within, query: within}, {name: nearest}, {name: ten, query: nearest-10}]}
+  - {scenario: every-distance, task: pose-distance, pairs: frames, pairs_per_world: 50, clips: ['builtin:*'],
+     metrics: [close_auc], question: 'Same bytes?',
+     methods: [{name: fuzzy}, {name: adaptive, weights: adaptive}, {name: genetic, weights: genetic},
+               {name: cloud, distance: point-cloud}, {name: joints, distance: joint-positions}]}
   - {scenario: every-switch, task: transition, clips: ['builtin:*'], metrics: [jump_cm], question: 'Same bytes?',
      methods: [{name: paper}, {name: genetic, weights: genetic, join: crossfade},
                {name: kovar, choice: fuzzy-kovar, join: inertialised-quintic}, {name: window, choice: fuzzy-window},

@@ -18,7 +18,7 @@ Exhibit ExhibitBody() { return Show(DescribeBody()); }
 
 Exhibit ExhibitPairs(const PairWorld& world) {
   Json pairs = Json::array();
-  for (const PosePair& pair : world.pairs) {
+  for (const SeenPair& pair : world.pairs) {
     pairs.push_back({{"a", EncodePose(pair.a.pose)}, {"b", EncodePose(pair.b.pose)}});
   }
   return Show({{"pairs", std::move(pairs)}});
@@ -26,7 +26,7 @@ Exhibit ExhibitPairs(const PairWorld& world) {
 
 Exhibit ExhibitGaps(const PairWorld& world) {
   Json gaps = Json::array();
-  for (const PosePair& pair : world.pairs) gaps.push_back(100 * pair.gap_m);
+  for (const SeenPair& pair : world.pairs) gaps.push_back(100 * pair.gap_m);
   return Show({{"name", world.name}, {"pose_gap_cm", std::move(gaps)}});
 }
 

@@ -5,14 +5,13 @@
 #include <functional>
 
 #include "bench/tasks/pose_distance/blind_spots.h"
-#include "bench/training/training_clips.h"
 #include "engine/bridging/alignment.h"
 #include "sim/choreography/canonical_body.h"
 
 namespace etude {
 namespace {
 
-PosePair MakePair(const BodyPose& a, const BodyPose& b, double standing_hip_height) {
+SeenPair MakePair(const BodyPose& a, const BodyPose& b, double standing_hip_height) {
   return {{a, ComputeFeatures(a, standing_hip_height)}, {b, ComputeFeatures(b, standing_hip_height)}, PoseGap(a, b)};
 }
 
@@ -28,7 +27,7 @@ DancedClips DanceClips(const ClipLibrary& library) {
       .physique = MakePhysique(standing, StandingHipHeight(standing)), .names = {}, .identities = {}, .motions = {}};
   for (const LibraryClip& clip : library.clips) {
     clips.names.push_back(clip.name);
-    clips.identities.push_back(clip.move ? MoveIdentity(clip.move->name) : clip.source);
+    clips.identities.push_back(clip.source);
     clips.motions.push_back(PerformedBy(clips.physique, clip.motion));
   }
   return clips;

@@ -16,7 +16,7 @@ struct SeenPose {
   PoseFeatures features;
 };
 
-struct PosePair {
+struct SeenPair {
   SeenPose a, b;
   double gap_m = 0;  ///< the truth: PoseGap, the distance of the worst joint after alignment on the floor
 };
@@ -25,7 +25,7 @@ struct PosePair {
 struct PairWorld {
   std::string name;             ///< of the blind spot; empty for frames
   std::string clip_a, clip_b;   ///< identities of the clips that the poses were taken from; empty for a blind spot
-  std::vector<PosePair> pairs;  ///< one or more
+  std::vector<SeenPair> pairs;  ///< one or more
 };
 
 /// Which pairs a world is made of.
@@ -38,7 +38,7 @@ enum class PairSource {
 struct DancedClips {
   Physique physique;
   std::vector<std::string> names;
-  std::vector<std::string> identities;  ///< equal for equal dances
+  std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
   std::vector<BodyMotion> motions;
 };
 

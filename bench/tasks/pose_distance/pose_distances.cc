@@ -19,9 +19,9 @@ constexpr std::array<std::pair<std::string_view, PoseDistance>, 3> kDistances = 
 /// A cloud of one frame's joints each.
 double PointCloudCm(const BodyPose& a, const BodyPose& b) {
   const BodyMotion first{kJudgedRateHz, {a}}, second{kJudgedRateHz, {b}};
-  double cost = 0;
-  PointCloudRows(first, second, 0, 0).Compute(0, {&cost, 1});
-  return cost;
+  std::array<double, 1> cost{};
+  PointCloudRows(first, second, 0, 0).Compute(0, std::array{0}, cost);
+  return cost[0];
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ PoseDistance FindPoseDistance(std::string_view name) {
 
 PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights) {
-  const auto distance_of = [&](const PosePair& pair) {
+  const auto distance_of = [&](const SeenPair& pair) {
     switch (method.distance) {
       case PoseDistance::kFuzzy: {
         const Grades a = Fuzzify(pair.a.features, memberships), b = Fuzzify(pair.b.features, memberships);
@@ -56,7 +56,7 @@ PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, 
     return 0.0;
   };
   PairVerdict verdict;
-  for (const PosePair& pair : world.pairs) {
+  for (const SeenPair& pair : world.pairs) {
     verdict.distances.push_back(distance_of(pair));
     verdict.alike.push_back(verdict.distances.back() < method.threshold);
   }

@@ -47,7 +47,7 @@ Result<FoundFrames> ReadFrames(const Json& list, const std::string& path, std::s
 
 }  // namespace
 
-Exhibit ExhibitLibrary(const SearchProblem& problem, Question question) {
+Exhibit ExhibitLibrary(const SearchProblem& problem, SearchQuestion question) {
   Json json{{"frames", problem.library.frames.size()},
             {"terms", DescribeTerms(problem.weights)},
             {"query", QuestionName(question)},
@@ -65,7 +65,7 @@ Json DescribeQueries(std::span<const Grades> queries) {
 Json DescribeFound(const std::vector<FoundFrames>& found) { return {{"found", found}}; }
 
 Result<SearchAnswer> ReadSearchAnswer(const Json& json, const SearchProblem& problem, std::size_t queries,
-                                      Question question) {
+                                      SearchQuestion question) {
   AnswerFields fields(json);
   const Json& lists = fields.List("found", queries, queries);
   if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());

@@ -14,7 +14,7 @@ namespace etude {
 ///      "query": "nearest", "threshold": 0.4, "file": "library.f64"}
 ///
 /// The distance of two frames is √(Σ weight · (difference of the grades)²) over the terms (paper A, equation 1).
-Exhibit ExhibitLibrary(const SearchProblem& problem, Question question);
+Exhibit ExhibitLibrary(const SearchProblem& problem, SearchQuestion question);
 
 /// Problem: the frames asked about, as their grades.
 ///
@@ -33,6 +33,6 @@ Json DescribeFound(const std::vector<FoundFrames>& found);
 /// Refuses what is not as told above: another number of lists, and frames that the library does not have or that stand
 /// twice in a list.
 Result<SearchAnswer> ReadSearchAnswer(const Json& answer, const SearchProblem& problem, std::size_t queries,
-                                      Question question);
+                                      SearchQuestion question);
 
 }  // namespace etude

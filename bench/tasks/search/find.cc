@@ -17,17 +17,17 @@ FoundFrames FramesOf(std::span<const Neighbour> neighbours) {
   return frames;
 }
 
-FoundFrames AskIndex(const SearchProblem& problem, const Grades& query, Question question, SearchWork& work) {
+FoundFrames AskIndex(const SearchProblem& problem, const Grades& query, SearchQuestion question, SearchWork& work) {
   const GradeIndex& index = problem.library.index;
   switch (question) {
-    case Question::kFirst: {
+    case SearchQuestion::kFirst: {
       const auto first = index.First(query, problem.threshold, &work);
       return first ? FoundFrames{first->frame} : FoundFrames{};
     }
-    case Question::kWithin:
+    case SearchQuestion::kWithin:
       return FramesOf(index.Within(query, problem.threshold, &work));
-    case Question::kNearest:
-    case Question::kNearest10:
+    case SearchQuestion::kNearest:
+    case SearchQuestion::kNearest10:
       break;
   }
   return FramesOf(index.Nearest(query, FramesAskedFor(question), &work));
@@ -36,11 +36,8 @@ FoundFrames AskIndex(const SearchProblem& problem, const Grades& query, Question
 /// The distance to a frame where it is below `limit`.
 std::optional<double> DistanceBelow(const SearchProblem& problem, const Grades& query, const Grades& frame,
                                     double limit) {
-  // IsCloser compares squares, which round otherwise than the distance does at the limit itself.
-  constexpr double kSlack = 1 + 1e-12;
-  if (!IsCloser(query, frame, problem.weights, limit * kSlack)) return std::nullopt;
-  const double distance = ComputeDistance(query, frame, problem.weights).value;
-  return distance < limit ? std::optional(distance) : std::nullopt;
+  if (!IsCloser(query, frame, problem.weights, limit)) return std::nullopt;
+  return ComputeDistance(query, frame, problem.weights).value;
 }
 
 FoundFrames ScanForMatches(const SearchProblem& problem, const Grades& query, bool only_first, std::int64_t& seen) {
@@ -48,7 +45,7 @@ FoundFrames ScanForMatches(const SearchProblem& problem, const Grades& query, bo
   const std::vector<Grades>& frames = problem.library.frames;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     ++seen;
-    if (!DistanceBelow(problem, query, frames[f], problem.threshold)) continue;
+    if (!IsCloser(query, frames[f], problem.weights, problem.threshold)) continue;
     found.push_back(static_cast<int>(f));
     if (only_first) break;
   }
@@ -71,35 +68,35 @@ FoundFrames ScanForNearest(const SearchProblem& problem, const Grades& query, st
   return FramesOf(best);
 }
 
-FoundFrames Scan(const SearchProblem& problem, const Grades& query, Question question, std::int64_t& seen) {
+FoundFrames Scan(const SearchProblem& problem, const Grades& query, SearchQuestion question, std::int64_t& seen) {
   switch (question) {
-    case Question::kFirst:
+    case SearchQuestion::kFirst:
       return ScanForMatches(problem, query, true, seen);
-    case Question::kWithin:
+    case SearchQuestion::kWithin:
       return ScanForMatches(problem, query, false, seen);
-    case Question::kNearest:
-    case Question::kNearest10:
+    case SearchQuestion::kNearest:
+    case SearchQuestion::kNearest10:
       break;
   }
   return ScanForNearest(problem, query, static_cast<std::size_t>(FramesAskedFor(question)), seen);
 }
 
 /// Of all frames with their distances, those that are the answer.
-FoundFrames Choose(const std::vector<Neighbour>& all, Question question, double threshold) {
+FoundFrames Choose(const std::vector<Neighbour>& all, SearchQuestion question, double threshold) {
   std::vector<Neighbour> chosen;
-  if (question == Question::kNearest || question == Question::kNearest10) {
+  if (question == SearchQuestion::kNearest || question == SearchQuestion::kNearest10) {
     chosen.resize(std::min(static_cast<std::size_t>(FramesAskedFor(question)), all.size()));
     std::partial_sort_copy(all.begin(), all.end(), chosen.begin(), chosen.end(), IsBefore);
     return FramesOf(chosen);
   }
   std::ranges::copy_if(all, std::back_inserter(chosen), [&](const Neighbour& n) { return n.distance < threshold; });
-  if (question == Question::kFirst && !chosen.empty()) chosen.resize(1);
+  if (question == SearchQuestion::kFirst && !chosen.empty()) chosen.resize(1);
   return FramesOf(chosen);
 }
 
 }  // namespace
 
-SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> queries, Question question) {
+SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question) {
   SearchAnswer answer{.question = question, .found = {}, .distances = {{}}, .boxes = {{}}};
   for (const Grades& query : queries) {
     SearchWork work;
@@ -110,7 +107,7 @@ SearchAnswer FindByIndex(const SearchProblem& problem, std::span<const Grades> q
   return answer;
 }
 
-SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grades> queries, Question question) {
+SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grades> queries, SearchQuestion question) {
   SearchAnswer answer{.question = question, .found = {}, .distances = {{}}, .boxes = {}};
   for (const Grades& query : queries) {
     std::int64_t seen = 0;
@@ -120,16 +117,18 @@ SearchAnswer FindByBruteForce(const SearchProblem& problem, std::span<const Grad
   return answer;
 }
 
-std::map<Question, std::vector<FoundFrames>> FindPlainly(const SearchProblem& problem, std::span<const Grades> queries,
-                                                         const std::set<Question>& questions) {
-  std::map<Question, std::vector<FoundFrames>> answers;
+std::map<SearchQuestion, std::vector<FoundFrames>> FindPlainly(const SearchProblem& problem,
+                                                               std::span<const Grades> queries,
+                                                               const std::set<SearchQuestion>& questions) {
+  std::map<SearchQuestion, std::vector<FoundFrames>> answers;
   std::vector<Neighbour> all;
   for (const Grades& query : queries) {
     all.clear();
     for (const Grades& frame : problem.library.frames) {
       all.push_back({static_cast<int>(all.size()), ComputeDistance(query, frame, problem.weights).value});
     }
-    for (const Question question : questions) answers[question].push_back(Choose(all, question, problem.threshold));
+    for (const SearchQuestion question : questions)
+      answers[question].push_back(Choose(all, question, problem.threshold));
   }
   return answers;
 }

@@ -34,13 +34,13 @@ std::vector<Grades> MakeFrames(std::span<const BodyMotion> seeds, const FuzzySys
   return grades;
 }
 
-std::string DigestOf(const std::vector<Grades>& frames) {
+}  // namespace
+
+std::string DigestOf(std::span<const Grades> frames) {
   Digest digest;
   for (const Grades& grades : frames) digest.Add(std::span<const double>(grades));
   return digest.Hex();
 }
-
-}  // namespace
 
 SearchLibrary MakeSearchLibrary(const ClipLibrary& clips, const FuzzySystem& fuzzy, int frames) {
   const WorldKey always{.suite_seed = 1, .scenario = "search", .trial = 0};

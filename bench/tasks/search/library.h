@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,9 @@ struct SearchLibrary {
   GradeIndex index;
   std::string digest;  ///< of the frames
 };
+
+/// Of all grades, in their order.
+std::string DigestOf(std::span<const Grades> frames);
 
 /// `frames` frames of the clips, performed by dancers whose tempo and amplitude vary (sim/choreography's VariedLibrary;
 /// at least one clip, each of two frames at least). The dice are always the same: what is searched belongs to the

@@ -9,13 +9,7 @@
 namespace etude {
 namespace {
 
-std::string DigestOf(std::span<const Grades> queries) {
-  Digest digest;
-  for (const Grades& grades : queries) digest.Add(std::span<const double>(grades));
-  return digest.Hex();
-}
-
-std::string DigestOf(const std::vector<FoundFrames>& found) {
+std::string FoundDigest(const std::vector<FoundFrames>& found) {
   Digest digest;
   for (const FoundFrames& frames : found) {
     digest.Add(static_cast<std::int64_t>(frames.size()));
@@ -50,7 +44,7 @@ std::string DescribeMistakes(const std::vector<FoundFrames>& found, const std::v
 CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> queries, const SearchAnswer& answer,
                        const std::vector<FoundFrames>& truth) {
   CellResult cell;
-  cell.digests = {{"library", library.digest}, {"queries", DigestOf(queries)}, {"answers", DigestOf(answer.found)}};
+  cell.digests = {{"library", library.digest}, {"queries", DigestOf(queries)}, {"answers", FoundDigest(answer.found)}};
   cell.MeasureOr("search_agreement", SearchAgreement(answer.found, truth), "there is no query");
   cell.MeasureOr("matches_per_query", MatchesPerQuery(answer.found), "there is no query");
   const char* const untold = "the method does not tell";

@@ -1,23 +1,25 @@
 #include "bench/tasks/search/search_options.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 
 #include "bench/tasks/base/fuzzy_key.h"
+#include "engine/base/names.h"
 
 namespace etude {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Question>, 4> kQuestions = {{{"first", Question::kFirst},
-                                                                              {"within", Question::kWithin},
-                                                                              {"nearest", Question::kNearest},
-                                                                              {"nearest-10", Question::kNearest10}}};
+constexpr std::array<std::pair<std::string_view, SearchQuestion>, 4> kQuestions = {
+    {{"first", SearchQuestion::kFirst},
+     {"within", SearchQuestion::kWithin},
+     {"nearest", SearchQuestion::kNearest},
+     {"nearest-10", SearchQuestion::kNearest10}}};
 
-Question ReadQuestion(Fields& fields, Question fallback) {
-  const Question* asked = FindQuestion(fields.Choice("query", QuestionNames(), QuestionName(fallback)));
+SearchQuestion ReadQuestion(Fields& fields, SearchQuestion fallback) {
+  const SearchQuestion* asked = FindQuestion(fields.Choice("query", QuestionNames(), QuestionName(fallback)));
   return asked != nullptr ? *asked : fallback;  // a complaint is kept in `fields`
 }
 
@@ -31,11 +33,9 @@ Result<SearchMethod> ReadMethod(const Node& node, const SearchOptions& common) {
   return method;
 }
 
-std::string AllQuestions() { return fmt::format("{}", fmt::join(QuestionNames(), ", ")); }
-
 }  // namespace
 
-std::string_view QuestionName(Question question) {
+std::string_view QuestionName(SearchQuestion question) {
   for (const auto& [name, value] : kQuestions) {
     if (value == question) return name;
   }
@@ -49,15 +49,15 @@ std::vector<std::string> QuestionNames() {
   return names;
 }
 
-const Question* FindQuestion(std::string_view name) {
+const SearchQuestion* FindQuestion(std::string_view name) {
   const auto* entry =
       std::find_if(kQuestions.begin(), kQuestions.end(), [&](const auto& known) { return known.first == name; });
   return entry == kQuestions.end() ? nullptr : &entry->second;
 }
 
-int FramesAskedFor(Question question) {
-  assert(question == Question::kNearest || question == Question::kNearest10);
-  return question == Question::kNearest ? 1 : 10;
+int FramesAskedFor(SearchQuestion question) {
+  assert(question == SearchQuestion::kNearest || question == SearchQuestion::kNearest10);
+  return question == SearchQuestion::kNearest ? 1 : 10;
 }
 
 SearchOptions ReadSearchOptions(Fields& condition) {
@@ -84,14 +84,14 @@ std::vector<KeyInfo> SearchConditionKeys() {
            "How many frames are searched: the clips, performed again and again with other tempo and amplitude."},
           {"queries", "1…10000", "200", "How many frames are asked about in a world; none is in the library."},
           {"threshold", "0…6", "0.4", "Frames of a smaller fuzzy distance match: what `first` and `within` ask for."},
-          {"query", AllQuestions(), "nearest",
+          {"query", Join(QuestionNames()), "nearest",
            "The first matching frame, all of them, or the one or ten of smallest distance; for all methods."},
           FuzzyKey()};
 }
 
 std::vector<KeyInfo> SearchMethodKeys() {
   return {{"search", "index, brute-force", "index", "Through the exact index, or by looking at every frame."},
-          {"query", AllQuestions(), "(the scenario's)", "What is asked about every frame."}};
+          {"query", Join(QuestionNames()), "(the scenario's)", "What is asked about every frame."}};
 }
 
 }  // namespace etude

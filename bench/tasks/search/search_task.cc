@@ -33,7 +33,7 @@ class SearchWorld final : public TaskWorld {
         queries_(DrawQueries(library, study.options.queries, key)) {}
 
   void PrepareShared() override {
-    std::set<Question> questions;
+    std::set<SearchQuestion> questions;
     for (const SearchMethod& method : study_.methods) questions.insert(method.question);
     truth_ = FindPlainly(problem_, queries_, questions);
   }
@@ -57,7 +57,7 @@ class SearchWorld final : public TaskWorld {
   }
 
  private:
-  const std::vector<FoundFrames>& TruthOf(Question question) {
+  const std::vector<FoundFrames>& TruthOf(SearchQuestion question) {
     if (!truth_.contains(question)) truth_.merge(FindPlainly(problem_, queries_, {question}));
     return truth_.at(question);
   }
@@ -69,7 +69,7 @@ class SearchWorld final : public TaskWorld {
   const SearchStudy& study_;
   const SearchProblem problem_;
   const std::vector<Grades> queries_;
-  std::map<Question, std::vector<FoundFrames>> truth_;
+  std::map<SearchQuestion, std::vector<FoundFrames>> truth_;
 };
 
 class SearchTask final : public Task {

@@ -20,7 +20,7 @@ SwitchRecord RecordOf(const SwitchAnswer& answer, const Stage& stage, const Swit
     record.meetings.push_back(
         ComputeDistance(GradesAt(old, old.last, stage), GradesAt(next, next.first, stage), stage.fuzzy.weights));
   }
-  const bool is_front = record.legs.back().first < stage.library.tagged[request.to].FrameCount() / 2;
+  const bool is_front = stage.library.tagged[request.to].InFrontHalf(record.legs.back().first);
   record.branch = record.legs.size() > 2 ? Branch::kInBetween : is_front ? Branch::kFrontHalf : Branch::kRearHalf;
   return record;
 }
@@ -28,9 +28,11 @@ SwitchRecord RecordOf(const SwitchAnswer& answer, const Stage& stage, const Swit
 }  // namespace
 
 SwitchOutcome FollowAnswer(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request) {
-  SwitchOutcome outcome{
-      .matched = answer.matched, .rules = {.weights = stage.fuzzy.weights}, .record = {}, .splice = {}};
-  outcome.record = RecordOf(answer, stage, request);
+  SwitchOutcome outcome{.request = request,
+                        .matched = answer.matched,
+                        .rules = {.weights = stage.fuzzy.weights},
+                        .record = RecordOf(answer, stage, request),
+                        .splice = {}};
   outcome.splice = SpliceLegs(stage.library.motions, outcome.record.legs, *answer.join);
   return outcome;
 }

@@ -13,6 +13,7 @@ namespace {
 // Paper A's first: it is the default.
 std::vector<std::string> PickNames() { return {"first", "smallest"}; }
 
+/// Not the Join of engine/base/names, since that is a struct here.
 std::string ListOf(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 void ReadLimits(Fields& fields, CommonLimits& limits) {
@@ -52,6 +53,10 @@ std::vector<KeyInfo> TransitionConditionKeys() {
       {"threshold", "0…6", "0.4", "Two bridge frames match when their fuzzy distance is below it; for all methods."},
       {"wait_s", "0…60 (seconds)", "1",
        "How long after the request a switch may come; for all methods, those outside are told it as max_wait_s."}};
+  keys.push_back(
+      {"explain", "true, false", "false",
+       "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; filmed "
+       "cells are explained in the report anyway."});
   for (KeyInfo& key : StageKeys()) keys.push_back(std::move(key));
   keys.push_back(FuzzyKey());
   return keys;
@@ -88,6 +93,8 @@ CommonLimits ReadCommonLimits(Fields& condition) {
   ReadLimits(condition, common);
   return common;
 }
+
+bool ReadExplain(Fields& condition) { return condition.Boolean("explain", false); }
 
 Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods) {
   std::vector<TransitionMethod> read;

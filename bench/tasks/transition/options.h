@@ -32,6 +32,8 @@ struct CommonLimits {
 };
 /// Complaints stay in `condition`.
 CommonLimits ReadCommonLimits(Fields& condition);
+/// Whether every cell keeps what explains its switch (ExplanationOf); else only recordings do.
+bool ReadExplain(Fields& condition);
 
 Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods);
 

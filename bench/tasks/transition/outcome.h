@@ -7,6 +7,7 @@ namespace etude {
 
 /// What one method did in one world.
 struct SwitchOutcome {
+  SwitchRequest request;
   bool matched = false;  ///< it chose the frames left and entered because they are alike
   SwitchRules rules;     ///< those that its distances go by
   SwitchRecord record;

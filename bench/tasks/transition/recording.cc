@@ -36,7 +36,8 @@ OrderedJson SwitchesOf(const SwitchRecord& record, const Stage& stage) {
 OrderedJson CandidatesOf(const SwitchRecord& record) {
   OrderedJson list = OrderedJson::array();
   for (const Candidate& candidate : record.candidates) {
-    list.push_back({{"from_frame", candidate.from_frame},
+    list.push_back({{"meeting", candidate.meeting},
+                    {"from_frame", candidate.from_frame},
                     {"to_frame", candidate.to_frame},
                     {"distance", candidate.distance.value},
                     {"partials", ByFeature(candidate.distance.partials)},
@@ -52,6 +53,27 @@ Series SeamSeries(const SwitchOutcome& outcome) {
   const FrameWindow window = AroundSeams(outcome.splice, 1);
   const std::vector<double> all = SecondDifferencesCm(outcome.splice.motion);
   return {"second_difference_cm", "frame", {all.begin() + window.first, all.begin() + window.last + 1}};
+}
+
+std::vector<Series> ExplanationOf(const SwitchRecord& record) {
+  const auto append = [](std::vector<double>& all, const PerFeature& ten) {
+    all.insert(all.end(), ten.begin(), ten.end());
+  };
+  Series meetings{"meeting_partials", "feature", {}}, partials{"candidate_partials", "feature", {}};
+  for (const FuzzyDistance& meeting : record.meetings) append(meetings.values, meeting.partials);
+  for (const Candidate& candidate : record.candidates) append(partials.values, candidate.distance.partials);
+  const auto each = [&](const char* name, auto&& value) {
+    Series series{name, "candidate", {}};
+    for (const Candidate& candidate : record.candidates) series.values.push_back(static_cast<double>(value(candidate)));
+    return series;
+  };
+  return {std::move(meetings),
+          each("candidate_meeting", [](const Candidate& c) { return c.meeting; }),
+          each("candidate_from_frame", [](const Candidate& c) { return c.from_frame; }),
+          each("candidate_to_frame", [](const Candidate& c) { return c.to_frame; }),
+          each("candidate_distance", [](const Candidate& c) { return c.distance.value; }),
+          each("candidate_fate", [](const Candidate& c) { return static_cast<int>(c.fate); }),
+          std::move(partials)};
 }
 
 Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage) {
@@ -73,7 +95,7 @@ Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage) {
   facts["request_frame"] = record.request_frame - window.first;
   facts["wait_s"] = record.wait_s;
   facts["threshold"] = outcome.rules.threshold;
-  facts["natural_limit_cm"] = NaturalLimitCm(NaturalJumpsOf(stage, record.legs.front().clip, record.legs.back().clip));
+  facts["natural_limit_cm"] = NaturalLimitCm(NaturalJumpsOf(stage, outcome.request.from, outcome.request.to));
   facts["distance"] = worst.value;
   facts["weights"] = ByFeature(outcome.rules.weights);
   facts["partials"] = ByFeature(worst.partials);

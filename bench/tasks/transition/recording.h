@@ -9,6 +9,12 @@ namespace etude {
 /// The curve of largest second differences from one second before the first seam to one second after the last.
 Series SeamSeries(const SwitchOutcome& outcome);
 
+/// What explains a switch in numbers, for every cell that is asked to keep it: `meeting_partials`, ten for each seam
+/// (axis "feature"), and one value for each candidate (axis "candidate"): `candidate_meeting`, `candidate_from_frame`,
+/// `candidate_to_frame`, `candidate_distance`, `candidate_fate` (0 taken, 1 too far, 2 later, 3 worse), and its ten
+/// `candidate_partials` (axis "feature").
+std::vector<Series> ExplanationOf(const SwitchRecord& record);
+
 /// The switch, which must have a way, with 2.5 s before and after it: track "coach", and the facts that explain it.
 ///
 ///     {"seam_frame": 60, "seam_frames": [60, 75], "from": "builtin:clap", "to": …, "branch": "in-between",

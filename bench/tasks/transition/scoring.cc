@@ -48,8 +48,7 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   result.Measure("mean_joint_jump_cm", smoothness.mean_joint_jump_cm);
   result.Measure("rotation_step_change_deg", smoothness.rotation_step_change_deg);
   result.Measure("jerk_peak_mps3", smoothness.jerk_peak_mps3);
-  const std::vector<Leg>& legs = outcome.record.legs;
-  std::vector<double> nature = NaturalJumpsOf(stage, legs.front().clip, legs.back().clip);
+  std::vector<double> nature = NaturalJumpsOf(stage, outcome.request.from, outcome.request.to);
   result.Measure("natural_share", IsNatural(smoothness.jump_cm, std::move(nature)) ? 1 : 0);
 
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
@@ -74,7 +73,7 @@ void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& r
   result.MeasureOr("ldlj", LogDimensionlessJerk(speed), kStill);
   result.Measure("wait_s", WaitSeconds(StaysOf(outcome.record), splice.motion.rate_hz));
   result.Measure("fuzzy_distance", WorstMeeting(outcome.record).value);
-  result.Measure("in_between", legs.size() > 2 ? 1 : 0);
+  result.Measure("in_between", outcome.record.legs.size() > 2 ? 1 : 0);
 }
 
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result) {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "bench/metrics/seam.h"
-#include "bench/training/training_clips.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 
@@ -44,7 +43,7 @@ Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
   std::vector<BodyMotion> clips;
   for (const LibraryClip& clip : library.clips) {
     names.push_back(clip.name);
-    stage.identities.push_back(clip.move ? MoveIdentity(clip.move->name) : clip.source);
+    stage.identities.push_back(clip.source);
     clips.push_back(clip.motion);
   }
   const TagRules tags{.memberships = rules.fuzzy.memberships,

@@ -23,7 +23,7 @@ struct StageRules {
 /// 0.90 m, tagged, and each with nature's own jumps to be compared with.
 struct Stage {
   MotionLibrary library;                ///< its names are as rows and videos show them
-  std::vector<std::string> identities;  ///< equal for equal dances: the move's name, or the file
+  std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
   std::vector<std::vector<double>> natural_jumps_cm;
   FuzzySystem fuzzy;         ///< by which they are tagged
   std::vector<int> playing;  ///< the clips that play when another is asked for: all, unless acts are

@@ -1,38 +1,25 @@
 #include "bench/tasks/transition/tally.h"
 
-#include <algorithm>
-#include <numeric>
+#include <vector>
 
 #include "bench/metrics/seam.h"
 #include "engine/bridging/alignment.h"
 #include "engine/switching/choices/pair_rows.h"
 
 namespace etude {
-namespace {
-
-/// The frames of `window`, or its bridge frames.
-std::vector<int> FramesOf(const TaggedClip& clip, FrameWindow window, bool any_frame) {
-  std::vector<int> frames;
-  if (any_frame) {
-    frames.resize(std::max(window.last - window.first + 1, 0));
-    std::iota(frames.begin(), frames.end(), window.first);
-  } else {
-    for (int frame : clip.bridge_frames) {
-      if (window.Contains(frame)) frames.push_back(frame);
-    }
-  }
-  return frames;
-}
-
-}  // namespace
 
 MatchTally TallyMatches(const Stage& stage, const SwitchRequest& request, const Choice& choice,
                         const SwitchRules& rules) {
   const TaggedClip &from = stage.library.tagged[request.from], &to = stage.library.tagged[request.to];
-  PairRange range{WaitWindow(from, request.request_frame, request.budget_s), to.FrameCount() - 1};
-  if (choice.any_frame) range = AllowedPairs(stage.library, request, rules);
-  const std::vector<int> leaving = FramesOf(from, range.leave, choice.any_frame);
-  const std::vector<int> entering = FramesOf(to, {0, range.enter_end - 1}, choice.any_frame);
+  std::vector<int> leaving, entering;
+  if (choice.any_frame) {
+    const PairRange range = AllowedPairs(stage.library, request, rules);
+    leaving = FramesWithin(range.leave);
+    entering = FramesWithin({0, range.enter_end - 1});
+  } else {
+    leaving = BridgeFramesWithin(from, WaitWindow(from, request.request_frame, request.budget_s));
+    entering = BridgeFramesWithin(to, EntryWindow(to));
+  }
   MatchTally tally{.pairs = static_cast<std::int64_t>(leaving.size() * entering.size())};
   for (int leave : leaving) {
     const BodyPose& left = stage.library.motions[request.from].poses[leave];

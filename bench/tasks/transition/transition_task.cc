@@ -6,20 +6,23 @@
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/stage_options.h"
 #include "bench/tasks/transition/transition_world.h"
+#include "bench/training/training_clips.h"
 
 namespace etude {
 namespace {
 
 class TransitionTask final : public Task {
  public:
-  TransitionTask(std::vector<TransitionMethod> methods, double max_wait_s, Stage stage, TrainingClips training)
+  TransitionTask(std::vector<TransitionMethod> methods, double max_wait_s, bool explain, Stage stage,
+                 TrainingClips training)
       : methods_(std::move(methods)),
         max_wait_s_(max_wait_s),
+        explain_(explain),
         stage_(std::move(stage)),
         learnt_(std::move(training), stage_.fuzzy) {}
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
-    const TransitionBasis basis{methods_, stage_, learnt_, max_wait_s_};
+    const TransitionBasis basis{methods_, stage_, learnt_, max_wait_s_, explain_};
     return std::make_unique<TransitionWorld>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
@@ -34,18 +37,21 @@ class TransitionTask final : public Task {
  private:
   const std::vector<TransitionMethod> methods_;
   const double max_wait_s_;
+  const bool explain_;
   const Stage stage_;
   mutable LearntWeights learnt_;
 };
 
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   const CommonLimits common = ReadCommonLimits(input.condition);
+  const bool explain = ReadExplain(input.condition);
   auto methods = ReadTransitionMethods(common, input.methods);
   if (!methods) return tl::unexpected(methods.error());
   Stage stage = SetStage(input.clips, ReadStageRules(input.condition, FuzzyOf(input)));
   auto training = GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique);
   if (!training) return tl::unexpected(training.error());
-  return std::make_unique<TransitionTask>(*std::move(methods), common.wait_s, std::move(stage), *std::move(training));
+  return std::make_unique<TransitionTask>(*std::move(methods), common.wait_s, explain, std::move(stage),
+                                          *std::move(training));
 }
 
 }  // namespace

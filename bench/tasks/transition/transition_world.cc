@@ -1,5 +1,7 @@
 #include "bench/tasks/transition/transition_world.h"
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/transition/exchange.h"
@@ -76,7 +78,8 @@ CellResult TransitionWorld::Run(std::size_t index) {
   way.rules.weights = WeightsOf(method.weights);
   SwitchResult switched = SwitchClips(basis_.stage.library, request, way);
   // A forced way takes what is nearest, although no frames match.
-  CellResult result = Score({.matched = way.choice->matches_poses && switched.record.branch != Branch::kForced,
+  CellResult result = Score({.request = request,
+                             .matched = way.choice->matches_poses && switched.record.branch != Branch::kForced,
                              .rules = way.rules,
                              .record = std::move(switched.record),
                              .splice = std::move(switched.splice)});
@@ -131,6 +134,7 @@ CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
   }
   ScoreSwitch(outcome, basis_.stage, result);
   result.series.push_back(SeamSeries(outcome));
+  if (basis_.explain) std::ranges::move(ExplanationOf(outcome.record), std::back_inserter(result.series));
   if (keeps_motion_) result.recording = RecordSwitch(outcome, basis_.stage);
   return result;
 }

@@ -19,6 +19,7 @@ struct TransitionBasis {
   const Stage& stage;
   LearntWeights& learnt;  ///< remembers fits; what it answers depends on the question only
   double max_wait_s = 0;  ///< told to methods outside; built-in ones have their own
+  bool explain = false;   ///< whether every cell keeps its explanation
 };
 
 /// A world of the task: one request, on the task's stage.

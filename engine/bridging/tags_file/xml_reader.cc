@@ -26,6 +26,32 @@ Held<xmlSchema, xmlSchemaFree> Compile(std::string_view schema) {
   return compiled;
 }
 
+int LineOf(std::string_view text, std::size_t at) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+/// Refuses what libxml2 would expand, or take minutes for.
+Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    return Fail({file, 0, 0}, "is empty; etude bridge writes tags files");
+  }
+  if (const std::size_t at = text.find("<!DOCTYPE"); at != std::string_view::npos) {
+    return Fail({file, LineOf(text, at), 0},
+                "a document type declaration; a tags file has none (entities are not expanded)");
+  }
+  // Two names of 4096 bytes, each written as &quot;, fit. Time grows with the square of a tag's attributes.
+  constexpr std::size_t kLongestTag = 65536;
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t next = std::min(text.find('<', start + 1), text.size());
+    if (next - start > kLongestTag) {
+      return Fail({file, LineOf(text, start), 0}, "{} bytes without a new tag; a tags file has up to {}", next - start,
+                  kLongestTag);
+    }
+    start = next;
+  }
+  return {};
+}
+
 std::string OneLine(const char* message) {
   std::string line = message ? message : "no reason given";
   while (!line.empty() && (line.back() == '\n' || line.back() == '.' || line.back() == ' ')) line.pop_back();
@@ -43,10 +69,11 @@ struct XmlReader::State {
   Held<xmlSchema, xmlSchemaFree> schema;
   Held<xmlTextReader, xmlFreeTextReader> reader;  // gone before its schema
 
-  /// libxml2's way to complain. The first complaint counts: later ones may follow from it.
+  /// libxml2's way to complain. The first complaint counts: later ones may follow from it. Warnings count, too: no
+  /// tags file gives cause for one.
   static void Complain(void* self, xmlErrorPtr error) {
     State& state = *static_cast<State*>(self);
-    if (state.complaint || error->level < XML_ERR_ERROR) return;
+    if (state.complaint) return;
     const int line = error->line > 0 ? error->line : state.Line();
     state.complaint = Error{{state.file, line, 0}, OneLine(error->message)};
   }
@@ -69,12 +96,8 @@ Result<XmlReader> XmlReader::Open(std::string_view text, std::string_view schema
   state->file = file;
   state->text = text;
   state->schema = Compile(schema);
-  if (const std::size_t at = text.find("<!DOCTYPE"); at != std::string_view::npos) {
-    const int line =
-        1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-    return Fail({file, line, 0}, "a document type declaration; a tags file has none (entities are not expanded)");
-  }
-  // Twice: while libxml2 2.9 holds elements against a schema, an error of syntax makes it crash.
+  if (auto checked = CheckBeforeParsing(text, file); !checked) return tl::unexpected(checked.error());
+  // Twice: while libxml2 2.9 holds elements against a schema, an error of syntax, or a warning, makes it crash.
   state->Start();
   int read = 1;
   while (state->reader && read == 1 && !state->complaint) read = xmlTextReaderRead(state->reader.get());

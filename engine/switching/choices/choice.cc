@@ -18,7 +18,7 @@ std::span<const Choice> Table() {
       "Seconds of the wanted clip that must be left to play; its front half may always be entered."};
   static const RuleSetting kCloud{"window_s", &SwitchRules::window_s, 0, 2,
                                   "Seconds of motion that the point clouds hold, half of them after the frame."};
-  static const RuleSetting kSurroundings{"window_s", &SwitchRules::window_s, 0, 2,
+  static const RuleSetting kSurroundings{"reach_s", &SwitchRules::reach_s, 0, 2,
                                          "Seconds before and after the frame over which distances are averaged."};
   static const std::array kChoices = {
       Choice{.name = "fuzzy-bridge",

@@ -6,7 +6,7 @@ SwitchRecord DirectSwitch(const MotionLibrary& library, const SwitchRequest& req
                           const SwitchRules& rules) {
   const TaggedClip &from = library.tagged[request.from], &to = library.tagged[request.to];
   SwitchRecord record;
-  record.branch = enter_frame < to.FrameCount() / 2 ? Branch::kFrontHalf : Branch::kRearHalf;
+  record.branch = to.InFrontHalf(enter_frame) ? Branch::kFrontHalf : Branch::kRearHalf;
   record.request_frame = request.request_frame;
   record.legs = {{.clip = request.from, .first = request.request_frame, .last = leave_frame, .own = {}},
                  {.clip = request.to, .first = enter_frame, .last = to.FrameCount() - 1, .own = {}}};

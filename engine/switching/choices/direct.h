@@ -1,6 +1,8 @@
 #pragma once
 
 #include "engine/bridging/library.h"
+#include "engine/bridging/links.h"
+#include "engine/bridging/switch_record.h"
 
 namespace etude {
 

@@ -32,6 +32,14 @@ std::vector<Candidate> ListCandidates(const MotionLibrary& library, const Switch
   return candidates;
 }
 
+std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t pairs, std::string_view frames,
+                            const SwitchRules& rules) {
+  if (nearest.empty()) return fmt::format("no two of {} pairs of {} have the same tags", pairs, frames);
+  const double least = std::ranges::min_element(nearest, {}, &RankedPair::rank)->rank;
+  return fmt::format("no match among {} pairs of {}: the nearest has d = {:.2f}, not below {:g}", pairs, frames, least,
+                     rules.threshold);
+}
+
 std::string DescribePair(const MotionLibrary& library, const SwitchRequest& request, int from, int to) {
   const double wait_s = (from - request.request_frame) / library.tagged[request.from].rate_hz;
   return fmt::format("{} frame {} ({:.2f} s after the request) and {} frame {}", library.names[request.from], from,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/bridging/library.h"
@@ -23,6 +25,11 @@ struct RankedPair {
 std::vector<Candidate> ListCandidates(const MotionLibrary& library, const SwitchRequest& request,
                                       const SwitchRules& rules, const RankedPair& taken, std::vector<RankedPair> others,
                                       Fate passed_over);
+
+/// "no match among 900 pairs of bridge frames: the nearest has d = 0.52, not below 0.4". `nearest` holds pairs that do
+/// not match, ranked by d; none when no two frames were comparable. `frames` says what of: "bridge frames".
+std::string DescribeNoMatch(const std::vector<RankedPair>& nearest, std::int64_t pairs, std::string_view frames,
+                            const SwitchRules& rules);
 
 /// "boxing frame 41 (0.37 s after the request) and clap frame 3".
 std::string DescribePair(const MotionLibrary& library, const SwitchRequest& request, int from, int to);

@@ -2,53 +2,40 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "engine/bridging/in_between.h"
 #include "engine/switching/choices/direct.h"
 #include "engine/switching/choices/explain.h"
-#include "engine/switching/choices/fuzzy_rows.h"
-#include "engine/switching/choices/through_in_between.h"
+#include "engine/switching/choices/fuzzy_gate.h"
 
 namespace etude {
 namespace {
 
 /// Every pair of bridge frames that the budget allows: those behind the first match, too, which the search never saw.
 struct Survey {
-  std::int64_t pairs = 0, matching = 0;
+  std::size_t leaving = 0, entering = 0;  ///< bridge frames of the two clips
+  std::int64_t matching = 0;
   std::int64_t nearer = 0;          ///< matching ones that are nearer than the link
   std::vector<RankedPair> nearest;  ///< for each bridge frame that may be left: its nearest but the link
+
+  std::int64_t Pairs() const { return static_cast<std::int64_t>(leaving * entering); }
 };
 
-Survey SurveyPairs(const MotionLibrary& library, const SwitchRequest& request, FrameWindow window,
-                   const SwitchRules& rules, const std::optional<Link>& link) {
-  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
-  std::vector<int> targets;
-  std::vector<Grades> grades;
-  for (int to : next.bridge_frames) {
-    if (to == next.FrameCount() - 1) continue;
-    targets.push_back(to);
-    grades.push_back(next.grades[to]);
-  }
-  const FuzzyRows rows(grades, rules.weights);
-  const double limit = rules.threshold * rules.threshold;
-
-  Survey survey;
-  std::vector<double> squares(targets.size());
-  for (int from : playing.bridge_frames) {
-    if (!window.Contains(from)) continue;
-    rows.Compute(playing.grades[from], squares);
+Survey SurveyPairs(const TaggedClip& playing, FrameWindow window, const TaggedClip& next, const SwitchRules& rules,
+                   const std::optional<Link>& link) {
+  const std::vector<int> leaving = BridgeFramesWithin(playing, window);
+  const std::vector<int> entering = BridgeFramesWithin(next, EntryWindow(next));
+  FuzzyGate gate(playing, next, entering, rules);
+  Survey survey{.leaving = leaving.size(), .entering = entering.size(), .nearest = {}};
+  for (int from : leaving) {
     std::optional<RankedPair> nearest;
-    for (std::size_t i = 0; i < targets.size(); ++i) {
-      const bool comparable = !rules.within_class || playing.tags[from] == next.tags[targets[i]];
-      const bool matches = comparable && squares[i] < limit;
-      ++survey.pairs;
+    for (const auto& [to, distance, matches] : gate.Compare(from)) {
       survey.matching += matches;
-      survey.nearer += matches && link && std::sqrt(squares[i]) < link->distance.value;
-      if (!comparable || (link && link->from == from && link->to == targets[i])) continue;
-      if (!nearest || squares[i] < nearest->rank) nearest = {from, targets[i], matches, squares[i], std::nullopt};
+      survey.nearer += matches && link && distance < link->distance.value;
+      if (link && link->from == from && link->to == to) continue;
+      if (!nearest || distance < nearest->rank) nearest = {from, to, matches, distance, std::nullopt};
     }
     if (nearest) survey.nearest.push_back(*nearest);
   }
@@ -68,21 +55,11 @@ std::string WhyTaken(const std::string& pair, const Link& link, bool is_rear, co
 
 std::string WhyNone(const MotionLibrary& library, const SwitchRequest& request, const Survey& survey,
                     const SwitchRules& rules) {
-  const auto nearest = std::min_element(survey.nearest.begin(), survey.nearest.end(),
-                                        [](const RankedPair& a, const RankedPair& b) { return a.rank < b.rank; });
-  if (nearest == survey.nearest.end() && survey.pairs > 0) {
-    return fmt::format("no two of {} pairs of bridge frames have the same tags", survey.pairs);
+  if (survey.leaving == 0) {
+    return fmt::format("{} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
   }
-  if (nearest == survey.nearest.end()) {
-    const std::vector<int>& leaving = library.tagged[request.from].bridge_frames;
-    const FrameWindow window = WaitWindow(library.tagged[request.from], request.request_frame, request.budget_s);
-    const bool can_leave = std::ranges::any_of(leaving, [&](int frame) { return window.Contains(frame); });
-    return can_leave
-               ? fmt::format("{} has no bridge frame to enter at", library.names[request.to])
-               : fmt::format("{} has no bridge frame within {:g} s", library.names[request.from], request.budget_s);
-  }
-  return fmt::format("no match among {} pairs of bridge frames: the nearest has d = {:.2f}, not below {:g}",
-                     survey.pairs, std::sqrt(nearest->rank), rules.threshold);
+  if (survey.entering == 0) return fmt::format("{} has no bridge frame to enter at", library.names[request.to]);
+  return DescribeNoMatch(survey.nearest, survey.Pairs(), "bridge frames", rules);
 }
 
 }  // namespace
@@ -90,13 +67,13 @@ std::string WhyNone(const MotionLibrary& library, const SwitchRequest& request, 
 SwitchRecord PlanFuzzyBridge(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
-  const std::optional<Link> link = FindLink(playing, window, next, rules).link;
-  const Survey survey = SurveyPairs(library, request, window, rules, link);
+  const std::optional<Link> link = FindLink(playing, window, next, rules);
+  const Survey survey = SurveyPairs(playing, window, next, rules, link);
   if (!link) {
-    return ThroughInBetween(library, request, rules, WhyNone(library, request, survey, rules), survey.pairs);
+    return ThroughInBetween(library, request, rules, WhyNone(library, request, survey, rules), survey.Pairs());
   }
   SwitchRecord record = DirectSwitch(library, request, link->from, link->to, rules);
-  record.pairs_seen = survey.pairs;
+  record.pairs_seen = survey.Pairs();
   record.pairs_matched = survey.matching;
   const RankedPair taken{.from = link->from, .to = link->to, .matches = true, .cost = std::nullopt};
   record.candidates = ListCandidates(library, request, rules, taken, survey.nearest,

@@ -1,37 +1,24 @@
 #include "engine/switching/choices/fuzzy_rows.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace etude {
 
 FuzzyRows::FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights)
-    : blocks_((frames.size() + kLanes - 1) / kLanes), weights_(weights) {
+    : metric_(weights), blocks_(static_cast<std::size_t>(BlocksFor(frames.size()))) {
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    for (std::size_t t = 0; t < kTermCount; ++t) blocks_[f / kLanes][t][f % kLanes] = frames[f][t];
+    blocks_[f / kBlockLanes].Set(static_cast<int>(f % kBlockLanes), frames[f]);
   }
 }
 
-void FuzzyRows::Compute(const Grades& grades, std::span<double> squares) const {
-  using Lanes = std::array<double, kLanes>;
-  std::array<std::size_t, kFeatureCount + 1> ends{};
-  for (std::size_t k = 0; k < kFeatureCount; ++k) ends[k + 1] = ends[k] + TermsOf(AllFeatures()[k]).size();
-  for (std::size_t first = 0; first < squares.size(); first += kLanes) {
-    const Block& block = blocks_[first / kLanes];
-    Lanes sums{};
-    for (std::size_t k = 0; k < kFeatureCount; ++k) {
-      Lanes gaps{};
-      for (std::size_t t = ends[k]; t < ends[k + 1]; ++t) {
-#pragma GCC unroll 4
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-          const double gap = grades[t] - block[t][lane];
-          gaps[lane] += gap * gap;
-        }
-      }
-#pragma GCC unroll 4
-      for (std::size_t lane = 0; lane < kLanes; ++lane) sums[lane] += weights_[k] * gaps[lane];
-    }
-    const std::size_t count = std::min(kLanes, squares.size() - first);
-    std::copy_n(sums.begin(), count, squares.begin() + static_cast<std::ptrdiff_t>(first));
+void FuzzyRows::Compute(const Grades& grades, std::span<double> distances) const {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  for (std::size_t first = 0; first < distances.size(); first += kBlockLanes) {
+    const BlockResult block = SquaredDistances(metric_, grades, blocks_[first / kBlockLanes], kAll);
+    const std::size_t count = std::min<std::size_t>(kBlockLanes, distances.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) distances[first + lane] = std::sqrt(block.squared[lane]);
   }
 }
 

@@ -1,27 +1,24 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "engine/bridging/search/grade_blocks.h"
 #include "engine/fuzzy/distance.h"
 
 namespace etude {
 
-/// d² of equation 1 from one frame to many, side by side: to the last bit what ComputeDistance adds up.
+/// Equation 1 from one frame to many, side by side: to the last bit ComputeDistance.
 class FuzzyRows {
  public:
   FuzzyRows(std::span<const Grades> frames, const FeatureWeights& weights);
 
-  /// The squares of the distances from `grades` to the first frames, as many as `squares` has room for.
-  void Compute(const Grades& grades, std::span<double> squares) const;
+  /// The distances from `grades` to the first frames, as many as `distances` has room for.
+  void Compute(const Grades& grades, std::span<double> distances) const;
 
  private:
-  /// Frames are compared four at a time, which the compiler turns into vector instructions.
-  static constexpr std::size_t kLanes = 4;
-  using Block = std::array<std::array<double, kLanes>, kTermCount>;
-  std::vector<Block> blocks_;
-  FeatureWeights weights_;
+  GradeMetric metric_;
+  std::vector<FrameBlock> blocks_;
 };
 
 }  // namespace etude

@@ -8,19 +8,20 @@
 
 namespace etude {
 
-/// WindowDistance of all pairs of a row, `half` frames to each side: two frames are compared once, not once per window.
+/// WindowDistance of all pairs of a row, `reach` frames to each side: two frames are compared once, not once per
+/// window.
 class FuzzyWindowRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`; the playing clip's grades must outlive this.
-  FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int half,
+  FuzzyWindowRows(std::span<const Grades> playing, std::span<const Grades> next, int first_leave_frame, int reach,
                   const FeatureWeights& weights);
-  void Compute(int leave_frame, std::span<double> costs) override;
+  void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
 
  private:
   std::span<const Grades> playing_;
-  int next_frames_, half_;
+  int next_frames_, reach_;
   FuzzyRows rows_;
-  DiagonalSums distances_;
+  DiagonalSums<double> distances_;
 };
 
 }  // namespace etude

@@ -14,15 +14,16 @@ class MotionFeatureRows : public PairRows {
   MotionFeatureRows(std::span<const MotionFeatures> playing, std::span<const MotionFeatures> next)
       : playing_(playing), next_(next) {}
 
-  void Compute(int leave_frame, std::span<double> costs) override {
+  void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override {
     const MotionFeatures& leaving = playing_[leave_frame];
-    for (std::size_t enter = 0; enter < costs.size(); ++enter) {
+    for (std::size_t i = 0; i < enter_frames.size(); ++i) {
+      const MotionFeatures& entering = next_[enter_frames[i]];
       double squares = 0;
-      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {
-        const double gap = leaving[i] - next_[enter][i];
+      for (std::size_t k = 0; k < kMotionFeatureCount; ++k) {
+        const double gap = leaving[k] - entering[k];
         squares += gap * gap;
       }
-      costs[enter] = std::sqrt(squares);
+      costs[i] = std::sqrt(squares);
     }
   }
 
@@ -54,8 +55,8 @@ SwitchRecord PlanMotionMatching(const MotionLibrary& library, const SwitchReques
 
 SwitchRecord PlanFuzzyWindow(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
-  const int half = static_cast<int>(std::lround(rules.window_s * playing.rate_hz));
-  FuzzyWindowRows costs(playing.grades, next.grades, request.request_frame, half, rules.weights);
+  const int reach = static_cast<int>(std::lround(rules.reach_s * playing.rate_hz));
+  FuzzyWindowRows costs(playing.grades, next.grades, request.request_frame, reach, rules.weights);
   return PlanRanked(library, request, rules, {.name = "mean fuzzy distance", .unit = "d", .gated = true}, costs);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "engine/bridging/library.h"
+#include "engine/bridging/links.h"
+#include "engine/bridging/switch_record.h"
 
 namespace etude {
 
@@ -18,7 +20,7 @@ SwitchRecord PlanPointCloud(const MotionLibrary& library, const SwitchRequest& r
 SwitchRecord PlanMotionMatching(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules);
 
 /// The fuzzy similarity between motions that paper A leaves as future work, used for switching: the fuzzy gate over all
-/// frames, ranked by the mean fuzzy distance over `rules.window_s` before and as much after the pair (WindowDistance);
+/// frames, ranked by the mean fuzzy distance over `rules.reach_s` before and as much after the pair (WindowDistance);
 /// where no pair passes, through an in-between.
 SwitchRecord PlanFuzzyWindow(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules);
 

@@ -4,6 +4,7 @@
 
 #include "engine/bridging/library.h"
 #include "engine/bridging/links.h"
+#include "engine/bridging/switch_record.h"
 
 namespace etude {
 
@@ -23,8 +24,8 @@ PairRange AllowedPairs(const MotionLibrary& library, const SwitchRequest& reques
 class PairRows {
  public:
   virtual ~PairRows() = default;
-  /// The costs of leaving at `leave_frame` and entering at 0, 1, …: as many as `costs` has room for.
-  virtual void Compute(int leave_frame, std::span<double> costs) = 0;
+  /// The costs of leaving at `leave_frame` and entering at each of `enter_frames`; `costs` has as many places.
+  virtual void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) = 0;
 };
 
 }  // namespace etude

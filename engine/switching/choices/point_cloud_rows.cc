@@ -23,9 +23,7 @@ PointCloudRows::PointCloudRows(const BodyMotion& playing, const BodyMotion& next
       blocks_((next.poses.size() + kLanes - 1) / kLanes),
       playing_sums_{CloudSum{}},
       next_sums_{CloudSum{}},
-      along_(first_frame_, static_cast<int>(next.poses.size()), 2 * half_ + 2),
-      across_(along_),
-      up_(along_) {
+      products_(first_frame_, static_cast<int>(next.poses.size()), 2 * half_ + 2) {
   const glm::dvec3 next_origin = OnFloor(next.poses.front());
   for (std::size_t f = 0; f < next.poses.size(); ++f) {
     BodyPose pose = next.poses[f];
@@ -50,34 +48,33 @@ void PointCloudRows::AddFrame(int frame) {
   BodyPose pose = playing_.poses[frame];
   for (glm::dvec3& joint : pose.joints) joint -= playing_origin_;
   playing_sums_.push_back(Plus(playing_sums_.back(), pose));
-  const std::span<double> along = along_.OpenRow(), across = across_.OpenRow(), up = up_.OpenRow();
+  const std::span<glm::dvec3> row = products_.OpenRow();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    std::array<double, kLanes> a{}, c{}, u{};
+    std::array<double, kLanes> along{}, across{}, up{};
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const glm::dvec3& p = pose.joints[j];
       const auto& [x, y, z] = blocks_[b][j];
-#pragma GCC unroll 4
+#pragma GCC unroll 8
       for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        a[lane] += p.x * x[lane] + p.z * z[lane];
-        c[lane] += p.x * z[lane] - p.z * x[lane];
-        u[lane] += p.y * y[lane];
+        along[lane] += p.x * x[lane] + p.z * z[lane];
+        across[lane] += p.x * z[lane] - p.z * x[lane];
+        up[lane] += p.y * y[lane];
       }
     }
-    const std::size_t first = b * kLanes, count = std::min(kLanes, along.size() - first);
-    std::copy_n(a.begin(), count, along.begin() + static_cast<std::ptrdiff_t>(first));
-    std::copy_n(c.begin(), count, across.begin() + static_cast<std::ptrdiff_t>(first));
-    std::copy_n(u.begin(), count, up.begin() + static_cast<std::ptrdiff_t>(first));
+    const std::size_t first = b * kLanes, count = std::min(kLanes, row.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) row[first + lane] = {along[lane], across[lane], up[lane]};
   }
-  for (DiagonalSums* sums : {&along_, &across_, &up_}) sums->CloseRow();
+  products_.CloseRow();
 }
 
-void PointCloudRows::Compute(int leave_frame, std::span<double> costs) {
+void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) {
   const int playing_frames = static_cast<int>(playing_.poses.size());
-  while (along_.NextRow() <= std::min(leave_frame + half_, playing_frames - 1)) AddFrame(along_.NextRow());
-  for (int enter = 0; enter < static_cast<int>(costs.size()); ++enter) {
+  while (products_.NextRow() <= std::min(leave_frame + half_, playing_frames - 1)) AddFrame(products_.NextRow());
+  for (std::size_t i = 0; i < enter_frames.size(); ++i) {
+    const int enter = enter_frames[i];
     const Reach reach = ReachAround(leave_frame, playing_frames, enter, next_frames_, half_);
     const int row = leave_frame + reach.after, column = enter + reach.after;
-    const auto of_pair = [&](const DiagonalSums& sums) { return sums.SumEndingAt(row, column, reach.Count()); };
+    const glm::dvec3 of_pair = products_.SumEndingAt(row, column, reach.Count());
     const auto of_cloud = [&](const std::vector<CloudSum>& sums, int last) {
       const CloudSum &end = sums[last + 1], &begin = sums[last + 1 - reach.Count()];
       return CloudSum{end.x - begin.x, end.z - begin.z, end.square - begin.square};
@@ -85,13 +82,13 @@ void PointCloudRows::Compute(int leave_frame, std::span<double> costs) {
     const CloudSum p = of_cloud(playing_sums_, row - first_frame_), q = of_cloud(next_sums_, column);
     const double share = 1.0 / (static_cast<double>(kRoleCount) * reach.Count());  // of one point
     // The best shift lays the clouds' centres onto each other; the best turn makes the most of what is left.
-    const double along = of_pair(along_) - (p.x * q.x + p.z * q.z) * share;
-    const double across = of_pair(across_) - (p.x * q.z - p.z * q.x) * share;
+    const double along = of_pair[0] - (p.x * q.x + p.z * q.z) * share;
+    const double across = of_pair[1] - (p.x * q.z - p.z * q.x) * share;
     const double of_p = p.square - (p.x * p.x + p.z * p.z) * share;
     const double of_q = q.square - (q.x * q.x + q.z * q.z) * share;
-    const double squares = of_p + of_q - 2 * of_pair(up_) - 2 * std::sqrt(along * along + across * across);
+    const double squares = of_p + of_q - 2 * of_pair[2] - 2 * std::sqrt(along * along + across * across);
     constexpr double kCentimetres = 100;
-    costs[enter] = kCentimetres * std::sqrt(std::max(squares, 0.0) * share);
+    costs[i] = kCentimetres * std::sqrt(std::max(squares, 0.0) * share);
   }
 }
 

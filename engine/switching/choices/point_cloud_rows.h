@@ -19,7 +19,7 @@ class PointCloudRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`; `playing` must outlive this.
   PointCloudRows(const BodyMotion& playing, const BodyMotion& next, int first_leave_frame, double window_s);
-  void Compute(int leave_frame, std::span<double> costs) override;
+  void Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) override;
 
  private:
   /// What a cloud adds up by itself, over all frames before one.
@@ -29,7 +29,7 @@ class PointCloudRows : public PairRows {
   static CloudSum Plus(CloudSum sum, const BodyPose& pose);
   void AddFrame(int frame);
 
-  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t kLanes = 8;
   using Block = std::array<std::array<std::array<double, kLanes>, 3>, kRoleCount>;  ///< [joint][x, y, z][frame]
 
   const BodyMotion& playing_;
@@ -37,7 +37,8 @@ class PointCloudRows : public PairRows {
   glm::dvec3 playing_origin_;
   std::vector<Block> blocks_;
   std::vector<CloudSum> playing_sums_, next_sums_;
-  DiagonalSums along_, across_, up_;  ///< Σ xx′ + zz′, Σ xz′ − zx′, Σ yy′ over the points of two frames
+  /// Σ xx′ + zz′ (along), Σ xz′ − zx′ (across) and Σ yy′ (up) over the points of two frames.
+  DiagonalSums<glm::dvec3> products_;
 };
 
 }  // namespace etude

@@ -57,8 +57,7 @@ SwitchRecord PlanThroughStanding(const MotionLibrary& library, const SwitchReque
   const BodyPose& entered = library.motions[request.to].poses.front();
   std::vector<BodyPose> own = SampleTween(Tween(leaving, StandingPose(library.physique)), playing.rate_hz, tween);
   const int standing = static_cast<int>(own.size()) - 1;
-  const std::vector<BodyPose> rest = SampleTween(Tween(own.back(), entered), playing.rate_hz, tween);
-  own.insert(own.end(), rest.begin() + 1, rest.end());
+  AppendTween(entered, playing.rate_hz, tween, own);
 
   SwitchRecord record;
   record.branch = Branch::kStandingPose;

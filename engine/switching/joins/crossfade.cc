@@ -22,10 +22,10 @@ BodyPose Between(const BodyPose& from, const BodyPose& to, double share) {
 
 }  // namespace
 
-Blend Crossfade(const Meeting& meeting, const JoinSettings& settings) {
-  std::vector<BodyPose> old(meeting.continuation.begin(), meeting.continuation.end());
-  if (old.empty()) old.push_back(meeting.shown.now);
-  return [old = std::move(old), blend_frames = settings.blend_s * meeting.rate_hz](const BodyPose& target, int frames) {
+Blend Crossfade(const SeamMotions& motions, const JoinSettings& settings) {
+  std::vector<BodyPose> old(motions.continuation.begin(), motions.continuation.end());
+  if (old.empty()) old.push_back(motions.shown.now);
+  return [old = std::move(old), blend_frames = settings.blend_s * motions.rate_hz](const BodyPose& target, int frames) {
     if (frames >= blend_frames) return target;
     const std::size_t shown = std::min(static_cast<std::size_t>(frames), old.size());
     return Between(old[shown - 1], target, Smoothstep(0, blend_frames, frames));

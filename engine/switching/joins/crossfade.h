@@ -9,6 +9,6 @@ namespace etude {
 ///
 /// The hip centre goes straight from the one to the other and every limb turns the shortest way, so that limbs which
 /// are equally long in both keep their lengths.
-Blend Crossfade(const Meeting& meeting, const JoinSettings& settings);
+Blend Crossfade(const SeamMotions& motions, const JoinSettings& settings);
 
 }  // namespace etude

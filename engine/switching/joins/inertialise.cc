@@ -12,16 +12,16 @@ namespace {
 
 glm::dvec3 Limb(const BodyPose& pose, const Bone& bone) { return pose[bone.child] - pose[bone.parent]; }
 
-Blend Inertialise(const Meeting& meeting, DecayLaw law, const JoinSettings& settings) {
-  return [inertialiser = Inertialiser(meeting, law, settings), rate_hz = meeting.rate_hz](
+Blend Inertialise(const SeamMotions& motions, DecayLaw law, const JoinSettings& settings) {
+  return [inertialiser = Inertialiser(motions, law, settings), rate_hz = motions.rate_hz](
              const BodyPose& target, int frames) { return inertialiser.Apply(target, frames / rate_hz); };
 }
 
 }  // namespace
 
-Inertialiser::Inertialiser(const Meeting& meeting, DecayLaw law, const JoinSettings& settings)
+Inertialiser::Inertialiser(const SeamMotions& motions, DecayLaw law, const JoinSettings& settings)
     : law_(law), settings_(settings) {
-  const auto& [shown, target, continuation, rate_hz] = meeting;
+  const auto& [shown, target, continuation, rate_hz] = motions;
   const auto measure = [rate = rate_hz](const glm::dvec3& before, const glm::dvec3& now) {
     return Offset{now, (now - before) * rate};
   };
@@ -68,12 +68,12 @@ glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const JoinSettings
   return axis * (x0 + s * (v + s * (0.5 * a + s * (c3 + s * (c4 + s * c5)))));
 }
 
-Blend InertialiseSpring(const Meeting& meeting, const JoinSettings& settings) {
-  return Inertialise(meeting, SpringDecay, settings);
+Blend InertialiseSpring(const SeamMotions& motions, const JoinSettings& settings) {
+  return Inertialise(motions, SpringDecay, settings);
 }
 
-Blend InertialiseQuintic(const Meeting& meeting, const JoinSettings& settings) {
-  return Inertialise(meeting, QuinticDecay, settings);
+Blend InertialiseQuintic(const SeamMotions& motions, const JoinSettings& settings) {
+  return Inertialise(motions, QuinticDecay, settings);
 }
 
 }  // namespace etude

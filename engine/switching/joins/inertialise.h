@@ -23,7 +23,7 @@ using DecayLaw = glm::dvec3 (*)(const Offset& offset, double seconds, const Join
 /// body a shift of the hip centre. So all limbs keep the new motion's lengths.
 class Inertialiser {
  public:
-  Inertialiser(const Meeting& meeting, DecayLaw law, const JoinSettings& settings);
+  Inertialiser(const SeamMotions& motions, DecayLaw law, const JoinSettings& settings);
 
   /// The new motion's frame `seconds` after the seam, still pulled towards the old one; at 0 it is the last frame
   /// shown.
@@ -45,7 +45,7 @@ glm::dvec3 SpringDecay(const Offset& offset, double seconds, const JoinSettings&
 glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const JoinSettings& settings);
 
 /// The joins of those names.
-Blend InertialiseSpring(const Meeting& meeting, const JoinSettings& settings);
-Blend InertialiseQuintic(const Meeting& meeting, const JoinSettings& settings);
+Blend InertialiseSpring(const SeamMotions& motions, const JoinSettings& settings);
+Blend InertialiseQuintic(const SeamMotions& motions, const JoinSettings& settings);
 
 }  // namespace etude

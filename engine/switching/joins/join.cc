@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-Blend Cut(const Meeting& /*meeting*/, const JoinSettings& /*settings*/) {
+Blend Cut(const SeamMotions& /*motions*/, const JoinSettings& /*settings*/) {
   return [](const BodyPose& target, int /*frames*/) { return target; };
 }
 

@@ -18,7 +18,7 @@ struct PosePair {
 };
 
 /// What meets at a seam, all in the place where it is shown.
-struct Meeting {
+struct SeamMotions {
   PosePair shown;                          ///< the last two frames shown
   PosePair target;                         ///< the new motion's frames that would stand in their place
   std::span<const BodyPose> continuation;  ///< what the old motion would have shown next; may be short, or empty
@@ -41,7 +41,7 @@ struct Join {
   std::string name;
   std::string description;  ///< one line, for people
   std::vector<JoinSetting> settings = {};
-  Blend (*begin)(const Meeting& meeting, const JoinSettings& settings) = nullptr;
+  Blend (*begin)(const SeamMotions& motions, const JoinSettings& settings) = nullptr;
 };
 
 /// Paper A's cut first.

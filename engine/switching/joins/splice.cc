@@ -59,23 +59,23 @@ Splice SpliceLegs(std::span<const BodyMotion> clips, std::span<const Leg> legs, 
   for (std::size_t i = 1; i < legs.size(); ++i) {
     const int left = legs[i - 1].last, entered = legs[i].first;
     assert(entered < legs[i].last);
-    PlacedLeg next{.frames = FramesOf(legs[i], clips), .first = entered, .place = {}, .blend = {}};
-
+    const std::span<const BodyPose> frames = FramesOf(legs[i], clips);
+    PlacedLeg next{.frames = frames, .first = entered, .place = {}, .blend = {}};
+    if (!legs[i].in_place) next.place = AlignOnFloor(frames[entered], old.At(left));
     // The clips' own frames, not what a join made of them: a seam's gap belongs to the choice of frames.
-    Seam seam;
-    seam.frame = static_cast<int>(shown.size()) - 1;
-    seam.leaving = old.At(left);
-    seam.leaving_before = old.Before(left);
-    if (!legs[i].in_place) next.place = AlignOnFloor(next.frames[entered], seam.leaving);
-    seam.arriving = next.At(entered);
-    seam.arriving_after = next.At(entered + 1);
+    const Seam seam{.frame = static_cast<int>(shown.size()) - 1,
+                    .leaving_before = old.Before(left),
+                    .leaving = old.At(left),
+                    .arriving = next.At(entered),
+                    .arriving_after = next.At(entered + 1)};
 
     const std::vector<BodyPose> continuation = old.After(left, most_blended);
-    const Meeting meeting{.shown = {seam.frame > 0 ? shown[seam.frame - 1] : seam.leaving_before, shown[seam.frame]},
-                          .target = {next.Before(entered), seam.arriving},
-                          .continuation = continuation,
-                          .rate_hz = rate_hz};
-    next.blend = join.begin(meeting, settings);
+    const SeamMotions motions{
+        .shown = {seam.frame > 0 ? shown[seam.frame - 1] : seam.leaving_before, shown[seam.frame]},
+        .target = {next.Before(entered), seam.arriving},
+        .continuation = continuation,
+        .rate_hz = rate_hz};
+    next.blend = join.begin(motions, settings);
     for (int frame = entered + 1; frame <= legs[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.seams.push_back(seam);
     old = std::move(next);

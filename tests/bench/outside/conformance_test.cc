@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "bench/outside/specimens.h"
+#include "bench/tasks/registry.h"
 
 namespace etude {
 namespace {
@@ -46,6 +50,11 @@ INSTANTIATE_TEST_SUITE_P(Conformance, Examples,
                          [](const auto& tested) { return tested.param.task; });
 
 TEST(Conformance, KnowsEveryTask) {
+  for (const TaskKind& kind : AllTaskKinds()) {
+    const auto specimens = MakeSpecimens(kind.name);
+    ASSERT_TRUE(specimens) << kind.name << ": " << ToString(specimens.error());
+    EXPECT_EQ(specimens->size(), 2u) << kind.name;
+  }
   const std::string blind = R"({"poses": [null, null, null]})";
   const auto [passed, checks] = Examine("capture", {"python3", "tests/bench/outside/hostile.py", "is_good", blind});
   ASSERT_TRUE(passed) << ToString(passed.error());

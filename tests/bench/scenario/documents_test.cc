@@ -104,7 +104,7 @@ TEST(Documents, WouldBeCaughtShowingWhatIsNotRead) {
 }
 
 TEST(Documents, OfScenariosInTheRepositoryAreRead) {
-  const auto clips = LoadClips({"builtin:boxing"}, {});
+  const auto clips = LoadClips({"builtin:boxing", "builtin:clap"}, {});
   ASSERT_TRUE(clips);
   int count = 0;
   for (const std::string folder : {"quick", "paper", "full"}) {

@@ -72,7 +72,7 @@ TEST(Defaults, OfATaskAreTheSameWrittenOrLeftOut) {
   const auto clips = LoadClips({"builtin:boxing", "builtin:clap", "builtin:sway"}, {});
   ASSERT_TRUE(clips);
   std::vector<Case> cases = {{"ik", "", "", "joint_noise_deg: 16"},
-                             {"transition", "", "", "wait_s: 0.01"},
+                             {"transition", "", "", "tween_s: 2"},
                              {"detection", "", "", "noise: 1.5"},
                              {"detection", "", "weights: adaptive", "turn_deg: 30"},
                              {"tracking", "duration_s: 0.2", "", "rate_hz: 20"},

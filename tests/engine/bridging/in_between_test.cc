@@ -38,9 +38,8 @@ int CountUncovered(const MotionLibrary& library, const InBetweenNet& net) {
 }
 
 SwitchRecord Take(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules = {}) {
-  SwitchRecord record;
-  const FrameWindow window = WaitWindow(library.tagged[request.from], request.request_frame, request.budget_s);
-  EXPECT_TRUE(TakeInBetween(library, request, window, rules, record));
+  SwitchRecord record = ThroughInBetween(library, request, rules, "no direct way", 0);
+  EXPECT_FALSE(record.legs.empty());
   return record;
 }
 
@@ -96,11 +95,34 @@ TEST(InBetween, TellsWhatItTookAtBothEnds) {
   const MotionLibrary library = SmallLibrary();
   const SwitchRecord record = Take(library, {.from = 1, .request_frame = 20, .to = 3});
   int taken = 0;
-  for (const Candidate& candidate : record.candidates) taken += candidate.fate == Fate::kTaken;
+  for (const Candidate& candidate : record.candidates) {
+    taken += candidate.fate == Fate::kTaken;
+    const Leg &left = record.legs.at(candidate.meeting), &entered = record.legs.at(candidate.meeting + 1);
+    EXPECT_TRUE(left.last == candidate.from_frame || entered.first == candidate.to_frame) << candidate.meeting;
+  }
   EXPECT_EQ(taken, 2);
   EXPECT_LE(record.candidates.size(), kMostCandidates);
   EXPECT_GE(record.pairs_seen, record.pairs_matched);
   EXPECT_GE(record.pairs_matched, 2);
+}
+
+TEST(InBetween, NeverSaysOfAFrameOfAnotherClassThatItMatches) {
+  MotionLibrary library = SmallLibrary();
+  const SwitchRequest request{.from = 1, .request_frame = 20, .to = 2};
+  int later = 0, later_of_other_class = 0;
+  SwitchRules rules;
+  rules.within_class = true;
+  for (const bool within_class : {false, true}) {
+    rules.within_class = within_class;
+    const SwitchRecord record = Take(library, request, rules);
+    for (const Candidate& candidate : record.candidates) {
+      if (candidate.to_frame != 0 || candidate.fate != Fate::kLater) continue;
+      const bool same = library.tagged[1].tags[candidate.from_frame] == library.tagged[1].tags[record.legs[0].last];
+      (within_class ? later_of_other_class : later) += within_class ? !same : 1;
+    }
+  }
+  EXPECT_GT(later, 0);
+  EXPECT_EQ(later_of_other_class, 0);
 }
 
 TEST(InBetween, IsForcedWhereTheWindowHasNoBridgeFrame) {
@@ -129,8 +151,11 @@ TEST(InBetween, GoesByTheHubWhenALimbWouldTurnTooFar) {
 TEST(InBetween, NeedsKeys) {
   MotionLibrary library = SmallLibrary();
   library.in_betweens.keys.clear();
-  SwitchRecord record;
-  EXPECT_FALSE(TakeInBetween(library, {.from = 0, .request_frame = 0, .to = 1}, {0, 30}, {}, record));
+  const SwitchRecord record = ThroughInBetween(library, {.from = 0, .request_frame = 0, .to = 1}, {}, "no match", 7);
+  EXPECT_TRUE(record.legs.empty());
+  EXPECT_EQ(record.branch, Branch::kNone);
+  EXPECT_EQ(record.pairs_seen, 7);
+  EXPECT_EQ(record.why, "no match; and the library has no in-between");
 }
 
 TEST(InBetween, ConnectsTheBuiltInClipsInBoundedTime) {

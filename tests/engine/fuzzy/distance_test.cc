@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
+#include "sim/random/stream.h"
 #include "tests/engine/fuzzy/posed_body.h"
 
 namespace etude {
@@ -108,6 +110,24 @@ TEST(FuzzyDistance, EarlyAnswerAgreesWithTheFullDistance) {
   }
   EXPECT_GT(closer, 0);
   EXPECT_LT(closer, 60) << "both answers must occur";
+}
+
+TEST(FuzzyDistance, EarlyAnswerAgreesToTheLastBit) {
+  RandomStream dice({.suite_seed = 6, .scenario = "distance", .trial = 0}, "grades");
+  int squares_mislead = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Grades a, b;
+    for (std::size_t t = 0; t < kTermCount; ++t) a[t] = dice.Uniform(), b[t] = dice.Uniform();
+    const double d = ComputeDistance(a, b, PaperWeights()).value;
+    const double above = std::nextafter(d, 10);
+    EXPECT_FALSE(IsCloser(a, b, PaperWeights(), d)) << "equal is not below";
+    EXPECT_TRUE(IsCloser(a, b, PaperWeights(), above));
+    EXPECT_FALSE(IsCloser(a, b, PaperWeights(), std::nextafter(d, 0)));
+    const FuzzyDistance parts = ComputeDistance(a, b, PaperWeights());
+    const double sum = std::accumulate(parts.partials.begin(), parts.partials.end(), 0.0);
+    squares_mislead += (sum < d * d) || !(sum < above * above);
+  }
+  EXPECT_GT(squares_mislead, 0) << "squares alone would not do";
 }
 
 TEST(PaperWeights, SumToEight) {

@@ -75,5 +75,15 @@ TEST(CurveKey, OfEveryMethodOfSixteenLooksDifferent) {
   EXPECT_EQ(keys.size(), 16u);
 }
 
+TEST(DecadeText, IsShortAtEverySize) {
+  EXPECT_EQ(DecadeText(-3), "1e-3");
+  EXPECT_EQ(DecadeText(-2), "0.01");
+  EXPECT_EQ(DecadeText(2), "100");
+  EXPECT_EQ(DecadeText(3), "1k");
+  EXPECT_EQ(DecadeText(5), "100k");
+  EXPECT_EQ(DecadeText(6), "1M");
+  EXPECT_EQ(DecadeText(9), "1e9");
+}
+
 }  // namespace
 }  // namespace etude

@@ -39,10 +39,28 @@ TEST(SwitchSection, TellsTheWayTheDistancesAndWhyTheWinnerWon) {
 TEST(SwitchSection, MarksTheOneCandidateThatWasTaken) {
   const std::string html = SwitchesHtml(Example().Worlds());
   EXPECT_EQ(CountOf(html, "class=\"taken\""), 1);
-  EXPECT_THAT(html, HasSubstr("<tr class=\"taken\"><td>✓ taken</td><td class=\"n\">28</td><td class=\"n\">4</td>"
-                              "<td class=\"n\">0.200</td><td class=\"n\">9.25</td>"
-                              "<td>RH 0.016, LH 0.016, RF 0.008</td></tr>"));
+  EXPECT_THAT(
+      html, HasSubstr("<tr class=\"taken\"><td>✓ taken</td><td class=\"n\">clap 28</td><td class=\"n\">side kick 4</td>"
+                      "<td class=\"n\">0.200</td><td class=\"n\">9.25</td>"
+                      "<td>RH 0.016, LH 0.016, RF 0.008</td></tr>"));
   EXPECT_THAT(html, HasSubstr("Cost (cm)"));
+  EXPECT_THAT(html, HasSubstr("3 of 120 pairs of frames"));
+}
+
+TEST(SwitchSection, TellsForWhichOfTwoMeetingsACandidateWasLookedAt) {
+  Example example;
+  std::string& extras = example.run.recordings[1].recording.extras_json;
+  extras.back() = ',';
+  extras += R"("candidates": [{"meeting": 0, "from_frame": 30, "to_frame": 0, "distance": 0.3},
+      {"meeting": 1, "from_frame": 14, "to_frame": 2, "distance": 0.35},
+      {"meeting": 7, "from_frame": 8, "to_frame": 9, "distance": 0.1}]})";
+  // Older recordings do not tell.
+  extras.insert(extras.rfind(']'), R"(, {"from_frame": 5, "to_frame": 6, "distance": 0.1})");
+  const std::string html = SwitchesHtml(example.Worlds());
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">5</td><td class=\"n\">6</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">clap 30</td><td class=\"n\">in-between 0</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">in-between 14</td><td class=\"n\">side kick 2</td>"));
+  EXPECT_THAT(html, HasSubstr("<td class=\"n\">8</td><td class=\"n\">9</td>"));
 }
 
 TEST(SwitchSection, ShowsEqualCandidatesOnce) {

@@ -15,6 +15,7 @@ TEST(Figures, ShowAboutThreeSignificantDigits) {
   EXPECT_EQ(FormatNumber(1284.4), "1,284");
   EXPECT_EQ(FormatNumber(-3.14159), "−3.14");
   EXPECT_EQ(FormatNumber(0), "0");
+  EXPECT_EQ(FormatNumber(-7.5e-17), "0");
   EXPECT_EQ(FormatNumber(0.0000312), "3.1e-05");
   EXPECT_EQ(FormatNumber(-0.0000312), "−3.1e-05");
 }

@@ -24,6 +24,18 @@ TEST(Yardstick, IsAMethodThatIsComparedWithNone) {
   EXPECT_EQ(findings.answer.method, "fuzzy-bridge");  // the next one answers the question
 }
 
+TEST(Yardstick, IsNobodysBaseline) {
+  ScenarioSummary scenario = ExampleRun().scenarios.front();
+  std::vector<Comparison>& comparisons = scenario.conditions[0].comparisons;
+  std::erase_if(comparisons, [](const Comparison& c) { return c.method == "wait-for-end"; });
+  comparisons.front().baseline = "wait-for-end";
+  EXPECT_FALSE(IsYardstick(scenario, "wait-for-end"));
+  EXPECT_TRUE(IsComparedWithNone(scenario, "wait-for-end"));
+  const ScenarioFindings findings = FindingsOf(ExampleRun(), scenario);
+  EXPECT_TRUE(findings.yardsticks.empty());
+  EXPECT_EQ(findings.methods.size(), 3u);  // nor does it get a verdict
+}
+
 TEST(Yardstick, IsNobodyWhereNothingIsCompared) {
   ScenarioSummary scenario = ExampleRun().scenarios.front();
   scenario.conditions[0].comparisons.clear();

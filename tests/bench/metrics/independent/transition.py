@@ -97,7 +97,8 @@ def natural(given):
     rank = NATURAL_QUANTILE * (len(jumps) - 1)
     low = math.floor(rank)
     high = min(low + 1, len(jumps) - 1)
-    return int(given["jump_cm"] < jumps[low] + (rank - low) * (jumps[high] - jumps[low]))
+    limit = jumps[low] + (rank - low) * (jumps[high] - jumps[low])
+    return int(given["jump_cm"] <= limit * (1 + 1e-9))
 
 
 def pose_gap(given):

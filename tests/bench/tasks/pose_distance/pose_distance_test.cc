@@ -87,13 +87,13 @@ TEST_F(PoseDistanceTask, AWorldOfFramesDependsOnItsKeyAlone) {
 TEST_F(PoseDistanceTask, ThePoseGapItselfWouldBePerfect) {
   PairWorld world = DrawFramePairs(DanceClips(Clips({"clap", "sway"})), 400, {.scenario = "s"});
   for (int frame = 0; frame < 3; ++frame) {  // the two dances have no pose in common
-    PosePair same = world.pairs[static_cast<std::size_t>(frame)];
+    SeenPair same = world.pairs[static_cast<std::size_t>(frame)];
     same.b = same.a;
     same.gap_m = 0;
     world.pairs.push_back(same);
   }
   PairVerdict perfect, wrong;
-  for (const PosePair& pair : world.pairs) {
+  for (const SeenPair& pair : world.pairs) {
     perfect.distances.push_back(pair.gap_m);
     perfect.alike.push_back(pair.gap_m < 0.15);
     wrong.distances.push_back(-pair.gap_m);

@@ -21,25 +21,27 @@ SearchLibrary LibraryAt(const std::vector<double>& places) {
   return {frames, frames, std::move(index), ""};
 }
 
-const std::vector<Question> kAll = {Question::kFirst, Question::kWithin, Question::kNearest, Question::kNearest10};
+const std::vector<SearchQuestion> kAll = {SearchQuestion::kFirst, SearchQuestion::kWithin, SearchQuestion::kNearest,
+                                          SearchQuestion::kNearest10};
 
 // Closed form: the answers can be read off.
 TEST(FindPlainly, AnswersEveryQuestionAsItsNameSays) {
   const SearchLibrary library = LibraryAt({0.9, 0.3, 0.1, 0.4, 0.1, 0.5});
   const SearchProblem problem{library, PaperWeights(), 0.4};
   const auto found = FindPlainly(problem, std::vector{At(0)}, {kAll.begin(), kAll.end()});
-  EXPECT_EQ(found.at(Question::kFirst)[0], FoundFrames({1}));
-  EXPECT_EQ(found.at(Question::kWithin)[0], FoundFrames({1, 2, 4})) << "0.4 itself is not below it";
-  EXPECT_EQ(found.at(Question::kNearest)[0], FoundFrames({2})) << "the earlier of equal ones";
-  EXPECT_EQ(found.at(Question::kNearest10)[0], FoundFrames({2, 4, 1, 3, 5, 0})) << "all, there being fewer than ten";
+  EXPECT_EQ(found.at(SearchQuestion::kFirst)[0], FoundFrames({1}));
+  EXPECT_EQ(found.at(SearchQuestion::kWithin)[0], FoundFrames({1, 2, 4})) << "0.4 itself is not below it";
+  EXPECT_EQ(found.at(SearchQuestion::kNearest)[0], FoundFrames({2})) << "the earlier of equal ones";
+  EXPECT_EQ(found.at(SearchQuestion::kNearest10)[0], FoundFrames({2, 4, 1, 3, 5, 0}))
+      << "all, there being fewer than ten";
 }
 
 TEST(FindPlainly, FindsNothingWhereNothingMatches) {
   const SearchLibrary library = LibraryAt({0.9, 0.8});
   const auto found = FindPlainly({library, PaperWeights(), 0.1}, std::vector{At(0)}, {kAll.begin(), kAll.end()});
-  EXPECT_TRUE(found.at(Question::kFirst)[0].empty());
-  EXPECT_TRUE(found.at(Question::kWithin)[0].empty());
-  EXPECT_EQ(found.at(Question::kNearest)[0], FoundFrames({1}));
+  EXPECT_TRUE(found.at(SearchQuestion::kFirst)[0].empty());
+  EXPECT_TRUE(found.at(SearchQuestion::kWithin)[0].empty());
+  EXPECT_EQ(found.at(SearchQuestion::kNearest)[0], FoundFrames({1}));
 }
 
 // Many frames at the same few places, among them the threshold itself: what rounding or ties would spoil.
@@ -52,12 +54,12 @@ TEST(Find, IndexAndBruteForceAnswerAsThePlainLoopDoes) {
   std::vector<Grades> queries;
   for (int i = 0; i < 20; ++i) queries.push_back(At(0.05 * i));
   const auto truth = FindPlainly(problem, queries, {kAll.begin(), kAll.end()});
-  for (const Question question : kAll) {
+  for (const SearchQuestion question : kAll) {
     EXPECT_EQ(FindByIndex(problem, queries, question).found, truth.at(question)) << QuestionName(question);
     const SearchAnswer loop = FindByBruteForce(problem, queries, question);
     EXPECT_EQ(loop.found, truth.at(question)) << QuestionName(question);
     EXPECT_FALSE(loop.boxes);
-    if (question == Question::kFirst) continue;
+    if (question == SearchQuestion::kFirst) continue;
     EXPECT_TRUE(std::ranges::all_of(*loop.distances, [](std::int64_t seen) { return seen == 400; }));
   }
 }

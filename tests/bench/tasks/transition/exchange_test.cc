@@ -293,7 +293,7 @@ TEST_F(TransitionExchange, TellsTheJumpThatStillCountsAsNatural) {
     const double limit = (*world->MakeTruth()->json)["natural_limit_cm"];
     const CellResult cell = world->Run(1);  // the second join of paper A's choice
     if (cell.status != Status::kOk) continue;
-    EXPECT_EQ(ValueOf(cell, "natural_share"), ValueOf(cell, "jump_cm") < limit ? 1 : 0);
+    EXPECT_EQ(ValueOf(cell, "natural_share"), ValueOf(cell, "jump_cm") <= limit * (1 + 1e-9) ? 1 : 0);
   }
 }
 

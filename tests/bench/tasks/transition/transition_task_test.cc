@@ -143,6 +143,27 @@ TEST_F(TransitionTaskTest, SkipsALibraryThatHoldsNothingToSwitchTo) {
   EXPECT_THAT(CellsOf(**task, 1)[0].reason, HasSubstr("has 5 frames"));
 }
 
+TEST_F(TransitionTaskTest, KeepsEveryCellsExplanationWhenAsked) {
+  const ClipLibrary library = SmallLibrary();
+  const auto plain = CellsOf(**Make(kMethods, library), 0);
+  const auto told = CellsOf(**Make("explain: true\n" + std::string(kMethods), library), 0);
+  for (std::size_t m = 0; m < told.size(); ++m) {
+    EXPECT_EQ(told[m].digests, plain[m].digests);
+    ASSERT_EQ(plain[m].series.size(), 1u);
+    if (told[m].status != Status::kOk) continue;
+    ASSERT_EQ(told[m].series.size(), 8u);
+    const Series &meetings = told[m].series[1], &distances = told[m].series[5], &partials = told[m].series[7];
+    EXPECT_EQ(meetings.name, "meeting_partials");
+    double worst = 0;
+    for (auto ten = meetings.values.begin(); ten != meetings.values.end(); ten += kFeatureCount) {
+      worst = std::max(worst, std::sqrt(std::accumulate(ten, ten + kFeatureCount, 0.0)));
+    }
+    EXPECT_NEAR(worst, ValueOf(told[m], "fuzzy_distance"), 1e-12);
+    ASSERT_EQ(distances.name, "candidate_distance");
+    EXPECT_EQ(partials.values.size(), distances.values.size() * kFeatureCount);
+  }
+}
+
 TEST_F(TransitionTaskTest, RecordsTheSwitchWithWhatExplainsIt) {
   const ClipLibrary library = SmallLibrary();
   const auto cells = CellsOf(**Make(kMethods, library), 0, true);
@@ -166,6 +187,7 @@ TEST_F(TransitionTaskTest, RecordsTheSwitchWithWhatExplainsIt) {
     }
     for (const Json& candidate : told["candidates"]) {
       EXPECT_EQ(candidate["partials"].size(), kFeatureCount);
+      EXPECT_LT(candidate["meeting"], told["switches"].size());
       EXPECT_TRUE(candidate["cost"].is_number() == !told["cost_unit"].get<std::string>().empty());
     }
     double weights = 0;

@@ -102,6 +102,8 @@ TEST(TagsFile, RefusesHostileInput) {
       With(text, "grades=\"0", "grades=\"2"),
       With(text, "min-clips=\"2\"", ""),
       With(text, "<rules", "<rules extra=\"1\""),
+      With(text, "version=\"1.0\"", "version=\"1.1\""),  // libxml2 only warns of it, and of the next
+      With(text, "<bridge-tags", "<bridge-tags xmlns=\"relative\""),
   };
   for (const std::string& input : inputs) {
     const Error error = Complaint(input);
@@ -109,6 +111,25 @@ TEST(TagsFile, RefusesHostileInput) {
     EXPECT_FALSE(error.message.empty());
     EXPECT_THAT(ToString(error), ::testing::Not(HasSubstr("\n")));
   }
+}
+
+TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
+  std::string attributes = "\n<bridge-tags";
+  for (int i = 0; i < 100'000; ++i) attributes += " a" + std::to_string(i) + "=\"1\"";
+  const Error error = Complaint(attributes + "/>");
+  EXPECT_THAT(error.message, HasSubstr("bytes without a new tag"));
+  EXPECT_EQ(error.place.line, 2);
+  EXPECT_THAT(Complaint(" \n").message, HasSubstr("is empty"));
+}
+
+TEST(TagsFile, MayHoldTheLongestNames) {
+  BridgeTags tags = SomeTags();
+  for (ClipTags& clip : tags.clips) clip.source = std::string(4096, '"');
+  const auto text = WriteTagsFile(tags);
+  ASSERT_TRUE(text);
+  const auto back = ReadTagsFile(*text, "tags.xml");
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_TRUE(*back == tags);
 }
 
 TEST(TagsFile, RefusesToWriteNamesThatXmlCannotHold) {

@@ -1,0 +1,122 @@
+// Planning one switch, by every choice: clips of 1,000 frames (33 s), a second to wait; beside the point-cloud distance
+// computed pair by pair, as its paper writes it down. Both find the same frames, which is checked first.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "bench/micro/bridge_search_data.h"
+#include "engine/fuzzy/features.h"
+#include "engine/switching/choices/choice.h"
+#include "engine/switching/choices/diagonal_sums.h"
+#include "engine/switching/choices/pair_rows.h"
+#include "sim/choreography/varied_library.h"
+
+namespace etude {
+namespace {
+
+MotionLibrary MakeClips() {
+  constexpr int kClips = 8, kLength = 1000;
+  const std::vector<BodyMotion> seeds = LoadSeeds({});
+  RandomStream dice({.suite_seed = 1, .scenario = "planning_bench", .trial = 0}, "library");
+  std::vector<BodyMotion> clips(1);
+  for (const BodyMotion& part : VariedLibrary(seeds, kClips * kLength, dice)) {
+    for (const BodyPose& pose : part.poses) {
+      if (clips.back().poses.size() == kLength) clips.emplace_back();
+      clips.back().poses.push_back(pose);
+    }
+  }
+  const BodyPose& dancer = seeds.front().poses.front();
+  return MakeLibrary(std::vector<std::string>(clips.size(), "clip"), clips,
+                     MakePhysique(dancer, StandingHipHeight(dancer)));
+}
+
+std::vector<SwitchRequest> Requests(const MotionLibrary& library) {
+  std::vector<SwitchRequest> requests;
+  const int clips = static_cast<int>(library.motions.size());
+  for (int from = 0; from < clips; ++from) {
+    requests.push_back({.from = from, .request_frame = 100 * from, .to = (from + 1) % clips});
+  }
+  return requests;
+}
+
+/// Kovar's closed form for one pair, over all points of both clouds.
+double CloudDistance(const BodyMotion& a, int frame_a, const BodyMotion& b, int frame_b, int half) {
+  const Reach reach =
+      ReachAround(frame_a, static_cast<int>(a.poses.size()), frame_b, static_cast<int>(b.poses.size()), half);
+  const double share = 1.0 / (static_cast<double>(kRoleCount) * reach.Count());
+  glm::dvec3 mean_a(0), mean_b(0);
+  const auto for_each_pair = [&](auto visit) {
+    for (int i = -reach.before; i <= reach.after; ++i) {
+      const BodyPose &pose_a = a.poses[frame_a + i], &pose_b = b.poses[frame_b + i];
+      for (std::size_t j = 0; j < kRoleCount; ++j) visit(pose_a.joints[j], pose_b.joints[j]);
+    }
+  };
+  for_each_pair([&](const glm::dvec3& p, const glm::dvec3& q) {
+    mean_a += p * share;
+    mean_b += q * share;
+  });
+  mean_a.y = mean_b.y = 0;
+  double along = 0, across = 0, rest = 0;
+  for_each_pair([&](const glm::dvec3& point_a, const glm::dvec3& point_b) {
+    const glm::dvec3 p = point_a - mean_a, q = point_b - mean_b;
+    along += p.x * q.x + p.z * q.z;
+    across += p.x * q.z - p.z * q.x;
+    rest += glm::dot(p, p) + glm::dot(q, q) - 2 * p.y * q.y;
+  });
+  return 100 * std::sqrt(std::max(rest - 2 * std::sqrt(along * along + across * across), 0.0) * share);
+}
+
+struct Pair {
+  int from = 0, to = 0;
+};
+
+Pair NearestPairByPair(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+  const BodyMotion &playing = library.motions[request.from], &next = library.motions[request.to];
+  const PairRange range = AllowedPairs(library, request, rules);
+  const int half = static_cast<int>(std::lround(0.5 * rules.window_s * playing.rate_hz));
+  Pair best;
+  double least = std::numeric_limits<double>::infinity();
+  for (int from = range.leave.first; from <= range.leave.last; ++from) {
+    for (int to = 0; to < range.enter_end; ++to) {
+      const double distance = CloudDistance(playing, from, next, to, half);
+      if (distance >= least) continue;
+      least = distance;
+      best = {from, to};
+    }
+  }
+  return best;
+}
+
+void CompareAnswers(const MotionLibrary& library) {
+  for (const SwitchRequest& request : Requests(library)) {
+    const SwitchRecord record = FindChoice("point-cloud")->plan(library, request, {});
+    const Pair pair = NearestPairByPair(library, request, {});
+    if (record.legs.front().last == pair.from && record.legs.back().first == pair.to) continue;
+    std::fprintf(stderr, "pair by pair, other frames are nearest than in rows\n");
+    std::exit(1);
+  }
+}
+
+/// Plans all switches in turn; the time shown is the mean over them.
+void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
+  benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
+    const std::vector<SwitchRequest> requests = Requests(library);
+    while (state.KeepRunningBatch(static_cast<std::int64_t>(requests.size()))) {
+      for (const SwitchRequest& request : requests) benchmark::DoNotOptimize(plan(library, request, SwitchRules{}));
+    }
+  })->Unit(benchmark::kMicrosecond);
+}
+
+}  // namespace
+}  // namespace etude
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  const etude::MotionLibrary library = etude::MakeClips();
+  etude::CompareAnswers(library);
+  for (const etude::Choice& choice : etude::AllChoices()) etude::RegisterPlanning(library, choice.name, choice.plan);
+  etude::RegisterPlanning(library, "point-cloud, pair by pair", etude::NearestPairByPair);
+  benchmark::RunSpecifiedBenchmarks();
+}
