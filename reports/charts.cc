@@ -133,8 +133,10 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
 
   const bool one_condition = scenario.conditions.size() == 1;
   if (one_condition) chart.rows = static_cast<int>(scenario.methods.size());
+  // Shares are read against 0 and 100 %.
+  const bool is_logarithmic = !words.is_share && NeedsLogarithm(drawn);
   Json json{{"kind", "intervals"}, {"label", words.label},          {"suffix", words.suffix},
-            {"groups", groups},    {"methods", std::move(methods)}, {"logarithmic", NeedsLogarithm(drawn)}};
+            {"groups", groups},    {"methods", std::move(methods)}, {"logarithmic", is_logarithmic}};
   json["groupLabel"] = Joined(scenario.conditions.front().condition, &Setting::key);
   chart.is_wide = !one_condition && scenario.conditions.size() * scenario.methods.size() > kMostMarks;
   chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -39,6 +39,24 @@ TEST(IntervalChart, DrawsNothingRatherThanZeroForAMissingValue) {
   EXPECT_FALSE(IntervalChart(run.scenarios[1]).has_value());
 }
 
+TEST(IntervalChart, OfAShareIsNeverLogarithmic) {
+  RunData run = ExampleRun();
+  ScenarioSummary& scenario = run.scenarios[1];
+  const auto is_logarithmic = [&](const char* metric) {
+    scenario.headline_metrics = {metric};
+    double value = 0.001;
+    for (auto& method : scenario.conditions[0].methods) {
+      MetricSummary& summary = method.metrics[0];
+      summary.id = metric;
+      summary.median = summary.mean = summary.ci_low = summary.ci_high = value;
+      value *= 1000;
+    }
+    return nlohmann::json::parse(IntervalChart(scenario)->json)["logarithmic"].get<bool>();
+  };
+  EXPECT_TRUE(is_logarithmic("jump_cm")) << "the control";
+  EXPECT_FALSE(is_logarithmic("natural_share"));
+}
+
 TEST(CurveChart, IsDrawnOnlyFromCurvesAlongIterations) {
   RunData run = ExampleRun();
   AddRecordings(run);  // brings a curve along frames
