@@ -29,7 +29,7 @@ constexpr const char* kExamples =
     "  etude report out/quick-1                       a page, tables, JUnit and a video of it\n"
     "  etude run scenarios/quick --resume             go on after a crash, a kill, a power cut\n"
     "  etude gate out/quick-1 --baseline FILE         pass or fail, for a CI server\n"
-    "  etude run scenarios/paper                      the tables of inverse kinematics as paper B has them\n"
+    "  etude run scenarios/paper                      what the papers claim, in their own tables and situations\n"
     "  etude list methods                             what a scenario can name; also keys, metrics, clips\n"
     "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
     "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips can be switched, and how well\n"
