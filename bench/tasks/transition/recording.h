@@ -18,17 +18,17 @@ std::vector<Series> ExplanationOf(const SwitchRecord& record);
 /// The switch, which must have a way, with 2.5 s before and after it: track "coach", and the facts that explain it.
 ///
 ///     {"seam_frame": 60, "seam_frames": [60, 75], "from": "builtin:clap", "to": …, "branch": "in-between",
-///      "why": "no pair matched, so …", "request_frame": 52, "wait_s": 0.8, "threshold": 0.4,
-///      "natural_limit_cm": 3.8, "distance": 0.31,
-///      "weights": {"RH": 1, …}, "partials": {"RH": 0.02, …}, "pairs_seen": 900, "pairs_matched": 0,
-///      "switches": [{"from": …, "from_frame": 60, "to": "in-between", "to_frame": 0, "distance": …, "partials": …},
-///      …], "cost_unit": "cm", "candidates": [{"from_frame": 60, "to_frame": 12, "distance": 0.31, "partials": {"RH":
-///      …},
-///                                         "cost": 8.2, "fate": "taken"}, …]}
+///      "why": "no match among …", "request_frame": 52, "wait_s": 0.8, "threshold": 0.4, "natural_limit_cm": 3.8,
+///      "distance": 0.31, "weights": {"RH": 1, …}, "partials": {"RH": 0.02, …}, "pairs_seen": 900, "pairs_matched": 0,
+///      "switches": [{"from": …, "from_frame": 60, "to": "in-between", "to_frame": 0, "distance": …,
+///                    "partials": …}, …],
+///      "cost_unit": "cm",
+///      "candidates": [{"meeting": 0, "from_frame": 60, "to_frame": 12, "distance": 0.31, "partials": {"RH": …},
+///                      "cost": 8.2, "fate": "taken"}, …]}
 ///
 /// `seam_frames` and `request_frame` count in the recording (a negative one is before it begins), all other frames in
-/// their clips. `distance` and `partials` beside them are those of the worst of the switches. `cost` is null for
-/// choices that rank by nothing.
+/// their clips. `distance` and `partials` beside them are those of the worst of the switches. `meeting` tells which
+/// of the switches a candidate was looked at for; `cost` is null for choices that rank by nothing.
 Recording RecordSwitch(const SwitchOutcome& outcome, const Stage& stage);
 
 }  // namespace etude

@@ -28,8 +28,7 @@ std::vector<KeyInfo> StageKeys() {
           {"min_clips", "1…1000", "2", "In how many clips a bridge frame's ten tags occur together at least."},
           {"most_per_class", "0…100000", "0",
            "Of each clip's frames with the same ten tags, only so many are bridge frames: those most alike to other "
-           "clips'; "
-           "0: all."},
+           "clips'; 0: all."},
           {"head_bend_deg", "0…180", "30", "A bridge frame's neck is bent by no more."},
           {"head_turn_dps", "0…10000 (degrees per second)", "60", "A bridge frame's neck turns no faster."},
           {"tween_dps", "10…10000 (degrees per second)", "360", "The fastest that any limb turns in an in-between."},
