@@ -9,38 +9,40 @@
 namespace etude {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, WeightSource>, 3> kRules = {
+constexpr std::array<std::pair<std::string_view, WeightSource>, 3> kSources = {
     {{"fixed", WeightSource::kFixed}, {"adaptive", WeightSource::kAdaptive}, {"genetic", WeightSource::kGenetic}}};
 
 }  // namespace
 
 std::vector<std::string> WeightSourceNames() {
   std::vector<std::string> names;
-  for (const auto& [name, rule] : kRules) names.emplace_back(name);
+  for (const auto& [name, source] : kSources) names.emplace_back(name);
   return names;
 }
 
 WeightSource FindWeightSource(std::string_view name) {
-  const auto found = std::find_if(kRules.begin(), kRules.end(), [&](const auto& entry) { return entry.first == name; });
-  assert(found != kRules.end());
+  const auto found =
+      std::find_if(kSources.begin(), kSources.end(), [&](const auto& entry) { return entry.first == name; });
+  assert(found != kSources.end());
   return found->second;
 }
 
 LearntWeights::LearntWeights(TrainingClips training, const FuzzySystem& system)
     : training_(std::move(training)), system_(system) {}
 
-const FeatureWeights& LearntWeights::For(WeightSource rule, const std::string& judged_a, const std::string& judged_b) {
-  return rule == WeightSource::kFixed ? system_.weights : FitOf(rule, judged_a, judged_b).weights;
+const FeatureWeights& LearntWeights::For(WeightSource source, const std::string& judged_a,
+                                         const std::string& judged_b) {
+  return source == WeightSource::kFixed ? system_.weights : FitOf(source, judged_a, judged_b).weights;
 }
 
-const WeightFit& LearntWeights::FitOf(WeightSource rule, const std::string& judged_a, const std::string& judged_b) {
-  assert(rule != WeightSource::kFixed);
+const WeightFit& LearntWeights::FitOf(WeightSource source, const std::string& judged_a, const std::string& judged_b) {
+  assert(source != WeightSource::kFixed);
   const auto [first, second] = std::minmax(judged_a, judged_b);
-  const std::tuple key(rule, first, second);
+  const std::tuple key(source, first, second);
   if (const auto known = fits_.find(key); known != fits_.end()) return known->second;
 
   const std::vector<LabelledPair> pairs = PairsWithout(judged_a, judged_b);
-  WeightFit fit = rule == WeightSource::kAdaptive ? FitWeights(pairs) : FitWeightsGenetically(pairs, system_.weights);
+  WeightFit fit = source == WeightSource::kAdaptive ? FitWeights(pairs) : FitWeightsGenetically(pairs, system_.weights);
   if (fit.status != WeightFitStatus::kFitted) fit.weights = system_.weights;
   return fits_.emplace(key, fit).first->second;
 }

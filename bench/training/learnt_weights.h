@@ -31,12 +31,12 @@ class LearntWeights {
  public:
   explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
 
-  /// The weights of `rule` for a switch between clips of these identities, in either order; the system's own where
+  /// The weights of `source` for a switch between clips of these identities, in either order; the system's own where
   /// nothing could be learnt.
-  const FeatureWeights& For(WeightSource rule, const std::string& judged_a, const std::string& judged_b);
+  const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
-  /// How the learning went; `rule` is not kFixed.
-  const WeightFit& FitOf(WeightSource rule, const std::string& judged_a, const std::string& judged_b);
+  /// How the learning went; `source` is not kFixed.
+  const WeightFit& FitOf(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
  private:
   const std::vector<LabelledPair>& PairsOf(std::size_t clip_a, std::size_t clip_b);

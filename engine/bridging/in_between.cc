@@ -116,7 +116,7 @@ std::string Explain(const MotionLibrary& library, const SwitchRequest& request, 
     const bool is_near = junction.distance.value < threshold;
     return fmt::format("{} (d = {:.2f}{})", junction.frame, junction.distance.value,
                        junction.matches ? ""
-                       : is_near        ? ", but no bridge frame"
+                       : is_near        ? ", but no bridge frame that may be taken"
                                         : fmt::format(", not below {}", threshold));
   };
   return fmt::format("left at {} {} for the key pose {}, entered from the key pose {} at {} {}",

@@ -45,7 +45,10 @@ std::array<double, kVectorCount> Spreads(const std::vector<std::vector<MotionFea
   std::array<double, kVectorCount> spreads{};
   for (const auto& frames : clips) {
     for (const MotionFeatures& features : frames) {
-      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) spreads[i / 3] += std::pow(features[i] - means[i], 2);
+      for (std::size_t i = 0; i < kMotionFeatureCount; ++i) {
+        const double off = features[i] - means[i];
+        spreads[i / 3] += off * off;
+      }
     }
   }
   for (double& spread : spreads) spread = std::sqrt(spread / std::max(3 * count, 1.0));
