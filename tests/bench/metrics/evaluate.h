@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
 
 #include "engine/base/result.h"
@@ -11,6 +10,6 @@ namespace etude {
 /// A metric's value for the input of a test vector, by the functions that the tasks measure with; nothing where the
 /// metric has no value. Fails when the metric has no such function, or the input is not one of its own (its keys are
 /// MetricInfo::inputs).
-Result<std::optional<double>> EvaluateMetric(std::string_view metric, const std::string& input_json);
+Result<std::optional<double>> EvaluateMetric(std::string_view metric, std::string_view input_json);
 
 }  // namespace etude

@@ -17,7 +17,7 @@ struct Evaluator {
   EvaluatedMetric (*value)(const Json& in);
 };
 
-/// Of everything about switching clips: transitions, matching, search, distances of poses.
-std::span<const Evaluator> SwitchEvaluators();
+/// Of everything about changing clips: transitions, matching, search, distances of poses.
+std::span<const Evaluator> TransitionEvaluators();
 
 }  // namespace etude

@@ -4,14 +4,14 @@
 
 #include "bench/metrics/detection.h"
 #include "bench/metrics/dimensionless_jerk.h"
-#include "bench/metrics/evaluate_parts.h"
 #include "bench/metrics/matching.h"
 #include "bench/metrics/pose_distance.h"
 #include "bench/metrics/seam.h"
 #include "bench/metrics/search.h"
 #include "bench/metrics/spectral_arc_length.h"
-#include "bench/metrics/vector_input.h"
 #include "engine/fuzzy/distance.h"
+#include "tests/bench/metrics/evaluate_parts.h"
+#include "tests/bench/metrics/vector_input.h"
 
 namespace etude {
 namespace {
@@ -199,6 +199,6 @@ constexpr Evaluator kEvaluators[] = {
 
 }  // namespace
 
-std::span<const Evaluator> SwitchEvaluators() { return kEvaluators; }
+std::span<const Evaluator> TransitionEvaluators() { return kEvaluators; }
 
 }  // namespace etude

@@ -1,4 +1,4 @@
-#include "bench/metrics/vector_input.h"
+#include "tests/bench/metrics/vector_input.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,11 +1,10 @@
-#include "bench/metrics/evaluate.h"
+#include "tests/bench/metrics/evaluate.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "bench/metrics/detection.h"
-#include "bench/metrics/evaluate_parts.h"
 #include "bench/metrics/ik_cost.h"
 #include "bench/metrics/ik_error.h"
 #include "bench/metrics/measurement.h"
@@ -13,8 +12,9 @@
 #include "bench/metrics/segmentation.h"
 #include "bench/metrics/share.h"
 #include "bench/metrics/tracking.h"
-#include "bench/metrics/vector_input.h"
 #include "engine/base/angles.h"
+#include "tests/bench/metrics/evaluate_parts.h"
+#include "tests/bench/metrics/vector_input.h"
 
 namespace etude {
 namespace {
@@ -221,9 +221,9 @@ const Evaluator* Find(std::span<const Evaluator> evaluators, std::string_view me
 
 }  // namespace
 
-Result<std::optional<double>> EvaluateMetric(std::string_view metric, const std::string& input_json) {
+Result<std::optional<double>> EvaluateMetric(std::string_view metric, std::string_view input_json) {
   const Evaluator* evaluator = Find(kEvaluators, metric);
-  if (evaluator == nullptr) evaluator = Find(SwitchEvaluators(), metric);
+  if (evaluator == nullptr) evaluator = Find(TransitionEvaluators(), metric);
   if (evaluator == nullptr) return Fail({}, "no function evaluates the metric '{}'", metric);
   try {
     return evaluator->value(Json::parse(input_json));
