@@ -1,7 +1,7 @@
-// Writes the files of metrics as C++, when the program is built:
+// Writes the catalogue's files as C++, when the program is built:
 //     etude_metric_table <out.cc> <file.yaml>...
-// A file with a fault ends the build with its place. Not read by the program itself: yaml-cpp would take 30 ms of every
-// start.
+// A fault in a file ends the build with its place. The program does not read the files itself: yaml-cpp needs 30 ms or
+// more for them, at every start.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,11 +17,37 @@
 namespace etude {
 namespace {
 
+constexpr auto kSource = R"(#include "bench/metrics/catalogue.h"
+
+namespace etude {{
+
+std::span<const MetricInfo> AllMetrics() {{
+{}
+  static const std::vector<MetricInfo> metrics = {{
+{}  }};
+  return metrics;
+}}
+
+}}  // namespace etude
+)";
+
+/// What stands in kSource.
+struct Table {
+  std::string vectors;  ///< an array per metric
+  std::string metrics;
+  std::set<std::string> ids;
+};
+
 std::string Literal(std::string_view text) { return fmt::format("R\"__text__({})__text__\"", text); }
 
-std::string OneOf(Fields& fields, const char* key, const std::vector<std::string>& allowed) {
+/// A text that must be there, and be the key of one of `values`; gives what C++ has for it.
+std::string_view OneOf(Fields& fields, const char* key,
+                       const std::vector<std::pair<std::string, std::string_view>>& values) {
+  std::vector<std::string> allowed;
+  for (const auto& [name, code] : values) allowed.push_back(name);
   fields.RequiredText(key);
-  return fields.Choice(key, allowed, "");
+  const std::string found = fields.Choice(key, allowed, allowed.front());
+  return std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.first == found; })->second;
 }
 
 double RequiredNumber(Fields& fields, const char* key) {
@@ -31,23 +57,24 @@ double RequiredNumber(Fields& fields, const char* key) {
 }
 
 const std::vector<Node>& RequiredList(Fields& fields, const char* key) {
-  static const std::vector<Node> kNone;
+  static const std::vector<Node> none;
   const Node* list = fields.Raw(key);
   if (list != nullptr && list->kind == Node::Kind::kSequence && !list->items.empty()) return list->items;
-  fields.Complain(list != nullptr ? list->place : fields.node().place, fmt::format("'{}' must be a list", key));
-  return kNone;
+  fields.Complain(list != nullptr ? list->place : fields.node().place,
+                  fmt::format("'{}' must be a list of one or more", key));
+  return none;
 }
 
-/// `- key`, whose meaning the domain tells, or `- key: meaning`.
-Result<std::string> InputLiteral(const Node& node, const Node* shared) {
-  const bool is_own = node.kind == Node::Kind::kMapping && node.entries.size() == 1;
-  const std::string key = is_own ? node.entries[0].key : node.scalar;
-  const Node* meaning = is_own ? &node.entries[0].value : shared != nullptr ? shared->Find(key) : nullptr;
+/// `- key`, whose meaning stands in the domain's `inputs`, or `- key: meaning`.
+Result<std::string> InputCode(const Node& node, const Node* shared) {
+  const bool has_meaning = node.kind == Node::Kind::kMapping && node.entries.size() == 1;
+  const std::string key = has_meaning ? node.entries[0].key : node.scalar;
+  const Node* meaning = has_meaning ? &node.entries[0].value : shared != nullptr ? shared->Find(key) : nullptr;
   if (meaning == nullptr || meaning->scalar.empty()) return Fail(node.place, "what is the input '{}'?", key);
   return fmt::format("{{{}, {}}}, ", Literal(key), Literal(meaning->scalar));
 }
 
-Result<std::string> VectorLiteral(const Node& node) {
+Result<std::string> VectorCode(const Node& node) {
   Fields fields(node, "a test vector");
   const std::string title = fields.RequiredText("title"), input = fields.RequiredText("input");
   const auto expected = fields.OptionalNumber("expected");
@@ -60,87 +87,73 @@ Result<std::string> VectorLiteral(const Node& node) {
   if (!source.starts_with("derived: ") && !source.starts_with("published: ")) {
     fields.Complain(node.place, "the source begins with neither 'derived: ' nor 'published: '");
   }
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   const Place& place = node.Find("input")->place;
-  const auto json = ReadJson(input, place.file, place.line);
-  if (!json) return tl::unexpected(json.error());
-  if (!json->is_object()) return Fail(place, "the input must be one JSON object");
-  return fmt::format("    {{{}, {}, {}, {}, {}, {}}},\n", Literal(title), Literal(input),
-                     expected ? fmt::format("{}", *expected) : "std::nullopt", Literal(null_reason), tolerance,
-                     Literal(source));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(input, place.file, place.line));
+  if (!json.is_object()) return Fail(place, "the input must be one JSON object");
+  const std::string value = expected ? fmt::format("{}", *expected) : "std::nullopt";
+  return fmt::format("    {{{}, {}, {}, {}, {}, {}}},\n", Literal(title), Literal(input), value, Literal(null_reason),
+                     tolerance, Literal(source));
 }
 
-/// The table of C++ as it grows.
-struct Table {
-  std::string vectors;  ///< an array per metric
-  std::string metrics;
-  std::set<std::string> ids;
-};
+/// The fields that are one value each, in the order of MetricInfo.
+std::string FactsCode(Fields& fields) {
+  std::string code = fmt::format("{{.id = {}, .version = {}", Literal(fields.RequiredText("id")),
+                                 fields.Integer("version", 1, {.lowest = 1}));
+  code +=
+      fmt::format(", .label = {}, .unit = {}", Literal(fields.RequiredText("label")), Literal(fields.Text("unit", "")));
+  code += fmt::format(", .direction = Direction::{}",
+                      OneOf(fields, "direction",
+                            {{"lower", "kLowerIsBetter"}, {"higher", "kHigherIsBetter"}, {"neither", "kNeither"}}));
+  code += fmt::format(", .aggregate = Aggregate::{}",
+                      OneOf(fields, "aggregate", {{"median", "kMedian"}, {"mean", "kMean"}}));
+  code += fmt::format(", .practical = {}", RequiredNumber(fields, "practical_threshold"));
+  for (const char* key : {"definition", "practical_reason", "formula", "null_rule", "source"}) {
+    code += fmt::format(", .{} = {}", key, Literal(fields.RequiredText(key)));
+  }
+  return code;
+}
 
 Result<void> AddMetric(const Node& node, const std::string& domain, const Node* shared_inputs, Table& table) {
   Fields fields(node, "a metric");
-  const std::string id = fields.RequiredText("id");
-  if (!table.ids.insert(id).second) fields.Complain(node.place, fmt::format("the metric '{}' stands here twice", id));
-  std::string text = fmt::format("{{.id = \"{}\", .version = {}", id, fields.Integer("version", 1, {.lowest = 1}));
-  text +=
-      fmt::format(", .label = {}, .unit = {}", Literal(fields.RequiredText("label")), Literal(fields.Text("unit", "")));
-  const std::string direction = OneOf(fields, "direction", {"lower", "higher", "neither"});
-  text += direction == "neither"
-              ? ", .direction = Direction::kNeither"
-              : fmt::format(", .direction = Direction::k{}IsBetter", direction == "lower" ? "Lower" : "Higher");
-  text += fmt::format(", .aggregate = Aggregate::k{}",
-                      OneOf(fields, "aggregate", {"median", "mean"}) == "median" ? "Median" : "Mean");
-  text += fmt::format(", .practical = {}", RequiredNumber(fields, "practical_threshold"));
-  for (const char* key : {"definition", "practical_reason", "formula", "null_rule", "source"}) {
-    text += fmt::format(", .{} = {}", key, Literal(fields.RequiredText(key)));
-  }
-  const std::vector<Node>&inputs = RequiredList(fields, "inputs"), &vectors = RequiredList(fields, "vectors");
-  if (auto done = fields.Finish(); !done) return done;
-  text += ", .inputs = {";
+  std::string code = FactsCode(fields);
+  const std::vector<Node>& inputs = RequiredList(fields, "inputs");
+  const std::vector<Node>& vectors = RequiredList(fields, "vectors");
+  RETURN_IF_ERROR(fields.Finish());
+  const std::string& id = node.Find("id")->scalar;
+  if (!table.ids.insert(id).second) return Fail(node.place, "the metric '{}' stands here twice", id);
+  code += ", .inputs = {";
   for (const Node& input : inputs) {
-    const auto literal = InputLiteral(input, shared_inputs);
-    if (!literal) return tl::unexpected(literal.error());
-    text += *literal;
+    ASSIGN_OR_RETURN(const std::string input_code, InputCode(input, shared_inputs));
+    code += input_code;
   }
   const std::string array = fmt::format("kVectors{}", table.ids.size());
-  table.vectors += fmt::format("constexpr MetricVector {}[] = {{\n", array);
+  table.vectors += fmt::format("  static constexpr MetricVector {}[] = {{\n", array);
   for (const Node& vector : vectors) {
-    const auto literal = VectorLiteral(vector);
-    if (!literal) return tl::unexpected(literal.error());
-    table.vectors += *literal;
+    ASSIGN_OR_RETURN(const std::string vector_code, VectorCode(vector));
+    table.vectors += vector_code;
   }
-  table.vectors += "};\n";
-  table.metrics += fmt::format("{}}}, .vectors = {}, .domain = {}}},\n", text, array, Literal(domain));
+  table.vectors += "  };\n";
+  table.metrics += fmt::format("    {}}}, .vectors = {}, .domain = {}}},\n", code, array, Literal(domain));
   return {};
 }
 
 Result<void> AddDomain(const std::string& file, Table& table) {
-  const auto text = ReadWholeFile(file);
-  if (!text) return tl::unexpected(text.error());
-  const auto document = ParseYaml(*text, file);
-  if (!document) return tl::unexpected(document.error());
-  Fields fields(*document, "a domain of metrics");
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const Node document, ParseYaml(text, file));
+  Fields fields(document, "a domain of metrics");
   const std::string domain = fields.RequiredText("domain");
   const Node* shared_inputs = fields.Raw("inputs");
   const std::vector<Node>& metrics = RequiredList(fields, "metrics");
-  if (auto done = fields.Finish(); !done) return done;
-  for (const Node& metric : metrics) {
-    if (auto done = AddMetric(metric, domain, shared_inputs, table); !done) return done;
-  }
+  RETURN_IF_ERROR(fields.Finish());
+  for (const Node& metric : metrics) RETURN_IF_ERROR(AddMetric(metric, domain, shared_inputs, table));
   return {};
 }
 
-Result<void> Run(const std::string& out, const std::vector<std::string>& files) {
+Result<void> WriteTable(const std::string& out, const std::vector<std::string>& files) {
   Table table;
-  for (const std::string& file : files) {
-    if (auto done = AddDomain(file, table); !done) return done;
-  }
-  return WriteFileAtomically(
-      out, fmt::format("#include \"bench/metrics/catalogue.h\"\n\nnamespace etude {{\nnamespace {{\n\n{}\n"
-                       "}}  // namespace\n\nstd::span<const MetricInfo> AllMetrics() {{\n"
-                       "  static const std::vector<MetricInfo> metrics = {{\n{}}};\n  return metrics;\n}}\n"
-                       "\n}}  // namespace etude\n",
-                       table.vectors, table.metrics));
+  for (const std::string& file : files) RETURN_IF_ERROR(AddDomain(file, table));
+  return WriteFileAtomically(out, fmt::format(kSource, table.vectors, table.metrics));
 }
 
 }  // namespace
@@ -151,7 +164,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "usage: etude_metric_table OUT.cc FILE.yaml...\n");
     return 2;
   }
-  const auto done = etude::Run(argv[1], {argv + 2, argv + argc});
+  const auto done = etude::WriteTable(argv[1], {argv + 2, argv + argc});
   if (!done) fmt::print(stderr, "{}\n", etude::ToString(done.error()));
   return done ? 0 : 1;
 }

@@ -161,7 +161,7 @@ double FalseAlarms(const Json& in) {
   return FalseAlarmsPerMinute(alarms, in.at("frames").get<double>() / in.at("rate_hz").get<double>());
 }
 
-constexpr Evaluator kEvaluators[] = {
+constexpr Evaluator kOtherEvaluators[] = {
     {"position_error_cm", [](const Json& in) -> Value { return IkErrors(in).position_cm; }},
     {"position_error_max_cm", [](const Json& in) -> Value { return IkErrors(in).position_max_cm; }},
     {"orientation_error_deg", [](const Json& in) -> Value { return IkErrors(in).orientation_deg; }},
@@ -214,7 +214,7 @@ constexpr Evaluator kEvaluators[] = {
     {"false_alarms_per_min", [](const Json& in) -> Value { return FalseAlarms(in); }},
 };
 
-const Evaluator* Find(std::span<const Evaluator> evaluators, std::string_view metric) {
+const Evaluator* FindEvaluator(std::span<const Evaluator> evaluators, std::string_view metric) {
   const auto found = std::ranges::find(evaluators, metric, &Evaluator::metric);
   return found == evaluators.end() ? nullptr : &*found;
 }
@@ -222,8 +222,8 @@ const Evaluator* Find(std::span<const Evaluator> evaluators, std::string_view me
 }  // namespace
 
 Result<std::optional<double>> EvaluateMetric(std::string_view metric, std::string_view input_json) {
-  const Evaluator* evaluator = Find(kEvaluators, metric);
-  if (evaluator == nullptr) evaluator = Find(TransitionEvaluators(), metric);
+  const Evaluator* evaluator = FindEvaluator(kOtherEvaluators, metric);
+  if (evaluator == nullptr) evaluator = FindEvaluator(TransitionEvaluators(), metric);
   if (evaluator == nullptr) return Fail({}, "no function evaluates the metric '{}'", metric);
   try {
     return evaluator->value(Json::parse(input_json));

@@ -166,7 +166,7 @@ std::vector<JudgedEvent> PairEvents(const Json& in) {
   return events;
 }
 
-constexpr Evaluator kEvaluators[] = {
+constexpr Evaluator kTransitionEvaluators[] = {
     {"jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).jump_cm; }},
     {"mean_joint_jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).mean_joint_jump_cm; }},
     {"rotation_step_change_deg", [](const Json& in) -> Value { return SmoothnessOf(in).rotation_step_change_deg; }},
@@ -199,6 +199,6 @@ constexpr Evaluator kEvaluators[] = {
 
 }  // namespace
 
-std::span<const Evaluator> TransitionEvaluators() { return kEvaluators; }
+std::span<const Evaluator> TransitionEvaluators() { return kTransitionEvaluators; }
 
 }  // namespace etude
