@@ -2,23 +2,16 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "bench/metrics/detection.h"
 #include "bench/metrics/dimensionless_jerk.h"
 #include "bench/metrics/matching.h"
-#include "bench/metrics/pose_distance.h"
 #include "bench/metrics/seam.h"
-#include "bench/metrics/search.h"
 #include "bench/metrics/spectral_arc_length.h"
 #include "engine/fuzzy/distance.h"
-#include "tests/bench/metrics/evaluate_parts.h"
+#include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"
 
 namespace etude {
 namespace {
-
-using Value = EvaluatedMetric;
-
-// Transitions.
 
 std::vector<int> SeamsOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
 
@@ -101,8 +94,6 @@ Value SparcOf(const Json& in) {
   return SpectralArcLength(profile.speed, profile.rate_hz);
 }
 
-// Matching.
-
 /// Nothing for a method that matches no frames.
 std::optional<MatchTally> TallyOf(const Json& in) {
   const Json& threshold = in.at("threshold");
@@ -131,74 +122,29 @@ Value InBetween(const Json& in) {
   return in.at("legs").get<int>() > 2 ? 1 : 0;
 }
 
-// Search.
-
-std::vector<FoundFrames> FramesOf(const Json& in, const char* key) {
-  return in.at(key).get<std::vector<FoundFrames>>();
-}
-
-Value PerQuery(const Json& in, const char* key) {
-  if (in.at(key).is_null()) return std::nullopt;
-  return MeanPerQuery(in.at(key).get<std::vector<std::int64_t>>());
-}
-
-// Pose distances.
-
-Value CalledAlike(const Json& in) {
-  const Json& pairs = in.at("pairs");
-  if (pairs.size() != 1) return std::nullopt;
-  return pairs.at(0).at("distance").get<double>() < in.at("threshold").get<double>() ? 1 : 0;
-}
-
-Value JointDistance(const Json& in) {
-  const BodyPose a = ReadPose(in.at("a")), b = ReadPose(in.at("b"));
-  return in.at("method") == "point-cloud" ? RootMeanSquareJointDistanceCm(a, b) : MeanJointDistanceCm(a, b);
-}
-
-/// A pair of poses as an event: "right" is close, "called right" is called alike.
-std::vector<JudgedEvent> PairEvents(const Json& in) {
-  std::vector<JudgedEvent> events;
-  for (const Json& pair : in.at("pairs")) {
-    const double distance = pair.at("distance").get<double>();
-    events.push_back({pair.at("pose_gap_cm").get<double>() < 100 * kCloseGap,
-                      distance < in.at("threshold").get<double>(), -distance});
-  }
-  return events;
-}
-
-constexpr Evaluator kTransitionEvaluators[] = {
-    {"jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).jump_cm; }},
-    {"mean_joint_jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).mean_joint_jump_cm; }},
-    {"rotation_step_change_deg", [](const Json& in) -> Value { return SmoothnessOf(in).rotation_step_change_deg; }},
-    {"jerk_peak_mps3", [](const Json& in) -> Value { return SmoothnessOf(in).jerk_peak_mps3; }},
-    {"foot_slide_cmps", [](const Json& in) -> Value { return WorstFootSlide(in); }},
-    {"pose_gap_cm", [](const Json& in) -> Value { return WorstPoseGap(in); }},
-    {"velocity_gap_cmps", [](const Json& in) -> Value { return WorstVelocityGap(in); }},
-    {"false_smooth", FalseSmooth},
-    {"natural_share", [](const Json& in) -> Value { return IsNaturalJump(in) ? 1 : 0; }},
-    {"wait_s", [](const Json& in) -> Value { return Waited(in); }},
-    {"fuzzy_distance", [](const Json& in) -> Value { return WorstFuzzyDistance(in); }},
-    {"sparc", SparcOf},
-    {"ldlj", [](const Json& in) { return LogDimensionlessJerk(SpeedOf(in).speed); }},
-
-    {"direct_match", DirectMatch},
-    {"matching_share", [](const Json& in) { return ShareOfPairs(in, MatchingShare); }},
-    {"false_smooth_share", [](const Json& in) { return ShareOfPairs(in, FalseSmoothShare); }},
-    {"in_between", InBetween},
-
-    {"search_agreement", [](const Json& in) { return SearchAgreement(FramesOf(in, "found"), FramesOf(in, "truth")); }},
-    {"matches_per_query", [](const Json& in) { return MatchesPerQuery(FramesOf(in, "found")); }},
-    {"distances_per_query", [](const Json& in) { return PerQuery(in, "distances"); }},
-    {"boxes_per_query", [](const Json& in) { return PerQuery(in, "boxes"); }},
-
-    {"called_alike", CalledAlike},
-    {"joint_distance_cm", JointDistance},
-    {"close_auc", [](const Json& in) -> Value { return RocAuc(PairEvents(in)); }},
-    {"close_f1", [](const Json& in) -> Value { return F1(CountConfusion(PairEvents(in))); }},
-};
-
 }  // namespace
 
-std::span<const Evaluator> TransitionEvaluators() { return kTransitionEvaluators; }
+std::span<const Evaluator> TransitionEvaluators() {
+  static constexpr Evaluator kAll[] = {
+      {"jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).jump_cm; }},
+      {"mean_joint_jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).mean_joint_jump_cm; }},
+      {"rotation_step_change_deg", [](const Json& in) -> Value { return SmoothnessOf(in).rotation_step_change_deg; }},
+      {"jerk_peak_mps3", [](const Json& in) -> Value { return SmoothnessOf(in).jerk_peak_mps3; }},
+      {"foot_slide_cmps", [](const Json& in) -> Value { return WorstFootSlide(in); }},
+      {"pose_gap_cm", [](const Json& in) -> Value { return WorstPoseGap(in); }},
+      {"velocity_gap_cmps", [](const Json& in) -> Value { return WorstVelocityGap(in); }},
+      {"false_smooth", FalseSmooth},
+      {"natural_share", [](const Json& in) -> Value { return IsNaturalJump(in) ? 1 : 0; }},
+      {"wait_s", [](const Json& in) -> Value { return Waited(in); }},
+      {"fuzzy_distance", [](const Json& in) -> Value { return WorstFuzzyDistance(in); }},
+      {"sparc", SparcOf},
+      {"ldlj", [](const Json& in) { return LogDimensionlessJerk(SpeedOf(in).speed); }},
+      {"direct_match", DirectMatch},
+      {"matching_share", [](const Json& in) { return ShareOfPairs(in, MatchingShare); }},
+      {"false_smooth_share", [](const Json& in) { return ShareOfPairs(in, FalseSmoothShare); }},
+      {"in_between", InBetween},
+  };
+  return kAll;
+}
 
 }  // namespace etude
