@@ -1,33 +1,6 @@
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 
 namespace etude {
-namespace {
-
-std::string LabelOf(const std::vector<Setting>& condition, std::string_view separator) {
-  std::string label;
-  for (const Setting& setting : condition) {
-    if (!label.empty()) label += separator;
-    label += setting.key + "=" + setting.value;
-  }
-  return label;
-}
-
-}  // namespace
-
-std::string CompactLabel(const std::vector<Setting>& condition) {
-  return condition.empty() ? "-" : LabelOf(condition, ",");
-}
-
-std::string ConditionLabel(const std::vector<Setting>& condition) { return LabelOf(condition, ", "); }
-
-std::string Row::Id() const { return fmt::format("{}/{}/{:03}/{}", scenario, CompactLabel(condition), trial, method); }
-
-std::optional<double> ValueOf(const Row& row, std::string_view metric) {
-  for (const MetricValue& value : row.result.metrics) {
-    if (value.id == metric) return value.value;
-  }
-  return std::nullopt;
-}
 
 std::string_view IntervalKindName(IntervalKind kind) {
   switch (kind) {
@@ -59,13 +32,13 @@ std::string_view VerdictName(Verdict verdict) {
   return "inconclusive";
 }
 
-std::string_view OutcomeName(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kMet:
+std::string_view RulingName(Ruling ruling) {
+  switch (ruling) {
+    case Ruling::kMet:
       return "met";
-    case Outcome::kUnmet:
+    case Ruling::kUnmet:
       return "unmet";
-    case Outcome::kUndecided:
+    case Ruling::kUndecided:
       break;
   }
   return "undecided";

@@ -1,0 +1,3 @@
+// Transitions are made of distances, not the other way round.
+#pragma once
+#include "engine/cameras/camera.h"
