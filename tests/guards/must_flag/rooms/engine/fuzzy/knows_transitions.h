@@ -1,3 +1,0 @@
-// Transitions are made of distances, not the other way round.
-#pragma once
-#include "engine/cameras/camera.h"
