@@ -19,4 +19,6 @@ struct Payload {
   std::vector<Attachment> files;
 };
 
+Payload PayloadOf(Json json, std::vector<Attachment> files = {});
+
 }  // namespace etude

@@ -137,7 +137,7 @@ class Examination {
 
   void CheckLongLines() {
     const SpecimenProblem& problem = specimens_[0].problems[0];
-    Payload shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
+    Payload shown = PayloadOf(*problem.problem.json, problem.problem.files);
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
     const std::string id = "a \"long\" one, größer";
     ReportDifference("takes long lines, keys it does not know, and ids of any text",

@@ -62,7 +62,7 @@ TEST(Names, OfAllStatusesDiffer) {
 }
 
 TEST(Payload, OwnsItsJson) {
-  Payload payload{std::make_unique<Json>(Json{{"angles", {1, 2}}}), {{"left.png", "bytes"}}};
+  Payload payload = PayloadOf({{"angles", {1, 2}}}, {{"left.png", "bytes"}});
   const Payload moved = std::move(payload);
   EXPECT_EQ(moved.json->at("angles").size(), 2u);
   EXPECT_EQ(moved.files[0].name, "left.png");
