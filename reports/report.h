@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "bench/model/run_data.h"
+#include "engine/base/result.h"
 
 namespace etude {
 

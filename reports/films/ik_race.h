@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
+#include "engine/base/result.h"
 #include "engine/kinematics/ik_problem.h"
 
 namespace etude {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/model/recording.h"
+#include "engine/base/result.h"
 #include "engine/fuzzy/distance.h"
 
 namespace etude {

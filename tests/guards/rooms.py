@@ -88,8 +88,8 @@ MAY_INCLUDE = {
     "bench/training": "engine/base engine/bridging engine/fuzzy sim/choreography sim/random bench/metrics",
     # reports/
     "reports":
-        "bench/files bench/gate bench/model bench/recordings reports/assets reports/films reports/growth reports/paper "
-        "reports/switches reports/words",
+        "engine/base bench/files bench/gate bench/model bench/recordings reports/assets reports/films reports/growth "
+        "reports/paper reports/switches reports/words",
     "reports/assets": "",
     "reports/bridges": "engine/base engine/bridging engine/fuzzy bench/files",
     "reports/clips":
@@ -100,7 +100,7 @@ MAY_INCLUDE = {
         "bench/files bench/metrics bench/model bench/recordings reports/switches reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/words",
-    "reports/switches": "engine/fuzzy bench/files bench/model reports/words",
+    "reports/switches": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/
     "cli": "any",
