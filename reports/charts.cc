@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/files/json.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -14,8 +15,6 @@
 
 namespace etude {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // More steps than a screen has room for only make the page heavy.
 constexpr std::size_t kMostSteps = 120;

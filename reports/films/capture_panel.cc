@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reports/films/look.h"
+#include "reports/switches/switch_facts.h"
 
 namespace etude {
 namespace {
