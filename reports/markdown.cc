@@ -43,10 +43,10 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
                   findings.answer.Words(), EscapeMarkdown(findings.answer.sentence));
   text += MethodsText(findings) + PosePairsMarkdown(run, scenario) + OverviewTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
-    const std::string_view outcome = e.outcome == Outcome::kMet     ? "met"
-                                     : e.outcome == Outcome::kUnmet ? "**not met**"
-                                                                    : "undecided";
-    text += fmt::format("- {}: {}{}\n", outcome, EscapeMarkdown(e.text),
+    const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"
+                                    : e.ruling == Ruling::kUnmet ? "**not met**"
+                                                                 : "undecided";
+    text += fmt::format("- {}: {}{}\n", ruling, EscapeMarkdown(e.text),
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));
   }
   text += fmt::format("- {}\n", EscapeMarkdown(StatusSentence(findings)));

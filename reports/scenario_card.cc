@@ -69,7 +69,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   if (scenario.expectations.empty()) return "";
   std::string html = "<ul class=\"expectations\">", figures;
   for (const ExpectationResult& e : scenario.expectations) {
-    const bool met = e.outcome == Outcome::kMet, unmet = e.outcome == Outcome::kUnmet;
+    const bool met = e.ruling == Ruling::kMet, unmet = e.ruling == Ruling::kUnmet;
     html += fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span></li>",
                         met     ? "met"
                         : unmet ? "unmet"

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
 #include "reports/films/canvas.h"

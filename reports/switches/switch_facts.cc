@@ -129,9 +129,4 @@ std::string ClipInWords(std::string name) {
   return name;
 }
 
-const BodyMotion* FindTrack(const Recording& recording, std::string_view name) {
-  const auto found = std::ranges::find(recording.tracks, name, &Track::name);
-  return found == recording.tracks.end() ? nullptr : &found->motion;
-}
-
 }  // namespace etude

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/recording.h"
+#include "engine/base/result.h"
 #include "engine/fuzzy/distance.h"
 
 namespace etude {
@@ -50,8 +51,5 @@ Result<SwitchFacts> ReadSwitchFacts(const Recording& recording, const std::strin
 
 /// A clip's name as people say it: "builtin:side_kick" is "side kick".
 std::string ClipInWords(std::string name);
-
-/// The motion of that name, or null.
-const BodyMotion* FindTrack(const Recording& recording, std::string_view name);
 
 }  // namespace etude

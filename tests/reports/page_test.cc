@@ -104,7 +104,7 @@ TEST(Page, SurvivesHostileNames) {
   scenario.name = scenario.question = scenario.methods[1] = hostile;
   scenario.conditions[0].methods[1].method = hostile;
   scenario.conditions[0].comparisons[0].method = hostile;
-  scenario.expectations = {{hostile, Outcome::kUnmet, hostile}};
+  scenario.expectations = {{hostile, Ruling::kUnmet, hostile}};
 
   const std::string page = WritePage(run, {});
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));

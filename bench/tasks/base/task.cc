@@ -6,28 +6,6 @@
 
 namespace etude {
 
-std::string_view StatusName(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return "ok";
-    case Status::kUnsolved:
-      return "unsolved";
-    case Status::kFailed:
-      return "failed";
-    case Status::kTimeout:
-      return "timeout";
-    case Status::kCrashed:
-      return "crashed";
-    case Status::kOutOfMemory:
-      return "out_of_memory";
-    case Status::kBadOutput:
-      return "bad_output";
-    case Status::kSkipped:
-      return "skipped";
-  }
-  return "failed";
-}
-
 std::string KeyInfo::AllowedWhere() const {
   if (only_with.key.empty()) return allowed;
   return fmt::format("{}; with `{}: {}`", allowed, only_with.key, Join(only_with.values));

@@ -4,8 +4,8 @@
 
 #include "bench/metrics/pose_error.h"
 #include "bench/metrics/share.h"
+#include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/measure.h"
-#include "bench/tasks/capture/recording_extras.h"
 #include "bench/tasks/capture/recover.h"
 #include "engine/base/digest.h"
 #include "engine/formats/bvh.h"
@@ -128,8 +128,8 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
   cell.Measure("position_error_cm", effector_error_cm.sum / effector_error_cm.count);
 }
 
-RecordingExtras DescribeStage(const CaptureWorld& world) {
-  RecordingExtras extras;
+CaptureExtras DescribeStage(const CaptureWorld& world) {
+  CaptureExtras extras;
   extras.texture_seed = world.room.texture_seed;
   extras.casts_shadows = world.room.casts_shadows;
   extras.colours = world.colours;
@@ -145,24 +145,24 @@ Recording MakeRecording(const CaptureWorld& world, const Observation& observatio
     recovered.motion.poses.push_back(frame.pose);
     states.push_back(frame.state);
   }
-  RecordingExtras extras = DescribeStage(world);
+  CaptureExtras extras = DescribeStage(world);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
     extras.views.push_back({world.cameras[i], observation.masks[i]});
   }
   extras.bvh = WriteBvh(ToClip(body, states, kJudgedRateHz, name));
-  return {{std::move(truth), std::move(recovered)}, WriteRecordingExtras(extras)};
+  return {{std::move(truth), std::move(recovered)}, WriteCaptureExtras(extras)};
 }
 
 /// What an answer alone can show: nothing was cut out.
 Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
   const BodyMotion found{kJudgedRateHz, poses};
-  RecordingExtras extras = DescribeStage(world);
+  CaptureExtras extras = DescribeStage(world);
   for (const Camera& camera : world.cameras) {
     const Mask nothing(camera.intrinsics.width / 2, camera.intrinsics.height / 2);
     extras.views.push_back({camera, std::vector<Mask>(poses.size(), nothing)});
   }
   extras.bvh = WriteBvh(ToClip(found, "recovered"));
-  return {{{"truth", {kJudgedRateHz, world.truth}}, {"recovered", found}}, WriteRecordingExtras(extras)};
+  return {{{"truth", {kJudgedRateHz, world.truth}}, {"recovered", found}}, WriteCaptureExtras(extras)};
 }
 
 /// As HoldFrames: where there is no pose, the last one before it, or the first.

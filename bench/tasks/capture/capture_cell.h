@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Runs one method in one world and measures it. `keeps_motion`: with a recording (recording_extras.h).
+/// Runs one method in one world and measures it. `keeps_motion`: with a recording (bench/recordings/capture_extras.h).
 CellResult RunCaptureCell(CaptureStages& stages, const CaptureMethod& method, bool keeps_motion);
 
 /// Scores an answer of a method outside likewise; its recording shows no masks, its BVH file no turning joints.

@@ -1,7 +1,6 @@
 #include "bench/tasks/capture/capture_task.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/tasks/capture/capture_cell.h"
 #include "bench/tasks/capture/capture_options.h"
@@ -56,7 +55,7 @@ class CaptureTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Payload> Setting() const override { return Payload{std::make_unique<Json>(DescribeStudio()), {}}; }
+  Result<Payload> Setting() const override { return DescribeStudio(); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     if (metric == "frames_recovered") return 0;

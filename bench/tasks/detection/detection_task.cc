@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"

@@ -51,7 +51,7 @@ Judgement ReadEvent(AnswerFields& fields, const Window& window) {
 }  // namespace
 
 Payload MovesPayload(const Repertoire& repertoire) {
-  Payload setting{std::make_unique<Json>(DescribeBody()), {}};
+  Payload setting = PayloadOf(DescribeBody());
   Json& moves = (*setting.json)["moves"] = Json::array();
   for (const Move& move : repertoire.moves) {
     moves.push_back(DescribeMove(move));
@@ -73,7 +73,7 @@ Payload SessionPayload(const DetectionWorld& world) {
   const char* file = "stream.trc";
   Json json = {
       {"rate_hz", world.stream.rate_hz}, {"frames", std::move(frames)}, {"events", std::move(events)}, {"file", file}};
-  return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(MotionOf(world.stream), file)}}};
+  return PayloadOf(std::move(json), {{file, WriteTrc(MotionOf(world.stream), file)}});
 }
 
 Payload TruthPayload(const DetectionWorld& world) {
@@ -89,7 +89,7 @@ Payload TruthPayload(const DetectionWorld& world) {
   const char* file = "truth.trc";
   Json json = {
       {"rate_hz", motion.rate_hz}, {"poses", EncodePoses(motion.poses)}, {"events", std::move(events)}, {"file", file}};
-  return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(motion, file)}}};
+  return PayloadOf(std::move(json), {{file, WriteTrc(motion, file)}});
 }
 
 Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorld& world,

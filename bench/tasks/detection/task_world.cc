@@ -1,7 +1,5 @@
 #include "bench/tasks/detection/task_world.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/detection/exchange.h"
 
 namespace etude {

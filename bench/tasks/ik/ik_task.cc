@@ -1,7 +1,5 @@
 #include "bench/tasks/ik/ik_task.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/ik/exchange.h"
 #include "bench/tasks/ik/ik_cell.h"
 #include "bench/tasks/ik/ik_options.h"
@@ -19,8 +17,6 @@ struct IkStudy {
   std::vector<IkMethod> methods;
 };
 
-Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
-
 class IkTaskWorld : public TaskWorld {
  public:
   IkTaskWorld(const IkStudy& study, const WorldKey& key, bool keeps_motion)
@@ -32,8 +28,8 @@ class IkTaskWorld : public TaskWorld {
     return RunIkCell(study_.tree, world_, study_.methods[method], records_);
   }
 
-  Result<Payload> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
-  Result<Payload> MakeTruth() override { return Show(DescribeTruth(world_)); }
+  Result<Payload> MakeProblem() override { return DescribeProblem(study_.tree, world_.problem); }
+  Result<Payload> MakeTruth() override { return DescribeTruth(world_); }
 
   Result<CellResult> Judge(const Json& json) override {
     ASSIGN_OR_RETURN(const auto answer, ReadIkAnswer(json, study_.tree));
@@ -56,7 +52,7 @@ class IkTask : public Task {
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
-  Result<Payload> Setting() const override { return Show(DescribeIkSetting(study_.tree, study_.common, study_.trial)); }
+  Result<Payload> Setting() const override { return DescribeIkSetting(study_.tree, study_.common, study_.trial); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return IkValueOfFailure(metric, study_.common.max_iterations);

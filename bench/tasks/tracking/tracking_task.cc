@@ -1,7 +1,5 @@
 #include "bench/tasks/tracking/tracking_task.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/tracking/exchange.h"
 #include "bench/tasks/tracking/follow.h"
 #include "bench/tasks/tracking/scoring.h"
@@ -21,8 +19,6 @@ struct TrackingStudy {
   ClipLibrary clips;
 };
 
-Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
-
 class TrackingTaskWorld : public TaskWorld {
  public:
   TrackingTaskWorld(const TrackingStudy& study, const LibraryClip& clip, const WorldKey& key, bool keeps_motion)
@@ -39,9 +35,9 @@ class TrackingTaskWorld : public TaskWorld {
     return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
   }
 
-  Result<Payload> MakeProblem() override { return Show(DescribeMotion(*world_)); }
+  Result<Payload> MakeProblem() override { return DescribeMotion(*world_); }
   Result<Payload> MakeTruth() override {
-    Payload truth = Show(DescribeTrueAngles(*world_));
+    Payload truth = DescribeTrueAngles(*world_);
     const Clip clip = ToClip(world_->tree, world_->truth, study_.options.rate_hz, "truth");
     truth.files.push_back({"truth.bvh", WriteBvh(clip)});
     return truth;
@@ -68,7 +64,7 @@ class TrackingTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Payload> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.common)); }
+  Result<Payload> Setting() const override { return DescribeTrackingSetting(study_.options, study_.common); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return TrackingValueOfFailure(metric);

@@ -89,7 +89,7 @@ SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRe
 }  // namespace
 
 Payload StagePayload(const Stage& stage) {
-  Payload setting{std::make_unique<Json>(Json{{"rate_hz", kJudgedRateHz}}), {}};
+  Payload setting = PayloadOf({{"rate_hz", kJudgedRateHz}});
   setting.json->update(DescribeBody());
   Json& clips = (*setting.json)["clips"] = Json::array();
   for (std::size_t clip = 0; clip < stage.library.names.size(); ++clip) {
@@ -104,12 +104,12 @@ Payload StagePayload(const Stage& stage) {
 Payload RequestPayload(const SwitchRequest& request, double max_wait_s) {
   const Json json = {
       {"from", request.from}, {"to", request.to}, {"request_frame", request.request_frame}, {"max_wait_s", max_wait_s}};
-  return {std::make_unique<Json>(json), {}};
+  return PayloadOf(std::move(json));
 }
 
 Payload NaturePayload(const Stage& stage, const SwitchRequest& request) {
   const double limit = NaturalLimitCm(NaturalJumpsOf(stage, request.from, request.to));
-  return {std::make_unique<Json>(Json{{"natural_limit_cm", limit}}), {}};
+  return PayloadOf({{"natural_limit_cm", limit}});
 }
 
 Result<SwitchAnswer> ReadSwitchAnswer(const Json& answer, const Stage& stage, const SwitchRequest& request) {

@@ -1,7 +1,5 @@
 #include "bench/tasks/transition/transition_task.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/stage_options.h"

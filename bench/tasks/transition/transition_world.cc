@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/follow.h"

@@ -133,7 +133,7 @@ TEST(Defaults, OfNestedMappingsAreTheSameWrittenOrLeftOut) {
                               "expect: [{metric: iterations, of: a, at_most: 1}]\n"
                               "gate: {time_ratios: [{of: a, over: b}]}\n");
   ASSERT_EQ(a.conditions.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(a.conditions[i].settings, b.conditions[i].settings);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(a.conditions[i].swept, b.conditions[i].swept);
   EXPECT_EQ(a.limits.time_s, b.limits.time_s);
   EXPECT_EQ(a.limits.memory_mb, b.limits.memory_mb);
   EXPECT_EQ(a.recordings.methods, b.recordings.methods);

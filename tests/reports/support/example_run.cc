@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 #include "engine/base/angles.h"
 
 namespace etude {
@@ -75,7 +75,7 @@ void AddCells(RunData& run, const ScenarioSummary& scenario, const ConditionSumm
   }
 }
 
-void AddCondition(RunData& run, ScenarioSummary& scenario, std::vector<Setting> condition,
+void AddCondition(RunData& run, ScenarioSummary& scenario, std::vector<SweptValue> condition,
                   const std::vector<MethodPlan>& plans, const std::vector<Verdict>& verdicts,
                   const std::string& failure) {
   ConditionSummary summary;
@@ -125,8 +125,8 @@ void AddIk(RunData& run) {
                  {Verdict::kBetter, Verdict::kBetter, Verdict::kBetter}, "");
   }
   scenario.expectations = {
-      {"orientation_error_deg of adaptive below fixed", Outcome::kMet, "median −11.8°, 99 % CI −13.0 to −10.4"},
-      {"position_error_cm of adaptive at most 1.0 (p95)", Outcome::kUnmet, "p95 is 1.31"}};
+      {"orientation_error_deg of adaptive below fixed", Ruling::kMet, "median −11.8°, 99 % CI −13.0 to −10.4"},
+      {"position_error_cm of adaptive at most 1.0 (p95)", Ruling::kUnmet, "p95 is 1.31"}};
   const double rates[] = {0.02, 0.06, 0.05, 0.09};
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
@@ -158,7 +158,7 @@ void AddTransition(RunData& run) {
                 {"gate-inertialised", 6.4, 0.7}},
                {Verdict::kInconclusive, Verdict::kBetter, Verdict::kBetter, Verdict::kBetter},
                "no bridge frame of “sway” has a partner, not even through the in-between clip");
-  scenario.expectations = {{"jump_cm of fuzzy-bridge below now", Outcome::kMet, "median −19.1 cm, CI −24.0 to −13.2"}};
+  scenario.expectations = {{"jump_cm of fuzzy-bridge below now", Ruling::kMet, "median −19.1 cm, CI −24.0 to −13.2"}};
   run.scenarios.push_back(std::move(scenario));
 }
 
@@ -172,9 +172,8 @@ void AddDetection(RunData& run) {
                            {},
                            2};
   AddCondition(run, scenario, {}, {{"fixed", 0.81, 0.03}, {"adaptive", 0.815, 0.03}}, {Verdict::kNoDifference}, "");
-  scenario.expectations = {
-      {"f1 of adaptive at least 0.7", Outcome::kMet, "median 0.815"},
-      {"latency_s of adaptive below fixed", Outcome::kUndecided, "half of the values are missing"}};
+  scenario.expectations = {{"f1 of adaptive at least 0.7", Ruling::kMet, "median 0.815"},
+                           {"latency_s of adaptive below fixed", Ruling::kUndecided, "half of the values are missing"}};
   run.scenarios.push_back(std::move(scenario));
 }
 
@@ -269,7 +268,7 @@ Recording Explained(int first, int second, const std::string& rest) {
 Recording CaptureRecording(std::vector<double>& errors) {
   constexpr int kFrames = 60;
   BodyMotion truth, recovered;
-  RecordingExtras extras;
+  CaptureExtras extras;
   extras.texture_seed = 7;
   for (const double x : {-1.1, 1.1}) {
     extras.views.push_back({LookAt(Intrinsics{}, {x, 1.3, 3.6}, {0, 0.95, 0}), {}});
@@ -300,7 +299,7 @@ Recording CaptureRecording(std::vector<double>& errors) {
       view.masks.push_back(std::move(mask));
     }
   }
-  return {{{"truth", truth}, {"recovered", recovered}}, WriteRecordingExtras(extras)};
+  return {{{"truth", truth}, {"recovered", recovered}}, WriteCaptureExtras(extras)};
 }
 
 std::string CellOf(const RunData& run, const std::string& scenario, const std::string& method, int trial) {

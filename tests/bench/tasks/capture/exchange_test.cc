@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/recordings/capture_extras.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/capture/capture_cell.h"
 #include "bench/tasks/capture/capture_task.h"
-#include "bench/tasks/capture/recording_extras.h"
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
 #include "sim/sensors/image_files.h"
@@ -97,7 +97,7 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
   EXPECT_EQ(ValueOf(*cell, "iou"), std::nullopt);
   EXPECT_EQ(cell->series.size(), 1u);
   ASSERT_TRUE(cell->recording);
-  EXPECT_TRUE(ReadRecordingExtras(cell->recording->extras_json));
+  EXPECT_TRUE(ReadCaptureExtras(cell->recording->extras_json));
 
   const auto clip = ReadBvh(Find(*truth, "truth.bvh")->bytes, "truth.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());

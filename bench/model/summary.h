@@ -1,43 +1,14 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "bench/tasks/base/task.h"
+#include "bench/model/row.h"
 
 namespace etude {
-
-/// A swept parameter and its value in one condition, both as the scenario wrote them.
-struct Setting {
-  std::string key;
-  std::string value;
-  bool operator==(const Setting&) const = default;
-};
-
-/// One line of cells.jsonl: a cell's identity and what came of it.
-struct Row {
-  std::string scenario;
-  std::string task;
-  std::vector<Setting> condition;  ///< empty when nothing is swept
-  int trial = 0;
-  std::string clip;  ///< "" for tasks without clips
-  std::string method;
-  CellResult result;  ///< `series` and `recording` live in files of their own
-
-  /// "scenario/key=value,key=value/trial/method", unique in a run; a condition without sweep is "-".
-  std::string Id() const;
-};
-
-/// A row's value of a metric; nothing when it is missing or was not measured.
-std::optional<double> ValueOf(const Row& row, std::string_view metric);
-
-/// For people: "key=value, key=value", or "" when nothing is swept.
-std::string ConditionLabel(const std::vector<Setting>& condition);
-/// For identities: "key=value,key=value", or "-".
-std::string CompactLabel(const std::vector<Setting>& condition);
 
 /// How an interval was computed (bench/statistics/bootstrap.h, proportion.h).
 enum class IntervalKind {
@@ -101,18 +72,19 @@ struct Comparison {
 };
 
 struct ConditionSummary {
-  std::vector<Setting> condition;
+  std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
   std::vector<Comparison> comparisons;  ///< every method against its baseline, headline metrics
 };
 
-enum class Outcome { kMet, kUnmet, kUndecided };
-std::string_view OutcomeName(Outcome outcome);
+/// Whether something that was said to come out did: an expectation, a time rule.
+enum class Ruling { kMet, kUnmet, kUndecided };
+std::string_view RulingName(Ruling ruling);
 
 /// What a scenario said it expects, and whether it came so.
 struct ExpectationResult {
   std::string text;  ///< "orientation_error_deg of adaptive below fixed"
-  Outcome outcome = Outcome::kUndecided;
+  Ruling ruling = Ruling::kUndecided;
   std::string detail;  ///< the figures that decided it
 };
 
@@ -125,31 +97,6 @@ struct ScenarioSummary {
   std::vector<ConditionSummary> conditions;
   std::vector<ExpectationResult> expectations;
   int family = 0;  ///< comparisons in all conditions and headline metrics, over which Holm's correction runs
-};
-
-struct CellSeries {
-  std::string cell;  ///< Row::Id()
-  std::vector<Series> series;
-};
-
-struct CellRecording {
-  std::string cell;
-  Recording recording;
-};
-
-/// A whole result folder in memory.
-struct RunData {
-  std::string suite;
-  std::uint64_t seed = 1;
-  std::string program_version;
-  std::string command_line;  ///< from host.json
-  std::string host;          ///< one line about the machine
-  double wall_seconds = 0;
-  std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
-  std::vector<ScenarioSummary> scenarios;
-  std::vector<CellSeries> series;
-  std::vector<CellRecording> recordings;
-  std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty where the folder tells of none
 };
 
 }  // namespace etude

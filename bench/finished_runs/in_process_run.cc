@@ -1,5 +1,6 @@
-#include "bench/gate/in_process_run.h"
+#include "bench/finished_runs/in_process_run.h"
 
+#include "bench/finished_runs/finish_scenario.h"
 #include "bench/run/cell_runner.h"
 
 namespace etude {
@@ -53,7 +54,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   FinishedRun run;
   run.data.suite = scenario.name;
   run.data.seed = seed;
-  run.scenarios.push_back({scenario, setup, {}});
+  run.scenarios.push_back(FinishScenario(scenario, setup, {}));
   CellRunner runner(prepared, "");
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {
     for (int trial = 0; trial < scenario.trials; ++trial) {

@@ -29,7 +29,7 @@ namespace etude {
 ///                   "mask_width": 320, "mask_height": 240,
 ///                   "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
-struct RecordingExtras {
+struct CaptureExtras {
   struct View {
     Camera truth;             ///< the camera that took the pictures
     std::vector<Mask> masks;  ///< the person as found, one per frame, at half the pictures' size
@@ -43,9 +43,9 @@ struct RecordingExtras {
   std::string bvh;
 };
 
-std::string WriteRecordingExtras(const RecordingExtras& extras);
-/// Fails when `json` is not what WriteRecordingExtras writes, naming what is missing or wrong.
-Result<RecordingExtras> ReadRecordingExtras(std::string_view json);
+std::string WriteCaptureExtras(const CaptureExtras& extras);
+/// Fails when `json` is not what WriteCaptureExtras writes, naming what is missing or wrong.
+Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
 
 /// Run lengths in scan order, separated by blanks: that many 0s, then that many 1s, then 0s, … The last
 /// run of 0s is left out, so an empty mask is the empty text.

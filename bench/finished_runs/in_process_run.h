@@ -1,6 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "bench/gate/finished_run.h"
+#include "bench/run/setup.h"
 
 namespace etude {
 

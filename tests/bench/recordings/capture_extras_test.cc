@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ Mask Pattern(int width, int height, std::uint32_t state) {
   return mask;
 }
 
-RecordingExtras Sample() {
-  RecordingExtras extras;
+CaptureExtras Sample() {
+  CaptureExtras extras;
   extras.texture_seed = 77;
   extras.casts_shadows = false;
   extras.colours[3] = {1, 2, 255};
@@ -34,9 +34,9 @@ RecordingExtras Sample() {
   return extras;
 }
 
-TEST(RecordingExtras, SurviveWritingAndReading) {
-  const RecordingExtras written = Sample();
-  const auto read = ReadRecordingExtras(WriteRecordingExtras(written));
+TEST(CaptureExtras, SurviveWritingAndReading) {
+  const CaptureExtras written = Sample();
+  const auto read = ReadCaptureExtras(WriteCaptureExtras(written));
   ASSERT_TRUE(read) << ToString(read.error());
   EXPECT_EQ(read->texture_seed, 77u);
   EXPECT_FALSE(read->casts_shadows);
@@ -53,16 +53,16 @@ TEST(RecordingExtras, SurviveWritingAndReading) {
   }
 }
 
-TEST(RecordingExtras, RefuseWhatIsNotOne) {
+TEST(CaptureExtras, RefuseWhatIsNotOne) {
   for (const char* text : {"", "{", "[]", "{}", R"({"format": "etude-capture", "version": 1})"}) {
-    EXPECT_FALSE(ReadRecordingExtras(text)) << text;
+    EXPECT_FALSE(ReadCaptureExtras(text)) << text;
   }
-  const auto newer = ReadRecordingExtras(R"({"format": "etude-capture", "version": 2})");
+  const auto newer = ReadCaptureExtras(R"({"format": "etude-capture", "version": 2})");
   ASSERT_FALSE(newer);
   EXPECT_THAT(newer.error().message, HasSubstr("version 2"));
-  RecordingExtras torn = Sample();
+  CaptureExtras torn = Sample();
   torn.views[1].masks.pop_back();
-  EXPECT_FALSE(ReadRecordingExtras(WriteRecordingExtras(torn)));
+  EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(torn)));
 }
 
 TEST(EncodeMask, IsUndoneByDecodeMask) {
