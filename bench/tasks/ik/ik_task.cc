@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/ik/exchange.h"
-#include "bench/tasks/ik/ik_cell.h"
-#include "bench/tasks/ik/ik_options.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/run.h"
+#include "bench/tasks/ik/options.h"
+#include "bench/tasks/ik/world.h"
 
 namespace etude {
 namespace {

@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/tracking/exchange.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/scoring.h"
-#include "bench/tasks/tracking/tracking_options.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/score.h"
+#include "bench/tasks/tracking/options.h"
+#include "bench/tasks/tracking/world.h"
 #include "engine/formats/bvh.h"
 #include "engine/kinematics/tree_to_body.h"
 

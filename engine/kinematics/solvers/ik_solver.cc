@@ -7,7 +7,7 @@
 #include "engine/kinematics/solvers/fabrik.h"
 #include "engine/kinematics/solvers/jacobian_pinv.h"
 #include "engine/kinematics/solvers/jacobian_transpose.h"
-#include "engine/kinematics/solvers/null_space.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 
 namespace etude {
 

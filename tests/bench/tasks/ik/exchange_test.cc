@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/ik/ik_cell.h"
+#include "bench/tasks/ik/run.h"
 #include "bench/tasks/ik/ik_task.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/solvers/ik_solver.h"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/tracking/scoring.h"
+#include "bench/tasks/tracking/score.h"
 #include "bench/tasks/tracking/tracking_task.h"
 #include "engine/base/angles.h"
 #include "tests/bench/tasks/base/cell_values.h"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/scoring.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/score.h"
 #include "engine/base/angles.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"

@@ -1,4 +1,4 @@
-#include "bench/tasks/ik/ik_cell.h"
+#include "bench/tasks/ik/run.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include "bench/metrics/ik_error.h"
 #include "bench/tasks/base/ik_targets.h"
 #include "bench/tasks/base/tree_json.h"
-#include "bench/tasks/ik/ik_recording.h"
-#include "bench/tasks/ik/ik_series.h"
+#include "bench/tasks/ik/recording.h"
+#include "bench/tasks/ik/series.h"
 #include "engine/base/digest.h"
 #include "engine/kinematics/solvers/ik_run.h"
 

@@ -1,11 +1,11 @@
-#include "bench/tasks/ik/ik_series.h"
+#include "bench/tasks/ik/series.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/ik/ik_recording.h"
+#include "bench/tasks/ik/recording.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 

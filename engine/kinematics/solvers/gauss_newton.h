@@ -9,7 +9,7 @@ namespace etude {
 /// start: hidden angles, which no target sees, stay where they were. In turn, until the targets are met:
 ///
 /// 1. `tuning.first_sweeps` sweeps of coordinate descent;
-/// 2. Gauss–Newton steps pulled towards the start (null_space_step.h), with damping in proportion to the squared
+/// 2. Gauss–Newton steps pulled towards the start (gauss_newton_step.h), with damping in proportion to the squared
 ///    residual: far away a step is careful, so that few angles run into their limits, and near the targets convergence
 ///    is quadratic;
 /// 3. the same without the pull, where it has led into a corner: Levenberg–Marquardt steps, which never make it worse;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/tasks/ik/ik_options.h"
+#include "bench/tasks/ik/options.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 #include "sim/random/stream.h"

@@ -1,4 +1,4 @@
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

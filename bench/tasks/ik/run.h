@@ -2,8 +2,8 @@
 
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/ik/exchange.h"
-#include "bench/tasks/ik/ik_options.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/options.h"
+#include "bench/tasks/ik/world.h"
 
 namespace etude {
 

@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/null_space_step.h"
+#include "engine/kinematics/solvers/gauss_newton_step.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/null_space.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
-#include "engine/kinematics/solvers/null_space_step.h"
+#include "engine/kinematics/solvers/gauss_newton_step.h"
 
 namespace etude {
 namespace {

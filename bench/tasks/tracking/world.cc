@@ -1,4 +1,4 @@
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/null_space.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/kinematics/solvers/damped_least_squares.h"
-#include "engine/kinematics/solvers/null_space_step.h"
+#include "engine/kinematics/solvers/gauss_newton_step.h"
 #include "tests/engine/kinematics/random_tree.h"
 
 namespace etude {
