@@ -208,7 +208,7 @@ std::vector<MetricInfo> IkCatalogue() {
        .formula = "fk_evaluations if solved_practical is 1 and fk_evaluations ≤ max_fk_evaluations, else 2 · "
                   "max_fk_evaluations, also for a method that gave no answer. The limit is max_iterations + 1 for all "
                   "methods of a scenario: the built-in solvers make one pass before their first step and one in each, "
-                  "ccd-anderson and ccd-nullspace at times a second, which counts against them.",
+                  "ccd-anderson and gauss-newton at times a second, which counts against them.",
        .null_rule = kUntold,
        .source = "Penalised average runtime with factor 2, as in the SAT competitions.",
        .inputs = kCost},

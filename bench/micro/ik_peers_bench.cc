@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kTrials = 200;
 constexpr double kJointNoiseDeg = 15;
-constexpr char kOurs[] = "ccd-nullspace";
+constexpr char kOurs[] = "gauss-newton";
 constexpr int kRounds = 5;  // as many for everyone: the best of more would look better
 
 struct Method {

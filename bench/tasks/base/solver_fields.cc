@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kDefaultSolver = "ccd-nullspace";
+constexpr const char* kDefaultSolver = "gauss-newton";
 
 void ReadSetting(Fields& fields, const IkSetting& setting, IkTuning& tuning) {
   if (const auto* integer = std::get_if<int IkTuning::*>(&setting.member)) {

@@ -187,14 +187,14 @@ class Solver {
   IkRun run_;
   TreeState state_;
   TreeFrames frames_;
-  NullSpaceStep step_;
+  GaussNewtonStep step_;
   double best_squares_ = std::numeric_limits<double>::infinity();
   std::vector<double> best_angles_, last_angles_;
 };
 
 }  // namespace
 
-IkSolution SolveNullSpace(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
   if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
   return Solver(tree, problem, options).Solve();
 }

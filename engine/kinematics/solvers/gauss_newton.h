@@ -21,6 +21,6 @@ namespace etude {
 /// in a corner of the limits gets out of it within some frames of a motion. One iteration is one sweep or one step; a
 /// trace can jump where 4 and 5 begin, and without convergence the solution is the nearest pose of all, not the last
 /// one of the trace. The sweeps' weights are `adaptive-power`.
-IkSolution SolveNullSpace(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 }  // namespace etude

@@ -44,7 +44,7 @@ void AddScaled(const double* __restrict from, double scale, double* __restrict t
 
 }  // namespace
 
-NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
+GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
     : tree_(tree),
       targets_(targets),
       hinges_(std::make_unique_for_overwrite<Hinge[]>(tree.limits.size())),
@@ -65,7 +65,7 @@ NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const Effector
   }
 }
 
-double NullSpaceStep::Build(const TreeFrames& frames) {
+double GaussNewtonStep::Build(const TreeFrames& frames) {
   const glm::dvec3 origin = frames.joints[0].position;
   for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
     const TreeJoint& joint = tree_.joints[n];
@@ -84,7 +84,7 @@ double NullSpaceStep::Build(const TreeFrames& frames) {
 }
 
 // Fills in what one effector asks, and returns its part of |e|².
-double NullSpaceStep::Ask(const EffectorTarget& target, const LimbFrame& now, const glm::dvec3& origin,
+double GaussNewtonStep::Ask(const EffectorTarget& target, const LimbFrame& now, const glm::dvec3& origin,
                           Demand& demand) {
   const double w = target.position_weight / (kPositionScale * kPositionScale);
   const glm::dvec3& u = target.axis_weights;
@@ -119,7 +119,7 @@ double NullSpaceStep::Ask(const EffectorTarget& target, const LimbFrame& now, co
 }
 
 // From the leaves to the root.
-void NullSpaceStep::Gather(double damping) {
+void GaussNewtonStep::Gather(double damping) {
   std::memset(demands_.get(), 0, tree_.joints.size() * sizeof(Demand));  // a loop would cost as much as ten hinges
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     Demand& demand = demands_[tree_.effectors[e].joint];
@@ -151,7 +151,7 @@ void NullSpaceStep::Gather(double damping) {
 }
 
 // From the root to the leaves. Returns whether a hinge has changed sides.
-bool NullSpaceStep::Spread() {
+bool GaussNewtonStep::Spread() {
   bool has_changed = false;
   movements_[0].fill(0);
   for (const int n : std::views::reverse(inwards_)) {
@@ -171,7 +171,7 @@ bool NullSpaceStep::Spread() {
   return has_changed;
 }
 
-std::span<const double> NullSpaceStep::Solve(std::span<const double> angles, std::span<const double> wanted,
+std::span<const double> GaussNewtonStep::Solve(std::span<const double> angles, std::span<const double> wanted,
                                              std::span<const AngleRange> ranges, double damping) {
   for (std::size_t d = 0; d < change_.size(); ++d) {
     hinges_[d].pull = wanted[d] - angles[d];

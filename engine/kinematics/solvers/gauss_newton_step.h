@@ -31,9 +31,9 @@ namespace etude {
 /// conditions of Karush, Kuhn and Tucker hold.
 ///
 /// Takes its memory when made. `tree` and `targets` must outlive this.
-class NullSpaceStep {
+class GaussNewtonStep {
  public:
-  NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets);
+  GaussNewtonStep(const KinematicTree& tree, std::span<const EffectorTarget> targets);
 
   /// Linearises at `frames`. Returns |e|².
   double Build(const TreeFrames& frames);

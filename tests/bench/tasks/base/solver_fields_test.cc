@@ -29,7 +29,7 @@ Reading Read(const std::string& method) {
 }
 
 TEST(SolverFields, TakeTheDefaultOfThePageOfKeys) {
-  EXPECT_EQ(Read("{}").solver, "ccd-nullspace");
+  EXPECT_EQ(Read("{}").solver, "gauss-newton");
   EXPECT_EQ(Read("{}").solver, IkSolverKeys().front().fallback);
 }
 
@@ -46,7 +46,7 @@ TEST(SolverFields, ReadTheSettingsOfASolver) {
 
 TEST(SolverFields, RefuseWhatASolverDoesNotHaveAndSayWhichOnesDo) {
   EXPECT_EQ(Read("{weights: fixed}").complaint,
-            "m.yaml:1:11: solver 'ccd-nullspace' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "
+            "m.yaml:1:11: solver 'gauss-newton' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "
             "ccd-anderson");
   EXPECT_EQ(Read("{solver: ccd, memory: 3}").complaint,
             "m.yaml:1:23: solver 'ccd' has no 'memory'; allowed with solver: ccd-anderson");

@@ -158,7 +158,7 @@ TEST(Follow, AMotionIsNotLostForGoodWhereStepsAreFew) {
   for (const char* clip : {"builtin:fast_sway", "builtin:side_stretch", "builtin:jump"}) {
     const auto world = MakeTrackingWorld({}, BuiltinClipOf(clip), kWorld);
     ASSERT_TRUE(world);
-    TrackingMethod method{.name = "few", .solver = FindIkSolver("ccd-nullspace"), .options = {}};
+    TrackingMethod method{.name = "few", .solver = FindIkSolver("gauss-newton"), .options = {}};
     for (const auto& [steps, at_least] : {std::pair(5, 0.8), {10, 0.9}, {20, 0.95}}) {
       method.options.max_iterations = steps;
       const CellResult cell = ScoreTracking(*world, kJudgedRateHz, *Follow(*world, method), false);

@@ -240,7 +240,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()
 });
 
 TEST(Solvers, AreFoundByName) {
-  EXPECT_THAT(IkSolverNames(), testing::IsSupersetOf({"ccd", "ccd-hinges", "ccd-nullspace", "damped-least-squares",
+  EXPECT_THAT(IkSolverNames(), testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "damped-least-squares",
                                                       "jacobian-pinv", "jacobian-transpose", "fabrik"}));
   EXPECT_EQ(FindIkSolver("cdc"), nullptr);
 }
