@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/start_angles.h"
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
-  double sums[4] = {};  // one alone would wait for itself at every step
+  double sums[4] = {};  // independent, so that additions overlap
   std::size_t i = 0;
   for (; i + 4 <= a.size(); i += 4) {
     for (int k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
@@ -86,7 +86,7 @@ void AndersonMixing::TakeIn(std::span<const double> x, std::span<const double> g
   has_last_ = true;
 }
 
-void AndersonMixing::Forget() {
+void AndersonMixing::Discard() {
   differences_ = 0;
   has_last_ = false;
 }

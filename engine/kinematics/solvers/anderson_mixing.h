@@ -18,8 +18,8 @@ class AndersonMixing {
   /// Takes in the pair x, g = g(x) and writes the extrapolation to `out`; g itself when no pair came before.
   void Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out);
 
-  /// Begins anew, as after a jump that g did not make.
-  void Forget();
+  /// Discards all pairs: to be called after a jump that g did not make.
+  void Discard();
 
  private:
   using Vector = std::vector<double>;

@@ -66,45 +66,46 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
 }
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
-  const glm::dvec3 origin = frames.joints[0].position;
+  const glm::dvec3 p_WR = frames.joints[0].position;
   for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
     const TreeJoint& joint = tree_.joints[n];
-    const glm::dvec3 place = frames.joints[n].position - origin;
+    const glm::dvec3 p_RJ_W = frames.joints[n].position - p_WR;
     for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
       const glm::dvec3& axis = frames.dof_axes[d];
-      const glm::dvec3 shift = glm::cross(place, axis);
+      const glm::dvec3 shift = glm::cross(p_RJ_W, axis);
       hinges_[d].screw = {axis.x, axis.y, axis.z, shift.x, shift.y, shift.z};
     }
   }
   double squares = 0;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
-    squares += Ask(targets_[e], frames.effectors[e], origin, of_effectors_[e]);
+    squares += Ask(targets_[e], frames.effectors[e], p_WR, of_effectors_[e]);
   }
   return squares;
 }
 
 // Fills in what one effector asks, and returns its part of |e|².
-double GaussNewtonStep::Ask(const EffectorTarget& target, const LimbFrame& now, const glm::dvec3& origin,
-                          Demand& demand) {
+double GaussNewtonStep::Ask(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
+                            Demand& demand) {
   const double w = target.position_weight / (kPositionScale * kPositionScale);
   const glm::dvec3& u = target.axis_weights;
-  const glm::dvec3 arm = now.position - origin;
-  const glm::dvec3 gap = target.position - now.position;
-  const glm::dvec3 pull = w * gap;
-  glm::dvec3 twist = glm::cross(arm, pull);
-  double squares = glm::dot(pull, gap);
+  const glm::dmat3 &R_WE = X_WE.axes, &R_WD = target.axes;
+  const glm::dvec3 p_RE_W = X_WE.position - p_WR;
+  const glm::dvec3 p_ED_W = target.position - X_WE.position;
+  const glm::dvec3 pull = w * p_ED_W;
+  glm::dvec3 twist = glm::cross(p_RE_W, pull);
+  double squares = glm::dot(pull, p_ED_W);
   for (int k = 0; k < 3; ++k) {
-    twist += u[k] * glm::cross(now.axes[k], target.axes[k]);
-    squares += 2 * u[k] * (1 - glm::dot(now.axes[k], target.axes[k]));
+    twist += u[k] * glm::cross(R_WE[k], R_WD[k]);
+    squares += 2 * u[k] * (1 - glm::dot(R_WE[k], R_WD[k]));
   }
-  // The square of shift + turn × arm with weight w, and of each axis the part of the turn that is across it.
-  const double straight = w * glm::dot(arm, arm) + u.x + u.y + u.z;
-  const glm::dvec3 lever = w * arm;
+  // The square of shift + turn × p_RE with weight w, and of each axis the part of the turn that is across it.
+  const double straight = w * glm::dot(p_RE_W, p_RE_W) + u.x + u.y + u.z;
+  const glm::dvec3 lever = w * p_RE_W;
   std::array<double, 36>& m = demand.matrix;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c <= r; ++c) {
-      const double along = lever[r] * arm[c] + u.x * now.axes[0][r] * now.axes[0][c] +
-                           u.y * now.axes[1][r] * now.axes[1][c] + u.z * now.axes[2][r] * now.axes[2][c];
+      const double along = lever[r] * p_RE_W[c] + u.x * R_WE[0][r] * R_WE[0][c] + u.y * R_WE[1][r] * R_WE[1][c] +
+                           u.z * R_WE[2][r] * R_WE[2][c];
       m[6 * r + c] = m[6 * c + r] = (r == c ? straight : 0) - along;
       m[6 * (3 + r) + 3 + c] = m[6 * (3 + c) + 3 + r] = r == c ? w : 0;
     }
@@ -120,7 +121,7 @@ double GaussNewtonStep::Ask(const EffectorTarget& target, const LimbFrame& now, 
 
 // From the leaves to the root.
 void GaussNewtonStep::Gather(double damping) {
-  std::memset(demands_.get(), 0, tree_.joints.size() * sizeof(Demand));  // a loop would cost as much as ten hinges
+  std::memset(demands_.get(), 0, tree_.joints.size() * sizeof(Demand));  // a loop costs as much as ten hinges
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     Demand& demand = demands_[tree_.effectors[e].joint];
     Add<36>(of_effectors_[e].matrix.data(), demand.matrix.data());
@@ -171,10 +172,10 @@ bool GaussNewtonStep::Spread() {
   return has_changed;
 }
 
-std::span<const double> GaussNewtonStep::Solve(std::span<const double> angles, std::span<const double> wanted,
-                                             std::span<const AngleRange> ranges, double damping) {
+std::span<const double> GaussNewtonStep::Solve(std::span<const double> angles, std::span<const double> preferred,
+                                               std::span<const AngleRange> ranges, double damping) {
   for (std::size_t d = 0; d < change_.size(); ++d) {
-    hinges_[d].pull = wanted[d] - angles[d];
+    hinges_[d].pull = preferred[d] - angles[d];
     hinges_[d].lower = ranges[d].lower - angles[d];
     hinges_[d].upper = ranges[d].upper - angles[d];
   }

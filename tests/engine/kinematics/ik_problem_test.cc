@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/observed_tree.h"
 
 namespace etude {

@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
@@ -17,7 +18,7 @@ using enum Role;
 glm::dmat4 ChainMatrix(const KinematicTree& tree, const TreeState& state, int joint_index) {
   const TreeJoint& joint = tree.joints[joint_index];
   if (joint.parent < 0) return glm::translate(glm::dmat4(1), state.root_position) * glm::dmat4(state.root_frame);
-  glm::dmat4 local = glm::translate(glm::dmat4(1), joint.offset) * glm::dmat4(joint.rest);
+  glm::dmat4 local = glm::translate(glm::dmat4(1), joint.p_PJ) * glm::dmat4(joint.R_PJ);
   const glm::dvec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int k = 0; k < joint.dof_count; ++k) local = glm::rotate(local, state.angles[joint.first_dof + k], axes[k]);
   return ChainMatrix(tree, state, joint.parent) * local;
@@ -52,7 +53,7 @@ TEST(Tree, ForwardKinematicsAgreesWithMatrixProductsAlongEveryChain) {
       }
     }
     for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
-      const glm::dvec4 tip(tree.effectors[e].offset, 1);
+      const glm::dvec4 tip(tree.effectors[e].p_LE, 1);
       const glm::dvec4 expected = ChainMatrix(tree, state, tree.effectors[e].joint) * tip;
       EXPECT_LT(glm::length(frames.effectors[e].position - glm::dvec3(expected)), 1e-13) << tree.effectors[e].name;
     }
@@ -71,7 +72,7 @@ TEST(Tree, DofAxesGiveTheDerivativeOfEveryEffector) {
         ahead.angles[tree.joints[j].first_dof + axis] += kStep;
         behind.angles[tree.joints[j].first_dof + axis] -= kStep;
         const LimbFrame a = ComputeFrames(tree, ahead).effectors[e], b = ComputeFrames(tree, behind).effectors[e];
-        const glm::dvec3 turn = DofAxis(tree.joints[j], frames.bases[j], state.angles, axis);
+        const glm::dvec3 turn = DofAxis(tree.joints[j], frames.R_WJ[j], state.angles, axis);
         const glm::dvec3 arm = frames.effectors[e].position - frames.joints[j].position;
         EXPECT_LT(glm::length((a.position - b.position) / (2 * kStep) - glm::cross(turn, arm)), 1e-9);
         EXPECT_LT(glm::length((a.axes[1] - b.axes[1]) / (2 * kStep) - glm::cross(turn, frames.effectors[e].axes[1])),

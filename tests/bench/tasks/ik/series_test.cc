@@ -7,6 +7,7 @@
 
 #include "bench/tasks/ik/recording.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/jacobian.h"
 
 namespace etude {

@@ -5,6 +5,7 @@
 
 #include "bench/metrics/pose_error.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "tests/bench/tasks/tracking/some_clips.h"

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/posed_tree.h"
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
@@ -100,9 +101,9 @@ TEST(CeresLm, SaysNothing) {
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   IkOptions options;
-  options.tuning.first_radius = 1e16;  // next to no damping: Ceres fails to take steps, and says so
   options.position_goal = 1e-12;
-  for (int trial = 0; trial < 5; ++trial) SolveCeresLm(Body(), Problem(trial, 60), options);
+  // Next to no damping: Ceres fails to take steps, and says so.
+  for (int trial = 0; trial < 5; ++trial) SolveCeresLm(Body(), Problem(trial, 60), options, {.first_radius = 1e16});
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/jacobian.h"
 #include "tests/engine/kinematics/random_tree.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
@@ -186,7 +187,7 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].parent = kTreeLeftHip; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNavel].parent = -1; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeRightAnkle].first_dof = 28; },
-      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].rest[1].y = kNaN; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].R_PJ[1].y = kNaN; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[2].joint = kBodyTreeJointCount; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles[5] = kNaN; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles.pop_back(); },
@@ -200,8 +201,8 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets.pop_back(); },
       [](KinematicTree&, IkProblem& p, IkOptions&) { std::swap(p.limits[3].lower, p.limits[3].upper); },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.limits[3].upper = kNaN; },
-      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].offset = glm::dvec3(0); },
-      [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[1].offset.z = kNaN; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].p_PJ = glm::dvec3(0); },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[1].p_LE.z = kNaN; },
       [](KinematicTree&, IkProblem&, IkOptions& o) { o.angle_change_tolerance = -0.1; },
       [](KinematicTree&, IkProblem&, IkOptions& o) { o.max_iterations = 0; },
   };
@@ -220,9 +221,8 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
 
 TEST_P(EverySolver, EndsOnATreeThatCannotMove) {
   KinematicTree rod;
-  rod.joints = {{.name = "root", .role = Role::kLeftShoulder},
-                {.name = "fixed", .role = Role::kLeftElbow, .parent = 0, .offset = {0, 0, 1}}};
-  rod.effectors = {{"tip", Role::kLeftWrist, 1, {0, 0, 0.5}}};
+  rod.joints = {{.name = "root"}, {.name = "fixed", .parent = 0, .p_PJ = {0, 0, 1}}};
+  rod.effectors = {{"tip", 1, {0, 0, 0.5}}};
   IkProblem problem = DisturbedProblem(rod, StandingState(rod), 0, 0);
   if (!FindIkSolver(GetParam())->uses_axes) problem.targets[0].axis_weights = glm::dvec3(0);
   EXPECT_EQ(FindIkSolver(GetParam())->solve(rod, problem, IkOptions{}).status, IkStatus::kConverged);
