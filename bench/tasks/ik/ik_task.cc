@@ -3,8 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/ik/exchange.h"
-#include "bench/tasks/ik/run.h"
 #include "bench/tasks/ik/options.h"
+#include "bench/tasks/ik/run.h"
+#include "bench/tasks/ik/score.h"
 #include "bench/tasks/ik/world.h"
 
 namespace etude {

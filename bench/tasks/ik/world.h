@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "bench/tasks/ik/options.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
@@ -17,5 +19,7 @@ struct IkWorld {
 /// Poses are within the limits of `tree`, which are the problem's. Dice come from `key` alone; `options` only scales
 /// what they say.
 IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, const WorldKey& key);
+
+std::string DigestOf(const IkWorld& world);
 
 }  // namespace etude

@@ -12,12 +12,6 @@ namespace {
 
 using enum Role;
 
-double LargestGap(const BodyPose& a, const BodyPose& b) {
-  double largest = 0;
-  for (Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
-  return largest;
-}
-
 void ExpectLengths(const BodyPose& pose, const LimbLengths& lengths) {
   const LimbLengths found = MeasureLimbLengths(std::span(&pose, 1));
   EXPECT_NEAR(found.foot, lengths.foot, 1e-12);

@@ -15,12 +15,6 @@ using enum Role;
 
 std::vector<AngleRange> NoLimits() { return std::vector<AngleRange>(29, AngleRange{-2 * kPi, 2 * kPi}); }
 
-double LargestGap(const BodyPose& a, const BodyPose& b) {
-  double largest = 0;
-  for (Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
-  return largest;
-}
-
 TEST(StartAngles, ReproduceEveryPoseOfTheTree) {
   const KinematicTree tree = MakeBodyTree({});
   for (int trial = 0; trial < 50; ++trial) {

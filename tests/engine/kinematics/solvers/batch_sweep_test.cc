@@ -6,7 +6,6 @@
 #include <cstring>
 #include <limits>
 
-#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
@@ -15,11 +14,6 @@ namespace {
 
 constexpr WeightRule kServedRules[] = {WeightRule::kFixed, WeightRule::kFixedTuned, WeightRule::kAdaptive,
                                        WeightRule::kAdaptiveTuned, WeightRule::kAdaptivePower};
-
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
 
 std::vector<IkProblem> SomeProblems(int count) {
   std::vector<IkProblem> problems;

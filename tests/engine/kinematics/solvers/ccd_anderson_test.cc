@@ -13,11 +13,6 @@
 namespace etude {
 namespace {
 
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
-
 IkProblem Problem(int trial, double noise_deg = 15) {
   return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, noise_deg);
 }

@@ -5,18 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/gauss_newton_step.h"
 #include "tests/engine/kinematics/random_tree.h"
 
 namespace etude {
 namespace {
-
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
 
 // 10⁻³ cm and 10⁻³°.
 IkOptions Tight() {

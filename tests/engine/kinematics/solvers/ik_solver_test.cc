@@ -13,11 +13,6 @@
 namespace etude {
 namespace {
 
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
-
 // A near pose: noise that every solver gets rid of.
 IkProblem NearProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3); }
 // A far one, near its limits.
@@ -243,6 +238,32 @@ TEST(Solvers, AreFoundByName) {
   EXPECT_THAT(IkSolverNames(), testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "damped-least-squares",
                                                       "jacobian-pinv", "jacobian-transpose", "fabrik"}));
   EXPECT_EQ(FindIkSolver("cdc"), nullptr);
+}
+
+TEST(Solvers, TellTheNewNameOfOneThatWasRenamed) {
+  EXPECT_EQ(FindIkSolver("ccd-nullspace"), nullptr);
+  EXPECT_EQ(NewNameOfIkSolver("ccd-nullspace"), "gauss-newton");
+  EXPECT_NE(FindIkSolver(NewNameOfIkSolver("ccd-nullspace")), nullptr);
+  EXPECT_EQ(NewNameOfIkSolver("gauss-newton"), "");
+}
+
+TEST(Solvers, TakeTheirSettingsInTheOrderInWhichTheyAreDescribed) {
+  int settings = 0;
+  for (const IkSolver& solver : AllIkSolvers()) {
+    IkOptions by_default = PatientOptions(), described = by_default;
+    by_default.max_iterations = described.max_iterations = 8;
+    for (const NumberSetting& setting : solver.settings) described.solver_settings.push_back(setting.fallback);
+    const std::vector<double> angles = solver.solve(Body(), FarProblem(1), by_default).angles;
+    EXPECT_EQ(solver.solve(Body(), FarProblem(1), described).angles, angles) << solver.name;
+    for (std::size_t i = 0; i < solver.settings.size(); ++i, ++settings) {
+      const NumberSetting& setting = solver.settings[i];
+      EXPECT_TRUE(setting.fallback >= setting.lowest && setting.fallback <= setting.largest) << setting.key;
+      IkOptions changed = described;
+      changed.solver_settings[i] = setting.fallback == setting.largest ? setting.lowest : setting.largest;
+      EXPECT_NE(solver.solve(Body(), FarProblem(1), changed).angles, angles) << solver.name << ", " << setting.key;
+    }
+  }
+  EXPECT_EQ(settings, 6);
 }
 
 }  // namespace
