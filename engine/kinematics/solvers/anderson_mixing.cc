@@ -38,7 +38,7 @@ AndersonMixing::AndersonMixing(int size, int memory)
       shares_(memory) {}
 
 void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out) {
-  TakeIn(x, g);
+  RecordPair(x, g);
   std::ranges::copy(g, out.begin());
 
   // Gram–Schmidt, newest difference first: what f has along each new direction is taken off f at once, which keeps the
@@ -68,7 +68,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
 }
 
 // The newest pair, and how it differs from the one before.
-void AndersonMixing::TakeIn(std::span<const double> x, std::span<const double> g) {
+void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
     // The oldest difference makes room for the newest.
     std::ranges::rotate(df_, df_.end() - 1);

@@ -34,7 +34,7 @@ class AngleSweep {
   double Turn() { return sweep_.Turn(); }
   void Measure() { sweep_.Measure(); }
   double Merit() const { return sweep_.Merit(); }
-  bool MissesGoals() const { return false; }  // where sweeps cost that much, errors need not be spared
+  bool MissesGoals() const { return false; }  // sweeps from effector to effector measure errors anyway
   std::vector<double> Angles() const { return {sweep_.angles().begin(), sweep_.angles().end()}; }
 
   void ReadHalfTangents(std::span<double> out) const {

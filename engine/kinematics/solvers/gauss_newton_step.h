@@ -47,7 +47,7 @@ class GaussNewtonStep {
 
  private:
   using Spatial = std::array<double, 6>;  // a turn, and a shift of the limb's point at the root R, both in W
-  struct Demand {
+  struct Quadratic {
     std::array<double, 36> matrix;  // Λ
     Spatial vector;                 // η
   };
@@ -62,16 +62,17 @@ class GaussNewtonStep {
     Side side = Side::kFree;
   };
 
-  static double Ask(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR, Demand& demand);
-  void Gather(double damping);
-  bool Spread();
+  static double LineariseTarget(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
+                                Quadratic& out);
+  void EliminateInwards(double damping);
+  bool SubstituteOutwards();
 
   const KinematicTree& tree_;
   std::span<const EffectorTarget> targets_;
-  std::vector<int> inwards_;                // joints, each after all beyond it; limbs that are apart take turns
-  std::unique_ptr<Hinge[]> hinges_;         // of each angle
-  std::unique_ptr<Demand[]> of_effectors_;  // of each effector
-  std::unique_ptr<Demand[]> demands_;       // of each limb
+  std::vector<int> inwards_;         // joints, each after all beyond it; by height, so that neighbours are independent
+  std::unique_ptr<Hinge[]> hinges_;  // of each angle
+  std::unique_ptr<Quadratic[]> effectors_;  // of each effector
+  std::unique_ptr<Quadratic[]> limbs_;      // of each limb
   std::vector<Spatial> movements_;          // of each limb
   std::vector<double> change_;
   bool is_exact_ = false;

@@ -40,8 +40,8 @@ class IkRun {
     }
   }
 
-  /// The same by the frames of `angles`, for solvers that do not look at errors themselves: these are worked out only
-  /// where somebody sees them, in a trace, near the goals and at the end.
+  /// The same by the frames of `angles`, for solvers that do not look at errors themselves: these are computed only
+  /// where they are needed: in a trace, near the goals and at the end.
   template <class Angles>
   void RecordFrames(const TreeFrames& frames, const Angles& angles) {
     if (!Traces() && MissesByFar(frames)) {
@@ -55,7 +55,7 @@ class IkRun {
   /// Whether the trace takes in what is recorded next.
   bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.longest_trace; }
 
-  /// Records iterations that certainly miss the goals and whose errors nobody will see: not while it traces.
+  /// Records iterations that certainly miss the goals and whose errors are not needed: not while it traces.
   void RecordMisses(int count = 1);
 
   /// Counts a forward-kinematics pass beyond the one of each iteration.

@@ -305,7 +305,7 @@ V SweepHinges(const SweepTree& tree, const WeightFormula& formula, SweepState<V>
       const V chord = TurnHinge(state.axes[step.from], state.axes[step.towards], state.hinges[step.hinge],
                                 moments.rows[step.i], moments.rows[step.j]);
       largest = Select(AtLeast(chord, largest), chord, largest);
-    } else if (joint.parent > 0) {  // the root does not turn: nobody asks for its moments
+    } else if (joint.parent > 0) {  // the root does not turn and needs no moments
       HandOn(joint, moments, state.moments[tree.joints[joint.parent].moments]);
     }
   }

@@ -6,7 +6,7 @@ namespace etude {
 
 /// What solvers do that go sweep by sweep and do not look at errors themselves: `step(sweep, run)` makes one iteration
 /// of a Sweep, made of (tree, problem, options, own…), and returns the largest turn. The sweep tells with `MissesGoals`
-/// whether its pose certainly misses them; where it may meet them, and where somebody looks, the errors are those of
+/// whether its pose certainly misses them; where it may meet them, and in a trace, errors are measured at
 /// `Angles`.
 template <class Sweep, class Step, class... Own>
 IkSolution RunSweeps(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const Step& step,

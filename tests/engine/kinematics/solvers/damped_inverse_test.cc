@@ -51,7 +51,7 @@ TEST(DampedInverse, StepsAsThePseudoInverseBySingularValuesDoes) {
   }
 }
 
-TEST(DampedInverse, TheWishMovesNoEffector) {
+TEST(DampedInverse, ThePreferredPostureMovesNoEffector) {
   for (int trial = 0; trial < 10; ++trial) {
     const Linearised at_target = StepAt(trial, 0, 0);
     ASSERT_LT(at_target.residuals.norm(), 1e-12);
