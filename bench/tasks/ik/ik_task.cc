@@ -7,6 +7,7 @@
 #include "bench/tasks/ik/run.h"
 #include "bench/tasks/ik/score.h"
 #include "bench/tasks/ik/world.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {

@@ -7,6 +7,7 @@
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/score.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
