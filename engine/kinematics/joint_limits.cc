@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {

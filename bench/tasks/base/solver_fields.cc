@@ -6,27 +6,32 @@
 namespace etude {
 namespace {
 
-constexpr const char* kDefaultSolver = "ccd-nullspace";
+constexpr const char* kDefaultSolver = "gauss-newton";
 
-void ReadSetting(Fields& fields, const IkSetting& setting, IkTuning& tuning) {
-  if (const auto* integer = std::get_if<int IkTuning::*>(&setting.member)) {
-    int& value = tuning.**integer;
-    value = fields.Integer(setting.key, value, {setting.lowest, setting.largest});
-  } else {
-    double& value = tuning.*std::get<double IkTuning::*>(setting.member);
-    value = fields.Number(setting.key, value, {setting.lowest, setting.largest});
-  }
+double ReadSetting(Fields& fields, const NumberSetting& setting) {
+  const Range range{setting.lowest, setting.largest};
+  return setting.is_whole ? fields.Integer(setting.key, static_cast<int>(setting.fallback), range)
+                          : fields.Number(setting.key, setting.fallback, range);
+}
+
+void RefuseFormerName(Fields& fields) {
+  const Node* solver = fields.Raw("solver");
+  const std::string_view now = solver == nullptr ? "" : NewNameOfIkSolver(solver->scalar);
+  if (!now.empty()) fields.Complain(solver->place, fmt::format("solver '{}' was renamed to '{}'", solver->scalar, now));
 }
 
 }  // namespace
 
 const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options) {
+  RefuseFormerName(fields);
   const IkSolver* solver = FindIkSolver(fields.Choice("solver", IkSolverNames(), kDefaultSolver));
   if (solver->uses_weights) {
     options.weights = *FindWeightRule(fields.Choice("weights", WeightRuleNames(), "adaptive"));
     options.refresh = *FindWeightRefresh(fields.Choice("refresh", WeightRefreshNames(), "sweep"));
   }
-  for (const IkSetting& setting : solver->settings) ReadSetting(fields, setting, options.tuning);
+  for (const NumberSetting& setting : solver->settings) {
+    options.solver_settings.push_back(ReadSetting(fields, setting));
+  }
   RefuseMisplacedKeys(fields, IkSolverKeys(), "solver", solver->name);
   return solver;
 }
@@ -41,14 +46,11 @@ std::vector<KeyInfo> IkSolverKeys() {
       {"weights", Join(WeightRuleNames()), "adaptive", "How an effector's position counts against its axes.", weighing},
       {"refresh", Join(WeightRefreshNames()), "sweep", "When errors are measured anew for weights that follow them.",
        weighing}};
-  const IkTuning defaults;
   for (const IkSolver& solver : AllIkSolvers()) {
-    for (const IkSetting& setting : solver.settings) {
-      const double fallback =
-          std::visit([&](auto member) { return static_cast<double>(defaults.*member); }, setting.member);
+    for (const NumberSetting& setting : solver.settings) {
       keys.push_back({setting.key,
                       fmt::format("{}…{}", setting.lowest, setting.largest),
-                      fmt::format("{}", fallback),
+                      fmt::format("{}", setting.fallback),
                       setting.meaning,
                       {"solver", {solver.name}}});
     }

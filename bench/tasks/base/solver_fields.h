@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Reads a method's `solver` (ccd-nullspace by default) and what that solver can be set by (`weights`, `refresh`,
+/// Reads a method's `solver` (gauss-newton by default) and what that solver can be set by (`weights`, `refresh`,
 /// `memory`, …) into `options`. Settings of another solver are a mistake worth telling. Complaints stay in `fields`.
 const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options);
 

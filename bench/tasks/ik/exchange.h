@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/files/json.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/world.h"
 
 namespace etude {
 

@@ -1,9 +1,11 @@
 #include "bench/tasks/ik/ik_task.h"
 
 #include "bench/tasks/ik/exchange.h"
-#include "bench/tasks/ik/ik_cell.h"
-#include "bench/tasks/ik/ik_options.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/options.h"
+#include "bench/tasks/ik/run.h"
+#include "bench/tasks/ik/score.h"
+#include "bench/tasks/ik/world.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/files/json.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/world.h"
 
 namespace etude {
 

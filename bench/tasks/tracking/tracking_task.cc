@@ -1,10 +1,10 @@
 #include "bench/tasks/tracking/tracking_task.h"
 
 #include "bench/tasks/tracking/exchange.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/scoring.h"
-#include "bench/tasks/tracking/tracking_options.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/score.h"
+#include "bench/tasks/tracking/options.h"
+#include "bench/tasks/tracking/world.h"
 #include "engine/formats/bvh.h"
 #include "engine/kinematics/tree_to_body.h"
 

@@ -1,9 +1,10 @@
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/world.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/start_angles.h"
 

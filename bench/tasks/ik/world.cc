@@ -1,10 +1,11 @@
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/world.h"
 
 #include <algorithm>
 
 #include "bench/tasks/base/ik_targets.h"
 #include "bench/tasks/ik/stretched.h"
 #include "engine/base/angles.h"
+#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
@@ -67,6 +68,13 @@ IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, co
     PullOutOfReach(tree, 0.01 * options.unreachable_cm, dice, world.problem);
   }
   return world;
+}
+
+std::string DigestOf(const IkWorld& world) {
+  Digest digest;
+  digest.Add(world.truth.angles).Add(world.problem.start.angles);
+  AddTo(digest, world.problem.targets);
+  return digest.Hex();
 }
 
 }  // namespace etude

@@ -1,4 +1,4 @@
-#include "bench/tasks/tracking/follow.h"
+#include "bench/tasks/tracking/run.h"
 
 namespace etude {
 

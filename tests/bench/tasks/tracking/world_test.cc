@@ -1,10 +1,11 @@
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bench/metrics/pose_error.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "tests/bench/tasks/tracking/some_clips.h"

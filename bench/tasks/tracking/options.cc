@@ -1,4 +1,4 @@
-#include "bench/tasks/tracking/tracking_options.h"
+#include "bench/tasks/tracking/options.h"
 
 #include <cmath>
 

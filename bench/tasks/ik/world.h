@@ -1,6 +1,8 @@
 #pragma once
 
-#include "bench/tasks/ik/ik_options.h"
+#include <string>
+
+#include "bench/tasks/ik/options.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 #include "sim/random/stream.h"
@@ -17,5 +19,7 @@ struct IkWorld {
 /// Poses are within the limits of `tree`, which are the problem's. Dice come from `key` alone; `options` only scales
 /// what they say.
 IkWorld MakeIkWorld(const KinematicTree& tree, const IkTrialOptions& options, const WorldKey& key);
+
+std::string DigestOf(const IkWorld& world);
 
 }  // namespace etude

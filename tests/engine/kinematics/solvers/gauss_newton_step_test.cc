@@ -1,10 +1,11 @@
-#include "engine/kinematics/solvers/null_space_step.h"
+#include "engine/kinematics/solvers/gauss_newton_step.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/jacobian.h"
 #include "tests/engine/kinematics/random_tree.h"
 
@@ -76,7 +77,7 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
   std::vector<double> pull(angles.size());
   for (std::size_t d = 0; d < pull.size(); ++d) pull[d] = wanted[d] - angles[d];
 
-  NullSpaceStep step(tree, problem.targets);
+  GaussNewtonStep step(tree, problem.targets);
   double squares = 0;
   for (const double r : linear.residual) squares += r * r;
   EXPECT_NEAR(step.Build(frames), squares, 1e-12 * (1 + squares));
@@ -96,7 +97,7 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
   }
 
   const std::vector<AngleRange> free(angles.size(), {-1e6, 1e6});
-  NullSpaceStep free_step(tree, problem.targets);
+  GaussNewtonStep free_step(tree, problem.targets);
   free_step.Build(frames);
   const std::span<const double> unbounded = free_step.Solve(angles, wanted, free, damping);
   std::vector<double> clipped(unbounded.begin(), unbounded.end());
@@ -107,7 +108,7 @@ Step TakeStep(const KinematicTree& tree, const IkProblem& problem, std::span<con
   return taken;
 }
 
-TEST(NullSpaceStep, MeetsTheConditionsOfAnOptimumOnTheBody) {
+TEST(GaussNewtonStep, MeetsTheConditionsOfAnOptimumOnTheBody) {
   const KinematicTree tree = MakeBodyTree({});
   for (const double damping : {1e-6, 1e-3, 0.1}) {
     int exact = 0, held = 0;
@@ -128,7 +129,7 @@ TEST(NullSpaceStep, MeetsTheConditionsOfAnOptimumOnTheBody) {
   }
 }
 
-TEST(NullSpaceStep, MeetsTheConditionsOfAnOptimumOnAnyTree) {
+TEST(GaussNewtonStep, MeetsTheConditionsOfAnOptimumOnAnyTree) {
   constexpr int kTrials = 200;
   int exact = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -150,7 +151,7 @@ TEST(NullSpaceStep, MeetsTheConditionsOfAnOptimumOnAnyTree) {
   EXPECT_GE(exact, kTrials * 95 / 100);
 }
 
-TEST(NullSpaceStep, MovesToTheWantedPoseWhereNoTargetHasAnyWeight) {
+TEST(GaussNewtonStep, MovesToTheWantedPoseWhereNoTargetHasAnyWeight) {
   const KinematicTree tree = MakeBodyTree({});
   IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 1, 1.0), 1, 15);
   for (EffectorTarget& target : problem.targets) {
@@ -158,7 +159,7 @@ TEST(NullSpaceStep, MovesToTheWantedPoseWhereNoTargetHasAnyWeight) {
     target.axis_weights = glm::dvec3(0);
   }
   const std::vector<double> wanted = RandomPose(tree, 2, 1.0).angles;
-  NullSpaceStep step(tree, problem.targets);
+  GaussNewtonStep step(tree, problem.targets);
   EXPECT_EQ(step.Build(ComputeFrames(tree, problem.start)), 0);
   const std::span<const double> change = step.Solve(problem.start.angles, wanted, tree.limits, 1e-7);
   for (std::size_t d = 0; d < wanted.size(); ++d) EXPECT_NEAR(problem.start.angles[d] + change[d], wanted[d], 1e-12);

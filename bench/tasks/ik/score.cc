@@ -1,49 +1,21 @@
-#include "bench/tasks/ik/ik_cell.h"
+#include "bench/tasks/ik/score.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 
 #include "bench/metrics/ik_cost.h"
-#include "bench/metrics/ik_error.h"
-#include "bench/tasks/base/ik_targets.h"
 #include "bench/tasks/base/tree_json.h"
-#include "bench/tasks/ik/ik_recording.h"
-#include "bench/tasks/ik/ik_series.h"
+#include "bench/tasks/ik/recording.h"
+#include "bench/tasks/ik/series.h"
 #include "engine/base/digest.h"
 #include "engine/kinematics/solvers/ik_run.h"
 
 namespace etude {
 namespace {
 
-std::string DigestOf(const IkWorld& world) {
-  Digest digest;
-  digest.Add(world.truth.angles).Add(world.problem.start.angles);
-  AddTo(digest, world.problem.targets);
-  return digest.Hex();
-}
-
-std::string DigestOf(const IkSolution& solution) {
-  Digest digest;
-  digest.Add(solution.angles).Add(static_cast<std::int64_t>(solution.iterations));
-  return digest.Hex();
-}
-
-/// All targets of a world ask for the same.
-IkAsked AskedOf(const IkProblem& problem) {
-  const EffectorTarget& target = problem.targets.front();
-  return {.positions = target.position_weight > 0, .axes = target.axis_weights != glm::dvec3(0)};
-}
-
 /// Every solver here makes one pass of forward kinematics before its first step and one in each.
 double LargestFkCount(int max_steps) { return max_steps + 1; }
-
-/// What a method says of its answer.
-struct IkAccount {
-  std::optional<int> iterations, fk_evaluations;  ///< empty where it says nothing
-  int max_steps = 0;
-  std::string why_not_met;  ///< in case the targets are not met
-};
 
 void AddCost(const char* id, const char* penalised_id, const std::optional<int>& spent, double limit, bool solved,
              CellResult& cell) {
@@ -55,7 +27,13 @@ void AddCost(const char* id, const char* penalised_id, const std::optional<int>&
   }
 }
 
-/// Scores the final angles of solvers and of methods outside.
+}  // namespace
+
+IkAsked AskedOf(const IkProblem& problem) {
+  const EffectorTarget& target = problem.targets.front();
+  return {.positions = target.position_weight > 0, .axes = target.axis_weights != glm::dvec3(0)};
+}
+
 CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::span<const double> angles,
                        std::span<const EffectorError> effector_errors, const IkAccount& account,
                        const IkRecords& records) {
@@ -80,50 +58,6 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
   if (records.angle_changes) std::ranges::move(AngleChanges(world, angles), std::back_inserter(cell.series));
   cell.status = solved ? Status::kOk : Status::kUnsolved;
   cell.reason = solved ? "" : !keeps_limits ? broken_limits : account.why_not_met;
-  return cell;
-}
-
-/// The same words for all cells that ended alike, so that a report can count them; how far each came is in its metrics.
-std::string WhyItStopped(const IkMethod& method, const IkSolution& solution, const IkAsked& asked) {
-  if (asked.axes && !method.solver->uses_axes) return "the solver sees positions only, and axes are asked for";
-  switch (solution.status) {
-    case IkStatus::kStalled:
-      return "stalled before the targets were met";
-    case IkStatus::kUnreachable:
-      return "a target is out of reach";
-    case IkStatus::kIterationLimit:
-      return fmt::format("the limit of {} {}", method.options.max_iterations, method.solver->step);
-    case IkStatus::kConverged:
-    case IkStatus::kBadInput:
-      break;
-  }
-  return "";
-}
-
-}  // namespace
-
-CellResult RunIkCell(const KinematicTree& tree, const IkWorld& world, const IkMethod& method,
-                     const IkRecords& records) {
-  IkOptions options = method.options;
-  options.trace = true;
-  if (!records.motion) options.longest_trace = kLongestCurve;
-  const IkSolution solution = method.solver->solve(tree, world.problem, options);
-  std::vector<std::pair<std::string, std::string>> digests = {{"world", DigestOf(world)},
-                                                              {"solution", DigestOf(solution)}};
-  if (solution.status == IkStatus::kBadInput) {
-    CellResult cell = CellResult::Ended(Status::kFailed, std::string(FindFault(tree, world.problem, method.options)));
-    cell.digests = std::move(digests);
-    return cell;
-  }
-  const IkAccount account{solution.iterations, solution.fk_evaluations, method.options.max_iterations,
-                          WhyItStopped(method, solution, AskedOf(world.problem))};
-  CellResult cell = ScoreAngles(tree, world, solution.angles, solution.errors, account, records);
-  cell.digests = std::move(digests);
-  std::ranges::move(WorstErrorCurves(solution.trace), std::back_inserter(cell.series));
-  if (records.effector_curves) {
-    std::ranges::move(EffectorCurves(tree, solution.trace), std::back_inserter(cell.series));
-  }
-  if (records.motion) cell.recording = RecordIk(tree, world, StepsOf(solution.trace));
   return cell;
 }
 

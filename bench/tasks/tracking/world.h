@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "bench/tasks/tracking/tracking_options.h"
+#include "bench/tasks/tracking/options.h"
 #include "engine/kinematics/tree.h"
 #include "sim/random/stream.h"
 

@@ -1,4 +1,4 @@
-#include "bench/tasks/tracking/scoring.h"
+#include "bench/tasks/tracking/score.h"
 
 #include <algorithm>
 #include <cassert>

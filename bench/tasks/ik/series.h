@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/world.h"
 
 namespace etude {
 

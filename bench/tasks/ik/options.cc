@@ -1,4 +1,4 @@
-#include "bench/tasks/ik/ik_options.h"
+#include "bench/tasks/ik/options.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "bench/tasks/ik/ik_recording.h"
+#include "bench/tasks/ik/recording.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,10 @@
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/world.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/jacobian.h"
 
 namespace etude {

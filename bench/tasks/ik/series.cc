@@ -1,4 +1,4 @@
-#include "bench/tasks/ik/ik_series.h"
+#include "bench/tasks/ik/series.h"
 
 #include <fmt/format.h>
 

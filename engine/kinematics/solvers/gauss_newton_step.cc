@@ -1,4 +1,4 @@
-#include "engine/kinematics/solvers/null_space_step.h"
+#include "engine/kinematics/solvers/gauss_newton_step.h"
 
 #include <algorithm>
 #include <cstring>
@@ -24,7 +24,7 @@ void Multiply(const double* __restrict matrix, const double* __restrict s, doubl
 }
 
 // M −= scale · y yᵀ
-void TakeOff(const double* __restrict y, double scale, double* __restrict matrix) {
+void SubtractOuter(const double* __restrict y, double scale, double* __restrict matrix) {
   for (int r = 0; r < 6; ++r) {
     const double share = scale * y[r];
     for (int i = 0; i < 6; ++i) matrix[6 * r + i] -= share * y[i];
@@ -44,12 +44,12 @@ void AddScaled(const double* __restrict from, double scale, double* __restrict t
 
 }  // namespace
 
-NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
+GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
     : tree_(tree),
       targets_(targets),
       hinges_(std::make_unique_for_overwrite<Hinge[]>(tree.limits.size())),
-      of_effectors_(std::make_unique_for_overwrite<Demand[]>(tree.effectors.size())),
-      demands_(std::make_unique_for_overwrite<Demand[]>(tree.joints.size())),
+      effectors_(std::make_unique_for_overwrite<Quadratic[]>(tree.effectors.size())),
+      limbs_(std::make_unique_for_overwrite<Quadratic[]>(tree.joints.size())),
       movements_(tree.joints.size()),
       change_(tree.limits.size()) {
   std::vector<int> height(tree.joints.size());
@@ -65,46 +65,47 @@ NullSpaceStep::NullSpaceStep(const KinematicTree& tree, std::span<const Effector
   }
 }
 
-double NullSpaceStep::Build(const TreeFrames& frames) {
-  const glm::dvec3 origin = frames.joints[0].position;
+double GaussNewtonStep::Build(const TreeFrames& frames) {
+  const glm::dvec3 p_WR = frames.joints[0].position;
   for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
     const TreeJoint& joint = tree_.joints[n];
-    const glm::dvec3 place = frames.joints[n].position - origin;
+    const glm::dvec3 p_RJ_W = frames.joints[n].position - p_WR;
     for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
       const glm::dvec3& axis = frames.dof_axes[d];
-      const glm::dvec3 shift = glm::cross(place, axis);
+      const glm::dvec3 shift = glm::cross(p_RJ_W, axis);
       hinges_[d].screw = {axis.x, axis.y, axis.z, shift.x, shift.y, shift.z};
     }
   }
   double squares = 0;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
-    squares += Ask(targets_[e], frames.effectors[e], origin, of_effectors_[e]);
+    squares += LineariseTarget(targets_[e], frames.effectors[e], p_WR, effectors_[e]);
   }
   return squares;
 }
 
-// Fills in what one effector asks, and returns its part of |e|².
-double NullSpaceStep::Ask(const EffectorTarget& target, const LimbFrame& now, const glm::dvec3& origin,
-                          Demand& demand) {
+// Sets `out` to what one target asks of its out. Returns its part of |e|².
+double GaussNewtonStep::LineariseTarget(const EffectorTarget& target, const LimbFrame& X_WE, const glm::dvec3& p_WR,
+                                        Quadratic& out) {
   const double w = target.position_weight / (kPositionScale * kPositionScale);
   const glm::dvec3& u = target.axis_weights;
-  const glm::dvec3 arm = now.position - origin;
-  const glm::dvec3 gap = target.position - now.position;
-  const glm::dvec3 pull = w * gap;
-  glm::dvec3 twist = glm::cross(arm, pull);
-  double squares = glm::dot(pull, gap);
+  const glm::dmat3 &R_WE = X_WE.axes, &R_WD = target.axes;
+  const glm::dvec3 p_RE_W = X_WE.position - p_WR;
+  const glm::dvec3 p_ED_W = target.position - X_WE.position;
+  const glm::dvec3 pull = w * p_ED_W;
+  glm::dvec3 twist = glm::cross(p_RE_W, pull);
+  double squares = glm::dot(pull, p_ED_W);
   for (int k = 0; k < 3; ++k) {
-    twist += u[k] * glm::cross(now.axes[k], target.axes[k]);
-    squares += 2 * u[k] * (1 - glm::dot(now.axes[k], target.axes[k]));
+    twist += u[k] * glm::cross(R_WE[k], R_WD[k]);
+    squares += 2 * u[k] * (1 - glm::dot(R_WE[k], R_WD[k]));
   }
-  // The square of shift + turn × arm with weight w, and of each axis the part of the turn that is across it.
-  const double straight = w * glm::dot(arm, arm) + u.x + u.y + u.z;
-  const glm::dvec3 lever = w * arm;
-  std::array<double, 36>& m = demand.matrix;
+  // The square of shift + turn × p_RE with weight w, and of each axis the part of the turn that is across it.
+  const double straight = w * glm::dot(p_RE_W, p_RE_W) + u.x + u.y + u.z;
+  const glm::dvec3 lever = w * p_RE_W;
+  std::array<double, 36>& m = out.matrix;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c <= r; ++c) {
-      const double along = lever[r] * arm[c] + u.x * now.axes[0][r] * now.axes[0][c] +
-                           u.y * now.axes[1][r] * now.axes[1][c] + u.z * now.axes[2][r] * now.axes[2][c];
+      const double along = lever[r] * p_RE_W[c] + u.x * R_WE[0][r] * R_WE[0][c] + u.y * R_WE[1][r] * R_WE[1][c] +
+                           u.z * R_WE[2][r] * R_WE[2][c];
       m[6 * r + c] = m[6 * c + r] = (r == c ? straight : 0) - along;
       m[6 * (3 + r) + 3 + c] = m[6 * (3 + c) + 3 + r] = r == c ? w : 0;
     }
@@ -112,46 +113,46 @@ double NullSpaceStep::Ask(const EffectorTarget& target, const LimbFrame& now, co
     m[6 * r + 3 + r] = m[6 * (3 + r) + r] = 0;
     m[6 * i + 3 + j] = m[6 * (3 + j) + i] = -lever[r];
     m[6 * j + 3 + i] = m[6 * (3 + i) + j] = lever[r];
-    demand.vector[r] = twist[r];
-    demand.vector[3 + r] = pull[r];
+    out.vector[r] = twist[r];
+    out.vector[3 + r] = pull[r];
   }
   return squares;
 }
 
 // From the leaves to the root.
-void NullSpaceStep::Gather(double damping) {
-  std::memset(demands_.get(), 0, tree_.joints.size() * sizeof(Demand));  // a loop would cost as much as ten hinges
+void GaussNewtonStep::EliminateInwards(double damping) {
+  std::memset(limbs_.get(), 0, tree_.joints.size() * sizeof(Quadratic));  // a loop costs as much as ten hinges
   for (std::size_t e = 0; e < targets_.size(); ++e) {
-    Demand& demand = demands_[tree_.effectors[e].joint];
-    Add<36>(of_effectors_[e].matrix.data(), demand.matrix.data());
-    Add<6>(of_effectors_[e].vector.data(), demand.vector.data());
+    Quadratic& limb = limbs_[tree_.effectors[e].joint];
+    Add<36>(effectors_[e].matrix.data(), limb.matrix.data());
+    Add<6>(effectors_[e].vector.data(), limb.vector.data());
   }
   for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
-    Demand& demand = demands_[n];
+    Quadratic& limb = limbs_[n];
     for (int d = joint.first_dof + joint.dof_count - 1; d >= joint.first_dof; --d) {
       Hinge& hinge = hinges_[d];
       Spatial y;
-      Multiply(demand.matrix.data(), hinge.screw.data(), y.data());
+      Multiply(limb.matrix.data(), hinge.screw.data(), y.data());
       // sᵀΛs is not negative but by rounding.
       hinge.scale = 1 / (damping + std::max(0.0, Dot(y.data(), hinge.screw.data())));
-      hinge.best = hinge.scale * (damping * hinge.pull + Dot(demand.vector.data(), hinge.screw.data()));
+      hinge.best = hinge.scale * (damping * hinge.pull + Dot(limb.vector.data(), hinge.screw.data()));
       hinge.matrix_s = y;
       double change = hinge.side == Side::kLower ? hinge.lower : hinge.upper;
       if (hinge.side == Side::kFree) {
         change = hinge.best;
-        TakeOff(y.data(), hinge.scale, demand.matrix.data());
+        SubtractOuter(y.data(), hinge.scale, limb.matrix.data());
       }
-      AddScaled(y.data(), -change, demand.vector.data());
+      AddScaled(y.data(), -change, limb.vector.data());
     }
-    Demand& parent = demands_[joint.parent];
-    Add<36>(demand.matrix.data(), parent.matrix.data());
-    Add<6>(demand.vector.data(), parent.vector.data());
+    Quadratic& parent = limbs_[joint.parent];
+    Add<36>(limb.matrix.data(), parent.matrix.data());
+    Add<6>(limb.vector.data(), parent.vector.data());
   }
 }
 
 // From the root to the leaves. Returns whether a hinge has changed sides.
-bool NullSpaceStep::Spread() {
+bool GaussNewtonStep::SubstituteOutwards() {
   bool has_changed = false;
   movements_[0].fill(0);
   for (const int n : std::views::reverse(inwards_)) {
@@ -171,15 +172,15 @@ bool NullSpaceStep::Spread() {
   return has_changed;
 }
 
-std::span<const double> NullSpaceStep::Solve(std::span<const double> angles, std::span<const double> wanted,
-                                             std::span<const AngleRange> ranges, double damping) {
+std::span<const double> GaussNewtonStep::Solve(std::span<const double> angles, std::span<const double> preferred,
+                                               std::span<const AngleRange> ranges, double damping) {
   for (std::size_t d = 0; d < change_.size(); ++d) {
-    hinges_[d].pull = wanted[d] - angles[d];
+    hinges_[d].pull = preferred[d] - angles[d];
     hinges_[d].lower = ranges[d].lower - angles[d];
     hinges_[d].upper = ranges[d].upper - angles[d];
   }
-  Gather(damping);
-  is_exact_ = !Spread();
+  EliminateInwards(damping);
+  is_exact_ = !SubstituteOutwards();
   return change_;
 }
 

@@ -1,12 +1,13 @@
-#include "bench/tasks/ik/ik_series.h"
+#include "bench/tasks/ik/series.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/ik/ik_recording.h"
+#include "bench/tasks/ik/recording.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/world.h"
 
 namespace etude {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "bench/tasks/tracking/tracking_options.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/options.h"
+#include "bench/tasks/tracking/world.h"
 
 namespace etude {
 
