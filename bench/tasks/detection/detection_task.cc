@@ -7,7 +7,7 @@
 
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
 #include "bench/tasks/detection/task_world.h"
 #include "bench/tasks/detection/world.h"
 

@@ -6,7 +6,7 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/from_body.h"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/detection/judge.h"
 #include "bench/tasks/detection/options.h"
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/run.h"
+#include "bench/tasks/detection/score.h"
 #include "bench/tasks/detection/world.h"
 
 namespace etude {

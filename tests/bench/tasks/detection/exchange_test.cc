@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
 #include "tests/bench/tasks/base/mutate_json.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "bench/tasks/pose_distance/pose_distances.h"
+#include "bench/tasks/pose_distance/run.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "bench/tasks/detection/judge.h"
+#include "bench/tasks/detection/run.h"
 
 #include <algorithm>
 #include <cmath>

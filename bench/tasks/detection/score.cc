@@ -1,4 +1,4 @@
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
 
 #include <nlohmann/json.hpp>
 
