@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cassert>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +32,21 @@ constexpr auto FindByName(const Rows& rows, std::string_view name, NameOf name_o
     if (name_of(row) == name) return &row;
   }
   return nullptr;
+}
+
+/// The value called `name` of a table of Named rows; nothing when there is none.
+template <typename Rows>
+constexpr auto FindValue(const Rows& rows, std::string_view name) -> std::optional<decltype(std::data(rows)->value)> {
+  const auto* row = FindByName(rows, name);
+  return row != nullptr ? std::optional(row->value) : std::nullopt;
+}
+
+/// The value called `name`, which the table must have.
+template <typename Rows>
+constexpr auto ValueNamed(const Rows& rows, std::string_view name) {
+  const auto* row = FindByName(rows, name);
+  assert(row != nullptr);
+  return row->value;
 }
 
 /// What the rows are called, in their order.
