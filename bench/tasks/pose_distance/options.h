@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/pose_distance/pose_distances.h"
+#include "bench/tasks/pose_distance/run.h"
 
 namespace etude {
 

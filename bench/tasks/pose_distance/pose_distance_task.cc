@@ -6,7 +6,7 @@
 #include "bench/tasks/pose_distance/blind_spots.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
-#include "bench/tasks/pose_distance/scoring.h"
+#include "bench/tasks/pose_distance/score.h"
 #include "bench/training/training_clips.h"
 
 namespace etude {

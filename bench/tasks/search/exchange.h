@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/search/find.h"
+#include "bench/tasks/search/run.h"
 
 namespace etude {
 

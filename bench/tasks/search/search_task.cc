@@ -5,10 +5,10 @@
 
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/search/exchange.h"
-#include "bench/tasks/search/find.h"
-#include "bench/tasks/search/library.h"
-#include "bench/tasks/search/scoring.h"
-#include "bench/tasks/search/search_options.h"
+#include "bench/tasks/search/options.h"
+#include "bench/tasks/search/run.h"
+#include "bench/tasks/search/score.h"
+#include "bench/tasks/search/world.h"
 
 namespace etude {
 namespace {

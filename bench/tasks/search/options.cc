@@ -1,4 +1,4 @@
-#include "bench/tasks/search/search_options.h"
+#include "bench/tasks/search/options.h"
 
 #include <fmt/format.h>
 

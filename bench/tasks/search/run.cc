@@ -1,4 +1,4 @@
-#include "bench/tasks/search/find.h"
+#include "bench/tasks/search/run.h"
 
 #include <algorithm>
 #include <iterator>

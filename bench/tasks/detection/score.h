@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/detection/judge.h"
+#include "bench/tasks/detection/run.h"
 
 namespace etude {
 

@@ -1,4 +1,4 @@
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ SessionEvent Event(Fault fault, double start_s, std::optional<double> first_righ
 }
 
 Judgement Called(std::optional<int> right_at, double score) {
-  return {.right_at = right_at, .score = score, .running_score = std::vector<double>(60, score)};
+  return {.recognised_at = right_at, .score = score, .running_score = std::vector<double>(60, score)};
 }
 
 double Value(const CellResult& cell, std::string_view id) {
@@ -68,45 +68,6 @@ TEST(ScoreSession, SaysWhyAValueIsMissing) {
   }
   EXPECT_EQ(missing, 3);  // precision, roc_auc, latency_s
   EXPECT_EQ(Value(cell, "recall"), 0.0);
-}
-
-/// A body with its right arm at rest for a second, raised for a second, at rest again; seen perfectly.
-DetectionWorld ArmRaised() {
-  DetectionWorld world;
-  world.stream.frames.resize(90);
-  for (std::size_t t = 0; t < 90; ++t) {
-    SensedFrame& frame = world.stream.frames[t];
-    frame.body_seen = true;
-    for (SensedJoint& joint : frame.joints) joint.state = TrackingState::kTracked;
-    frame[Role::kLeftShoulder].position = {0.2, 1.4, 0};
-    frame[Role::kRightShoulder].position = {-0.2, 1.4, 0};
-    frame[Role::kLeftHip].position = {0.1, 0.9, 0};
-    frame[Role::kRightHip].position = {-0.1, 0.9, 0};
-    const bool raised = t >= 30 && t < 60;
-    frame[Role::kRightElbow].position = {-0.2, raised ? 1.7 : 1.1, 0};
-  }
-  world.session.motion.poses.resize(90);
-  return world;
-}
-
-TEST(JudgeSession, CountsAnAlarmOnlyWhereTheMoveWasNeitherAskedForNorDanced) {
-  Repertoire repertoire;
-  repertoire.taught["raise"] = {.name = "raise", .poses = {{{{Feature::kRH, 180, 20}}}}};
-  repertoire.taught["clap"] = {.name = "clap", .poses = {{{{Feature::kRH, 90, 20}}}}};
-  repertoire.span_frames = {{"raise", 60}, {"clap", 60}};
-  const auto alarms = [&](const std::vector<SessionEvent>& events) {
-    DetectionWorld world = ArmRaised();
-    world.session.events = events;
-    const DetectionMethod method;
-    return JudgeSession(world, SeeSession(world, method), repertoire, method).alarms.size();
-  };
-  SessionEvent asked = Event(Fault::kNone, 0.5, 1.0), danced = Event(Fault::kWrongMove, 0.5, std::nullopt);
-  asked.move = asked.danced = "raise";
-  danced.danced = "raise";
-  EXPECT_EQ(alarms({}), 1u);
-  EXPECT_EQ(alarms({asked}), 0u);
-  EXPECT_EQ(alarms({danced}), 0u);
-  EXPECT_EQ(alarms({Event(Fault::kSkipped, 0.5, std::nullopt)}), 1u);  // "clap" asked for and danced
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "bench/tasks/pose_distance/scoring.h"
+#include "bench/tasks/pose_distance/score.h"
 
 #include "bench/metrics/detection.h"
 #include "bench/metrics/matching.h"

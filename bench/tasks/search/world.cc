@@ -1,4 +1,4 @@
-#include "bench/tasks/search/library.h"
+#include "bench/tasks/search/world.h"
 
 #include <algorithm>
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/metrics/search.h"
-#include "bench/tasks/search/library.h"
-#include "bench/tasks/search/search_options.h"
+#include "bench/tasks/search/options.h"
+#include "bench/tasks/search/world.h"
 
 namespace etude {
 

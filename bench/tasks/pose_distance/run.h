@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/tasks/pose_distance/pair_world.h"
+#include "bench/tasks/pose_distance/world.h"
 #include "bench/training/learnt_weights.h"
 #include "engine/fuzzy/fuzzy_system.h"
 

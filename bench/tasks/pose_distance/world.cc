@@ -1,4 +1,4 @@
-#include "bench/tasks/pose_distance/pair_world.h"
+#include "bench/tasks/pose_distance/world.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,3 +1,5 @@
+#include "bench/tasks/pose_distance/pose_distance_task.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,8 +7,7 @@
 
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
-#include "bench/tasks/pose_distance/pose_distance_task.h"
-#include "bench/tasks/pose_distance/scoring.h"
+#include "bench/tasks/pose_distance/score.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
 

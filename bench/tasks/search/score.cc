@@ -1,4 +1,4 @@
-#include "bench/tasks/search/scoring.h"
+#include "bench/tasks/search/score.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/search/find.h"
+#include "bench/tasks/search/run.h"
 
 namespace etude {
 

@@ -1,20 +1,19 @@
-#include "bench/tasks/pose_distance/pose_distances.h"
+#include "bench/tasks/pose_distance/run.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 
 #include "bench/metrics/pose_distance.h"
+#include "engine/base/named.h"
 #include "engine/bridging/alignment.h"
 #include "engine/switching/choices/point_cloud_rows.h"
 
 namespace etude {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, PoseDistance>, 3> kDistances = {
-    {{"fuzzy", PoseDistance::kFuzzy},
-     {"point-cloud", PoseDistance::kPointCloud},
-     {"joint-positions", PoseDistance::kJointPositions}}};
+constexpr Named<PoseDistance> kDistances[] = {{"fuzzy", PoseDistance::kFuzzy},
+                                              {"point-cloud", PoseDistance::kPointCloud},
+                                              {"joint-positions", PoseDistance::kJointPositions}};
 
 /// A cloud of one frame's joints each.
 double PointCloudCm(const BodyPose& a, const BodyPose& b) {
@@ -26,18 +25,9 @@ double PointCloudCm(const BodyPose& a, const BodyPose& b) {
 
 }  // namespace
 
-std::vector<std::string> PoseDistanceNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, distance] : kDistances) names.emplace_back(name);
-  return names;
-}
+std::vector<std::string> PoseDistanceNames() { return NamesOf(kDistances); }
 
-PoseDistance FindPoseDistance(std::string_view name) {
-  const auto found =
-      std::find_if(kDistances.begin(), kDistances.end(), [&](const auto& entry) { return entry.first == name; });
-  assert(found != kDistances.end());
-  return found->second;
-}
+PoseDistance FindPoseDistance(std::string_view name) { return ValueNamed(kDistances, name); }
 
 PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
                       const FeatureWeights& weights) {

@@ -1,4 +1,4 @@
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
 
 #include <nlohmann/json.hpp>
 
@@ -12,7 +12,7 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const Session
   std::vector<JudgedEvent> events;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const Judgement& judgement = verdict.events[i];
-    events.push_back({world.session.events[i].IsRight(), judgement.right_at.has_value(), judgement.score});
+    events.push_back({world.session.events[i].IsRight(), judgement.recognised_at.has_value(), judgement.score});
   }
   return events;
 }
@@ -23,9 +23,9 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const SessionEvent& event = world.session.events[i];
     if (!event.first_right_s) continue;
-    const Window window = WindowOf(event, world.stream);
-    const std::optional<int>& right_at = verdict.events[i].right_at;
-    const std::optional<int> called = right_at ? std::optional(window.begin + *right_at) : std::nullopt;
+    const FrameWindow window = WindowOf(event, world.stream);
+    const std::optional<int>& recognised_at = verdict.events[i].recognised_at;
+    const std::optional<int> called = recognised_at ? std::optional(window.begin + *recognised_at) : std::nullopt;
     waits.push_back(WaitForPraise(*event.first_right_s, called, window.end, world.stream.rate_hz));
   }
   return waits;
@@ -58,9 +58,9 @@ std::string StreamDigest(const SkeletonStream& stream) {
 std::string EventsDigest(const SessionVerdict& verdict) {
   Digest digest;
   for (const Judgement& judgement : verdict.events) {
-    digest.Add(std::int64_t{judgement.right_at.value_or(-1)}).Add(judgement.score);
+    digest.Add(std::int64_t{judgement.recognised_at.value_or(-1)}).Add(judgement.score);
   }
-  for (const Alarm& alarm : verdict.alarms) digest.Add(alarm.move).Add(std::int64_t{alarm.frame});
+  for (const Detection& alarm : verdict.alarms) digest.Add(alarm.move).Add(std::int64_t{alarm.frame});
   return digest.Hex();
 }
 
@@ -110,7 +110,7 @@ std::string StateLetters(const SensedFrame& frame) {
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
   Series series{.name = "score", .axis = "frame", .values = std::vector<double>(world.stream.frames.size(), 0.0)};
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const Window window = WindowOf(world.session.events[i], world.stream);
+    const FrameWindow window = WindowOf(world.session.events[i], world.stream);
     const std::vector<double>& scores = verdict.events[i].running_score;
     std::copy(scores.begin(), scores.end(), series.values.begin() + window.begin);
   }
@@ -123,16 +123,16 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const SessionEvent& event = world.session.events[i];
     const Judgement& judgement = verdict.events[i];
-    const Window window = WindowOf(event, world.stream);
+    const FrameWindow window = WindowOf(event, world.stream);
     nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultName(event.fault)},
                                    {"danced", event.danced},  {"begin_frame", window.begin},
-                                   {"end_frame", window.end}, {"called_right", judgement.right_at.has_value()},
+                                   {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},
                                    {"score", judgement.score}};
-    if (judgement.right_at) told["called_frame"] = window.begin + *judgement.right_at;
+    if (judgement.recognised_at) told["called_frame"] = window.begin + *judgement.recognised_at;
     extras["events"].push_back(std::move(told));
   }
   extras["alarms"] = nlohmann::ordered_json::array();
-  for (const Alarm& alarm : verdict.alarms) {
+  for (const Detection& alarm : verdict.alarms) {
     extras["alarms"].push_back({{"move", alarm.move}, {"frame", alarm.frame}});
   }
   extras["joint_states"] = nlohmann::ordered_json::array();
