@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr int kEndingMs = 2000;
+constexpr int kEndAllowedMs = 2000;
 
 /// What a method made of a problem, in a form that can be compared: its answer, or why it gave none.
 struct Attempt {
@@ -28,15 +28,15 @@ class Examination {
 
   /// Whether all checks were passed.
   Result<bool> Run() {
-    if (auto answers = CheckAnswers(); !answers) return tl::unexpected(answers.error());
+    RETURN_IF_ERROR(CheckAnswers());
     if (!all_passed_) return false;
     CheckOneProblemTwice();
     CheckOrder();
     CheckSettings();
     CheckLongLines();
-    const std::string end = method_.End(kEndingMs);
+    const std::string end = method_.End(kEndAllowedMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kEndingMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kEndAllowedMs / 1000) : end);
     return all_passed_;
   }
 
@@ -50,7 +50,7 @@ class Examination {
     return Ask(specimen, problem, problem.id, problem.problem);
   }
 
-  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Exhibit& shown) {
+  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Payload& shown) {
     const auto start = std::chrono::steady_clock::now();
     const OutsideReply reply = method_.Ask(specimen.setting_id, specimen.setting, id, shown);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -115,7 +115,7 @@ class Examination {
 
   /// In a new program, from the last problem to the first.
   void CheckOrder() {
-    method_.End(kEndingMs);
+    method_.End(kEndAllowedMs);
     std::string difference;
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
       difference = Compare(Ask(specimens_[0], specimens_[0].problems[i]), i);
@@ -137,7 +137,7 @@ class Examination {
 
   void CheckLongLines() {
     const SpecimenProblem& problem = specimens_[0].problems[0];
-    Exhibit shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
+    Payload shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
     const std::string id = "a \"long\" one, größer";
     ReportDifference("takes long lines, keys it does not know, and ids of any text",
@@ -157,9 +157,8 @@ class Examination {
 
 Result<bool> CheckConformance(const OutsideOptions& options,
                               const std::function<void(const ConformanceCheck&)>& report) {
-  const auto specimens = MakeSpecimens(options.task);
-  if (!specimens) return tl::unexpected(specimens.error());
-  return Examination(options, *specimens, report).Run();
+  ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task));
+  return Examination(options, specimens, report).Run();
 }
 
 }  // namespace etude
