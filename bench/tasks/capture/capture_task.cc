@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/capture/capture_cell.h"
-#include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/run.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/stages.h"
 #include "bench/tasks/capture/exchange.h"
 
 namespace etude {

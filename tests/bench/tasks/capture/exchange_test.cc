@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/capture/capture_cell.h"
+#include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/capture_task.h"
 #include "bench/tasks/capture/recording_extras.h"
 #include "engine/document/node.h"

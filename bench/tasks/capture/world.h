@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "bench/tasks/capture/capture_options.h"
+#include "bench/tasks/capture/options.h"
 #include "engine/cameras/camera.h"
 #include "engine/cameras/dlt.h"
 #include "engine/kinematics/limb_lengths.h"

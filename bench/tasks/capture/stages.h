@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/metrics/measurement.h"
-#include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_world.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/world.h"
 #include "bench/tasks/capture/film.h"
 #include "bench/tasks/capture/measure.h"
 

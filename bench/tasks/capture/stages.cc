@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/stages.h"
 
 #include <algorithm>
 

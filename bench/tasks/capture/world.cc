@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/capture_world.h"
+#include "bench/tasks/capture/world.h"
 
 #include <algorithm>
 #include <cmath>

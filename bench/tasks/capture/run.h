@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/stages.h"
 #include "bench/tasks/capture/exchange.h"
 
 namespace etude {

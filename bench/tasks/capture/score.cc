@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/capture_cell.h"
+#include "bench/tasks/capture/run.h"
 
 #include <algorithm>
 
