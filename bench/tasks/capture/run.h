@@ -1,16 +1,25 @@
 #pragma once
 
-#include "bench/tasks/base/task.h"
+#include <optional>
+#include <vector>
+
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/stages.h"
-#include "bench/tasks/capture/exchange.h"
+#include "engine/capture/recover_frames.h"
 
 namespace etude {
 
-/// Runs one method in one world and measures it. `keeps_motion`: with a recording (recording_extras.h).
-CellResult RunCaptureCell(CaptureStages& stages, const CaptureMethod& method, bool keeps_motion);
+/// What every stage of a built-in method made of a world. References lead into the CaptureStages that it was run on.
+struct CaptureRun {
+  const CaptureMethod& method;
+  const CalibratedCameras& cameras;
+  const Take& take;
+  const Observation& observation;
+  const MeasuredTake& measured;
+  std::vector<std::optional<RecoveredFrame>> frames;
+};
 
-/// Scores an answer of a method outside likewise; its recording shows no masks, its BVH file no turning joints.
-CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
+/// Runs one method in one world. Fails, saying why, when a camera cannot be calibrated or there is no renderer.
+Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method);
 
 }  // namespace etude

@@ -1,29 +1,15 @@
-#include "bench/tasks/capture/run.h"
+#include "bench/tasks/capture/score.h"
 
 #include <algorithm>
 
+#include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
 #include "bench/metrics/share.h"
-#include "bench/tasks/capture/measure.h"
-#include "bench/tasks/capture/recording_extras.h"
-#include "bench/tasks/capture/recover.h"
+#include "bench/tasks/capture/recording.h"
 #include "engine/base/digest.h"
-#include "engine/formats/bvh.h"
-#include "engine/kinematics/tree_to_body.h"
-#include "engine/motion/from_body.h"
 
 namespace etude {
 namespace {
-
-struct Mean {
-  double sum = 0;
-  int count = 0;
-
-  void Add(double value) {
-    sum += value;
-    ++count;
-  }
-};
 
 void ReportMasks(const MaskScore& score, CellResult& cell) {
   cell.MeasureOr("iou", score.iou, "no picture shows or finds a person");
@@ -37,25 +23,33 @@ void Add(const BodyPose& pose, Digest& digest) {
   for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
 }
 
-const Observation& ObservationBy(const Take& take, const PersonSource& source) {
-  return *std::find_if(take.observations.begin(), take.observations.end(),
-                       [&](const Observation& observation) { return observation.source == source; });
+void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured, CellResult& cell) {
+  std::vector<Sighted> limbs, ends;
+  for (std::size_t k = 0; k < world.truth.size(); ++k) {
+    const FrameMeasurement& found = measured.frames[k];
+    const FrameMeasurement truth = TrueMeasurement(world.truth[k]);
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      limbs.push_back({found.directions[i], truth.directions[i]});
+      ends.push_back({found.ends[i], truth.ends[i]});
+    }
+  }
+  const MeasuredError directions = LimbDirectionErrorDeg(limbs), points = TriangulationErrorMm(ends);
+  cell.MeasureOr("limb_direction_error_deg", directions.mean, "no limb was marked in both pictures");
+  cell.MeasureOr("limb_direction_coverage", directions.coverage, "no limb has a direction");
+  cell.MeasureOr("triangulation_error_mm", points.mean, "no end effector was marked in both pictures");
+  cell.MeasureOr("triangulation_coverage", points.coverage, "there are no end effectors");
 }
 
-void ReportStages(const CalibratedCameras& cameras, const Take& take, const Observation& observation,
-                  const MeasuredTake& measured, CellResult& cell) {
-  cell.digests = {{"calibration", cameras.digest},
-                  {"pictures", take.pictures_digest},
-                  {"masks", observation.masks_digest},
-                  {"marks", observation.marks_digest},
-                  {"directions", measured.directions_digest},
-                  {"points", measured.points_digest}};
-  cell.Measure("reprojection_rms_px", cameras.reprojection_rms_px);
-  ReportMasks(observation.score, cell);
-  cell.MeasureOr("limb_direction_error_deg", measured.directions.mean, "no limb was marked in both pictures");
-  cell.MeasureOr("limb_direction_coverage", measured.directions.coverage, "no limb has a direction");
-  cell.MeasureOr("triangulation_error_mm", measured.points.mean, "no end effector was marked in both pictures");
-  cell.MeasureOr("triangulation_coverage", measured.points.coverage, "there are no end effectors");
+void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& cell) {
+  cell.digests = {{"calibration", run.cameras.digest},
+                  {"pictures", run.take.pictures_digest},
+                  {"masks", run.observation.masks_digest},
+                  {"marks", run.observation.marks_digest},
+                  {"directions", run.measured.directions_digest},
+                  {"points", run.measured.points_digest}};
+  cell.Measure("reprojection_rms_px", run.cameras.reprojection_rms_px);
+  ReportMasks(run.observation.score, cell);
+  ReportMeasurements(world, run.measured, cell);
 }
 
 // "the left hand was never marked in both pictures", for the first thing that is never measured.
@@ -110,59 +104,49 @@ void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellRe
   if (before != nullptr) cell.series.push_back({"mpjpe_before_ik_mm", "frame", before->frame_mpjpe_mm});
 }
 
+/// From the end effectors to where they were seen, mean over the frames in which they were.
+double MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
+  constexpr double kCmPerMetre = 100;
+  double of_frames = 0;
+  int count = 0;
+  for (const RecoveredFrame& frame : frames) {
+    if (frame.errors.empty()) continue;
+    double of_effectors = 0;
+    for (const EffectorError& error : frame.errors) of_effectors += kCmPerMetre * error.position;
+    of_frames += of_effectors / static_cast<double>(frame.errors.size());
+    ++count;
+  }
+  return of_frames / count;
+}
+
 void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& frames, CellResult& cell) {
   std::vector<BodyPose> fixed, poses;
   Digest lengths_digest, pose_digest;
-  Mean effector_error_cm;
   for (const RecoveredFrame& frame : frames) {
     fixed.push_back(frame.fixed);
     poses.push_back(frame.pose);
     Add(frame.fixed, lengths_digest);
     Add(frame.pose, pose_digest);
-    if (frame.effector_error_cm) effector_error_cm.Add(*frame.effector_error_cm);
   }
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
   const PoseErrors before = ComparePoses(fixed, world.truth);
   ReportJointErrors(ComparePoses(poses, world.truth), &before, cell);
-  cell.Measure("position_error_cm", effector_error_cm.sum / effector_error_cm.count);
+  cell.Measure("position_error_cm", MeanEffectorErrorCm(frames));
 }
 
-RecordingExtras DescribeStage(const CaptureWorld& world) {
-  RecordingExtras extras;
-  extras.texture_seed = world.room.texture_seed;
-  extras.casts_shadows = world.room.casts_shadows;
-  extras.colours = world.colours;
-  extras.brightness = world.brightness;
-  return extras;
+/// Tells how many frames have a skeleton; whether any has.
+template <typename Frame>
+bool ReportRecovered(const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
+  const auto count = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.has_value(); });
+  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(frames.size())));
+  return count > 0;
 }
 
-Recording MakeRecording(const CaptureWorld& world, const Observation& observation, const KinematicTree& body,
-                        const std::vector<RecoveredFrame>& frames, const std::string& name) {
-  Track truth{"truth", {kJudgedRateHz, world.truth}}, recovered{"recovered", {kJudgedRateHz, {}}};
-  std::vector<TreeState> states;
-  for (const RecoveredFrame& frame : frames) {
-    recovered.motion.poses.push_back(frame.pose);
-    states.push_back(frame.state);
-  }
-  RecordingExtras extras = DescribeStage(world);
-  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    extras.views.push_back({world.cameras[i], observation.masks[i]});
-  }
-  extras.bvh = WriteBvh(ToClip(body, states, kJudgedRateHz, name));
-  return {{std::move(truth), std::move(recovered)}, WriteRecordingExtras(extras)};
-}
-
-/// What an answer alone can show: nothing was cut out.
-Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
-  const BodyMotion found{kJudgedRateHz, poses};
-  RecordingExtras extras = DescribeStage(world);
-  for (const Camera& camera : world.cameras) {
-    const Mask nothing(camera.intrinsics.width / 2, camera.intrinsics.height / 2);
-    extras.views.push_back({camera, std::vector<Mask>(poses.size(), nothing)});
-  }
-  extras.bvh = WriteBvh(ToClip(found, "recovered"));
-  return {{{"truth", {kJudgedRateHz, world.truth}}, {"recovered", found}}, WriteRecordingExtras(extras)};
+void FailWithoutPoses(const std::string& reason, CellResult& cell) {
+  cell.status = Status::kFailed;
+  cell.reason = reason;
+  for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
 }
 
 /// As HoldFrames: where there is no pose, the last one before it, or the first.
@@ -175,30 +159,16 @@ std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
 
 }  // namespace
 
-CellResult RunCaptureCell(CaptureStages& stages, const CaptureMethod& method, bool keeps_motion) {
-  const CaptureWorld& world = stages.world();
-  const auto cameras = stages.GetCameras(method);
-  if (!cameras) return CellResult::Ended(Status::kFailed, cameras.error().message);
-  const auto take = stages.GetTake();
-  if (!take) return CellResult::Ended(Status::kFailed, take.error().message);
-  const Observation& observation = ObservationBy(**take, PersonSourceOf(method));
-  const MeasuredTake& measured = stages.GetMeasured(method, **cameras, observation);
+CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
   CellResult cell;
-  ReportStages(**cameras, **take, observation, measured, cell);
-
-  const KinematicTree body = MakeBodyTree(world.lengths);
-  const auto recovered = RecoverFrames(body, world.lengths, measured.seen, stages.marked(), *method.solver, method.ik);
-  const auto count = std::count_if(recovered.begin(), recovered.end(), [](const auto& f) { return f.has_value(); });
-  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(recovered.size())));
-  if (count == 0) {
-    cell.status = Status::kFailed;
-    cell.reason = ReasonForNoSkeleton(measured.frames);
-    for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
+  ReportStages(world, run, cell);
+  if (!ReportRecovered(run.frames, cell)) {
+    FailWithoutPoses(ReasonForNoSkeleton(run.measured.frames), cell);
     return cell;
   }
-  const std::vector<RecoveredFrame> frames = HoldFrames(recovered);
+  const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
   ReportPoses(world, frames, cell);
-  if (keeps_motion) cell.recording = MakeRecording(world, observation, body, frames, method.name);
+  if (keeps_motion) cell.recording = MakeRecording(world, run.observation, frames, run.method.name);
   cell.status = Status::kOk;
   cell.reason.clear();
   return cell;
@@ -207,12 +177,8 @@ CellResult RunCaptureCell(CaptureStages& stages, const CaptureMethod& method, bo
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion) {
   CellResult cell;
   for (const char* id : kStageMetrics) cell.Missing(id, kNoStages);
-  const auto count = std::count_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });
-  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(answer.size())));
-  if (count == 0) {
-    cell.status = Status::kFailed;
-    cell.reason = "no frame has a pose";
-    for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
+  if (!ReportRecovered(answer, cell)) {
+    FailWithoutPoses("no frame has a pose", cell);
     return cell;
   }
   const std::vector<BodyPose> poses = HoldPoses(answer);

@@ -2,64 +2,60 @@
 
 #include <algorithm>
 
+#include "bench/metrics/measurement.h"
 #include "engine/base/digest.h"
+#include "engine/capture/calibrate_cameras.h"
 
 namespace etude {
 namespace {
 
-constexpr int kLongestGap = 15;  // frames: half a second may pass before a mark is out of date
-
-void Add(const std::optional<glm::dvec3>& v, Digest& digest) {
-  digest.Add(static_cast<std::int64_t>(v.has_value()));
-  if (v) digest.Add(v->x).Add(v->y).Add(v->z);
+void Add(const RoleVectors& vectors, Digest& digest) {
+  for (const std::optional<glm::dvec3>& v : vectors) {
+    digest.Add(static_cast<std::int64_t>(v.has_value()));
+    if (v) digest.Add(v->x).Add(v->y).Add(v->z);
+  }
 }
 
-/// Fails when a camera cannot be calibrated, naming it.
-Result<CalibratedCameras> CalibrateCameras(const CaptureWorld& world, bool is_truth, Calibration calibration) {
-  CalibratedCameras cameras;
+Result<std::vector<ProjectionMatrix>> MatricesOf(const CaptureWorld& world, bool is_truth, Calibration calibration) {
+  if (!is_truth) return CalibrateCameras(world.calibration_pairs, {.method = calibration});
+  std::vector<ProjectionMatrix> matrices;
+  for (const Camera& camera : world.cameras) matrices.push_back(MatrixOf(camera));
+  return matrices;
+}
+
+Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, bool is_truth, Calibration calibration) {
+  ASSIGN_OR_RETURN(auto matrices, MatricesOf(world, is_truth, calibration));
   Digest digest;
-  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    if (is_truth) {
-      cameras.matrices.push_back(MatrixOf(world.cameras[i]));
-    } else {
-      const auto matrix = Calibrate(world.calibration_pairs[i], calibration);
-      if (!matrix) return Fail({}, "camera {}: {}", i + 1, matrix.error().message);
-      cameras.matrices.push_back(*matrix);
-    }
-    for (const auto& row : cameras.matrices.back().h) digest.Add(std::span<const double>(row));
-  }
   std::vector<CameraFit> fits;
-  for (std::size_t i = 0; i < cameras.matrices.size(); ++i) {
-    fits.push_back({cameras.matrices[i], world.calibration_pairs[i]});
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    for (const auto& row : matrices[i].h) digest.Add(std::span<const double>(row));
+    fits.push_back({matrices[i], world.calibration_pairs[i]});
   }
-  cameras.reprojection_rms_px = MeanReprojectionRmsPx(fits);
-  cameras.digest = digest.Hex();
-  return cameras;
+  const double rms_px = MeanReprojectionRmsPx(fits);
+  return CalibratedCameras{std::move(matrices), rms_px, digest.Hex()};
 }
 
-/// Measures every frame, and what the measurements are worth.
-MeasuredTake MeasureTake(const CaptureWorld& world, const Observation& observation,
-                         const std::vector<ProjectionMatrix>& matrices, const Oracle& oracle,
-                         const std::vector<bool>& marked, int longest_gap) {
-  MeasuredTake take;
-  Digest directions, points;
-  std::vector<Sighted> limbs, ends;
-  for (std::size_t k = 0; k < world.truth.size(); ++k) {
+/// What a method with these oracles is told of the frames that the human looks at.
+std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
+  std::vector<KnownMeasurement> known(world.truth.size());
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    if (!marked[k]) continue;
     const FrameMeasurement truth = TrueMeasurement(world.truth[k]);
-    FrameMeasurement frame = MeasureFrame(observation.marks[0][k], matrices[0], observation.marks[1][k], matrices[1]);
-    if (oracle.directions && marked[k]) frame.directions = truth.directions;
-    if (oracle.points && marked[k]) frame.ends = truth.ends;
-    for (std::size_t i = 0; i < kRoleCount; ++i) {
-      Add(frame.directions[i], directions);
-      Add(frame.ends[i], points);
-      limbs.push_back({frame.directions[i], truth.directions[i]});
-      ends.push_back({frame.ends[i], truth.ends[i]});
-    }
-    take.frames.push_back(frame);
+    if (oracle.directions) known[k].directions = truth.directions;
+    if (oracle.points) known[k].ends = truth.ends;
   }
-  take.seen = BridgeGaps(take.frames, longest_gap);
-  take.directions = LimbDirectionErrorDeg(limbs);
-  take.points = TriangulationErrorMm(ends);
+  return known;
+}
+
+MeasuredTake MeasureTake(const MeasureInputs& inputs, const BridgeOptions& bridge) {
+  MeasuredTake take;
+  take.frames = MeasureFrames(inputs);
+  take.seen = BridgeGaps(take.frames, bridge);
+  Digest directions, points;
+  for (const FrameMeasurement& frame : take.frames) {
+    Add(frame.directions, directions);
+    Add(frame.ends, points);
+  }
   take.directions_digest = directions.Hex();
   take.points_digest = points.Hex();
   return take;
@@ -100,7 +96,7 @@ Result<const CalibratedCameras*> CaptureStages::GetCameras(const CaptureMethod& 
   const CameraChoice choice = CameraChoiceOf(method);
   auto kept = cameras_.find(choice);
   if (kept == cameras_.end()) {
-    kept = cameras_.emplace(choice, CalibrateCameras(world_, choice.is_truth, choice.calibration)).first;
+    kept = cameras_.emplace(choice, MakeCameras(world_, choice.is_truth, choice.calibration)).first;
   }
   if (!kept->second) return tl::unexpected(kept->second.error());
   return &*kept->second;
@@ -112,10 +108,10 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
                              method.oracle.points};
   auto kept = measured_.find(choice);
   if (kept == measured_.end()) {
-    kept = measured_
-               .emplace(choice, MeasureTake(world_, observation, cameras.matrices, method.oracle, marked_,
-                                            std::max(kLongestGap, options_.mark_every)))
-               .first;
+    const std::vector<KnownMeasurement> known = Tell(world_, method.oracle, marked_);
+    const MeasureInputs inputs{.cameras = cameras.matrices, .marks = observation.marks, .known = known};
+    const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, options_.mark_every)};
+    kept = measured_.emplace(choice, MeasureTake(inputs, bridge)).first;
   }
   return kept->second;
 }

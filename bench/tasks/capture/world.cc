@@ -122,4 +122,14 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   return world;
 }
 
+FrameMeasurement TrueMeasurement(const BodyPose& truth) {
+  FrameMeasurement frame;
+  for (const EffectorMark& mark : EffectorMarks()) frame.ends[Index(mark.role)] = truth[mark.role];
+  for (const StrokeMark& mark : StrokeMarks()) {
+    const glm::dvec3 limb = truth[mark.to] - truth[mark.from];
+    if (glm::length(limb) > 0) frame.directions[Index(mark.to)] = glm::normalize(limb);
+  }
+  return frame;
+}
+
 }  // namespace etude

@@ -60,6 +60,10 @@ TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame
   EXPECT_NE(frames[2]->state.angles, frames[1]->state.angles);
   EXPECT_LT(glm::distance(frames[1]->pose[Role::kLeftFoot], ModelPose(1)[Role::kLeftFoot]), 1e-9)
       << "the root is always where it was seen";
+  const std::vector<std::optional<LimbObservation>> with_gap = {seen[0], seen[1], std::nullopt, seen[2]};
+  const auto after_gap =
+      RecoverFrames({.lengths = {}, .seen = with_gap, .marked = {true, true, false, false}}, {.solver = &idle});
+  EXPECT_EQ(after_gap[3]->state.angles, after_gap[1]->state.angles) << "of the last frame that was recovered";
   const auto all_marked = RecoverFrames({.lengths = {}, .seen = seen}, {.solver = &idle});
   EXPECT_NE(all_marked[1]->state.angles, all_marked[0]->state.angles);
 }
