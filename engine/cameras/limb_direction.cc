@@ -13,19 +13,19 @@ namespace {
 constexpr double kSamePixel = 1e-5;
 
 struct LimbPlane {
-  glm::dvec3 ray_a;   // unit
-  glm::dvec3 normal;  // unit, ray_a × ray_b
+  glm::dvec3 ray_a_W;   // unit
+  glm::dvec3 normal_W;  // unit, ray a × ray b
 };
 
 // The planes of the strokes that have a length.
 std::vector<LimbPlane> PlanesOf(std::span<const LimbSighting> sightings) {
   std::vector<LimbPlane> planes;
   for (const LimbSighting& sighting : sightings) {
-    const glm::dvec3 a = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.a));
-    const glm::dvec3 b = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.b));
-    const glm::dvec3 normal = glm::cross(a, b);
-    const double length = glm::length(normal);
-    if (length > kSamePixel) planes.push_back({a, normal / length});  // not so for NaN
+    const glm::dvec3 a_W = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.a));
+    const glm::dvec3 b_W = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.b));
+    const glm::dvec3 normal_W = glm::cross(a_W, b_W);
+    const double length = glm::length(normal_W);
+    if (length > kSamePixel) planes.push_back({a_W, normal_W / length});  // not so for NaN
   }
   return planes;
 }
@@ -34,7 +34,7 @@ double LargestPlaneAngle(std::span<const LimbPlane> planes) {
   double largest = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
-      const double between_normals = AngleBetween(planes[i].normal, planes[j].normal);
+      const double between_normals = AngleBetween(planes[i].normal_W, planes[j].normal_W);
       largest = std::max(largest, std::min(between_normals, kPi - between_normals));
     }
   }
@@ -43,21 +43,21 @@ double LargestPlaneAngle(std::span<const LimbPlane> planes) {
 
 // The unit vector nearest to normal to all normals; its sign means nothing.
 glm::dvec3 LineAlong(std::span<const LimbPlane> planes) {
-  if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal, planes[1].normal));
+  if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
   Eigen::MatrixX3d normals(planes.size(), 3);
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    const glm::dvec3& n = planes[i].normal;
+    const glm::dvec3& n = planes[i].normal_W;
     normals.row(static_cast<Eigen::Index>(i)) << n.x, n.y, n.z;
   }
   const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeFullV);
-  const Eigen::Vector3d along = svd.matrixV().col(2);
-  return {along[0], along[1], along[2]};
+  const Eigen::Vector3d along_W = svd.matrixV().col(2);
+  return {along_W[0], along_W[1], along_W[2]};
 }
 
 // How far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction =
 // α·a + β·b; a point on ray a moving along it is seen moving towards b exactly when β > 0.
-double Sense(const LimbPlane& plane, const glm::dvec3& direction) {
-  return glm::dot(glm::cross(plane.ray_a, direction), plane.normal);
+double Sense(const LimbPlane& plane, const glm::dvec3& direction_W) {
+  return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }
 
 }  // namespace
@@ -65,8 +65,8 @@ double Sense(const LimbPlane& plane, const glm::dvec3& direction) {
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel) {
   const auto& h = matrix.h;
   const glm::dvec3 h1(h[0][0], h[0][1], h[0][2]), h2(h[1][0], h[1][1], h[1][2]), h3(h[2][0], h[2][1], h[2][2]);
-  const glm::dvec3 ray = glm::cross(h1 - pixel.x * h3, h2 - pixel.y * h3);
-  return glm::dot(h3, ray) < 0 ? -ray : ray;  // w must grow along the ray
+  const glm::dvec3 ray_W = glm::cross(h1 - pixel.x * h3, h2 - pixel.y * h3);
+  return glm::dot(h3, ray_W) < 0 ? -ray_W : ray_W;  // w must grow along the ray
 }
 
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle) {
@@ -75,10 +75,10 @@ LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, doub
   limb.plane_angle = LargestPlaneAngle(planes);
   if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
 
-  const glm::dvec3 along = LineAlong(planes);
+  const glm::dvec3 along_W = LineAlong(planes);
   double sense = 0;
-  for (const LimbPlane& plane : planes) sense += Sense(plane, along);
-  return {DirectionStatus::kOk, sense < 0 ? -along : along, limb.plane_angle};
+  for (const LimbPlane& plane : planes) sense += Sense(plane, along_W);
+  return {DirectionStatus::kOk, sense < 0 ? -along_W : along_W, limb.plane_angle};
 }
 
 LimbDirection ComputeLimbDirection(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
