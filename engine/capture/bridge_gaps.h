@@ -10,8 +10,8 @@
 namespace etude {
 
 struct BridgeOptions {
-  /// How many frames a measurement holds good before and after its own. 15 is half a second at 30 Hz: about as long as
-  /// a limb of a dancer keeps its way. At another rate scale it; where only every n-th frame is marked, n at least.
+  /// How many frames a measurement is used before and after its own. 15 is half a second at 30 Hz, after which a
+  /// dancer's limb may be anywhere. Scale it with the rate; when only every n-th frame is marked, make it n at least.
   int longest_gap = 15;
 };
 

@@ -10,8 +10,8 @@
 namespace etude {
 
 struct CalibrationOptions {
-  /// Paper B's by default. `kDltNormalised` when point pairs are few or the cloud lies far from the world's origin: it
-  /// costs the same, and the scale of pixels against metres no longer matters.
+  /// Paper B's by default. Use `kDltNormalised` when point pairs are few or noisy, or far from the world's origin: its
+  /// equations are scaled alike, so that no pair counts more because its numbers are larger.
   Calibration method = Calibration::kDlt;
 };
 

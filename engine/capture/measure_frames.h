@@ -41,12 +41,13 @@ struct MeasureInputs {
 };
 
 struct MeasureOptions {
-  /// A limb has a direction only where two of its viewing planes are at least so far from parallel (radians). An error
-  /// of the strokes is magnified by 1/sin of that angle: at 8°, about seven times. Raise it for careless marks and long
-  /// gaps that may be bridged; lower it for exact ones, or for cameras that stand close together.
+  /// The direction of a limb is computed only if two of its viewing planes are at least this far from parallel
+  /// (radians). An error of the strokes is magnified by 1/sin of that angle: about seven times at 8°. Raise it when
+  /// marks are inexact and a bridged gap is better than a poor direction; lower it when marks are exact, or cameras
+  /// stand close together.
   double smallest_plane_angle = Radians(8);
-  /// Shorter strokes (pixels) are not used: of a limb seen almost end on, two pixels of error leave nothing of its
-  /// direction. Scale it with the pictures' size and the error of the marks; 6 is for 640 × 480 and about 2 pixels.
+  /// Shorter strokes (pixels) are not used: when a limb is seen almost end on, the error of the marks hides its
+  /// direction. 6 is three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with that error.
   double shortest_stroke_px = 6;
 };
 

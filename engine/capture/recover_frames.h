@@ -24,10 +24,10 @@ struct RecoverInputs {
 };
 
 struct RecoverOptions {
-  /// Finds the angles. Needed; one of AllIkSolvers(), or the caller's own.
+  /// Finds the angles. Not null: one of AllIkSolvers(), or the caller's own.
   const IkSolver* solver = nullptr;
-  /// The solver's. `angle_change_tolerance` bounds how far an angle may leave the start's (paper B, section 3.7.2): set
-  /// it when the pictures' angles can be trusted more than the ends' places.
+  /// The solver's. `angle_change_tolerance` bounds how far an angle may move from its start (paper B, section 3.7.2):
+  /// set it when limb directions are more exact than the places of the ends.
   IkOptions ik = {};
 };
 
