@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/stages.h"
 
 namespace etude {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/measurement.h"
-#include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_world.h"
 #include "bench/tasks/capture/film.h"
-#include "bench/tasks/capture/measure.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/world.h"
+#include "engine/capture/bridge_gaps.h"
+#include "engine/capture/measure_frames.h"
 
 namespace etude {
 
@@ -22,11 +22,10 @@ struct CalibratedCameras {
   std::string digest;
 };
 
-/// What the marks of a whole take say about space, and what that is worth.
+/// What the marks of a whole take say about space.
 struct MeasuredTake {
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
-  MeasuredError directions, points;
   std::string directions_digest, points_digest;
 };
 

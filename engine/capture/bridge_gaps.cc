@@ -1,20 +1,12 @@
-#include "bench/tasks/capture/measure.h"
+#include "engine/capture/bridge_gaps.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "engine/cameras/limb_direction.h"
-#include "engine/cameras/triangulation.h"
+#include "engine/base/angles.h"
+#include "engine/vision/strokes.h"
 
 namespace etude {
 namespace {
-
-// Planes nearer to parallel magnify the strokes' errors more than about seven times.
-constexpr double kSmallestPlaneAngle = Radians(8);
-// A limb seen almost end on: two pixels of error leave nothing of its direction.
-constexpr double kShortestStroke = 6;  // pixels
-
-bool IsLongEnough(const PixelSegment& stroke) { return glm::distance(stroke.a, stroke.b) >= kShortestStroke; }
 
 // Along the great circle from one unit vector to another; straight through when they are opposite.
 glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double share) {
@@ -42,35 +34,8 @@ std::optional<glm::dvec3> Bridge(int frame, int frames, int longest_gap, ValueAt
 
 }  // namespace
 
-FrameMeasurement MeasureFrame(const Marks& marks1, const ProjectionMatrix& matrix1, const Marks& marks2,
-                              const ProjectionMatrix& matrix2) {
-  FrameMeasurement frame;
-  for (std::size_t i = 0; i < kEffectorCount; ++i) {
-    if (!marks1.effectors[i] || !marks2.effectors[i]) continue;
-    const std::array<Sighting, 2> sightings = {{{matrix1, *marks1.effectors[i]}, {matrix2, *marks2.effectors[i]}}};
-    const TriangulatedPoint point = Triangulate(sightings);
-    if (point.status == PointStatus::kOk) frame.ends[Index(EffectorMarks()[i].role)] = point.position;
-  }
-  for (std::size_t i = 0; i < kStrokeCount; ++i) {
-    const auto &stroke1 = marks1.strokes[i], &stroke2 = marks2.strokes[i];
-    if (!stroke1 || !stroke2 || !IsLongEnough(*stroke1) || !IsLongEnough(*stroke2)) continue;
-    const LimbDirection limb = ComputeLimbDirection(matrix1, *stroke1, matrix2, *stroke2, kSmallestPlaneAngle);
-    if (limb.status == DirectionStatus::kOk) frame.directions[Index(StrokeMarks()[i].to)] = limb.direction;
-  }
-  return frame;
-}
-
-FrameMeasurement TrueMeasurement(const BodyPose& truth) {
-  FrameMeasurement frame;
-  for (const EffectorMark& mark : EffectorMarks()) frame.ends[Index(mark.role)] = truth[mark.role];
-  for (const StrokeMark& mark : StrokeMarks()) {
-    const glm::dvec3 limb = truth[mark.to] - truth[mark.from];
-    if (glm::length(limb) > 0) frame.directions[Index(mark.to)] = glm::normalize(limb);
-  }
-  return frame;
-}
-
-std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames, int longest_gap) {
+std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
+                                                       const BridgeOptions& options) {
   const int count = static_cast<int>(frames.size());
   std::vector<std::optional<LimbObservation>> bridged;
   for (int frame = 0; frame < count; ++frame) {
@@ -78,13 +43,13 @@ std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeas
     bool complete = true;
     for (const EffectorMark& mark : EffectorMarks()) {
       auto end_at = [&](int k) { return frames[k].ends[Index(mark.role)]; };
-      const auto end = Bridge(frame, count, longest_gap, end_at, MixPoints);
+      const auto end = Bridge(frame, count, options.longest_gap, end_at, MixPoints);
       complete &= end.has_value();
       observation.ends[mark.role] = end.value_or(glm::dvec3(0));
     }
     for (const StrokeMark& mark : StrokeMarks()) {
       auto direction_at = [&](int k) { return frames[k].directions[Index(mark.to)]; };
-      const auto direction = Bridge(frame, count, longest_gap, direction_at, SlerpDirections);
+      const auto direction = Bridge(frame, count, options.longest_gap, direction_at, SlerpDirections);
       complete &= direction.has_value();
       observation.directions[Index(mark.to)] = direction.value_or(glm::dvec3(0));
     }

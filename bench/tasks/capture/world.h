@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "bench/tasks/capture/capture_options.h"
+#include "bench/tasks/capture/options.h"
 #include "engine/cameras/camera.h"
 #include "engine/cameras/dlt.h"
+#include "engine/capture/measure_frames.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
 #include "sim/random/stream.h"
@@ -29,5 +30,8 @@ struct CaptureWorld {
 /// keeps the performer within 1.2 m of the middle, where both cameras see the whole body, else the one
 /// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
+
+/// What faultless marks and cameras would measure of a frame.
+FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
 }  // namespace etude

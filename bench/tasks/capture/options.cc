@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/capture_options.h"
+#include "bench/tasks/capture/options.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "bench/tasks/capture/capture_world.h"
+#include "bench/tasks/capture/world.h"
 
 #include <algorithm>
 #include <cmath>
@@ -120,6 +120,16 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
     world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, key));
   }
   return world;
+}
+
+FrameMeasurement TrueMeasurement(const BodyPose& truth) {
+  FrameMeasurement frame;
+  for (const EffectorMark& mark : EffectorMarks()) frame.ends[Index(mark.role)] = truth[mark.role];
+  for (const StrokeMark& mark : StrokeMarks()) {
+    const glm::dvec3 limb = truth[mark.to] - truth[mark.from];
+    if (glm::length(limb) > 0) frame.directions[Index(mark.to)] = glm::normalize(limb);
+  }
+  return frame;
 }
 
 }  // namespace etude
