@@ -6,8 +6,8 @@
 #include "cli/bridge_library.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
-#include "engine/bridging/tags_file/compare_tags.h"
-#include "engine/bridging/tags_file/tags_file.h"
+#include "engine/transitions/tags_file/compare_tags.h"
+#include "engine/transitions/tags_file/tags_file.h"
 #include "reports/bridges/bridge_summary.h"
 
 namespace etude {

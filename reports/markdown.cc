@@ -10,7 +10,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/pose_pairs.h"
-#include "reports/switches/switch_section.h"
+#include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"

@@ -11,7 +11,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/scenario_card.h"
-#include "reports/switches/switch_worlds.h"
+#include "reports/transitions/recorded_requests.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 

@@ -7,9 +7,9 @@
 #include "bench/metrics/evaluate_parts.h"
 #include "bench/metrics/matching.h"
 #include "bench/metrics/pose_distance.h"
-#include "bench/metrics/seam.h"
 #include "bench/metrics/search.h"
 #include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "bench/metrics/vector_input.h"
 #include "engine/fuzzy/distance.h"
 

@@ -14,8 +14,8 @@
 
 #include "bench/micro/bridge_search_data.h"
 #include "bench/micro/search_peers.h"
-#include "engine/bridging/search/grade_index.h"
-#include "engine/bridging/search/partners.h"
+#include "engine/transitions/search/frame_matches.h"
+#include "engine/transitions/search/grade_index.h"
 
 namespace etude {
 namespace {

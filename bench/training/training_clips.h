@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/bridging/one_character.h"
 #include "engine/fuzzy/features.h"
+#include "engine/transitions/library/body_proportions.h"
 
 namespace etude {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/bridging/coverage.h"
-#include "engine/bridging/library.h"
-#include "engine/bridging/links.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "engine/transitions/bridge_frames/coverage.h"
+#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/library/library.h"
 
 namespace etude {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/results/run_data.h"
-#include "reports/switches/switch_facts.h"
+#include "reports/transitions/transition_facts.h"
 
 namespace etude {
 

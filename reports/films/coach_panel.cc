@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "reports/films/distance_bars.h"
 #include "reports/films/followed_way.h"
 #include "reports/films/jump_strip.h"
 #include "reports/films/look.h"
-#include "reports/films/seam_bars.h"
-#include "reports/films/switch_panel.h"
+#include "reports/films/transition_panel.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 

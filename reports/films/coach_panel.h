@@ -6,7 +6,7 @@
 #include "engine/motion/character.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
-#include "reports/switches/switch_facts.h"
+#include "reports/transitions/transition_facts.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "reports/films/look.h"
 #include "reports/words/figures.h"
 

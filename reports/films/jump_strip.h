@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/films/canvas.h"
-#include "reports/films/switch_race.h"
+#include "reports/films/transition_race.h"
 
 namespace etude {
 

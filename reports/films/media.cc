@@ -11,8 +11,8 @@
 #include "reports/films/film.h"
 #include "reports/films/picture_strip.h"
 #include "reports/films/stage_scene.h"
-#include "reports/films/switch_race.h"
-#include "reports/films/switch_scene.h"
+#include "reports/films/transition_race.h"
+#include "reports/films/transition_scene.h"
 #include "reports/words/file_name.h"
 
 namespace etude {

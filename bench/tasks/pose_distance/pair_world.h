@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/bridging/one_character.h"
 #include "engine/fuzzy/features.h"
+#include "engine/transitions/library/body_proportions.h"
 #include "sim/random/stream.h"
 
 namespace etude {

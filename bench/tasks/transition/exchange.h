@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/switching/joins/splice.h"
+#include "bench/tasks/transition/world.h"
+#include "engine/transitions/joins/splice.h"
 
 namespace etude {
 

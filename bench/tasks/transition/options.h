@@ -7,7 +7,7 @@
 #include "bench/tasks/base/task.h"
 #include "bench/training/learnt_weights.h"
 #include "engine/document/fields.h"
-#include "engine/switching/switch_clips.h"
+#include "engine/transitions/transition.h"
 
 namespace etude {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "engine/bridging/links.h"
-#include "engine/switching/joins/splice.h"
+#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/joins/splice.h"
 
 namespace etude {
 

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 
 namespace etude {
 namespace {

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/bridging/library.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "engine/transitions/library/library.h"
 
 namespace etude {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "bench/metrics/seam.h"
-#include "engine/bridging/alignment.h"
-#include "engine/switching/choices/pair_rows.h"
+#include "bench/metrics/transition_smoothness.h"
+#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/choices/pair_rows.h"
 
 namespace etude {
 

@@ -2,8 +2,8 @@
 
 #include "bench/metrics/matching.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/bridging/switch_record.h"
-#include "engine/switching/choices/choice.h"
+#include "engine/transitions/base/transition_record.h"
+#include "engine/transitions/choices/choice.h"
 
 namespace etude {
 

@@ -4,8 +4,8 @@
 
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/transition/exchange.h"
+#include "bench/tasks/transition/run.h"
 #include "bench/tasks/transition/stage_options.h"
-#include "bench/tasks/transition/transition_world.h"
 #include "bench/training/training_clips.h"
 
 namespace etude {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/engine/bridging/test_clips.h"
+#include "tests/engine/transitions/test_clips.h"
 
 namespace etude {
 namespace {

@@ -6,11 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/transition/follow.h"
-#include "engine/bridging/alignment.h"
-#include "engine/switching/choices/choice.h"
+#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/base/mutate_json.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/stage.h"
 #include "bench/tasks/transition/tally.h"
-#include "engine/switching/choices/choice.h"
+#include "bench/tasks/transition/world.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
