@@ -28,9 +28,9 @@ std::string Styles(const RunData& run) {
     return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsGrowth(scenario);
   });
   const bool shows_switches = std::ranges::any_of(
-      run.scenarios, [&](const ScenarioSummary& scenario) { return !SwitchWorldsOf(run, scenario).empty(); });
+      run.scenarios, [&](const ScenarioSummary& scenario) { return !RecordedRequestsOf(run, scenario).empty(); });
   return std::string(ReportCss()) + std::string(shows_curves ? PaperCss() : "") +
-         std::string(shows_switches ? SwitchesCss() : "");
+         std::string(shows_switches ? TransitionsCss() : "");
 }
 
 std::string Head(const RunData& run) {

@@ -67,13 +67,13 @@ double ThirdDifferenceAt(const BodyMotion& motion, int frame) {
 
 }  // namespace
 
-SeamSmoothness MeasureSeams(const BodyMotion& motion, std::span<const int> seams) {
+TransitionSmoothness MeasureTransitions(const BodyMotion& motion, std::span<const int> seams) {
   assert(!seams.empty());
-  SeamSmoothness worst;
+  TransitionSmoothness worst;
   const int count = static_cast<int>(motion.poses.size());
   const double per_s3 = motion.rate_hz * motion.rate_hz * motion.rate_hz;
   for (int seam : seams) {
-    const int first = std::max(seam - kSeamReach, 1), last = std::min(seam + kSeamReach, count - 2);
+    const int first = std::max(seam - kWindowReach, 1), last = std::min(seam + kWindowReach, count - 2);
     for (int frame = first; frame <= last; ++frame) {
       const Jump jump = JumpAt(motion, frame);
       worst.jump_cm = std::max(worst.jump_cm, kCm * jump.largest);
@@ -100,7 +100,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
   const std::vector<double> differences = SecondDifferencesCm(clip);
   std::vector<double> jumps;
   // Frames at the clip's ends have no second difference, so a whole window starts at frame 1.
-  constexpr std::size_t kWindow = 2 * kSeamReach + 1;
+  constexpr std::size_t kWindow = 2 * kWindowReach + 1;
   for (std::size_t first = 1; first + kWindow < differences.size(); ++first) {
     const auto begin = differences.begin() + static_cast<std::ptrdiff_t>(first);
     jumps.push_back(*std::max_element(begin, begin + kWindow));

@@ -12,7 +12,7 @@ namespace etude {
 /// at 30 Hz, in metres, danced by a body whose hips stand at 0.90 m.
 
 /// How unevenly a motion moves close to a seam.
-struct SeamSmoothness {
+struct TransitionSmoothness {
   double jump_cm = 0;             ///< largest second difference of any joint
   double mean_joint_jump_cm = 0;  ///< largest over frames of the mean over joints
   double rotation_step_change_deg = 0;
@@ -20,11 +20,11 @@ struct SeamSmoothness {
 };
 
 /// A window is the frames within this many of the seam: eleven frames.
-constexpr int kSeamReach = 5;
+constexpr int kWindowReach = 5;
 
 /// The worst over the windows around all seams; frames beyond the motion's ends do not count. Needs
 /// one seam at least; a motion shorter than four frames has no jerk, shorter than three no jump.
-SeamSmoothness MeasureSeams(const BodyMotion& motion, std::span<const int> seams);
+TransitionSmoothness MeasureTransitions(const BodyMotion& motion, std::span<const int> seams);
 
 /// The largest second difference of any joint at each frame, centimetres; 0 at both ends.
 std::vector<double> SecondDifferencesCm(const BodyMotion& motion);

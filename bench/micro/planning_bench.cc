@@ -29,11 +29,11 @@ MotionLibrary MakeClips() {
   }
   const BodyPose& dancer = seeds.front().poses.front();
   return MakeLibrary(std::vector<std::string>(clips.size(), "clip"), clips,
-                     MakePhysique(dancer, StandingHipHeight(dancer)));
+                     MakeBodyProportions(dancer, StandingHipHeight(dancer)));
 }
 
-std::vector<SwitchRequest> Requests(const MotionLibrary& library) {
-  std::vector<SwitchRequest> requests;
+std::vector<TransitionRequest> Requests(const MotionLibrary& library) {
+  std::vector<TransitionRequest> requests;
   const int clips = static_cast<int>(library.motions.size());
   for (int from = 0; from < clips; ++from) {
     requests.push_back({.from = from, .request_frame = 100 * from, .to = (from + 1) % clips});
@@ -72,7 +72,7 @@ struct Pair {
   int from = 0, to = 0;
 };
 
-Pair NearestPairByPair(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+Pair NearestPairByPair(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   const BodyMotion &playing = library.motions[request.from], &next = library.motions[request.to];
   const PairRange range = AllowedPairs(library, request, rules);
   const int half = static_cast<int>(std::lround(0.5 * rules.window_s * playing.rate_hz));
@@ -90,10 +90,10 @@ Pair NearestPairByPair(const MotionLibrary& library, const SwitchRequest& reques
 }
 
 void CompareAnswers(const MotionLibrary& library) {
-  for (const SwitchRequest& request : Requests(library)) {
-    const SwitchRecord record = FindChoice("point-cloud")->plan(library, request, {});
+  for (const TransitionRequest& request : Requests(library)) {
+    const TransitionRecord record = FindChoice("point-cloud")->plan(library, request, {});
     const Pair pair = NearestPairByPair(library, request, {});
-    if (record.legs.front().last == pair.from && record.legs.back().first == pair.to) continue;
+    if (record.segments.front().last == pair.from && record.segments.back().first == pair.to) continue;
     std::fprintf(stderr, "pair by pair, other frames are nearest than in rows\n");
     std::exit(1);
   }
@@ -102,9 +102,9 @@ void CompareAnswers(const MotionLibrary& library) {
 /// Plans all switches in turn; the time shown is the mean over them.
 void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
   benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
-    const std::vector<SwitchRequest> requests = Requests(library);
+    const std::vector<TransitionRequest> requests = Requests(library);
     while (state.KeepRunningBatch(static_cast<std::int64_t>(requests.size()))) {
-      for (const SwitchRequest& request : requests) benchmark::DoNotOptimize(plan(library, request, SwitchRules{}));
+      for (const TransitionRequest& request : requests) benchmark::DoNotOptimize(plan(library, request, MatchRules{}));
     }
   })->Unit(benchmark::kMicrosecond);
 }

@@ -99,7 +99,7 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const std::vector<ClipSumma
       "\nposes: different sets of ten tags. frames with a partner: of all frames, d < {} to some frame of another\n"
       "clip, mean over the other clips. worst wait: until a bridge frame that leads on, over the clips reached; the\n"
       "clip starts over at its end. in-between: how often a switch within {} s needs one, mean over the other clips.\n",
-      loaded.switch_rules.threshold, wait_s);
+      loaded.match_rules.threshold, wait_s);
   return text;
 }
 
@@ -148,7 +148,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   text +=
       fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n", clips.size(),
                   total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
-                  loaded.switch_rules.threshold, loaded.switch_rules.within_class ? ", within the class" : "");
+                  loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
   text += ClipsAsText(loaded, clips, wait_s);
   if (coverage.ClipCount() <= kWidestMatrix) {
     text += MatrixAsText(loaded, coverage);
@@ -199,8 +199,8 @@ Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Cover
   const MotionLibrary& library = loaded.library;
   return WriteJson({{"schema_version", 1},
                     {"fuzzy_system", loaded.system.name},
-                    {"threshold", loaded.switch_rules.threshold},
-                    {"within_class", loaded.switch_rules.within_class},
+                    {"threshold", loaded.match_rules.threshold},
+                    {"within_class", loaded.match_rules.within_class},
                     {"wait_s", wait_s},
                     {"clips", of_clips},
                     {"pairs", pairs},

@@ -15,7 +15,7 @@ namespace etude {
 struct BridgeLibrary {
   FuzzySystem system;
   TagRules tag_rules;
-  SwitchRules switch_rules;
+  MatchRules match_rules;
   MotionLibrary library;
   std::vector<std::string> sources;  ///< what opens the clips again
   std::vector<int> corrective;       ///< the clips that every other one must lead into

@@ -49,9 +49,9 @@ Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 }  // namespace
 
 Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
-  ASSIGN_OR_RETURN(auto facts, ReadSwitchFacts(*cell.recording, cell.row->Id()));
-  if (facts.seam_frames.empty()) {
-    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole seam_frame within the motion");
+  ASSIGN_OR_RETURN(auto facts, ReadTransitionFacts(*cell.recording, cell.row->Id()));
+  if (facts.transition_frames.empty()) {
+    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole transition_frame within the motion");
   }
   CoachPanel panel;
   panel.bear_ = BearCharacter();
@@ -70,8 +70,8 @@ void CoachPanel::CutTo(int longest) {
   if (count <= longest) return;
   const int first = std::clamp(Seam() - longest / 2, 0, count - longest);
   poses = {poses.begin() + first, poses.begin() + first + longest};
-  for (int& seam : facts_.seam_frames) seam -= first;
-  std::erase_if(facts_.seam_frames, [&](int seam) { return seam >= longest; });
+  for (int& seam : facts_.transition_frames) seam -= first;
+  std::erase_if(facts_.transition_frames, [&](int seam) { return seam >= longest; });
   if (facts_.request_frame) *facts_.request_frame -= first;
 }
 
@@ -106,18 +106,18 @@ void CoachPanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int 
 std::string CoachPanel::CountdownAt(int frame) const {
   if (!facts_.request_frame) return "";
   const int request = *facts_.request_frame;
-  return CountdownWords(facts_.to, frame - request, facts_.seam_frames.back() - request, motion_.rate_hz);
+  return CountdownWords(facts_.to, frame - request, facts_.transition_frames.back() - request, motion_.rate_hz);
 }
 
 void CoachPanel::DrawTimeline(Canvas& canvas, const Box& panel, int frame) const {
   const double left = panel.x + 16, width = panel.width - 32, y = panel.y + panel.height - 18;
   const double last = std::max(1, Frames() - 1);
   const auto place = [&](int at) { return left + width * at / last; };
-  const std::vector<int>& seams = facts_.seam_frames;
+  const std::vector<int>& seams = facts_.transition_frames;
   double from = left;
   for (std::size_t leg = 0; leg <= seams.size(); ++leg) {
     const double to = leg < seams.size() ? place(seams[leg]) : left + width;
-    canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfLeg(facts_, leg)));
+    canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfSegment(facts_, leg)));
     from = to;
   }
   for (const int seam : seams) canvas.DrawLine({place(seam), y - 8}, {place(seam), y + 8}, 2, kInk);
@@ -125,20 +125,20 @@ void CoachPanel::DrawTimeline(Canvas& canvas, const Box& panel, int frame) const
     canvas.DrawRing({place(std::min(*facts_.request_frame, Frames() - 1)), y}, 5, 2, kInk);
   }
   const auto passed = static_cast<std::size_t>(std::ranges::count_if(seams, [&](int seam) { return seam <= frame; }));
-  canvas.DrawDot({place(frame), y}, 6, PaintOfLeg(facts_, passed));
+  canvas.DrawDot({place(frame), y}, 6, PaintOfSegment(facts_, passed));
 }
 
 void CoachPanel::DrawSeam(Canvas& canvas, const Box& panel, int frame) const {
-  const std::vector<int>& seams = facts_.seam_frames;
+  const std::vector<int>& seams = facts_.transition_frames;
   const auto is_near = [&](int seam) { return frame >= seam - kBarsBefore && frame < seam + kBarsAfter; };
   const auto near = std::ranges::find_if(seams.rbegin(), seams.rend(), is_near);
   if (near == seams.rend()) return;
   const auto meeting = static_cast<std::size_t>(seams.rend() - near) - 1;
-  const Box bars{panel.x + panel.width - kBarsWidth - 12, panel.y + panel.height - kBarsLift - kSeamBarsHeight,
-                 kBarsWidth, kSeamBarsHeight};
-  if (meeting < facts_.meetings.size() && facts_.meetings[meeting].partials) {
+  const Box bars{panel.x + panel.width - kBarsWidth - 12, panel.y + panel.height - kBarsLift - kDistanceBarsHeight,
+                 kBarsWidth, kDistanceBarsHeight};
+  if (meeting < facts_.points.size() && facts_.points[meeting].partials) {
     canvas.FillBox(bars, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
-    DrawSeamBars(canvas, bars, facts_, meeting);
+    DrawDistanceBars(canvas, bars, facts_, meeting);
   }
   if (frame >= *near && frame < *near + kMarkFrames) DrawMark(canvas, panel, "change");
 }

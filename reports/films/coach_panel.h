@@ -21,7 +21,7 @@ class CoachPanel {
 
   int Frames() const { return static_cast<int>(motion_.poses.size()); }
   /// The first frame after the change (after the first change, when it goes through an in-between clip).
-  int Seam() const { return facts_.seam_frames.front(); }
+  int Seam() const { return facts_.transition_frames.front(); }
   /// "clap → side kick, by fuzzy-bridge"
   std::string Title() const;
   void Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const;
@@ -37,7 +37,7 @@ class CoachPanel {
   Character bear_;
   BodyMotion motion_;
   std::vector<glm::dvec3> followed_;  ///< what the camera follows, one per frame
-  SwitchFacts facts_;                 ///< of the motion as cut; at least one seam
+  TransitionFacts facts_;             ///< of the motion as cut; at least one seam
   std::string method_;
 };
 

@@ -37,8 +37,7 @@ void DistanceTable::AddWeights(const std::string& method, const FeatureWeights& 
   }
 }
 
-void DistanceTable::AddMeeting(const std::string& method, const MeetingFacts& meeting,
-                               std::optional<double> threshold) {
+void DistanceTable::AddPoint(const std::string& method, const PointFacts& meeting, std::optional<double> threshold) {
   meetings_.push_back({method, meeting, threshold});
 }
 
@@ -59,7 +58,7 @@ std::string DistanceTable::Html() const {
     html += fmt::format("<td class=\"n\">{}</td><td></td></tr>",
                         fmt::format("{:.3g}", std::accumulate(weights.begin(), weights.end(), 0.0)));
   }
-  for (const Meeting& meeting : meetings_) {
+  for (const Point& meeting : meetings_) {
     const PerFeature& partials = *meeting.facts.partials;
     const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);
     const double full = meeting.threshold ? *meeting.threshold * *meeting.threshold : std::ranges::max(partials);

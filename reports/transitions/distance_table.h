@@ -24,20 +24,20 @@ class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);
   /// `meeting` has partials.
-  void AddMeeting(const std::string& method, const MeetingFacts& meeting, std::optional<double> threshold);
+  void AddPoint(const std::string& method, const PointFacts& meeting, std::optional<double> threshold);
 
-  /// "" without meetings.
+  /// "" without points.
   std::string Html() const;
 
  private:
-  struct Meeting {
+  struct Point {
     std::string method;
-    MeetingFacts facts;
+    PointFacts facts;
     std::optional<double> threshold;
   };
 
   std::vector<std::pair<std::string, FeatureWeights>> weights_;  ///< whose they are, in words
-  std::vector<Meeting> meetings_;
+  std::vector<Point> meetings_;
 };
 
 }  // namespace etude

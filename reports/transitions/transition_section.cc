@@ -25,14 +25,14 @@ std::string NumberOr(std::optional<double> value, int decimals) {
   return value ? FormatFixed(*value, decimals) : std::string(kNoValue);
 }
 
-std::span<const RecordedSwitch> Shown(const SwitchWorld& world) {
+std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
   return std::span(world.switches).first(std::min(world.switches.size(), kMostMethods));
 }
 
 /// "clap 41 → in-between 0 … in-between 12 → side kick 3"
-std::string WayOf(const SwitchFacts& facts) {
+std::string WayOf(const TransitionFacts& facts) {
   std::string text;
-  for (const MeetingFacts& meeting : facts.meetings) {
+  for (const PointFacts& meeting : facts.points) {
     if (!meeting.from_frame || !meeting.to_frame) continue;
     text += fmt::format("{}{} {} → {} {}", text.empty() ? "" : " … ", meeting.from, *meeting.from_frame, meeting.to,
                         *meeting.to_frame);
@@ -41,15 +41,15 @@ std::string WayOf(const SwitchFacts& facts) {
 }
 
 /// The largest distance of the frames that met: what the threshold is about.
-std::optional<double> WorstDistance(const SwitchFacts& facts) {
+std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
-  for (const MeetingFacts& meeting : facts.meetings) {
+  for (const PointFacts& meeting : facts.points) {
     if (meeting.distance && (!worst || *meeting.distance > *worst)) worst = meeting.distance;
   }
   return worst;
 }
 
-std::string PairsOf(const SwitchFacts& facts) {
+std::string PairsOf(const TransitionFacts& facts) {
   if (!facts.pairs_seen || *facts.pairs_seen == 0) return std::string(kNoValue);
   if (!facts.pairs_matched) return FormatCount(*facts.pairs_seen);
   return fmt::format("{} of {}", FormatCount(*facts.pairs_matched), FormatCount(*facts.pairs_seen));
@@ -57,15 +57,15 @@ std::string PairsOf(const SwitchFacts& facts) {
 
 std::string Dashed(const std::string& text) { return text.empty() ? std::string(kNoValue) : text; }
 
-std::string WaysTable(const SwitchWorld& world) {
+std::string WaysTable(const RecordedRequest& world) {
   std::string html =
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Which way each method "
       "took\"><table><thead><tr>"
       "<th scope=\"col\">Method</th><th scope=\"col\">Branch</th><th scope=\"col\">Frames, left → entered</th>"
       "<th scope=\"col\" class=\"n\">Wait</th><th scope=\"col\" class=\"n\">d</th>"
       "<th scope=\"col\" class=\"n\">Pairs matched</th><th scope=\"col\">Why</th></tr></thead><tbody>";
-  for (const RecordedSwitch& taken : Shown(world)) {
-    const SwitchFacts& facts = taken.facts;
+  for (const RecordedTransition& taken : Shown(world)) {
+    const TransitionFacts& facts = taken.facts;
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td>{}</td></tr>",
@@ -76,13 +76,13 @@ std::string WaysTable(const SwitchWorld& world) {
   return html + "</tbody></table></div>";
 }
 
-std::string Distances(const SwitchWorld& world) {
+std::string Distances(const RecordedRequest& world) {
   DistanceTable table;
-  for (const RecordedSwitch& taken : Shown(world)) {
-    const SwitchFacts& facts = taken.facts;
+  for (const RecordedTransition& taken : Shown(world)) {
+    const TransitionFacts& facts = taken.facts;
     if (facts.weights) table.AddWeights(taken.row->method, *facts.weights);
-    for (const MeetingFacts& meeting : facts.meetings) {
-      if (meeting.partials) table.AddMeeting(taken.row->method, meeting, facts.threshold);
+    for (const PointFacts& meeting : facts.points) {
+      if (meeting.partials) table.AddPoint(taken.row->method, meeting, facts.threshold);
     }
   }
   return table.Html();
@@ -94,15 +94,15 @@ std::string FrameIn(const std::string& clip, int frame) {
 }
 
 /// Through an in-between two pairs of clips meet, each with candidates of its own. Clips unknown are not named.
-MeetingFacts MeetingOf(const CandidateFacts& candidate, const SwitchFacts& facts) {
-  const int meeting = candidate.meeting.value_or(facts.meetings.size() == 1 ? 0 : -1);
-  const bool is_told = meeting >= 0 && meeting < static_cast<int>(facts.meetings.size());
-  return is_told ? facts.meetings[static_cast<std::size_t>(meeting)] : MeetingFacts{};
+PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
+  const int meeting = candidate.meeting.value_or(facts.points.size() == 1 ? 0 : -1);
+  const bool is_told = meeting >= 0 && meeting < static_cast<int>(facts.points.size());
+  return is_told ? facts.points[static_cast<std::size_t>(meeting)] : PointFacts{};
 }
 
-std::string CandidateRow(const CandidateFacts& candidate, const SwitchFacts& facts, bool has_costs) {
+std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts& facts, bool has_costs) {
   const bool taken = candidate.fate == "taken";
-  const MeetingFacts meeting = MeetingOf(candidate, facts);
+  const PointFacts meeting = PointOf(candidate, facts);
   std::string html =
       fmt::format("<tr{}><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
                   taken ? " class=\"taken\"" : "", taken ? "✓ " : "", EscapeMarkup(Dashed(candidate.fate)),
@@ -115,14 +115,14 @@ std::string CandidateRow(const CandidateFacts& candidate, const SwitchFacts& fac
 }
 
 /// The record holds but a few of all the pairs.
-std::string HowMany(const SwitchFacts& facts) {
+std::string HowMany(const TransitionFacts& facts) {
   const auto listed = static_cast<long long>(facts.candidates.size());
   if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
   return fmt::format("<p class=\"quiet legend\">{} of {} pairs of frames: the taken, and the best of the others.</p>",
                      FormatCount(listed), FormatCount(*facts.pairs_seen));
 }
 
-std::string CandidatesTable(const std::string& methods, const SwitchFacts& facts) {
+std::string CandidatesTable(const std::string& methods, const TransitionFacts& facts) {
   if (facts.candidates.empty()) return "";
   const bool has_costs = std::ranges::any_of(facts.candidates, [](const auto& c) { return c.cost.has_value(); });
   std::string html = fmt::format(
@@ -142,7 +142,7 @@ std::string CandidatesTable(const std::string& methods, const SwitchFacts& facts
 }
 
 /// Methods that differ in the join alone look at the same candidates: these are shown once.
-std::string AllCandidates(const SwitchWorld& world) {
+std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
   std::vector<bool> told(world.switches.size());
   for (std::size_t i = 0; i < Shown(world).size(); ++i) {
@@ -161,7 +161,7 @@ std::string AllCandidates(const SwitchWorld& world) {
          "taken. Worse: it matches, but another ranks before it.</p>";
 }
 
-std::string WorldHtml(const SwitchWorld& world, bool open) {
+std::string WorldHtml(const RecordedRequest& world, bool open) {
   std::string html =
       fmt::format("<details class=\"switches\"{}><summary>Why each switch went where it went: {}, {}</summary>",
                   open ? " open" : "", EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
@@ -169,15 +169,15 @@ std::string WorldHtml(const SwitchWorld& world, bool open) {
   return html + LeftOutHtml(world.switches.size(), kMostMethods, "methods", "the folder recordings") + "</details>";
 }
 
-std::string WorldMarkdown(const SwitchWorld& world) {
+std::string WorldMarkdown(const RecordedRequest& world) {
   std::string text = fmt::format(
       "\n{}, {}:\n\n| method | branch | frames, left → entered | wait | d | d² is mostly | why |\n"
       "|---|---|---|---|---|---|---|\n",
       EscapeMarkdown(world.Request()), EscapeMarkdown(world.Name()));
-  for (const RecordedSwitch& taken : Shown(world)) {
-    const SwitchFacts& facts = taken.facts;
+  for (const RecordedTransition& taken : Shown(world)) {
+    const TransitionFacts& facts = taken.facts;
     const auto worst =
-        std::ranges::max_element(facts.meetings, {}, [](const MeetingFacts& m) { return m.distance.value_or(-1); });
+        std::ranges::max_element(facts.points, {}, [](const PointFacts& m) { return m.distance.value_or(-1); });
     text += fmt::format(
         "| {} | {} | {} | {} | {} | {} | {} |\n", EscapeMarkdown(taken.row->method),
         EscapeMarkdown(Dashed(facts.branch)), EscapeMarkdown(WayOf(facts)),
@@ -203,13 +203,13 @@ std::string MostlyBy(const PerFeature& partials) {
   return text.empty() ? "all alike" : text;
 }
 
-std::string SwitchesHtml(const std::vector<SwitchWorld>& worlds) {
+std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
   std::string html;
   for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) html += WorldHtml(worlds[i], i == 0);
   return html + LeftOutHtml(worlds.size(), kMostWorlds, "requests", "the folder recordings");
 }
 
-std::string SwitchesMarkdown(const std::vector<SwitchWorld>& worlds) {
+std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
   if (worlds.empty()) return "";
   std::string text = "\n<details><summary>Why each switch went where it went</summary>\n";
   for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) text += WorldMarkdown(worlds[i]);

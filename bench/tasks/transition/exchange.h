@@ -28,12 +28,12 @@ Payload StagePayload(const Stage& stage);
 ///
 /// `max_wait_s` is the scenario's `wait_s`: how long the caller would like to wait at most. A later switch is
 /// allowed and costs `wait_s`, as that of the built-in `wait-for-end` does.
-Payload RequestPayload(const SwitchRequest& request, double max_wait_s);
+Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 
 /// Truth: the largest jump that still counts in `natural_share`.
 ///
 ///     {"natural_limit_cm": 3.1}
-Payload NaturePayload(const Stage& stage, const SwitchRequest& request);
+Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 
 /// How a method outside gets from one clip into the other:
 ///
@@ -56,14 +56,14 @@ Payload NaturePayload(const Stage& stage, const SwitchRequest& request);
 ///   measured, which is missing else.
 ///
 /// A method that finds no way answers `{"unsolved": "why"}`, like a built-in one that finds no match.
-struct SwitchAnswer {
+struct TransitionAnswer {
   std::optional<std::string> unsolved;  ///< why; the rest is then empty
-  std::vector<Leg> legs;                ///< as in a SwitchRecord
-  const Join* join = nullptr;           ///< never null when there are legs; its settings are the defaults
+  std::vector<Segment> segments;        ///< as in a TransitionRecord
+  const Join* join = nullptr;           ///< never null when there are segments; its settings are the defaults
   bool matched = false;
 };
 
 /// Refuses what is not as told above, naming where in the answer.
-Result<SwitchAnswer> ReadSwitchAnswer(const Json& answer, const Stage& stage, const SwitchRequest& request);
+Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& stage, const TransitionRequest& request);
 
 }  // namespace etude

@@ -7,6 +7,6 @@ namespace etude {
 
 /// Does what a method outside answered, which must have a way: the clips spliced, or its own frames put between them.
 /// The distances are by the fixed weights, whatever the method went by.
-SwitchOutcome FollowAnswer(const SwitchAnswer& answer, const Stage& stage, const SwitchRequest& request);
+TransitionOutcome FollowAnswer(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request);
 
 }  // namespace etude

@@ -4,14 +4,14 @@
 
 namespace etude {
 
-FrameWindow AroundSeams(const Splice& splice, double seconds) {
+FrameWindow AroundPoints(const Splice& splice, double seconds) {
   const int reach = static_cast<int>(seconds * splice.motion.rate_hz);
-  return {std::max(splice.seams.front().frame - reach, 0),
-          std::min(splice.seams.back().frame + reach, static_cast<int>(splice.motion.poses.size()) - 1)};
+  return {std::max(splice.points.front().frame - reach, 0),
+          std::min(splice.points.back().frame + reach, static_cast<int>(splice.motion.poses.size()) - 1)};
 }
 
-const FuzzyDistance& WorstMeeting(const SwitchRecord& record) {
-  return *std::max_element(record.meetings.begin(), record.meetings.end(),
+const FuzzyDistance& WorstDistance(const TransitionRecord& record) {
+  return *std::max_element(record.distances.begin(), record.distances.end(),
                            [](const FuzzyDistance& a, const FuzzyDistance& b) { return a.value < b.value; });
 }
 

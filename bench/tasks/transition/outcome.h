@@ -6,18 +6,18 @@
 namespace etude {
 
 /// What one method did in one world.
-struct SwitchOutcome {
-  SwitchRequest request;
+struct TransitionOutcome {
+  TransitionRequest request;
   bool matched = false;  ///< it chose the frames left and entered because they are alike
-  SwitchRules rules;     ///< those that its distances go by
-  SwitchRecord record;
+  MatchRules rules;      ///< those that its distances go by
+  TransitionRecord record;
   Splice splice;  ///< empty when the record found no way
 };
 
 /// The frames of a splice from so long before its first seam to so long after its last, as far as the motion goes.
-FrameWindow AroundSeams(const Splice& splice, double seconds);
+FrameWindow AroundPoints(const Splice& splice, double seconds);
 
 /// The meeting of a switch with legs that the fuzzy distance thinks worst.
-const FuzzyDistance& WorstMeeting(const SwitchRecord& record);
+const FuzzyDistance& WorstDistance(const TransitionRecord& record);
 
 }  // namespace etude

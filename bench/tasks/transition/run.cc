@@ -35,11 +35,11 @@ std::string KeysDigest(const InBetweenNet& net) {
   return digest.Hex();
 }
 
-std::string SwitchesDigest(const SwitchRecord& record) {
+std::string TransitionDigest(const TransitionRecord& record) {
   Digest digest;
-  for (const Leg& leg : record.legs)
-    digest.Add(std::int64_t{leg.clip}).Add(std::int64_t{leg.first}).Add(std::int64_t{leg.last});
-  for (const FuzzyDistance& meeting : record.meetings) digest.Add(meeting.value);
+  for (const Segment& leg : record.segments)
+    digest.Add(std::int64_t{segment.clip}).Add(std::int64_t{segment.first}).Add(std::int64_t{segment.last});
+  for (const FuzzyDistance& meeting : record.distances) digest.Add(meeting.value);
   return digest.Hex();
 }
 
@@ -53,7 +53,7 @@ std::string MotionDigest(const BodyMotion& motion) {
 
 }  // namespace
 
-TransitionWorld::TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion)
+TransitionWorld::TransitionWorld(const TransitionBasis& basis, Result<TransitionRequest> request, bool keeps_motion)
     : basis_(basis), request_(std::move(request)), keeps_motion_(keeps_motion) {
   if (!request_) return;
   const TaggedClip &from = basis_.stage.library.tagged[request_->from], &to = basis_.stage.library.tagged[request_->to];
@@ -72,11 +72,11 @@ void TransitionWorld::PrepareShared() {
 
 CellResult TransitionWorld::Run(std::size_t index) {
   const TransitionMethod& method = basis_.methods[index];
-  SwitchRequest request = *request_;
+  TransitionRequest request = *request_;
   request.budget_s = method.wait_s;
-  SwitchMethod way = method.way;
+  TransitionWay way = method.way;
   way.rules.weights = WeightsOf(method.weights);
-  SwitchResult switched = SwitchClips(basis_.stage.library, request, way);
+  Transition switched = MakeTransition(basis_.stage.library, request, way);
   // A forced way takes what is nearest, although no frames match.
   CellResult result = Score({.request = request,
                              .matched = way.choice->matches_poses && switched.record.branch != Branch::kForced,
@@ -101,8 +101,8 @@ Result<Payload> TransitionWorld::MakeTruth() {
 
 Result<CellResult> TransitionWorld::Judge(const Json& answer) {
   if (!request_) return tl::unexpected(request_.error());
-  ASSIGN_OR_RETURN(const auto read, ReadSwitchAnswer(answer, basis_.stage, *request_));
-  SwitchOutcome outcome;
+  ASSIGN_OR_RETURN(const auto read, ReadTransitionAnswer(answer, basis_.stage, *request_));
+  TransitionOutcome outcome;
   if (read.unsolved) {
     outcome.rules.weights = basis_.stage.fuzzy.weights;
     outcome.record.why = *read.unsolved;
@@ -119,22 +119,22 @@ const FeatureWeights& TransitionWorld::WeightsOf(WeightSource source) const {
   return basis_.learnt.For(source, identities[request_->from], identities[request_->to]);
 }
 
-CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
+CellResult TransitionWorld::Score(const TransitionOutcome& outcome) const {
   CellResult result = CellResult::Ended(Status::kOk, "");
   result.digests = stage_digests_;
   result.digests.emplace_back("weights", Digest().Add(std::span<const double>(outcome.rules.weights)).Hex());
-  result.digests.emplace_back("switches", SwitchesDigest(outcome.record));
+  result.digests.emplace_back("switches", TransitionDigest(outcome.record));
   result.digests.emplace_back("motion", MotionDigest(outcome.splice.motion));
-  if (outcome.record.legs.empty()) {
+  if (outcome.record.segments.empty()) {
     result.status = Status::kUnsolved;
     result.reason = outcome.record.why;
     MeasureNoWay(result);
     return result;
   }
-  ScoreSwitch(outcome, basis_.stage, result);
-  result.series.push_back(SeamSeries(outcome));
+  ScoreTransition(outcome, basis_.stage, result);
+  result.series.push_back(JumpSeries(outcome));
   if (basis_.explain) std::ranges::move(ExplanationOf(outcome.record), std::back_inserter(result.series));
-  if (keeps_motion_) result.recording = RecordSwitch(outcome, basis_.stage);
+  if (keeps_motion_) result.recording = RecordTransition(outcome, basis_.stage);
   return result;
 }
 

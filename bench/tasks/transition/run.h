@@ -26,7 +26,7 @@ struct TransitionBasis {
 class TransitionWorld final : public TaskWorld {
  public:
   /// A request that failed is a world to be skipped.
-  TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion);
+  TransitionWorld(const TransitionBasis& basis, Result<TransitionRequest> request, bool keeps_motion);
 
   std::optional<std::string> WhySkipped() const override;
   void PrepareShared() override;
@@ -37,10 +37,10 @@ class TransitionWorld final : public TaskWorld {
 
  private:
   const FeatureWeights& WeightsOf(WeightSource source) const;
-  CellResult Score(const SwitchOutcome& outcome) const;
+  CellResult Score(const TransitionOutcome& outcome) const;
 
   const TransitionBasis basis_;
-  const Result<SwitchRequest> request_;
+  const Result<TransitionRequest> request_;
   const bool keeps_motion_;
   std::vector<std::pair<std::string, std::string>> stage_digests_;
 };

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-MatchTally TallyMatches(const Stage& stage, const SwitchRequest& request, const Choice& choice,
-                        const SwitchRules& rules) {
+MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const Choice& choice,
+                        const MatchRules& rules) {
   const TaggedClip &from = stage.library.tagged[request.from], &to = stage.library.tagged[request.to];
   std::vector<int> leaving, entering;
   if (choice.any_frame) {

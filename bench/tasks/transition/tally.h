@@ -10,7 +10,7 @@ namespace etude {
 /// What the rules of a fuzzy choice make of the pairs of frames that it may take: those of AllowedPairs, or, of a
 /// choice that goes by bridge frames, a bridge frame of the playing clip within the budget and one of the wanted clip
 /// but its last, after which nothing would follow.
-MatchTally TallyMatches(const Stage& stage, const SwitchRequest& request, const Choice& choice,
-                        const SwitchRules& rules);
+MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const Choice& choice,
+                        const MatchRules& rules);
 
 }  // namespace etude

@@ -77,7 +77,7 @@ TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
   const Choice& choice = *FindChoice("fuzzy-bridge");
   int looser = 0;
   for (int trial = 0; trial < 6; ++trial) {
-    const SwitchRequest request = *DrawRequest(stage, Trial(trial));
+    const TransitionRequest request = *DrawRequest(stage, Trial(trial));
     const TaggedClip &from = stage.library.tagged[request.from], &to = stage.library.tagged[request.to];
     std::int64_t pairs = 0;
     for (int leave : from.bridge_frames) {
@@ -88,7 +88,7 @@ TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
     EXPECT_EQ(tally(0).matching, 0);
     EXPECT_EQ(tally(6).matching, pairs) << "no distance is larger";
     EXPECT_EQ(tally(0.4).pairs, pairs);
-    EXPECT_EQ(tally(0.4).matching > 0, choice.plan(stage.library, request, {}).legs.size() == 2);
+    EXPECT_EQ(tally(0.4).matching > 0, choice.plan(stage.library, request, {}).segments.size() == 2);
     looser += tally(0.8).matching > tally(0.4).matching ? 1 : 0;
   }
   EXPECT_GT(looser, 0);
@@ -110,7 +110,7 @@ TEST_F(TransitionTaskTest, AsksForActsWhileMovesPlay) {
   const Stage any = SetStage(none, {.fuzzy = {}, .head = {}, .tween = {}, .asks_for_acts = true});
   std::vector<int> wanted(library.clips.size());
   for (int trial = 0; trial < 20; ++trial) {
-    const SwitchRequest request = *DrawRequest(acts, Trial(trial));
+    const TransitionRequest request = *DrawRequest(acts, Trial(trial));
     EXPECT_EQ(request.from, 1 + trial % 2);
     ++wanted[request.to];
     EXPECT_NE(DrawRequest(any, Trial(trial))->from, DrawRequest(any, Trial(trial))->to) << "no acts: any clip";
