@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// The clips of `etude bridge`, danced by one body and tagged.
+/// The clips of `etude bridge`, performed by one body and tagged.
 struct BridgeLibrary {
   FuzzySystem system;
   TagRules tag_rules;

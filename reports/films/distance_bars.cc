@@ -40,11 +40,11 @@ void DrawBar(Canvas& canvas, const Box& row, std::string_view label, std::option
 
 }  // namespace
 
-std::string PointWords(const TransitionFacts& facts, std::size_t meeting) {
+std::string PointWords(const TransitionFacts& facts, std::size_t point) {
   std::string words;
   const auto add = [&](const std::string& more) { words += (words.empty() || more.empty() ? "" : " · ") + more; };
-  if (facts.points.size() > 1) add(fmt::format("{} of {}", meeting + 1, facts.points.size()));
-  if (const auto distance = facts.points[meeting].distance) {
+  if (facts.points.size() > 1) add(fmt::format("{} of {}", point + 1, facts.points.size()));
+  if (const auto distance = facts.points[point].distance) {
     std::string d = "d " + FormatFixed(*distance, 3);
     if (facts.threshold) d += fmt::format(" {} {:g}", *distance < *facts.threshold ? "<" : "≥", *facts.threshold);
     add(d);
@@ -53,14 +53,13 @@ std::string PointWords(const TransitionFacts& facts, std::size_t meeting) {
   return words;
 }
 
-void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts,
-                      std::optional<std::size_t> meeting) {
+void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point) {
   const double inner = box.width - 2 * kMargin;
-  const bool known = meeting && *meeting < facts.points.size();
-  const std::optional<PerFeature> partials = known ? facts.points[*meeting].partials : std::nullopt;
-  const std::string heading = !known      ? "no switch yet"
-                              : !partials ? PointWords(facts, *meeting) + " · no distances told"
-                                          : PointWords(facts, *meeting);
+  const bool known = point && *point < facts.points.size();
+  const std::optional<PerFeature> partials = known ? facts.points[*point].partials : std::nullopt;
+  const std::string heading = !known      ? "no transition yet"
+                              : !partials ? PointWords(facts, *point) + " · no distances told"
+                                          : PointWords(facts, *point);
   canvas.DrawText({box.x + kMargin, box.y + 18}, heading, kHeadingSize, known ? kInk : kSoftInk, inner, known);
   const double full = partials ? FullBar(facts, *partials) : 0;
   constexpr double kGap = 14;

@@ -20,9 +20,9 @@ constexpr double kSide = 12, kTop = 24, kBottom = 34, kClipHeight = 6;
 // The metric jump_cm, as far as it is known at a frame.
 std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
   std::optional<double> most;
-  for (const int seam : path.facts.transition_frames) {
-    const int last = std::min({seam + kWindowReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
-    for (int at = std::max(0, seam - kWindowReach); frame > seam && at <= last; ++at) {
+  for (const int point : path.facts.transition_frames) {
+    const int last = std::min({point + kWindowReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
+    for (int at = std::max(0, point - kWindowReach); frame > point && at <= last; ++at) {
       most = std::max(most.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
     }
   }
@@ -53,7 +53,7 @@ void JumpStrip::Draw(Canvas& canvas, const Box& box, const TransitionPath& path,
   const Frame frame{{box.x + kSide, box.y + kTop, box.width - 2 * kSide, box.height - kTop - kBottom}, *this};
   const int shown = path.FrameAt(time);
   std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
-  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", switch {}", FormatFixed(*most, 1));
+  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", transition {}", FormatFixed(*most, 1));
   canvas.DrawText({frame.box.x, box.y + 16}, path.IsRecordedAt(time) ? jump : "jump —", kTextSize, kInk, kJumpRoom);
   if (path.facts.natural_limit_cm) {
     const double y = frame.Y(*path.facts.natural_limit_cm);
@@ -86,11 +86,11 @@ void JumpStrip::DrawClips(Canvas& canvas, const Frame& frame, const TransitionPa
   const double y = frame.Bottom() + 8;
   canvas.DrawLine({frame.box.x, frame.Bottom()}, {frame.box.x + frame.box.width, frame.Bottom()}, 1, kFloor);
   double from = frame.box.x;
-  const std::size_t seams = path.facts.transition_frames.size();
-  for (std::size_t leg = 0; leg <= seams; ++leg) {
-    const double to =
-        leg < seams ? frame.X(path.TimeOf(path.facts.transition_frames[leg]) + 0.5) : frame.box.x + frame.box.width;
-    if (to > from) canvas.FillBox({from, y, to - from, kClipHeight}, PaintOfSegment(path.facts, leg));
+  const std::size_t points = path.facts.transition_frames.size();
+  for (std::size_t segment = 0; segment <= points; ++segment) {
+    const double to = segment < points ? frame.X(path.TimeOf(path.facts.transition_frames[segment]) + 0.5)
+                                       : frame.box.x + frame.box.width;
+    if (to > from) canvas.FillBox({from, y, to - from, kClipHeight}, PaintOfSegment(path.facts, segment));
     from = to;
   }
   const double request = frame.X(0), baseline = y + kClipHeight + 15;

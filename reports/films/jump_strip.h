@@ -23,7 +23,8 @@ class JumpStrip {
   double highest_cm_;
 };
 
-/// The colour of what plays after so many of a path's seams: the clip left, an in-between, or the clip wanted.
+/// The colour of what plays after so many of a path's transition points: the clip left, an in-between, or the clip
+/// wanted.
 const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before);
 
 }  // namespace etude

@@ -120,8 +120,8 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths) {
       film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
                                                  paths.films / FilmName(run, i, "convergence"), renderer);
     } else if (auto race = FindTransitionRace(run, scenario)) {
-      film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "methods switching",
-                                                paths.films / FilmName(run, i, "switches"), renderer);
+      film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
+                                                paths.films / FilmName(run, i, "transitions"), renderer);
     } else {
       continue;
     }

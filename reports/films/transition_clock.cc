@@ -8,7 +8,7 @@ namespace {
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
 // Who waits longer than this is seen waiting.
 constexpr int kLatest = 4 * kFilmRate;
-// Enough to see what leads to a switch, and what comes of it; and as much as one watches slowly.
+// Enough to see what leads to a transition, and what comes of it; and as much as one watches slowly.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
 constexpr int kLongestSlow = 5 * kFilmRate / 2;
 

@@ -6,7 +6,7 @@
 namespace etude {
 
 /// Which moment of a request is seen at which frame of a film, the same for every method: from a second before the
-/// request until after the last switch, and then the switches once more, slower. Times are frames after the request.
+/// request until after the last transition, and then all once more, slower. Times are frames after the request.
 class TransitionClock {
  public:
   static constexpr int kSlowness = 4;

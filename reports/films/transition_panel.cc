@@ -31,11 +31,11 @@ Box TransitionPanel::BodyBox(const Box& column) {
 
 // Clips are named by what meets; a recording that does not tell knows the first and the last.
 std::string TransitionPanel::ClipAt(int time) const {
-  const std::size_t seams = path_.PointsBefore(time);
-  if (seams == 0) return path_.facts.from;
-  if (seams >= path_.facts.transition_frames.size()) return path_.facts.to;
-  const bool is_told = seams <= path_.facts.points.size() && !path_.facts.points[seams - 1].to.empty();
-  return is_told ? path_.facts.points[seams - 1].to : "in-between";
+  const std::size_t points = path_.PointsBefore(time);
+  if (points == 0) return path_.facts.from;
+  if (points >= path_.facts.transition_frames.size()) return path_.facts.to;
+  const bool is_told = points <= path_.facts.points.size() && !path_.facts.points[points - 1].to.empty();
+  return is_told ? path_.facts.points[points - 1].to : "in-between";
 }
 
 void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time) {
@@ -46,15 +46,15 @@ void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer
   strip_.Draw(canvas, strip, path_, time);
   const Box bars{column.x, strip.y + strip.height + kGap, column.width, kDistanceBarsHeight};
   canvas.FillBox(bars, kPlate, kPanelRadius);
-  const std::size_t seams = path_.PointsBefore(time);
-  DrawDistanceBars(canvas, bars, path_.facts, seams > 0 ? std::optional(seams - 1) : std::nullopt);
+  const std::size_t points = path_.PointsBefore(time);
+  DrawDistanceBars(canvas, bars, path_.facts, points > 0 ? std::optional(points - 1) : std::nullopt);
 }
 
 void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
-  const std::size_t seams = path_.PointsBefore(time);
+  const std::size_t points = path_.PointsBefore(time);
   std::optional<int> left;
-  if (seams > 0) left = path_.facts.transition_frames[seams - 1];
+  if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;
   const std::optional<int> ghost = left && since <= kGhostFrames ? left : std::nullopt;
   if (!drawn_ || drawn_->frame != frame || drawn_->ghost != ghost) {

@@ -13,7 +13,8 @@ namespace etude {
 /// `time` and `last_point` are frames after the request.
 std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
 
-/// One method's column of the film that compares switches: the dancer, how jerky it is, and the distances of what met.
+/// One method's column of the film that compares transitions: the dancer, how jerky it is, and the distances at its
+/// transition points.
 class TransitionPanel {
  public:
   static constexpr double kCaptionHeight = 52, kStripHeight = 132, kGap = 8;

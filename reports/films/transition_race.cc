@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-// Older recordings tell the wait only; what tells neither is aligned at its switch.
+// Older recordings tell the wait only; what tells neither is aligned at its transition.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kLongest = 3600;
@@ -27,8 +27,8 @@ std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, con
   std::vector<const RecordedTransition*> shown;
   for (const std::string& method : methods) {
     const auto found = std::ranges::find_if(
-        world.switches, [&](const RecordedTransition& s) { return s.row->method == method && CanBeShown(s); });
-    if (found != world.switches.end() && shown.size() < kMostTransitionPaths) shown.push_back(&*found);
+        world.transitions, [&](const RecordedTransition& s) { return s.row->method == method && CanBeShown(s); });
+    if (found != world.transitions.end() && shown.size() < kMostTransitionPaths) shown.push_back(&*found);
   }
   return shown;
 }
@@ -43,7 +43,7 @@ bool TransitionPath::IsRecordedAt(int time) const { return request + time >= 0; 
 
 std::size_t TransitionPath::PointsBefore(int time) const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(facts.transition_frames, [&](int seam) { return TimeOf(seam) < time; }));
+      std::ranges::count_if(facts.transition_frames, [&](int point) { return TimeOf(point) < time; }));
 }
 
 Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario) {
@@ -57,11 +57,11 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
     shown = std::move(candidates);
   }
   if (worlds.empty()) {
-    return Fail({}, "this run kept no recordings of switches here (the scenario's key video)");
+    return Fail({}, "this run kept no recordings of transitions here (the scenario's key video)");
   }
-  if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods that switched");
+  if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods with a transition");
   TransitionRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
-  race.choice = fmt::format("the first of {} recorded in which most of them switched",
+  race.choice = fmt::format("the first of {} recorded in which most of them have one",
                             Plural(static_cast<long long>(worlds.size()), "world"));
   for (const RecordedTransition* recorded : shown) {
     const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");

@@ -21,7 +21,7 @@ struct TransitionPath {
   bool IsRecordedAt(int time) const;
   /// The same, of a frame of the motion, as time after the request.
   int TimeOf(int frame) const { return frame - request; }
-  /// How many seams lie before the frame shown at that time.
+  /// How many transition points lie before the frame shown at that time.
   std::size_t PointsBefore(int time) const;
   int FirstPoint() const { return TimeOf(facts.transition_frames.front()); }
   int LastPoint() const { return TimeOf(facts.transition_frames.back()); }

@@ -9,13 +9,13 @@
 namespace etude {
 
 std::string RecordedRequest::Name() const {
-  const Row& row = *switches.front().row;
+  const Row& row = *transitions.front().row;
   const std::string condition = ConditionLabel(row.condition);
   return fmt::format("{}{}trial {}", condition, condition.empty() ? "" : ", ", row.trial);
 }
 
 std::string RecordedRequest::Request() const {
-  const TransitionFacts& facts = switches.front().facts;
+  const TransitionFacts& facts = transitions.front().facts;
   return fmt::format("{} → {}", facts.from, facts.to);
 }
 
@@ -33,10 +33,10 @@ std::vector<RecordedRequest> RecordedRequestsOf(const RunData& run, const Scenar
     if (!facts) continue;
     const auto [place, is_new] = places.try_emplace({CompactLabel(row.condition), row.trial}, worlds.size());
     if (is_new) worlds.emplace_back();
-    worlds[place->second].switches.push_back({&row, found->second, *std::move(facts)});
+    worlds[place->second].transitions.push_back({&row, found->second, *std::move(facts)});
   }
   const auto order = [&](const RecordedTransition& s) { return std::ranges::find(scenario.methods, s.row->method); };
-  for (RecordedRequest& world : worlds) std::ranges::stable_sort(world.switches, {}, order);
+  for (RecordedRequest& world : worlds) std::ranges::stable_sort(world.transitions, {}, order);
   return worlds;
 }
 

@@ -17,7 +17,7 @@ struct RecordedTransition {
 
 /// One request, and what each method of which a recording was kept did with it. Never empty.
 struct RecordedRequest {
-  std::vector<RecordedTransition> switches;  ///< in the order of the scenario's methods
+  std::vector<RecordedTransition> transitions;  ///< in the order of the scenario's methods
 
   /// "trial 3", "threshold=0.3, trial 3"
   std::string Name() const;

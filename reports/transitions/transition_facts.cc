@@ -57,16 +57,16 @@ std::vector<Json> ObjectsOf(const Json& json, const char* key) {
 // "transition_frames" when the change went through an in-between clip, else "transition_frame"; those inside the
 // motion.
 std::vector<int> TransitionFramesOf(const Json& extras, int frames) {
-  std::vector<int> seams;
+  std::vector<int> points;
   const auto add = [&](const Json& json) {
-    const auto seam = FrameOf(json);
-    if (seam && *seam >= 0 && *seam < frames) seams.push_back(*seam);
+    const auto point = FrameOf(json);
+    if (point && *point >= 0 && *point < frames) points.push_back(*point);
   };
   const Json all = extras.value("transition_frames", Json::array());
-  for (const Json& seam : all.is_array() ? all : Json::array()) add(seam);
-  if (seams.empty()) add(extras.value("transition_frame", Json()));
-  std::ranges::sort(seams);
-  return seams;
+  for (const Json& point : all.is_array() ? all : Json::array()) add(point);
+  if (points.empty()) add(extras.value("transition_frame", Json()));
+  std::ranges::sort(points);
+  return points;
 }
 
 PointFacts PointOf(const Json& json) {
@@ -87,8 +87,8 @@ std::optional<CandidateFacts> CandidateOf(const Json& json) {
                         .distance = *distance,
                         .partials = FeaturesOf(json, "partials"),
                         .cost = NumberOf(json, "cost"),
-                        .fate = TextOf(json, "fate"),
-                        .meeting = FrameOf(json, "meeting")};
+                        .outcome = TextOf(json, "outcome"),
+                        .point = FrameOf(json, "point")};
 }
 
 }  // namespace
@@ -104,9 +104,9 @@ Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const st
   facts.why = TextOf(extras, "why");
   facts.cost_unit = TextOf(extras, "cost_unit");
   facts.transition_frames = TransitionFramesOf(extras, coach == nullptr ? 0 : static_cast<int>(coach->poses.size()));
-  for (const Json& entry : ObjectsOf(extras, "switches")) facts.points.push_back(PointOf(entry));
+  for (const Json& entry : ObjectsOf(extras, "transition_points")) facts.points.push_back(PointOf(entry));
   if (facts.points.empty()) facts.points.push_back(PointOf(extras));
-  // Of a direct switch, older recordings tell the partial distances but once.
+  // Of a direct transition, older recordings tell the partial distances but once.
   if (facts.points.size() == 1 && !facts.points[0].partials) {
     facts.points[0].partials = FeaturesOf(extras, "partials");
   }

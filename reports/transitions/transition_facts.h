@@ -9,7 +9,7 @@
 
 namespace etude {
 
-/// Two frames that met when a motion changed clips.
+/// a transition point: two frames, at which a motion changed clips.
 struct PointFacts {
   std::string from, to;  ///< clips in words; "in-between" for frames of the method's own
   std::optional<int> from_frame, to_frame;
@@ -23,13 +23,13 @@ struct CandidateFacts {
   double distance = 0;
   std::optional<PerFeature> partials;
   std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
-  std::string fate;            ///< "taken", "too far", "later", "worse"
-  std::optional<int> meeting;  ///< which of the points it was looked at for
+  std::string outcome;         ///< "taken", "too far", "later", "worse"
+  std::optional<int> point;    ///< for which of the points it was looked at
 
   bool operator==(const CandidateFacts&) const = default;
 };
 
-/// What the recording of a transition tells of its switch. Whatever it leaves out is empty here: recordings of older
+/// What the recording of a transition tells of it. Whatever it leaves out is empty here: recordings of older
 /// runs, and of methods outside, tell less.
 struct TransitionFacts {
   std::string from, to;  ///< clips in words
@@ -45,7 +45,8 @@ struct TransitionFacts {
   std::optional<long long> pairs_seen, pairs_matched;
 };
 
-/// Fails, naming `cell`, when the extras are no JSON object. Seams outside of the coach's motion are left out.
+/// Fails, naming `cell`, when the extras are no JSON object. Transition points outside of the coach's motion are left
+/// out.
 Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell);
 
 /// A clip's name as people say it: "builtin:side_kick" is "side kick".

@@ -26,16 +26,16 @@ std::string NumberOr(std::optional<double> value, int decimals) {
 }
 
 std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
-  return std::span(world.switches).first(std::min(world.switches.size(), kMostMethods));
+  return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
 }
 
 /// "clap 41 → in-between 0 … in-between 12 → side kick 3"
 std::string WayOf(const TransitionFacts& facts) {
   std::string text;
-  for (const PointFacts& meeting : facts.points) {
-    if (!meeting.from_frame || !meeting.to_frame) continue;
-    text += fmt::format("{}{} {} → {} {}", text.empty() ? "" : " … ", meeting.from, *meeting.from_frame, meeting.to,
-                        *meeting.to_frame);
+  for (const PointFacts& point : facts.points) {
+    if (!point.from_frame || !point.to_frame) continue;
+    text += fmt::format("{}{} {} → {} {}", text.empty() ? "" : " … ", point.from, *point.from_frame, point.to,
+                        *point.to_frame);
   }
   return text.empty() ? std::string(kNoValue) : text;
 }
@@ -43,8 +43,8 @@ std::string WayOf(const TransitionFacts& facts) {
 /// The largest distance of the frames that met: what the threshold is about.
 std::optional<double> WorstDistance(const TransitionFacts& facts) {
   std::optional<double> worst;
-  for (const PointFacts& meeting : facts.points) {
-    if (meeting.distance && (!worst || *meeting.distance > *worst)) worst = meeting.distance;
+  for (const PointFacts& point : facts.points) {
+    if (point.distance && (!worst || *point.distance > *worst)) worst = point.distance;
   }
   return worst;
 }
@@ -81,8 +81,8 @@ std::string Distances(const RecordedRequest& world) {
   for (const RecordedTransition& taken : Shown(world)) {
     const TransitionFacts& facts = taken.facts;
     if (facts.weights) table.AddWeights(taken.row->method, *facts.weights);
-    for (const PointFacts& meeting : facts.points) {
-      if (meeting.partials) table.AddPoint(taken.row->method, meeting, facts.threshold);
+    for (const PointFacts& point : facts.points) {
+      if (point.partials) table.AddPoint(taken.row->method, point, facts.threshold);
     }
   }
   return table.Html();
@@ -95,18 +95,18 @@ std::string FrameIn(const std::string& clip, int frame) {
 
 /// Through an in-between two pairs of clips meet, each with candidates of its own. Clips unknown are not named.
 PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
-  const int meeting = candidate.meeting.value_or(facts.points.size() == 1 ? 0 : -1);
-  const bool is_told = meeting >= 0 && meeting < static_cast<int>(facts.points.size());
-  return is_told ? facts.points[static_cast<std::size_t>(meeting)] : PointFacts{};
+  const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
+  const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
+  return is_told ? facts.points[static_cast<std::size_t>(point)] : PointFacts{};
 }
 
 std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts& facts, bool has_costs) {
-  const bool taken = candidate.fate == "taken";
-  const PointFacts meeting = PointOf(candidate, facts);
+  const bool taken = candidate.outcome == "taken";
+  const PointFacts point = PointOf(candidate, facts);
   std::string html =
       fmt::format("<tr{}><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
-                  taken ? " class=\"taken\"" : "", taken ? "✓ " : "", EscapeMarkup(Dashed(candidate.fate)),
-                  FrameIn(meeting.from, candidate.from_frame), FrameIn(meeting.to, candidate.to_frame),
+                  taken ? " class=\"taken\"" : "", taken ? "✓ " : "", EscapeMarkup(Dashed(candidate.outcome)),
+                  FrameIn(point.from, candidate.from_frame), FrameIn(point.to, candidate.to_frame),
                   FormatFixed(candidate.distance, 3));
   if (has_costs)
     html += fmt::format("<td class=\"n\">{}</td>", candidate.cost ? FormatNumber(*candidate.cost) : kNoValue);
@@ -128,7 +128,7 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
   std::string html = fmt::format(
       "<h4>What {} looked at</h4>{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Candidates of "
       "{}\">"
-      "<table><thead><tr><th scope=\"col\">Fate</th><th scope=\"col\" class=\"n\">Leaves at</th>"
+      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\" class=\"n\">Leaves at</th>"
       "<th scope=\"col\" class=\"n\">Enters at</th><th scope=\"col\" class=\"n\">d</th>",
       EscapeMarkup(methods), HowMany(facts), EscapeMarkup(methods));
   if (has_costs) {
@@ -144,16 +144,16 @@ std::string CandidatesTable(const std::string& methods, const TransitionFacts& f
 /// Methods that differ in the join alone look at the same candidates: these are shown once.
 std::string AllCandidates(const RecordedRequest& world) {
   std::string html;
-  std::vector<bool> told(world.switches.size());
+  std::vector<bool> told(world.transitions.size());
   for (std::size_t i = 0; i < Shown(world).size(); ++i) {
     if (told[i]) continue;
-    std::string methods = world.switches[i].row->method;
+    std::string methods = world.transitions[i].row->method;
     for (std::size_t j = i + 1; j < Shown(world).size(); ++j) {
-      if (world.switches[j].facts.candidates != world.switches[i].facts.candidates) continue;
-      methods += ", " + world.switches[j].row->method;
+      if (world.transitions[j].facts.candidates != world.transitions[i].facts.candidates) continue;
+      methods += ", " + world.transitions[j].row->method;
       told[j] = true;
     }
-    html += CandidatesTable(methods, world.switches[i].facts);
+    html += CandidatesTable(methods, world.transitions[i].facts);
   }
   if (html.empty()) return html;
   return html +
@@ -163,10 +163,10 @@ std::string AllCandidates(const RecordedRequest& world) {
 
 std::string WorldHtml(const RecordedRequest& world, bool open) {
   std::string html =
-      fmt::format("<details class=\"switches\"{}><summary>Why each switch went where it went: {}, {}</summary>",
+      fmt::format("<details class=\"transitions\"{}><summary>Why each transition went where it went: {}, {}</summary>",
                   open ? " open" : "", EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
   html += WaysTable(world) + Distances(world) + AllCandidates(world);
-  return html + LeftOutHtml(world.switches.size(), kMostMethods, "methods", "the folder recordings") + "</details>";
+  return html + LeftOutHtml(world.transitions.size(), kMostMethods, "methods", "the folder recordings") + "</details>";
 }
 
 std::string WorldMarkdown(const RecordedRequest& world) {
@@ -211,7 +211,7 @@ std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
 
 std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
   if (worlds.empty()) return "";
-  std::string text = "\n<details><summary>Why each switch went where it went</summary>\n";
+  std::string text = "\n<details><summary>Why each transition went where it went</summary>\n";
   for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) text += WorldMarkdown(worlds[i]);
   const std::string rest = LeftOutWords(worlds.size(), kMostWorlds, "requests", "the folder recordings");
   return text + (rest.empty() ? "" : "\n" + rest + "\n") + "\n</details>\n";

@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Why each recorded switch went where it went, the methods of one request side by side: the ways taken, the ten
+/// Why each recorded transition went where it went, the methods of one request side by side: the ways taken, the ten
 /// partial distances of the frames that met, and the candidates. Long lists are cut, and say so. "" without worlds.
 std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds);
 

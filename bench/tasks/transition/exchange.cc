@@ -39,10 +39,10 @@ BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyPropor
   return pose.value_or(BodyPose{});
 }
 
-/// Frames of the method's own making. Frame 0 of the leg is its version of the frame left, which is not shown.
+/// Frames of the method's own making. Frame 0 of the segment is its version of the frame left, which is not shown.
 std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& character) {
   const Json& entries = fields.List("between", 0, kMostBetween);
-  Segment leg{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
+  Segment segment{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
   for (std::size_t i = 0; i < entries.size(); ++i) {
     segment.own.push_back(ReadOwnPose(entries[i], fields.PathOf("between", i), character, fields));
   }

@@ -36,8 +36,8 @@ Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaul
   rules.threshold = limits.threshold;
   rules.pick = fields.Choice("pick", PickNames(), PickNames().front()) == "smallest" ? Pick::kSmallest : Pick::kFirst;
   rules.within_class = fields.Boolean("within_class", false);
-  ReadSettings<MatchRules>(fields, choice.settings, rules);
-  ReadSettings<JoinSettings>(fields, join.settings, method.way.join_settings);
+  method.way.choice_settings = ReadSettings(fields, choice.settings);
+  method.way.join_settings = ReadSettings(fields, join.settings);
   RefuseMisplacedKeys(fields, TransitionMethodKeys(), "choice", choice.name);
   RefuseMisplacedKeys(fields, TransitionMethodKeys(), "join", join.name);
   RETURN_IF_ERROR(fields.Finish());
@@ -55,7 +55,7 @@ std::vector<KeyInfo> TransitionConditionKeys() {
        "How long after the request a switch may come; for all methods, those outside are told it as max_wait_s."}};
   keys.push_back(
       {"explain", "true, false", "false",
-       "Whether every cell keeps the ten partial distances of its points and its candidates, as series; filmed "
+       "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; filmed "
        "cells are explained in the report anyway."});
   for (KeyInfo& key : StageKeys()) keys.push_back(std::move(key));
   keys.push_back(FuzzyKey());
@@ -83,8 +83,8 @@ std::vector<KeyInfo> TransitionMethodKeys() {
        "Which of several matching pairs is taken.",
        {"choice", {"fuzzy-bridge"}}},
       {"wait_s", "0…60 (seconds)", "(the scenario's)", "How long after the request a switch may come."}};
-  for (KeyInfo& key : SettingKeys("choice", AllChoices(), MatchRules{})) keys.push_back(std::move(key));
-  for (KeyInfo& key : SettingKeys("join", AllJoins(), JoinSettings{})) keys.push_back(std::move(key));
+  for (KeyInfo& key : SettingKeys("choice", AllChoices())) keys.push_back(std::move(key));
+  for (KeyInfo& key : SettingKeys("join", AllJoins())) keys.push_back(std::move(key));
   return keys;
 }
 

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// One way to switch, as a scenario names it.
+/// One method, as a scenario names it.
 ///
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {

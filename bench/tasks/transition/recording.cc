@@ -36,7 +36,7 @@ OrderedJson PointsOf(const TransitionRecord& record, const Stage& stage) {
 OrderedJson CandidatesOf(const TransitionRecord& record) {
   OrderedJson list = OrderedJson::array();
   for (const Candidate& candidate : record.candidates) {
-    list.push_back({{"meeting", candidate.point},
+    list.push_back({{"point", candidate.point},
                     {"from_frame", candidate.from_frame},
                     {"to_frame", candidate.to_frame},
                     {"distance", candidate.distance.value},
@@ -59,20 +59,20 @@ std::vector<Series> ExplanationOf(const TransitionRecord& record) {
   const auto append = [](std::vector<double>& all, const PerFeature& ten) {
     all.insert(all.end(), ten.begin(), ten.end());
   };
-  Series meetings{"meeting_partials", "feature", {}}, partials{"candidate_partials", "feature", {}};
-  for (const FuzzyDistance& meeting : record.distances) append(meetings.values, meeting.partials);
+  Series points{"point_partials", "feature", {}}, partials{"candidate_partials", "feature", {}};
+  for (const FuzzyDistance& distance : record.distances) append(points.values, distance.partials);
   for (const Candidate& candidate : record.candidates) append(partials.values, candidate.distance.partials);
   const auto each = [&](const char* name, auto&& value) {
     Series series{name, "candidate", {}};
     for (const Candidate& candidate : record.candidates) series.values.push_back(static_cast<double>(value(candidate)));
     return series;
   };
-  return {std::move(meetings),
-          each("candidate_meeting", [](const Candidate& c) { return c.point; }),
+  return {std::move(points),
+          each("candidate_point", [](const Candidate& c) { return c.point; }),
           each("candidate_from_frame", [](const Candidate& c) { return c.from_frame; }),
           each("candidate_to_frame", [](const Candidate& c) { return c.to_frame; }),
           each("candidate_distance", [](const Candidate& c) { return c.distance.value; }),
-          each("candidate_fate", [](const Candidate& c) { return static_cast<int>(c.outcome); }),
+          each("candidate_outcome", [](const Candidate& c) { return static_cast<int>(c.outcome); }),
           std::move(partials)};
 }
 
@@ -87,7 +87,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
   OrderedJson facts;
   facts["transition_frame"] = outcome.splice.points.front().frame - window.first;
   facts["transition_frames"] = OrderedJson::array();
-  for (const PlacedPoint& seam : outcome.splice.points)
+  for (const PlacedPoint& point : outcome.splice.points)
     facts["transition_frames"].push_back(point.frame - window.first);
   facts["from"] = NameOf(record.segments.front(), stage);
   facts["to"] = NameOf(record.segments.back(), stage);
@@ -102,7 +102,7 @@ Recording RecordTransition(const TransitionOutcome& outcome, const Stage& stage)
   facts["partials"] = ByFeature(worst.partials);
   facts["pairs_seen"] = record.pairs_seen;
   facts["pairs_matched"] = record.pairs_matched;
-  facts["switches"] = PointsOf(record, stage);
+  facts["transition_points"] = PointsOf(record, stage);
   facts["cost_unit"] = record.cost_unit;
   facts["candidates"] = CandidatesOf(record);
   return {{std::move(coach)}, facts.dump()};

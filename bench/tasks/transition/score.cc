@@ -36,7 +36,7 @@ std::vector<Stay> StaysOf(const TransitionRecord& record) {
 
 std::vector<int> PointFrames(const Splice& splice) {
   std::vector<int> frames;
-  for (const PlacedPoint& seam : splice.points) frames.push_back(point.frame);
+  for (const PlacedPoint& point : splice.points) frames.push_back(point.frame);
   return frames;
 }
 
@@ -53,7 +53,7 @@ void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellR
   result.Measure("natural_share", IsNatural(smoothness.jump_cm, std::move(nature)) ? 1 : 0);
 
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
-  for (const PlacedPoint& seam : splice.points) {
+  for (const PlacedPoint& point : splice.points) {
     pose_gap = std::max(pose_gap, PoseGapCm(point.leaving, point.arriving));
     velocity_gap = std::max(velocity_gap, VelocityGapCmps(point.leaving_before, point.leaving, point.arriving,
                                                           point.arriving_after, splice.motion.rate_hz));

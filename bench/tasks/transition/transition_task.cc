@@ -23,7 +23,7 @@ class TransitionTask final : public Task {
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
     const TransitionBasis basis{methods_, stage_, learnt_, max_wait_s_, explain_};
-    return std::make_unique<TransitionWorld>(basis, DrawRequest(stage_, key), keeps_motion);
+    return std::make_unique<TransitionRun>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
   std::string ClipOf(const WorldKey& key) const override {

@@ -14,11 +14,11 @@ int FromClip(const Stage& stage, const WorldKey& key) {
 Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   constexpr int kEarliestRequest = 6;
   const int count = static_cast<int>(stage.library.names.size());
-  if (count < 2) return Fail({}, "a switch needs two clips; this library has {}", count);
+  if (count < 2) return Fail({}, "a transition needs two clips; this library has {}", count);
   TransitionRequest request{.from = FromClip(stage, key)};
   const int frames = stage.library.tagged[request.from].FrameCount();
   if (!IsLongEnough(stage, request.from)) {
-    return Fail({}, "clip {} has {} frames; a switch is judged over at least {}", stage.library.names[request.from],
+    return Fail({}, "clip {} has {} frames; a transition is judged over at least {}", stage.library.names[request.from],
                 frames, kShortestClip);
   }
   std::vector<int> others;

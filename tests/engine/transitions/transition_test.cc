@@ -117,7 +117,7 @@ bool CheckTransition(const MotionLibrary& library, const TransitionRequest& requ
   ExpectSegmentsChain(record, library, request);
   EXPECT_EQ(record.distances.size(), record.segments.size() - 1);
   EXPECT_EQ(result.splice.points.size(), record.distances.size());
-  for (const FuzzyDistance& meeting : record.distances) ExpectAddsUp(meeting);
+  for (const FuzzyDistance& distance : record.distances) ExpectAddsUp(distance);
   ExpectCandidates(record);
   EXPECT_EQ(record.wait_s, WaitOf(record.segments, kJudgedRateHz));
   EXPECT_LE(record.wait_s, LatestWait(record, library, request) + 1e-9);
@@ -139,8 +139,9 @@ TEST_P(EveryChoice, WithEveryJoinKeepsItsPromisesOnRandomLibraries) {
       for (const Join& join : AllJoins()) {
         SCOPED_TRACE(testing::Message() << "library " << number << ", clip " << request.from << " frame "
                                         << request.request_frame << " to " << request.to << ", " << join.name);
-        found += CheckTransition(trial.library, request,
-                                 {.choice = FindChoice(GetParam()), .join = &join, .rules = {}, .join_settings = {}});
+        found += CheckTransition(
+            trial.library, request,
+            {.choice = FindChoice(GetParam()), .join = &join, .rules = {}, .choice_settings = {}, .join_settings = {}});
       }
     }
   }
@@ -153,26 +154,38 @@ INSTANTIATE_TEST_SUITE_P(All, EveryChoice, testing::ValuesIn(ChoiceNames()), [](
   return name;
 });
 
-TEST(MakeTransition, TakesRulesToTheirLimits) {
+/// The settings' defaults, but one at its lowest, and one at its largest.
+std::vector<std::vector<double>> Extremes(std::span<const NumberSetting> settings) {
+  std::vector<double> defaults;
+  for (const NumberSetting& setting : settings) defaults.push_back(setting.fallback);
+  std::vector<std::vector<double>> extremes;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    for (double value : {settings[i].lowest, settings[i].largest}) {
+      extremes.push_back(defaults);
+      extremes.back()[i] = value;
+    }
+  }
+  return extremes;
+}
+
+TEST(MakeTransition, TakesSettingsToTheirLimits) {
   const Trial trial = DrawTrial(4);
+  int tried = 0;
+  const auto check = [&](const TransitionWay& way) {
+    ++tried;
+    for (const TransitionRequest& request : trial.requests) CheckTransition(trial.library, request, way);
+  };
   for (const Choice& choice : AllChoices()) {
-    for (const RuleSetting& setting : choice.settings) {
-      for (double value : {setting.lowest, setting.largest}) {
-        TransitionWay method{.choice = &choice, .join = &AllJoins()[0], .rules = {}, .join_settings = {}};
-        method.rules.*setting.member = value;
-        for (const TransitionRequest& request : trial.requests) CheckTransition(trial.library, request, method);
-      }
+    for (const std::vector<double>& values : Extremes(choice.settings)) {
+      check({.choice = &choice, .join = &AllJoins()[0], .rules = {}, .choice_settings = values, .join_settings = {}});
     }
   }
   for (const Join& join : AllJoins()) {
-    for (const JoinSetting& setting : join.settings) {
-      for (double value : {setting.lowest, setting.largest}) {
-        TransitionWay method{.choice = &AllChoices()[0], .join = &join, .rules = {}, .join_settings = {}};
-        method.join_settings.*setting.member = value;
-        for (const TransitionRequest& request : trial.requests) CheckTransition(trial.library, request, method);
-      }
+    for (const std::vector<double>& values : Extremes(join.settings)) {
+      check({.choice = &AllChoices()[0], .join = &join, .rules = {}, .choice_settings = {}, .join_settings = values});
     }
   }
+  EXPECT_EQ(tried, 2 * (7 + 3)) << "seven settings of choices, three of joins";
 }
 
 TEST(Unbroken, IsTheClipItselfByAnyJoin) {
@@ -181,7 +194,8 @@ TEST(Unbroken, IsTheClipItselfByAnyJoin) {
   ASSERT_GT(trial.library.motions[1].poses.size(), 2u);
   for (const Join& join : AllJoins()) {
     const Transition result = MakeTransition(
-        trial.library, request, {.choice = FindChoice("unbroken"), .join = &join, .rules = {}, .join_settings = {}});
+        trial.library, request,
+        {.choice = FindChoice("unbroken"), .join = &join, .rules = {}, .choice_settings = {}, .join_settings = {}});
     const std::vector<BodyPose>&clip = trial.library.motions[1].poses, &shown = result.splice.motion.poses;
     ASSERT_EQ(shown.size(), clip.size());
     for (std::size_t f = 0; f < clip.size(); ++f) {

@@ -41,7 +41,7 @@ TEST(TransitionFacts, AreReadAsTheRecordingTellsThem) {
 TEST(TransitionFacts, OfOlderRecordingsAreWhatTheseTold) {
   const auto facts = ReadTransitionFacts(With(R"({"transition_frame": 40, "from": "clap", "to": "b", "distance": 0.31,
     "partials": {"RH":0.1,"LH":0,"RHE":0,"LHE":0,"Posture":0,"Trunk":0,"RF":0,"LF":0,"RFK":0,"LFK":0},
-    "switches": [{"from": "clap", "from_frame": 9, "to": "b", "to_frame": 0, "distance": 0.31}]})"),
+    "transition_points": [{"from": "clap", "from_frame": 9, "to": "b", "to_frame": 0, "distance": 0.31}]})"),
                                          "a cell");
   ASSERT_TRUE(facts.has_value());
   EXPECT_THAT(facts->transition_frames, ElementsAre(40));
@@ -53,7 +53,7 @@ TEST(TransitionFacts, OfOlderRecordingsAreWhatTheseTold) {
 TEST(TransitionFacts, LeaveOutWhateverIsNotWhatItShouldBe) {
   const auto facts = ReadTransitionFacts(
       With(R"({"transition_frames": [95, 1e300, "x", -1, 5000, 12], "from": 5, "threshold": "low", "weights": {"RH": 1},
-               "request_frame": 99999999999999, "switches": [7, {"from_frame": 1.5, "partials": []}],
+               "request_frame": 99999999999999, "transition_points": [7, {"from_frame": 1.5, "partials": []}],
                "candidates": [{"from_frame": 1}, null, {"from_frame": 1, "to_frame": 2, "distance": 0.2}]})"),
       "a cell");
   ASSERT_TRUE(facts.has_value());
@@ -80,7 +80,7 @@ TEST(RecordedRequests, PutTheMethodsOfOneRequestTogether) {
   EXPECT_EQ(worlds[0].Name(), "trial 7");
   EXPECT_EQ(worlds[0].Request(), "clap → side kick");
   std::vector<std::string> methods;
-  for (const RecordedTransition& recorded : worlds[0].switches) methods.push_back(recorded.row->method);
+  for (const RecordedTransition& recorded : worlds[0].transitions) methods.push_back(recorded.row->method);
   EXPECT_THAT(methods, ElementsAre("now", "fuzzy-bridge", "gate-inertialised"));
   EXPECT_EQ(worlds[1].Name(), "trial 5");
   // Recordings of other tasks tell of no switch.

@@ -31,7 +31,7 @@ TEST(TransitionSection, TellsTheWayTheDistancesAndWhyTheWinnerWon) {
   EXPECT_THAT(html, HasSubstr("3 of 120"));
   EXPECT_THAT(html, HasSubstr("0.500 ≥ 0.4"));
   EXPECT_THAT(html, HasSubstr("0.350 &lt; 0.4"));
-  // One meeting each of two methods, two of the third: the partial distances of 4 × 10 features, three not 0 in each.
+  // One point each of two methods, two of the third: the partial distances of 4 × 10 features, three not 0 in each.
   EXPECT_EQ(CountOf(html, "<i class="), 40);
   EXPECT_EQ(CountOf(html, "width:0%"), 28);
 }
@@ -51,9 +51,9 @@ TEST(TransitionSection, TellsForWhichOfTwoMeetingsACandidateWasLookedAt) {
   Example example;
   std::string& extras = example.run.recordings[1].recording.extras_json;
   extras.back() = ',';
-  extras += R"("candidates": [{"meeting": 0, "from_frame": 30, "to_frame": 0, "distance": 0.3},
-      {"meeting": 1, "from_frame": 14, "to_frame": 2, "distance": 0.35},
-      {"meeting": 7, "from_frame": 8, "to_frame": 9, "distance": 0.1}]})";
+  extras += R"("candidates": [{"point": 0, "from_frame": 30, "to_frame": 0, "distance": 0.3},
+      {"point": 1, "from_frame": 14, "to_frame": 2, "distance": 0.35},
+      {"point": 7, "from_frame": 8, "to_frame": 9, "distance": 0.1}]})";
   // Older recordings do not tell.
   extras.insert(extras.rfind(']'), R"(, {"from_frame": 5, "to_frame": 6, "distance": 0.1})");
   const std::string html = TransitionsHtml(example.Worlds());
@@ -76,7 +76,7 @@ TEST(TransitionSection, KeepsUsersNamesFromSpeakingMarkup) {
   for (CellRecording& recorded : example.run.recordings) {
     recorded.recording.extras_json =
         R"({"transition_frame": 3, "from": "<script>", "to": "|a|", "branch": "<b>", "why": "<i>", "cost_unit": "<u>",
-            "candidates": [{"from_frame": 1, "to_frame": 2, "distance": 0.1, "cost": 1, "fate": "<s>"}]})";
+            "candidates": [{"from_frame": 1, "to_frame": 2, "distance": 0.1, "cost": 1, "outcome": "<s>"}]})";
   }
   const std::string html = TransitionsHtml(example.Worlds());
   for (const char* tag : {"<script>", "<b>", "<i>", "<u>", "<s>"}) EXPECT_THAT(html, Not(HasSubstr(tag)));
@@ -97,20 +97,20 @@ TEST(DistanceTable, GivesAFullBarToWhatAloneReachesTheThreshold) {
   PerFeature partials{};
   partials[0] = 0.04;
   partials[1] = 0.2;
-  PointFacts meeting;
-  meeting.partials = partials;
+  PointFacts point;
+  point.partials = partials;
   DistanceTable table;
-  table.AddPoint("m", meeting, 0.4);
+  table.AddPoint("m", point, 0.4);
   EXPECT_THAT(table.Html(), HasSubstr("0.040<i class=\"\" style=\"width:25%\">"));
   EXPECT_THAT(table.Html(), HasSubstr("0.200<i class=\"over\" style=\"width:100%\">"));
   EXPECT_THAT(table.Html(), HasSubstr("0.490 ≥ 0.4"));  // √0.24, where the recording tells no d
 }
 
 TEST(DistanceTable, TellsWeightsOnceForAllWhoShareThem) {
-  PointFacts meeting;
-  meeting.partials = PerFeature{};
+  PointFacts point;
+  point.partials = PerFeature{};
   DistanceTable table;
-  table.AddPoint("a", meeting, std::nullopt);
+  table.AddPoint("a", point, std::nullopt);
   FeatureWeights learnt = PaperWeights();
   std::swap(learnt[0], learnt[9]);
   table.AddWeights("a", PaperWeights());

@@ -8,7 +8,7 @@
 
 #include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/transition/follow.h"
+#include "bench/tasks/transition/outcome.h"
 #include "engine/transitions/base/alignment.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/base/mutate_json.h"
@@ -65,7 +65,7 @@ class TransitionExchange : public TransitionFixture {
   }
 
   double PoseGapAtFirstPoint(const Json& answer, const TransitionRequest& request) const {
-    const PlacedPoint seam =
+    const PlacedPoint point =
         FollowAnswer(*ReadTransitionAnswer(answer, stage_, request), stage_, request).splice.points.front();
     return PoseGapCm(point.leaving, point.arriving);
   }
@@ -106,7 +106,7 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
     request.budget_s = 0.5;
     std::size_t method = 0;
     for (const Choice& choice : AllChoices()) {
-      const TransitionRecord record = choice.plan(stage_.library, request, {});
+      const TransitionRecord record = choice.plan(stage_.library, request, {}, {});
       record.segments.empty() ? ++unsolved : record.segments.size() > 2 ? ++between : ++direct;
       const bool answers = choice.name != "unbroken";  // a yardstick: it stays in the clip
       for (const auto& join : AllJoins()) {

@@ -21,7 +21,7 @@ MotionLibrary ThreeClips() {
 }
 
 TransitionRecord Plan(std::string_view choice, const TransitionRequest& request) {
-  return FindChoice(choice)->plan(ThreeClips(), request, {});
+  return FindChoice(choice)->plan(ThreeClips(), request, {}, {});
 }
 
 TEST(FuzzyBridge, RecordsTheBranchItTook) {
@@ -82,7 +82,7 @@ TEST(AbruptChoices, GoToTheFirstFrameNowOrAtTheEnd) {
   EXPECT_EQ(now.segments[0].last, 8);
   EXPECT_EQ(now.segments[1].first, 0);
   EXPECT_EQ(now.wait_s, 0);
-  EXPECT_NEAR(now.meetings[0].value, 2 - 0.85, 1e-12);
+  EXPECT_NEAR(now.distances[0].value, 2 - 0.85, 1e-12);
 
   const TransitionRecord end = Plan("wait-for-end", {.from = 2, .request_frame = 8, .to = 1});
   EXPECT_EQ(end.segments[0].last, 20);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/transitions/choices/pair_rows.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/engine/transitions/random_clips.h"
 #include "tests/engine/transitions/test_clips.h"
 
@@ -29,8 +29,8 @@ MotionLibrary OneDanceTwice() {
 constexpr TransitionRequest kRequest{.from = 0, .request_frame = 70, .to = 1};
 
 TEST(MatchingChoices, GoOnWithTheSameDanceWhereTheOtherClipHasIt) {
-  for (const auto plan : {PlanFuzzyKovar, PlanPointCloud, PlanMotionMatching, PlanFuzzyWindow}) {
-    const TransitionRecord record = plan(OneDanceTwice(), kRequest, {});
+  for (const char* name : {"fuzzy-kovar", "point-cloud", "motion-matching", "fuzzy-window"}) {
+    const TransitionRecord record = FindChoice(name)->plan(OneDanceTwice(), kRequest, {}, {});
     ASSERT_EQ(record.segments.size(), 2u);
     EXPECT_EQ(record.segments[1].first, record.segments[0].last - 40) << record.why;
     EXPECT_NEAR(record.distances[0].value, 0, 1e-4) << "set down on the floor by its own lowest frames";
@@ -45,15 +45,14 @@ TEST(MatchingChoices, GoOnWithTheSameDanceWhereTheOtherClipHasIt) {
 }
 
 TEST(MatchingChoices, LookAtEveryPairOfBudgetAndLeastPlay) {
-  MatchRules rules;
-  rules.least_play_s = 2;
-  const PairRange range = AllowedPairs(OneDanceTwice(), kRequest, rules);
-  EXPECT_EQ(range.leave.first, 70);
-  EXPECT_EQ(range.leave.last, 100);
-  EXPECT_EQ(range.enter_end, 160 - 60);
-  EXPECT_EQ(PlanPointCloud(OneDanceTwice(), kRequest, rules).pairs_seen, 31 * 100);
-  rules.least_play_s = 60;
-  EXPECT_EQ(AllowedPairs(OneDanceTwice(), kRequest, rules).enter_end, 80) << "the front half may always be entered";
+  const AllowedFrames allowed = AllowedAnyFrames(OneDanceTwice(), kRequest, 2);
+  EXPECT_EQ(allowed.leave.front(), 70);
+  EXPECT_EQ(allowed.leave.back(), 100);
+  EXPECT_EQ(allowed.enter.back(), 160 - 60 - 1);
+  EXPECT_EQ(allowed.Pairs(), 31 * 100);
+  EXPECT_EQ(PlanPointCloud(OneDanceTwice(), kRequest, {}, {.least_play_s = 2}).pairs_seen, 31 * 100);
+  EXPECT_EQ(AllowedAnyFrames(OneDanceTwice(), kRequest, 60).enter.size(), 80u)
+      << "the front half may always be entered";
 }
 
 TEST(FuzzyGate, LetsOnlyMatchingPairsThrough) {
@@ -61,8 +60,8 @@ TEST(FuzzyGate, LetsOnlyMatchingPairsThrough) {
   BodyMotion raised = StandingClip(300, 170);
   raised.poses[150] = StandingClip(1, 0).poses[0];
   const MotionLibrary library = LibraryOf({StandingClip(100, 0), raised});
-  for (const auto plan : {PlanFuzzyKovar, PlanFuzzyWindow}) {
-    const TransitionRecord record = plan(library, {.from = 0, .request_frame = 10, .to = 1}, {});
+  for (const char* name : {"fuzzy-kovar", "fuzzy-window"}) {
+    const TransitionRecord record = FindChoice(name)->plan(library, {.from = 0, .request_frame = 10, .to = 1}, {}, {});
     ASSERT_EQ(record.segments.size(), 2u) << record.why;
     EXPECT_EQ(record.segments[1].first, 150);
     EXPECT_EQ(record.pairs_matched, 31);
@@ -74,8 +73,8 @@ TEST(FuzzyGate, LetsOnlyMatchingPairsThrough) {
 
 TEST(FuzzyGate, GoesThroughAnInBetweenWhenNothingPasses) {
   const MotionLibrary library = LibraryOf({StandingClip(100, 0), StandingClip(100, 170)});
-  for (const auto plan : {PlanFuzzyKovar, PlanFuzzyWindow}) {
-    const TransitionRecord record = plan(library, {.from = 0, .request_frame = 10, .to = 1}, {});
+  for (const char* name : {"fuzzy-kovar", "fuzzy-window"}) {
+    const TransitionRecord record = FindChoice(name)->plan(library, {.from = 0, .request_frame = 10, .to = 1}, {}, {});
     EXPECT_EQ(record.segments.size(), 3u);
     EXPECT_NE(record.why.find("no match among 2170 pairs of frames: the nearest has d = "), std::string::npos)
         << record.why;

@@ -63,7 +63,7 @@ TEST(Joins, WithABlendEndExactlyInTheNewMotionAfterIt) {
   const BodyMotion cut = CutTogether();
   for (const char* name : {"crossfade", "inertialised-quintic"}) {
     const Splice splice =
-        SpliceSegments(Strangers(), Segments(19, 5, Strangers()[1]), *FindJoin(name), {.blend_s = 0.5});
+        SpliceSegments(Strangers(), Segments(19, 5, Strangers()[1]), *FindJoin(name), std::vector{0.5});
     ExpectSamePose(splice.motion.poses[19 + 15], cut.poses[19 + 15], 1e-9);
     EXPECT_GT(glm::distance(splice.motion.poses[19 + 8][Role::kLeftHand], cut.poses[19 + 8][Role::kLeftHand]), 0.01)
         << name << ": half a second, no sooner";

@@ -24,7 +24,7 @@ TEST(SpliceSegments, ReproducesAClipThatIsSwitchedIntoItself) {
   }
 }
 
-TEST(SpliceSegments, PlaysTheOldClipToTheSeamAndTheNewOneAfterIt) {
+TEST(SpliceSegments, PlaysTheOldClipToTheTransitionPointAndTheNewOneAfterIt) {
   const BodyMotion clips[] = {WavingClip(40), WavingClip(30, 2)};
   const Splice splice = SpliceSegments(clips, Segments(19, 5, clips[1]), Cut());
   ASSERT_EQ(splice.motion.poses.size(), 20u + 24u);
@@ -41,11 +41,11 @@ TEST(SpliceSegments, JoinsOntoWhatAnUnfinishedJoinShows) {
   const std::vector<Segment> hasty = {{.clip = 0, .first = 0, .last = 19, .own = {}},
                                       {.clip = 1, .first = 5, .last = 8, .own = {}},
                                       {.clip = 2, .first = 5, .last = 59, .own = {}}};
-  const auto jump_at_second_seam = [&](const Join& join) {
+  const auto jump_at_second_point = [&](const Join& join) {
     return JumpAt(SpliceSegments(clips, hasty, join).motion, 22);
   };
-  EXPECT_GT(jump_at_second_seam(Cut()), 0.3) << "the control";
-  for (const Join& join : AllJoins().subspan(1)) EXPECT_LT(jump_at_second_seam(join), 0.12) << join.name;
+  EXPECT_GT(jump_at_second_point(Cut()), 0.3) << "the control";
+  for (const Join& join : AllJoins().subspan(1)) EXPECT_LT(jump_at_second_point(join), 0.12) << join.name;
 }
 
 TEST(SpliceSegments, TakesAClipAsMovingBeforeItsFirstFrame) {
