@@ -15,7 +15,7 @@ constexpr Paint kFloor{0.30, 0.34, 0.37, 1};
 constexpr Paint kNature{0.55, 0.82, 0.50, 1};
 constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
 constexpr double kTextSize = 13, kJumpRoom = 184;
-constexpr double kSide = 12, kTop = 24, kBottom = 34, kClipHeight = 6;
+constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
 // The metric jump_cm, as far as it is known at a frame.
 std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
@@ -50,10 +50,11 @@ const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_bef
 }
 
 void JumpStrip::Draw(Canvas& canvas, const Box& box, const TransitionPath& path, int time) const {
-  const Frame frame{{box.x + kSide, box.y + kTop, box.width - 2 * kSide, box.height - kTop - kBottom}, *this};
+  const Frame frame{{box.x + kSide, box.y + kStripTop, box.width - 2 * kSide, box.height - kStripTop - kStripBottom},
+                    *this};
   const int shown = path.FrameAt(time);
   std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
-  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", transition {}", FormatFixed(*most, 1));
+  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", worst {}", FormatFixed(*most, 1));
   canvas.DrawText({frame.box.x, box.y + 16}, path.IsRecordedAt(time) ? jump : "jump —", kTextSize, kInk, kJumpRoom);
   if (path.facts.natural_limit_cm) {
     const double y = frame.Y(*path.facts.natural_limit_cm);
