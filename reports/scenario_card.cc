@@ -15,7 +15,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/pose_pairs.h"
-#include "reports/switches/switch_section.h"
+#include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/left_out.h"
@@ -142,7 +142,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += StatusBar(findings);
   html += PosePairsHtml(run, scenario);
   html += OverviewTableHtml(scenario);
-  html += SwitchesHtml(SwitchWorldsOf(run, scenario));
+  html += TransitionsHtml(RecordedRequestsOf(run, scenario));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
   html += GrowthHtml(run, scenario);

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "reports/films/look.h"
-#include "reports/switches/switch_facts.h"
+#include "reports/transitions/transition_facts.h"
 
 namespace etude {
 namespace {

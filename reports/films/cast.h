@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/model/run_data.h"
+#include "reports/transitions/transition_facts.h"
 
 namespace etude {
 

@@ -3,7 +3,7 @@
 #include "bench/metrics/detection.h"
 #include "bench/metrics/matching.h"
 #include "bench/metrics/pose_distance.h"
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "engine/base/digest.h"
 
 namespace etude {

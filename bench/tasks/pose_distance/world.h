@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/bridging/one_character.h"
 #include "engine/fuzzy/features.h"
+#include "engine/transitions/library/body_proportions.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -36,7 +36,7 @@ enum class PairSource {
 
 /// Clips danced by one body, to draw frames of.
 struct DancedClips {
-  Physique physique;
+  BodyProportions proportions;
   std::vector<std::string> names;
   std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
   std::vector<BodyMotion> motions;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/bridging/search/grade_index.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "engine/transitions/search/grade_index.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -4,8 +4,8 @@
 
 #include "bench/metrics/dimensionless_jerk.h"
 #include "bench/metrics/matching.h"
-#include "bench/metrics/seam.h"
 #include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "engine/fuzzy/distance.h"
 #include "tests/bench/metrics/evaluators.h"
 #include "tests/bench/metrics/vector_input.h"
@@ -13,9 +13,11 @@
 namespace etude {
 namespace {
 
-std::vector<int> SeamsOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
+std::vector<int> TransitionFramesOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
 
-SeamSmoothness SmoothnessOf(const Json& in) { return MeasureSeams(ReadMotion(in.at("motion")), SeamsOf(in)); }
+TransitionSmoothness SmoothnessOf(const Json& in) {
+  return MeasureTransitions(ReadMotion(in.at("motion")), TransitionFramesOf(in));
+}
 
 bool IsNaturalJump(const Json& in) {
   std::vector<double> jumps;
@@ -30,7 +32,7 @@ bool IsNaturalJump(const Json& in) {
 double WorstFootSlide(const Json& in) {
   const BodyMotion motion = ReadMotion(in.at("motion"));
   double worst = 0;
-  for (int seam : SeamsOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
+  for (int seam : TransitionFramesOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
   return worst;
 }
 
@@ -84,7 +86,7 @@ struct SpeedProfile {
 SpeedProfile SpeedOf(const Json& in) {
   if (in.contains("speed_mps")) return {in.at("speed_mps").get<std::vector<double>>(), in.at("rate_hz").get<double>()};
   const BodyMotion motion = ReadMotion(in.at("motion"));
-  const std::vector<int> seams = SeamsOf(in);
+  const std::vector<int> seams = TransitionFramesOf(in);
   const int second = static_cast<int>(motion.rate_hz);
   return {MeanJointSpeed(motion, seams.at(0) - second, seams.back() + second), motion.rate_hz};
 }
