@@ -3,9 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
 
 namespace etude {
 namespace {
+
+// A straight stroke of a round pen, its halves in the mark's two shades: every pixel whose centre the pen covers.
+void DrawStroke(ColourImage& picture, const StrokeMark& mark, const glm::dvec2& from, const glm::dvec2& to) {
+  const glm::dvec2 along = to - from;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::dvec2 pixel(x + 0.5, y + 0.5);
+      const double share = glm::dot(pixel - from, along) / glm::dot(along, along);
+      const double distance = glm::distance(pixel, from + std::clamp(share, 0.0, 1.0) * along);
+      if (distance < kStrokeWidth / 2) picture.At(x, y) = share < 0.5 ? mark.first_half : mark.second_half;
+    }
+  }
+}
 
 TEST(Strokes, HaveNoTwoEqualColoursAndNoBlackOne) {
   std::vector<Rgb8> palette = {Rgb8{}};
@@ -30,6 +46,28 @@ TEST(ReadMarks, ReadsAStrokeAlongARowFromItsFirstHalfToItsSecond) {
   EXPECT_NEAR(marks.strokes[3]->b.y, 7.5, 1e-9);
   EXPECT_NEAR(marks.strokes[3]->a.x, 28.5, 0.51);
   EXPECT_NEAR(marks.strokes[3]->b.x, 11.5, 0.51);
+}
+
+TEST(ReadMarks, FindsTheEndsOfALimbNotThoseOfThePen) {
+  // The pen reaches beyond the limb at both ends. Pixels round each reading, but not their mean.
+  constexpr int kDirections = 180;
+  double beyond_a = 0, beyond_b = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * kPi * i / kDirections;
+    const glm::dvec2 along(std::cos(angle), std::sin(angle));
+    const glm::dvec2 middle(40 + 0.37 * (i % 7), 40 + 0.23 * (i % 11)), from = middle - 15.0 * along;
+    const glm::dvec2 to = middle + 15.0 * along;
+    ColourImage picture(80, 80);
+    DrawStroke(picture, StrokeMarks()[5], from, to);
+    const Marks marks = ReadMarks(picture);
+    ASSERT_TRUE(marks.strokes[5]);
+    EXPECT_LT(glm::distance(marks.strokes[5]->a, from), 1) << i;
+    EXPECT_LT(glm::distance(marks.strokes[5]->b, to), 1) << i;
+    beyond_a += glm::dot(from - marks.strokes[5]->a, along) / kDirections;
+    beyond_b += glm::dot(marks.strokes[5]->b - to, along) / kDirections;
+  }
+  EXPECT_NEAR(beyond_a, 0, 0.25);
+  EXPECT_NEAR(beyond_b, 0, 0.25);
 }
 
 TEST(ReadMarks, ReportsWhatIsNotThereAsMissing) {
