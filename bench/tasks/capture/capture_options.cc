@@ -51,7 +51,7 @@ Result<CaptureMethod> ReadMethod(const Node& node) {
     method.ik.angle_change_tolerance = Radians(*degrees);
   }
   method.oracle = ReadOracle(fields);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return method;
 }
 
@@ -76,9 +76,8 @@ StudioOptions ReadStudioOptions(Fields& condition) {
 Result<std::vector<CaptureMethod>> ReadCaptureMethods(std::span<const Node> methods) {
   std::vector<CaptureMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node));
+    read.push_back(std::move(method));
   }
   return read;
 }

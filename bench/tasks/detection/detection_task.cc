@@ -22,8 +22,8 @@ class UnlabelledWorld final : public TaskWorld {
 
   std::optional<std::string> WhySkipped() const override { return reason_; }
   CellResult Run(std::size_t) override { return CellResult::Ended(Status::kSkipped, reason_); }
-  Result<Exhibit> MakeProblem() override { return Fail({}, "{}", reason_); }
-  Result<Exhibit> MakeTruth() override { return Fail({}, "{}", reason_); }
+  Result<Payload> MakeProblem() override { return Fail({}, "{}", reason_); }
+  Result<Payload> MakeTruth() override { return Fail({}, "{}", reason_); }
   Result<CellResult> Judge(const Json&) override { return Fail({}, "{}", reason_); }
 
  private:
@@ -50,7 +50,7 @@ class DetectionTask final : public Task {
     return clip.is_labelled ? "" : clip.name;
   }
 
-  Result<Exhibit> Setting() const override { return ExhibitMoves(repertoire_); }
+  Result<Payload> Setting() const override { return MovesPayload(repertoire_); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     const SessionOptions& session = options_.session;  // PlanSession rounds the share to whole events

@@ -41,7 +41,7 @@ Result<DetectionMethod> ReadMethod(const Node& node, const KeyPoseOptions& commo
     recogniser.inferred_weight = fields.Number("inferred_weight", recogniser.inferred_weight, kShare);
     recogniser.not_tracked_weight = fields.Number("not_tracked_weight", recogniser.not_tracked_weight, kShare);
   }
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return method;
 }
 
@@ -62,9 +62,8 @@ Result<std::vector<DetectionMethod>> ReadDetectionMethods(Fields& condition, std
   ReadRecogniser(condition, common);
   std::vector<DetectionMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node, common);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node, common));
+    read.push_back(std::move(method));
   }
   return read;
 }

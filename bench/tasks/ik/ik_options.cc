@@ -60,7 +60,7 @@ Result<IkMethod> ReadMethod(const Node& node, const IkOptions& common, const IkT
   }
   if (degrees) method.options.angle_change_tolerance = Radians(*degrees);
   if (times_noise) method.options.angle_change_tolerance = Radians(*times_noise * trial.joint_noise_deg);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return method;
 }
 
@@ -111,9 +111,8 @@ Result<std::vector<IkMethod>> ReadIkMethods(std::span<const Node> methods, const
                                             const IkTrialOptions& trial) {
   std::vector<IkMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node, common, trial);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node, common, trial));
+    read.push_back(std::move(method));
   }
   return read;
 }

@@ -19,7 +19,7 @@ struct IkStudy {
   std::vector<IkMethod> methods;
 };
 
-Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 class IkTaskWorld : public TaskWorld {
  public:
@@ -32,13 +32,12 @@ class IkTaskWorld : public TaskWorld {
     return RunIkCell(study_.tree, world_, study_.methods[method], records_);
   }
 
-  Result<Exhibit> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
-  Result<Exhibit> MakeTruth() override { return Show(DescribeTruth(world_)); }
+  Result<Payload> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
+  Result<Payload> MakeTruth() override { return Show(DescribeTruth(world_)); }
 
   Result<CellResult> Judge(const Json& json) override {
-    const auto answer = ReadIkAnswer(json, study_.tree);
-    if (!answer) return tl::unexpected(answer.error());
-    return ScoreIkAnswer(study_.tree, world_, *answer, study_.common.max_iterations, records_);
+    ASSIGN_OR_RETURN(const auto answer, ReadIkAnswer(json, study_.tree));
+    return ScoreIkAnswer(study_.tree, world_, answer, study_.common.max_iterations, records_);
   }
 
  private:
@@ -57,7 +56,7 @@ class IkTask : public Task {
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
-  Result<Exhibit> Setting() const override { return Show(DescribeIkSetting(study_.tree, study_.common, study_.trial)); }
+  Result<Payload> Setting() const override { return Show(DescribeIkSetting(study_.tree, study_.common, study_.trial)); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return IkValueOfFailure(metric, study_.common.max_iterations);

@@ -24,7 +24,7 @@ Result<PoseDistanceMethod> ReadMethod(const Node& node) {
   } else {
     method.threshold = fields.Number("threshold_cm", kDefaultThresholdCm, {0, 1000});
   }
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return method;
 }
 
@@ -52,9 +52,8 @@ std::vector<KeyInfo> PoseDistanceConditionKeys() {
 Result<std::vector<PoseDistanceMethod>> ReadPoseDistanceMethods(std::span<const Node> methods) {
   std::vector<PoseDistanceMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node));
+    read.push_back(std::move(method));
   }
   return read;
 }

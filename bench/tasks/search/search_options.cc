@@ -29,7 +29,7 @@ Result<SearchMethod> ReadMethod(const Node& node, const SearchOptions& common) {
   method.name = fields.RequiredText("name");
   if (fields.Choice("search", {"index", "brute-force"}, "index") == "brute-force") method.way = SearchWay::kBruteForce;
   method.question = ReadQuestion(fields, common.question);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return method;
 }
 
@@ -72,9 +72,8 @@ SearchOptions ReadSearchOptions(Fields& condition) {
 Result<std::vector<SearchMethod>> ReadSearchMethods(std::span<const Node> methods, const SearchOptions& common) {
   std::vector<SearchMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node, common);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node, common));
+    read.push_back(std::move(method));
   }
   return read;
 }

@@ -19,7 +19,7 @@ Result<TrackingMethod> ReadMethod(const Node& node, const IkOptions& common) {
   if (const std::optional<double> degrees = fields.OptionalNumber("tolerance_deg", {0, 360})) {
     method.options.angle_change_tolerance = Radians(*degrees);
   }
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return method;
 }
 
@@ -53,9 +53,8 @@ IkOptions ReadFrameBudget(Fields& condition) {
 Result<std::vector<TrackingMethod>> ReadTrackingMethods(std::span<const Node> methods, const IkOptions& common) {
   std::vector<TrackingMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node, common);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node, common));
+    read.push_back(std::move(method));
   }
   return read;
 }

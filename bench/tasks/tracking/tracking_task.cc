@@ -21,7 +21,7 @@ struct TrackingStudy {
   ClipLibrary clips;
 };
 
-Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 class TrackingTaskWorld : public TaskWorld {
  public:
@@ -39,18 +39,17 @@ class TrackingTaskWorld : public TaskWorld {
     return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
   }
 
-  Result<Exhibit> MakeProblem() override { return Show(DescribeMotion(*world_)); }
-  Result<Exhibit> MakeTruth() override {
-    Exhibit truth = Show(DescribeTrueAngles(*world_));
+  Result<Payload> MakeProblem() override { return Show(DescribeMotion(*world_)); }
+  Result<Payload> MakeTruth() override {
+    Payload truth = Show(DescribeTrueAngles(*world_));
     const Clip clip = ToClip(world_->tree, world_->truth, study_.options.rate_hz, "truth");
     truth.files.push_back({"truth.bvh", WriteBvh(clip)});
     return truth;
   }
 
   Result<CellResult> Judge(const Json& json) override {
-    const auto answer = ReadTrackingAnswer(json, *world_);
-    if (!answer) return tl::unexpected(answer.error());
-    return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
+    ASSIGN_OR_RETURN(const auto answer, ReadTrackingAnswer(json, *world_));
+    return ScoreTracking(*world_, study_.options.rate_hz, answer, keeps_motion_);
   }
 
  private:
@@ -69,7 +68,7 @@ class TrackingTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Exhibit> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.common)); }
+  Result<Payload> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.common)); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return TrackingValueOfFailure(metric);

@@ -40,7 +40,7 @@ Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaul
   ReadSettings<JoinSettings>(fields, join.settings, method.way.join_settings);
   RefuseMisplacedKeys(fields, TransitionMethodKeys(), "choice", choice.name);
   RefuseMisplacedKeys(fields, TransitionMethodKeys(), "join", join.name);
-  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(fields.Finish());
   method.way.choice = &choice;
   method.way.join = &join;
   return method;
@@ -99,9 +99,8 @@ bool ReadExplain(Fields& condition) { return condition.Boolean("explain", false)
 Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods) {
   std::vector<TransitionMethod> read;
   for (const Node& node : methods) {
-    auto method = ReadMethod(node, common);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
+    ASSIGN_OR_RETURN(auto method, ReadMethod(node, common));
+    read.push_back(std::move(method));
   }
   return read;
 }

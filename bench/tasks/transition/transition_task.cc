@@ -30,7 +30,7 @@ class TransitionTask final : public Task {
     return stage_.library.names.empty() ? "" : stage_.library.names[FromClip(stage_, key)];
   }
 
-  Result<Exhibit> Setting() const override { return ExhibitStage(stage_); }
+  Result<Payload> Setting() const override { return StagePayload(stage_); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override { return SwitchFailureValue(metric); }
 
@@ -45,13 +45,11 @@ class TransitionTask final : public Task {
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   const CommonLimits common = ReadCommonLimits(input.condition);
   const bool explain = ReadExplain(input.condition);
-  auto methods = ReadTransitionMethods(common, input.methods);
-  if (!methods) return tl::unexpected(methods.error());
+  ASSIGN_OR_RETURN(auto methods, ReadTransitionMethods(common, input.methods));
   Stage stage = SetStage(input.clips, ReadStageRules(input.condition, FuzzyOf(input)));
-  auto training = GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique);
-  if (!training) return tl::unexpected(training.error());
-  return std::make_unique<TransitionTask>(*std::move(methods), common.wait_s, explain, std::move(stage),
-                                          *std::move(training));
+  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique));
+  return std::make_unique<TransitionTask>(std::move(methods), common.wait_s, explain, std::move(stage),
+                                          std::move(training));
 }
 
 }  // namespace
