@@ -50,8 +50,9 @@ def figure_of(results, survivors, about):
         low, high = wilson(noticed, of)
         return {"of": of, "share": round(noticed / of, 4) if of else None, "wilson_95": [round(low, 4), round(high, 4)]}
 
-    return about | {"sample": total, "noticed": noticed, **{v.replace(" ", "_"): verdicts[v] for v in (*NOTICED, "survived", "unreached")},
-                    "equivalent": equivalent, "noticed_of_all": share(total), "noticed_of_different": share(total - equivalent)}
+    counts = {verdict.replace(" ", "_"): verdicts[verdict] for verdict in (*NOTICED, "survived", "unreached")}
+    return about | {"sample": total, "noticed": noticed} | counts | {
+        "equivalent": equivalent, "noticed_of_all": share(total), "noticed_of_different": share(total - equivalent)}
 
 
 def by_folder(results):

@@ -12,11 +12,15 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import figure  # noqa: E402
+import rewrite  # noqa: E402
 import shadow  # noqa: E402
 import sites  # noqa: E402
 import soak  # noqa: E402
 import tokens  # noqa: E402
 from trials import Test, judge, record, run_program  # noqa: E402
+
+
+COMPILER = [os.environ.get("CXX", "c++"), "-std=c++20", "-O0", "-include", HERE / "mutant.h"]
 
 
 def found_in(text):
@@ -32,7 +36,11 @@ def rewritten(text):
     for site in sites.find_sites(text):
         numbered.append((site, number))
         number += len(site.mutations)
-    return sites.rewrite(text, numbered), numbered, number - 1
+    return rewrite.rewrite(text, numbered), numbered, number - 1
+
+
+def mutant_of(number, file="engine/toy/toy.cc"):
+    return shadow.Mutant(number, file, 1, 1, "", "", "")
 
 
 class Tokens(unittest.TestCase):
@@ -65,7 +73,8 @@ class Sites(unittest.TestCase):
     def test_each_kind_is_found(self):
         self.assertEqual(found_in("bool f(int a) { return a < 2; }"), [("<", ["<=", ">="]), ("2", ["2 / 4", "2 + 1"])])
         self.assertEqual(found_in("void f() { if (a) return; }"), [("if (c)", ["if (!(c))", "if (false)"])])
-        self.assertEqual(originals_in("void f() { a = b && c || d ? -x : y; }"), ["a = b && c || d ? -x : y;", "&&", "||", "c ?", "-x"])
+        self.assertEqual(originals_in("void f() { a = b && c || d ? -x : y; }"),
+                         ["a = b && c || d ? -x : y;", "&&", "||", "c ?", "-x"])
         self.assertEqual(originals_in("void f() { g(x); h += 0.5; }"), ["g(x);", "h += 0.5;", "+=", "0.5"])
         self.assertEqual(found_in("int f() { return std::max(a, b); }"), [("std::max", ["std::min"])])
         self.assertEqual(found_in("bool f() { return true; }"), [("true", ["!true"])])
@@ -75,10 +84,11 @@ class Sites(unittest.TestCase):
         self.assertEqual(found_in(code), [("kStep", ["kStep / 4"]), ("*", ["/"])])
 
     def test_what_does_not_run_has_no_sites(self):
-        for code in ("constexpr int Two(int a) { return a + 2; }", "constexpr int kA[] = {1, 2};", "static_assert(a < 3);",
-                     "std::array<int, 3> a;", "template <int kN = 4> void f();", "void f() { switch (a) { case 3: break; } }",
-                     "#if A > 3\n#endif", "enum E { kA = 1, kB = 2 };", "void f() { assert(a < 3); }", "using A = B<1>;",
-                     "void f(int&& a, char* b, const C& c);", "bool operator<(const A& a, const A& b);"):
+        for code in ("constexpr int Two(int a) { return a + 2; }", "constexpr int kA[] = {1, 2};",
+                     "static_assert(a < 3);", "std::array<int, 3> a;", "template <int kN = 4> void f();",
+                     "void f() { switch (a) { case 3: break; } }", "#if A > 3\n#endif", "enum E { kA = 1, kB = 2 };",
+                     "void f() { assert(a < 3); }", "using A = B<1>;", "void f(int&& a, char* b, const C& c);",
+                     "bool operator<(const A& a, const A& b);"):
             self.assertEqual(originals_in(code), [], code)
 
     def test_a_statement_before_an_else_stays(self):
@@ -98,7 +108,7 @@ class Sites(unittest.TestCase):
 
     def test_without_sites_a_text_is_what_it_was(self):
         text = (HERE / "toy/toy.cc").read_text()
-        self.assertEqual(sites.rewrite(text, []), text)
+        self.assertEqual(rewrite.rewrite(text, []), text)
 
 
 class Toy(unittest.TestCase):
@@ -110,7 +120,7 @@ class Toy(unittest.TestCase):
         work = Path(cls.folder.name)
         text, cls.numbered, cls.count = rewritten((HERE / "toy/toy.cc").read_text())
         (work / "toy.cc").write_text(text)
-        compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-O0", "-include", HERE / "mutant.h", "-I", HERE / "toy"]
+        compiler = [*COMPILER, "-I", HERE / "toy"]
         subprocess.run([*compiler, "-c", work / "toy.cc", "-o", work / "toy.o"], check=True)
         for name in ("good_test", "bad_test"):
             subprocess.run([*compiler, work / "toy.o", HERE / f"toy/{name}.cc", "-o", work / name], check=True)
@@ -122,8 +132,7 @@ class Toy(unittest.TestCase):
 
     def verdicts(self, name):
         test = record(Test("engine/toy", (str(self.work / name),), "all"), self.work)
-        mutants = [shadow.Mutant(n, "engine/toy/toy.cc", 1, 1, "", "", "") for n in range(1, self.count + 1)]
-        return test, [judge(mutant, [test], self.work) for mutant in mutants]
+        return test, [judge(mutant_of(n), [test], self.work) for n in range(1, self.count + 1)]
 
     def test_a_good_test_kills_all_mutants(self):
         self.assertGreater(self.count, 30)
@@ -139,12 +148,12 @@ class Toy(unittest.TestCase):
 
     def test_a_mutant_that_no_test_reaches_or_only_another_folders_is_unreached(self):
         test, _ = self.verdicts("bad_test")
-        self.assertEqual(judge(shadow.Mutant(1, "engine/other/a.cc", 1, 1, "", "", ""), [test], self.work), "unreached")
-        self.assertEqual(judge(shadow.Mutant(60000, "engine/toy/toy.cc", 1, 1, "", "", ""), [test], self.work), "unreached")
+        for mutant in (mutant_of(1, "engine/other/a.cc"), mutant_of(60000)):
+            self.assertEqual(judge(mutant, [test], self.work), "unreached")
 
     def test_a_program_that_does_not_end_is_too_slow(self):
         test = Test("engine/toy", ("sh", "-c", "while :; do :; done"), "all", 0.0, frozenset([1]))
-        self.assertEqual(judge(shadow.Mutant(1, "engine/toy/toy.cc", 1, 1, "", "", ""), [test], self.work), "too slow")
+        self.assertEqual(judge(mutant_of(1), [test], self.work), "too slow")
 
     def test_a_test_that_fails_without_a_mutant_is_an_error(self):
         with self.assertRaises(RuntimeError):
@@ -152,10 +161,9 @@ class Toy(unittest.TestCase):
 
     def test_a_mutant_without_a_meaning_is_named_by_the_compiler(self):
         source = self.work / "text.cc"
-        text, _, _ = rewritten("#include <string>\nstd::string F(std::string a, int b) {\n  return a + std::to_string(b * 2);\n}\n")
+        text, _, _ = rewritten("#include <string>\nstd::string F(std::string a, std::string b) { return a + b; }\n")
         source.write_text(text)
-        done = subprocess.run([os.environ.get("CXX", "c++"), "-std=c++20", "-fsyntax-only", "-include", HERE / "mutant.h", source],
-                              capture_output=True, text=True)
+        done = subprocess.run([*COMPILER, "-fsyntax-only", source], capture_output=True, text=True)
         self.assertNotEqual(done.returncode, 0)
         self.assertEqual(shadow.impossible(done.stderr), {1})
 

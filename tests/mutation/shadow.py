@@ -11,9 +11,11 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+import rewrite
 import sites
 
 HERE = Path(__file__).resolve().parent
+MUTATOR = ("tokens.py", "source.py", "sites.py", "rewrite.py", "shadow.py")
 _MESSAGE = re.compile(r"^(?P<path>[^:\s]+):(?P<line>\d+):\d+: +(?P<kind>error|note):(?P<text>.*)$", re.MULTILINE)
 _IMPOSSIBLE = re.compile(r"etude_mutation::Check<(\d+), false>")
 
@@ -58,14 +60,14 @@ class Shadow:
 
     # --- files ---------------------------------------------------------------------------------------------------
     def _git_files(self):
-        listed = subprocess.run(["git", "-C", self.root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-                                check=True, capture_output=True, text=True).stdout
+        command = ["git", "-C", self.root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+        listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return sorted(file for file in listed.split("\0") if file and (self.root / file).is_file())
 
     def _engine_files(self):
         """Those that can be mutated: not the ones that Highway compiles once for every kind of vectors."""
         files = [f for f in self._git_files() if f.startswith("engine/") and f.endswith((".cc", ".h"))]
-        return [f for f in files if not f.endswith("-inl.h") and not re.search(r"foreach_target|-inl\.h|HWY_", self._read(f))]
+        return [f for f in files if not re.search(r"foreach_target|-inl\.h|HWY_", f + self._read(f))]
 
     def _read(self, file):
         return (self.root / file).read_text(encoding="utf-8")
@@ -75,7 +77,7 @@ class Shadow:
         state = hashlib.sha256()
         for file in self._git_files():
             used = file.startswith(("engine/", "tests/engine/", "tests/support/", "tests/mutation/", "sim/", "cmake/"))
-            if used and file.endswith((".cc", ".h", ".txt", ".cmake", "sites.py", "tokens.py")):
+            if used and file.endswith((".cc", ".h", ".txt", ".cmake", *MUTATOR)):
                 state.update(file.encode() + b"\0" + (self.root / file).read_bytes())
         return state.hexdigest()[:16]
 
@@ -97,7 +99,7 @@ class Shadow:
 
     def _write_mutated(self, file):
         kept = [(site, number) for site, number in self.numbered[file] if number not in self.dropped]
-        text = sites.rewrite(self._read(file), kept)
+        text = rewrite.rewrite(self._read(file), kept)
         target = self.tree / file
         if target.is_symlink() or not target.exists() or target.read_text(encoding="utf-8") != text:
             target.unlink(missing_ok=True)
@@ -124,7 +126,8 @@ class Shadow:
         for found in _MESSAGE.finditer(output):
             file = os.path.relpath(self.build / found["path"], self.tree)  # of ninja, relative to where it builds
             # What else is wrong in a file with an impossible mutant may follow from it.
-            if file in self.numbered and file not in explained and (found["kind"] == "error" or "etude_mutation" in found["text"]):
+            about_mutants = found["kind"] == "error" or "etude_mutation" in found["text"]
+            if about_mutants and file in self.numbered and file not in explained:
                 blamed |= self._nearest(file, int(found["line"]))
         return blamed
 
@@ -140,24 +143,26 @@ class Shadow:
         return [os.path.dirname(f) for f in lists]
 
     def compile(self, folders, jobs, log):
-        """Builds the test programs of these folders; drops what does not compile. Raises when something else fails."""
+        """Builds the test programs of these folders; drops what does not compile. Raises when something else is
+        wrong."""
         self.write()
         (self.work / "mutant.h").write_text((HERE / "mutant.h").read_text())
         flags = f"-O1 -DNDEBUG -include {self.work}/mutant.h -Werror=vla -fmax-errors=0"
-        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DETUDE_TESTS=ON", "-DETUDE_UNITY=ON",
-                        "-DCMAKE_BUILD_TYPE=Mutation", f"-DCMAKE_CXX_FLAGS_MUTATION={flags}"],
+        options = ["-DETUDE_TESTS=ON", "-DETUDE_UNITY=ON", "-DCMAKE_BUILD_TYPE=Mutation",
+                   f"-DCMAKE_CXX_FLAGS_MUTATION={flags}"]
+        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options],
                        check=True, stdout=log, stderr=log)
         targets = ["etude_" + folder.replace("/", "_") for folder in folders]
         for _ in range(40):
             output = self.work / "build.output"
             with output.open("w") as file:
-                code = subprocess.run(["nice", "-n", "10", "ninja", "-C", self.build, f"-j{jobs}", "-k0", *targets],
-                                      stdout=file, stderr=subprocess.STDOUT).returncode
+                ninja = ["nice", "-n", "10", "ninja", "-C", self.build, f"-j{jobs}", "-k0"]
+                code = subprocess.run([*ninja, *targets], stdout=file, stderr=subprocess.STDOUT).returncode
             if code == 0:
                 return
             blamed = self._blamed(output.read_text())
             if not blamed:
-                raise RuntimeError("The mutated engine does not compile, and not because of a mutant: see build.output.")
+                raise RuntimeError("The mutated engine does not compile, not because of a mutant: see build.output.")
             self.dropped |= blamed
             self._save_dropped()
             self.write()
@@ -169,8 +174,9 @@ class Shadow:
             for site, first in pairs:
                 if first in self.dropped:
                     continue
+                code = lines[site.line - 1].strip()
                 for k, mutation in enumerate(site.mutations):
-                    yield Mutant(first + k, file, site.line, site.column, site.original, mutation, lines[site.line - 1].strip())
+                    yield Mutant(first + k, file, site.line, site.column, site.original, mutation, code)
 
     def dropped_count(self):
         return sum(len(site.mutations) for pairs in self.numbered.values() for site, n in pairs if n in self.dropped)

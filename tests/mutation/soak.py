@@ -6,19 +6,20 @@ import random
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import figure
 from shadow import Shadow
-from trials import Test, judge, list_tests, record
+from trials import judge, list_tests, record
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog="scripts/soak mutation", description="A seeded sample of the mutants of engine/, "
-                                     "each against the tests of its mirrored folder. Killed, it goes on where it was.")
+    about = "A seeded sample of the mutants of engine/, each against the tests of its folder. Killed, it goes on."
+    parser = argparse.ArgumentParser(prog="scripts/soak mutation", description=about)
     parser.add_argument("--count", type=int, default=300, help="mutants in the sample (default: %(default)s)")
     parser.add_argument("--hours", type=float, help="stop after this time, with the figure of what was tried")
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default: %(default)s)")
@@ -41,12 +42,13 @@ def recorded(shadow, folders, digest, jobs):
     print(f"{len(tests)} tests, {len(missing)} to be recorded", flush=True)
     with path.open("a") as file, ThreadPoolExecutor(jobs) as pool:
         for test in pool.map(lambda t: record(t, shadow.tree), missing):
-            entry = {"folder": test.folder, "name": test.name, "seconds": test.seconds, "reached": sorted(test.reached)}
+            entry = {"folder": test.folder, "name": test.name, "seconds": test.seconds}
+            entry["reached"] = sorted(test.reached)
             known[test.folder, test.name] = entry
             file.write(json.dumps(entry) + "\n")
             file.flush()
-    return [Test(t.folder, t.command, t.name, known[t.folder, t.name]["seconds"], frozenset(known[t.folder, t.name]["reached"]))
-            for t in tests]
+    entries = [(test, known[test.folder, test.name]) for test in tests]
+    return [replace(test, seconds=entry["seconds"], reached=frozenset(entry["reached"])) for test, entry in entries]
 
 
 def complete_lines(path):
@@ -76,7 +78,7 @@ def tried(sample, tests, shadow, path, options, end):
             verdicts[mutant.number] = verdict
             file.write(json.dumps({"number": mutant.number, "verdict": verdict}) + "\n")
             file.flush()
-            print(f"{verdict:9} {mutant.file}:{mutant.line}:{mutant.column} {mutant.original} → {mutant.mutation}", flush=True)
+            print(f"{verdict:9} {mutant.file}:{mutant.line} {mutant.original} → {mutant.mutation}", flush=True)
     return [(mutant, verdicts[mutant.number]) for mutant in sample if mutant.number in verdicts]
 
 

@@ -7,7 +7,7 @@ import signal
 import subprocess
 import tempfile
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 SLOWER = 5  # a mutant whose tests take so many times as long counts as noticed: they might never end
@@ -24,7 +24,8 @@ class Test:
 
 def list_tests(build, folders):
     """What ctest knows of these folders of tests, without the heavy ones."""
-    shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True, text=True)
+    command = ["ctest", "--test-dir", build, "--show-only=json-v1"]
+    shown = subprocess.run(command, check=True, capture_output=True, text=True)
     tests = []
     for entry in json.loads(shown.stdout)["tests"]:
         folder, _, _ = entry["name"].partition(": ")
@@ -60,7 +61,7 @@ def record(test, cwd):
         code, seconds = run_program(command, {"ETUDE_MUTANTS_REACHED": str(path)}, cwd, 600)
         if code != 0 or not path.exists():
             raise RuntimeError(f"{test.folder}: {test.name} fails without a mutant (exit code {code})")
-        return Test(test.folder, test.command, test.name, seconds, frozenset(map(int, path.read_text().split())))
+        return replace(test, seconds=seconds, reached=frozenset(map(int, path.read_text().split())))
 
 
 def judge(mutant, tests, cwd):
