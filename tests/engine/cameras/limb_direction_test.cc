@@ -96,6 +96,27 @@ TEST(LimbDirection, IsIllConditionedForALimbInAPlaneThroughBothCameras) {
   EXPECT_EQ(limb.direction, glm::dvec3(0));
 }
 
+TEST(LimbDirection, NeedsPlanesThatAreFartherFromParallelThanAsked) {
+  // Level cameras at ±half see an upright limb on the axis in planes that are twice that apart.
+  auto status_at = [](double half, double smallest) {
+    auto level = [](double degrees) {
+      const double a = Radians(degrees);
+      return MatrixOf(LookAt({}, {4 * std::sin(a), 1, 4 * std::cos(a)}, {0, 1, 0}));
+    };
+    const glm::dvec3 from(0, 0.8, 0), to(0, 1.2, 0);
+    const ProjectionMatrix left = level(-half), right = level(half);
+    const PixelSegment in_left = StrokeOf(left, from, to), in_right = StrokeOf(right, from, to);
+    return smallest > 0 ? ComputeLimbDirection(left, in_left, right, in_right, Radians(smallest)).status
+                        : ComputeLimbDirection(left, in_left, right, in_right).status;
+  };
+  EXPECT_EQ(status_at(4.9, 10), DirectionStatus::kIllConditioned);
+  EXPECT_EQ(status_at(5.1, 10), DirectionStatus::kOk);
+  EXPECT_EQ(status_at(90 - 4.9, 10), DirectionStatus::kIllConditioned) << "the cameras face each other";
+  EXPECT_EQ(status_at(90 - 5.1, 10), DirectionStatus::kOk);
+  EXPECT_EQ(status_at(1.4, 0), DirectionStatus::kIllConditioned) << "3 degrees unless asked";
+  EXPECT_EQ(status_at(1.6, 0), DirectionStatus::kOk);
+}
+
 TEST(LimbDirection, IsIllConditionedForAStrokeWithoutLengthOrNotFinite) {
   const ProjectionMatrix left = CameraAt(-40), right = CameraAt(40);
   const glm::dvec3 from(0.1, 0.6, 0.2), to(0.3, 1.2, -0.1);
