@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -92,6 +93,28 @@ TEST(GradeIndex, TakesTheLowestOfEqualFrames) {
   ExpectSameAnswers(frames, few, PaperWeights());
   EXPECT_EQ(GradeIndex(frames, PaperWeights()).Nearest(frames[700], 1).front().frame,
             static_cast<int>(std::ranges::find(frames, frames[700]) - frames.begin()));
+}
+
+TEST(GradeIndex, LeavesOutAFrameThatIsExactlyAtTheThreshold) {
+  // More frames than the head has, which is searched apart from the tree.
+  RandomStream dice = SearchDice("threshold");
+  const std::vector<Grades> frames = WanderingFrames(6000, dice);
+  const GradeIndex index(frames, PaperWeights());
+  const Loop loop{frames, PaperWeights()};
+  int in_head = 0, beyond_head = 0;
+  for (std::size_t f : {100u, 2000u, 4000u, 5000u, 5500u, 5900u}) {
+    Grades query = frames[f];
+    for (double& grade : query) grade += dice.Uniform(-0.05, 0.05);
+    const Neighbour nearest = loop.Nearest(query, 1).front();
+    EXPECT_TRUE(index.Within(query, nearest.distance).empty());
+    EXPECT_FALSE(index.First(query, nearest.distance));
+    const double more = std::nextafter(nearest.distance, kInfinity);
+    EXPECT_EQ(index.Within(query, more), std::vector{nearest}) << "the control";
+    EXPECT_EQ(index.First(query, more), nearest) << "the control";
+    ++(nearest.frame < 4096 ? in_head : beyond_head);
+  }
+  EXPECT_GE(in_head, 2);
+  EXPECT_GE(beyond_head, 2);
 }
 
 TEST(GradeIndex, LeavesOutFeaturesOfNoWeight) {
