@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/ik/ik_task.h"
+#include "bench/tasks/ik/run.h"
 #include "bench/tasks/ik/score.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
