@@ -7,6 +7,7 @@
 
 #include "bench/tasks/ik/ik_task.h"
 #include "bench/tasks/ik/run.h"
+#include "bench/tasks/ik/score.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
@@ -17,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const WorldKey kWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
+const WorldKey kExchangeWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
 constexpr int kMaxSteps = 200;
 
 std::unique_ptr<Task> MakeTask(const std::string& condition = "{}") {
@@ -83,7 +84,7 @@ std::vector<StrangersFrame> StrangersEffectors(const Json& setting, const Json& 
 
 TEST(IkExchange, AStrangersForwardKinematicsReachesTheTargetsWithTheTrueAngles) {
   const auto task = MakeTask();
-  const auto world = task->MakeWorld(kWorld, false);
+  const auto world = task->MakeWorld(kExchangeWorld, false);
   const Json setting = *task->Setting()->json, problem = *world->MakeProblem()->json, truth = *world->MakeTruth()->json;
   EXPECT_EQ(setting["angles"].size(), 29u);
   const auto reached = StrangersEffectors(setting, problem["root"], truth["angles_deg"]);
@@ -105,7 +106,7 @@ TEST(IkExchange, AStrangersForwardKinematicsReachesTheTargetsWithTheTrueAngles) 
 
 TEST(IkExchange, TheProblemStartsWithinTheLimitsThatTheSettingNames) {
   const auto task = MakeTask("{joint_noise_deg: 60}");
-  const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kWorld, false)->MakeProblem()->json;
+  const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kExchangeWorld, false)->MakeProblem()->json;
   for (std::size_t i = 0; i < 29; ++i) {
     const double start = problem["start_angles_deg"][i];
     EXPECT_GE(start, setting["angles"][i]["lower_deg"].get<double>() - 1e-9);
@@ -128,7 +129,7 @@ TEST(IkExchange, TheSettingTellsTheLimitsAndWhatIsAsked) {
 
 TEST(IkExchange, TheTruthIsAPerfectAnswer) {
   const auto task = MakeTask();
-  const auto world = task->MakeWorld(kWorld, true);
+  const auto world = task->MakeWorld(kExchangeWorld, true);
   Json answer = *world->MakeTruth()->json;
   answer["iterations"] = 7;
   const auto cell = world->Judge(answer);
@@ -148,7 +149,7 @@ TEST(IkExchange, TheTruthIsAPerfectAnswer) {
 
 TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
   const KinematicTree tree = MakeBodyTree({});
-  const IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  const IkWorld world = MakeIkWorld(tree, {}, kExchangeWorld);
   IkMethod method{"today", FindIkSolver("damped-least-squares"), {}};
   const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
   const CellResult built_in = RunIkCell(tree, world, method, {});
@@ -164,7 +165,7 @@ TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
 
 TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
   const KinematicTree tree = MakeBodyTree({});
-  IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  IkWorld world = MakeIkWorld(tree, {}, kExchangeWorld);
   // Targets that an elbow bent the wrong way reaches exactly.
   const int elbow = tree.joints[kTreeLeftElbow].first_dof;
   world.truth.angles[elbow] = Radians(-5);
@@ -187,7 +188,7 @@ TEST(IkExchange, AnAnswerThatBreaksALimitIsMeasuredAndUnsolved) {
 
 TEST(IkExchange, CountsAnAnswerThatCostMoreThanTheLimitAsUnsolvedInItsPenalisedCost) {
   const KinematicTree tree = MakeBodyTree({});
-  const IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  const IkWorld world = MakeIkWorld(tree, {}, kExchangeWorld);
   const CellResult cell = ScoreIkAnswer(tree, world, {world.truth.angles, kMaxSteps + 1, 4}, kMaxSteps, {});
   EXPECT_EQ(ValueOf(cell, "iterations_par2"), 2 * kMaxSteps);
   EXPECT_EQ(ValueOf(cell, "fk_evaluations_par2"), 4);
@@ -195,7 +196,7 @@ TEST(IkExchange, CountsAnAnswerThatCostMoreThanTheLimitAsUnsolvedInItsPenalisedC
 
 TEST(IkExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeTask();
-  const auto world = task->MakeWorld(kWorld, false);
+  const auto world = task->MakeWorld(kExchangeWorld, false);
   const Json good = *world->MakeTruth()->json;
   const auto complaint = [&](auto change) {
     Json answer = good;

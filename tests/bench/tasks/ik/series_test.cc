@@ -13,11 +13,11 @@
 namespace etude {
 namespace {
 
-const WorldKey kWorld{.suite_seed = 1, .scenario = "series", .trial = 0};
+const WorldKey kSeriesWorld{.suite_seed = 1, .scenario = "series", .trial = 0};
 
 struct FixedRun {
   KinematicTree tree = MakeBodyTree({});
-  IkWorld world = MakeIkWorld(tree, {}, kWorld);
+  IkWorld world = MakeIkWorld(tree, {}, kSeriesWorld);
   IkSolution solution;
 
   explicit FixedRun(int iterations) {
