@@ -62,6 +62,19 @@ TEST(FramesBetween, TakesEveryFrameTouchedAndCutsAtTheStreamsEnds) {
   EXPECT_EQ(window(2, 1), std::pair(60, 60)) << "never ends before it begins";
 }
 
+TEST(StreamOf, TellsAMotionAsASensorWithoutErrorsWould) {
+  BodyMotion motion{.rate_hz = 25, .poses = std::vector<BodyPose>(2)};
+  motion.poses[1].joints[3] = {1, 2, 3};
+  const SkeletonStream stream = etude::StreamOf(motion);
+  EXPECT_EQ(stream.rate_hz, 25);
+  ASSERT_EQ(stream.frames.size(), 2u);
+  for (const SensedFrame& frame : stream.frames) {
+    EXPECT_TRUE(frame.body_seen);
+    for (const SensedJoint& joint : frame.joints) EXPECT_EQ(joint.state, TrackingState::kTracked);
+  }
+  EXPECT_EQ(MotionOf(stream).poses[1].joints, motion.poses[1].joints);
+}
+
 TEST(SeeStream, ReadsTheFeaturesOffTheFilteredStream) {
   const SkeletonStream stream = RaisedArm();
   const SeenStream raw = SeeStream(stream, {}), smooth = SeeStream(stream, {.kind = FilterKind::kHolt});
