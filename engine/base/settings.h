@@ -35,7 +35,7 @@ class SettingTable {
 
   std::vector<NumberSetting> Describe() const {
     std::vector<NumberSetting> settings;
-    const Options defaults;
+    static const Options defaults{};  // static: GCC takes an automatic one for uninitialized
     for (const Row& row : rows_) {
       const bool is_whole = std::holds_alternative<int Options::*>(row.member);
       const double fallback =
