@@ -1,5 +1,7 @@
 """The mutator itself: what it takes for code, what it makes of it, and that good tests kill and bad ones do not."""
 
+import contextlib
+import io
 import json
 import os
 import subprocess
@@ -166,6 +168,55 @@ class Toy(unittest.TestCase):
         done = subprocess.run([*COMPILER, "-fsyntax-only", source], capture_output=True, text=True)
         self.assertNotEqual(done.returncode, 0)
         self.assertEqual(shadow.impossible(done.stderr), {1})
+
+
+class Soak(unittest.TestCase):
+    """A whole check of a small project, whose one test program takes the place of a GoogleTest."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.folder.name)
+        files = {
+            "CMakeLists.txt": "cmake_minimum_required(VERSION 3.25)\nproject(toy CXX)\nset(CMAKE_CXX_STANDARD 20)\n"
+                              "enable_testing()\nadd_subdirectory(tests/engine/toy)\n",
+            "tests/engine/toy/CMakeLists.txt":
+                "add_executable(etude_tests_engine_toy good_test.cc ../../../engine/toy/toy.cc)\n"
+                "target_include_directories(etude_tests_engine_toy PRIVATE ../../../engine/toy)\n"
+                "add_test(NAME \"engine/toy: all\" COMMAND etude_tests_engine_toy --gtest_filter=all)\n",
+            "engine/toy/toy.h": (HERE / "toy/toy.h").read_text(),
+            # With a sum of strings, which has no difference; and a statement that is none, outside functions.
+            "engine/toy/toy.cc": (HERE / "toy/toy.cc").read_text() +
+                "\n#include <string>\nstd::string Twice(const std::string& a) { return a + a; }\n"
+                "struct Odd { Odd(int); int x; };\nOdd::Odd(int b) : x(b) {}\nint Unused(int a) { return a + 7; }\n",
+            "tests/engine/toy/good_test.cc": (HERE / "toy/good_test.cc").read_text(),
+        }
+        for name, text in files.items():
+            (cls.root / name).parent.mkdir(parents=True, exist_ok=True)
+            (cls.root / name).write_text(text)
+        (cls.root / ".gitignore").write_text("/out/\n")
+        subprocess.run(["git", "init", "-q", cls.root], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def run_soak(self, *words):
+        with contextlib.redirect_stdout(io.StringIO()) as said:
+            found = soak.run(soak.arguments(list(words)), self.root, self.root / "out")
+        return found, said.getvalue()
+
+    def test_it_counts_what_is_noticed_goes_on_and_keeps_its_figure(self):
+        first, _ = self.run_soak("--count", "10")
+        self.assertEqual((first["sample"], first["not_compiling"]), (10, 2))
+        found, said = self.run_soak("--count", "1000")
+        self.assertIn(f"{found['sample']} mutants, {found['sample'] - 10} to be tried", said)
+        self.assertEqual((found["sample"], found["unreached"], found["survived"]), (found["mutants"], 3, 0))
+        self.assertEqual(found["noticed"], found["mutants"] - 3)
+        survivors = figure.load(self.root / "out/survivors.json")
+        self.assertEqual({entry["code"] for entry in survivors}, {"int Unused(int a) { return a + 7; }"})
+        self.assertEqual(figure.load(self.root / "out/figure.json"), found)
+        self.assertIn(f"{found['sample']} mutants, 0 to be tried", self.run_soak("--count", "1000")[1])
 
 
 class Figure(unittest.TestCase):

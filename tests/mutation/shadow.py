@@ -123,17 +123,19 @@ class Shadow:
         """The numbers of the sites that the compiler's messages speak of."""
         blamed = impossible(output) - self.dropped
         explained = {file for file, pairs in self.numbered.items() if any(n in blamed for _, n in pairs)}
+        lines = {}
         for found in _MESSAGE.finditer(output):
             file = os.path.relpath(self.build / found["path"], self.tree)  # of ninja, relative to where it builds
             # What else is wrong in a file with an impossible mutant may follow from it.
             about_mutants = found["kind"] == "error" or "etude_mutation" in found["text"]
             if about_mutants and file in self.numbered and file not in explained:
-                blamed |= self._nearest(file, int(found["line"]))
-        return blamed
+                lines.setdefault(file, set()).add(int(found["line"]))
+        return blamed.union(*(self._nearest(file, its) for file, its in lines.items()))
 
-    def _nearest(self, file, line):
-        """The sites in a line that are still there; or in the lines around it."""
-        here = [(abs(site.line - line), n) for site, n in self.numbered[file] if n not in self.dropped]
+    def _nearest(self, file, lines):
+        """The sites that are still there in one of the lines; if none is, those next to one of them."""
+        here = [(min(abs(site.line - line) for line in lines), n) for site, n in self.numbered[file]
+                if n not in self.dropped]
         least = min(here, default=(99, 0))[0]
         return {n for away, n in here if away == least and least <= 12}
 

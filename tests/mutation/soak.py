@@ -3,7 +3,6 @@
 import argparse
 import json
 import random
-import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -17,7 +16,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 
 
-def arguments():
+def arguments(words=None):
     about = "A seeded sample of the mutants of engine/, each against the tests of its folder. Killed, it goes on."
     parser = argparse.ArgumentParser(prog="scripts/soak mutation", description=about)
     parser.add_argument("--count", type=int, default=300, help="mutants in the sample (default: %(default)s)")
@@ -27,7 +26,7 @@ def arguments():
     parser.add_argument("--only", nargs="+", default=["engine"], metavar="FOLDER",
                         help="only mutants of these folders, such as engine/vision; the figure is then not kept")
     parser.add_argument("--keep", action="store_true", help="keep figure.json and survivors.json even so")
-    return parser.parse_args()
+    return parser.parse_args(words)
 
 
 def recorded(shadow, folders, digest, jobs):
@@ -82,37 +81,37 @@ def tried(sample, tests, shadow, path, options, end):
     return [(mutant, verdicts[mutant.number]) for mutant in sample if mutant.number in verdicts]
 
 
-def main():
-    options = arguments()
+def run(options, root=ROOT, kept_in=HERE):
+    """One sample, from building to its figure; returns that."""
     end = time.monotonic() + (options.hours * 3600 if options.hours else float("inf"))
-    work = ROOT / "out/soak/mutation"
+    work = root / "out/soak/mutation"
     work.mkdir(parents=True, exist_ok=True)
-    shadow = Shadow(ROOT, work)
-    wanted = lambda folder: any(folder == f.rstrip("/") or folder.startswith(f.rstrip("/") + "/") for f in options.only)
-    folders = [f for f in shadow.test_folders() if wanted(f.removeprefix("tests/"))]
-    print(f"Building {len(folders)} test programs: {work}/build.log", flush=True)
-    with (work / "build.log").open("a") as log:
+    shadow = Shadow(root, work)
+
+    def is_wanted(folder):
+        return any((folder + "/").startswith(wanted.rstrip("/") + "/") for wanted in options.only)
+
+    folders = [f for f in shadow.test_folders() if is_wanted(f.removeprefix("tests/"))]
+    print(f"Building {len(folders)} test programs: {work}/build.output", flush=True)
+    with (work / "cmake.log").open("w") as log:
         shadow.compile(folders, options.jobs, log)
     digest = shadow.digest()
     tests = recorded(shadow, folders, digest, options.jobs)
-    mutants = [mutant for mutant in shadow.mutants() if wanted(mutant.folder)]
+    mutants = [mutant for mutant in shadow.mutants() if is_wanted(mutant.folder)]
     sample = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
-    verdicts = work / f"verdicts-{digest}.jsonl"
-    results = tried(sample, tests, shadow, verdicts, options, end)
+    results = tried(sample, tests, shadow, work / f"verdicts-{digest}.jsonl", options, end)
 
-    survivors = figure.survivors_of(results, figure.load(HERE / "survivors.json"))
+    survivors = figure.survivors_of(results, figure.load(kept_in / "survivors.json"))
     about = {"seed": options.seed, "mutants": len(mutants), "not_compiling": shadow.dropped_count(), "engine": digest}
-    kept = figure.figure_of(results, survivors, about)
+    found = figure.figure_of(results, survivors, about)
+    keeps = options.keep or options.only == ["engine"]
+    figure.save((kept_in if keeps else work) / "figure.json", found)
+    figure.save((kept_in if keeps else work) / "survivors.json", survivors)
     for folder, (noticed, total) in figure.by_folder(results).items():
         print(f"{folder:32} {noticed:4} of {total:4}")
-    print(json.dumps(kept, indent=1))
-    if options.keep or options.only == ["engine"]:
-        figure.save(HERE / "figure.json", kept)
-        figure.save(HERE / "survivors.json", survivors)
-    else:
-        figure.save(work / "survivors.json", survivors)
-    return 0
+    print(json.dumps(found, indent=1))
+    return found
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run(arguments())

@@ -5,13 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/engine/cameras/camera_at.h"
+
 namespace etude {
 namespace {
-
-ProjectionMatrix CameraAt(double degrees) {
-  const double a = Radians(degrees);
-  return MatrixOf(LookAt({}, {3.8 * std::sin(a), 1.4, 3.8 * std::cos(a)}, {0, 0.9, 0}));
-}
 
 PixelSegment StrokeOf(const ProjectionMatrix& matrix, const glm::dvec3& from, const glm::dvec3& to) {
   return {*Project(matrix, from), *Project(matrix, to)};
@@ -19,7 +16,7 @@ PixelSegment StrokeOf(const ProjectionMatrix& matrix, const glm::dvec3& from, co
 
 TEST(ViewingRay, PassesThroughThePointThatThePixelShows) {
   const ProjectionMatrix matrix = CameraAt(35);
-  const glm::dvec3 eye(3.8 * std::sin(Radians(35)), 1.4, 3.8 * std::cos(Radians(35)));
+  const glm::dvec3 eye = EyeAt(35);
   const glm::dvec3 point(-0.3, 1.7, 0.2);
   EXPECT_LT(AngleBetween(ViewingRay(matrix, *Project(matrix, point)), point - eye), 1e-9);
 }
@@ -60,8 +57,7 @@ TEST(LimbDirection, BelievesThePictureInWhichTheLimbIsLessForeshortened) {
   // one is turned here, so the limb's true direction is the exact answer, whichever camera it is.
   for (double foreshortened_at : {-40.0, 40.0}) {
     const ProjectionMatrix short_view = CameraAt(foreshortened_at), full_view = CameraAt(-foreshortened_at);
-    const double a = Radians(foreshortened_at);
-    const glm::dvec3 eye(3.8 * std::sin(a), 1.4, 3.8 * std::cos(a)), from(0.1, 1.1, 0.05);
+    const glm::dvec3 eye = EyeAt(foreshortened_at), from(0.1, 1.1, 0.05);
     const glm::dvec3 to = from + 0.3 * glm::normalize(glm::normalize(eye - from) + glm::dvec3(0.02, 0.03, -0.01));
     const PixelSegment turned = StrokeOf(short_view, to, from), seen = StrokeOf(full_view, from, to);
     ASSERT_LT(glm::distance(turned.a, turned.b), 0.2 * glm::distance(seen.a, seen.b));

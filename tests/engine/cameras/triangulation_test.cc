@@ -2,18 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
-#include "engine/base/angles.h"
+#include "tests/engine/cameras/camera_at.h"
 
 namespace etude {
 namespace {
-
-ProjectionMatrix CameraAt(double degrees) {
-  const double a = Radians(degrees);
-  return MatrixOf(LookAt({}, {3.8 * std::sin(a), 1.4, 3.8 * std::cos(a)}, {0, 0.9, 0}));
-}
 
 Sighting SightingOf(const ProjectionMatrix& matrix, const glm::dvec3& point) {
   return {matrix, *Project(matrix, point)};
