@@ -56,7 +56,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   }
   const std::string rest = LeftOutWords(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
   if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
-  return text + SwitchesMarkdown(SwitchWorldsOf(run, scenario)) + PaperAMarkdown(scenario) +
+  return text + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) + PaperAMarkdown(scenario) +
          PaperBMarkdown(run, scenario) + ComparisonTableMarkdown(scenario);
 }
 

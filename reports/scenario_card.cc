@@ -142,7 +142,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += StatusBar(findings);
   html += PosePairsHtml(run, scenario);
   html += OverviewTableHtml(scenario);
-  html += SwitchesHtml(SwitchWorldsOf(run, scenario));
+  html += TransitionsHtml(RecordedRequestsOf(run, scenario));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
   html += GrowthHtml(run, scenario);

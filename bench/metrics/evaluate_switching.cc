@@ -20,9 +20,11 @@ using Value = EvaluatedMetric;
 
 // Transitions.
 
-std::vector<int> SeamsOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
+std::vector<int> TransitionFramesOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
 
-SeamSmoothness SmoothnessOf(const Json& in) { return MeasureSeams(ReadMotion(in.at("motion")), SeamsOf(in)); }
+TransitionSmoothness SmoothnessOf(const Json& in) {
+  return MeasureTransitions(ReadMotion(in.at("motion")), TransitionFramesOf(in));
+}
 
 bool IsNaturalJump(const Json& in) {
   std::vector<double> jumps;
@@ -37,7 +39,7 @@ bool IsNaturalJump(const Json& in) {
 double WorstFootSlide(const Json& in) {
   const BodyMotion motion = ReadMotion(in.at("motion"));
   double worst = 0;
-  for (int seam : SeamsOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
+  for (int seam : TransitionFramesOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
   return worst;
 }
 
@@ -91,7 +93,7 @@ struct SpeedProfile {
 SpeedProfile SpeedOf(const Json& in) {
   if (in.contains("speed_mps")) return {in.at("speed_mps").get<std::vector<double>>(), in.at("rate_hz").get<double>()};
   const BodyMotion motion = ReadMotion(in.at("motion"));
-  const std::vector<int> seams = SeamsOf(in);
+  const std::vector<int> seams = TransitionFramesOf(in);
   const int second = static_cast<int>(motion.rate_hz);
   return {MeanJointSpeed(motion, seams.at(0) - second, seams.back() + second), motion.rate_hz};
 }

@@ -67,13 +67,13 @@ double ThirdDifferenceAt(const BodyMotion& motion, int frame) {
 
 }  // namespace
 
-SeamSmoothness MeasureSeams(const BodyMotion& motion, std::span<const int> seams) {
-  assert(!seams.empty());
-  SeamSmoothness worst;
+TransitionSmoothness MeasureTransitions(const BodyMotion& motion, std::span<const int> frames) {
+  assert(!frames.empty());
+  TransitionSmoothness worst;
   const int count = static_cast<int>(motion.poses.size());
   const double per_s3 = motion.rate_hz * motion.rate_hz * motion.rate_hz;
-  for (int seam : seams) {
-    const int first = std::max(seam - kSeamReach, 1), last = std::min(seam + kSeamReach, count - 2);
+  for (int point : frames) {
+    const int first = std::max(point - kWindowReach, 1), last = std::min(point + kWindowReach, count - 2);
     for (int frame = first; frame <= last; ++frame) {
       const Jump jump = JumpAt(motion, frame);
       worst.jump_cm = std::max(worst.jump_cm, kCm * jump.largest);
@@ -100,7 +100,7 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip) {
   const std::vector<double> differences = SecondDifferencesCm(clip);
   std::vector<double> jumps;
   // Frames at the clip's ends have no second difference, so a whole window starts at frame 1.
-  constexpr std::size_t kWindow = 2 * kSeamReach + 1;
+  constexpr std::size_t kWindow = 2 * kWindowReach + 1;
   for (std::size_t first = 1; first + kWindow < differences.size(); ++first) {
     const auto begin = differences.begin() + static_cast<std::ptrdiff_t>(first);
     jumps.push_back(*std::max_element(begin, begin + kWindow));
@@ -116,13 +116,13 @@ bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_
   return jump_cm && *jump_cm <= kSlack * NaturalLimitCm(std::move(natural_jumps_cm));
 }
 
-double FootSlideCmps(const BodyMotion& motion, int seam) {
-  assert(seam + 1 < static_cast<int>(motion.poses.size()));
+double FootSlideCmps(const BodyMotion& motion, int point) {
+  assert(point + 1 < static_cast<int>(motion.poses.size()));
   constexpr double kHeight = 0.025;  // metres: a foot this high counts no more
-  const int end = std::min(seam + static_cast<int>(motion.rate_hz), static_cast<int>(motion.poses.size()) - 1);
+  const int end = std::min(point + static_cast<int>(motion.rate_hz), static_cast<int>(motion.poses.size()) - 1);
   double sum = 0;
   int samples = 0;
-  for (int frame = seam; frame < end; ++frame) {
+  for (int frame = point; frame < end; ++frame) {
     for (Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
       const glm::dvec3& here = motion.poses[frame][foot];
       const glm::dvec3 step = motion.poses[frame + 1][foot] - here;

@@ -11,20 +11,20 @@ namespace etude {
 /// The smoothness of a motion around given frames (docs/metrics.md, Transitions). Motions are judged
 /// at 30 Hz, in metres, danced by a body whose hips stand at 0.90 m.
 
-/// How unevenly a motion moves close to a seam.
-struct SeamSmoothness {
+/// How unevenly a motion moves close to a transition point.
+struct TransitionSmoothness {
   double jump_cm = 0;             ///< largest second difference of any joint
   double mean_joint_jump_cm = 0;  ///< largest over frames of the mean over joints
   double rotation_step_change_deg = 0;
   double jerk_peak_mps3 = 0;  ///< largest third difference of any joint × 30³
 };
 
-/// A window is the frames within this many of the seam: eleven frames.
-constexpr int kSeamReach = 5;
+/// A window is the frames within this many of the transition point: eleven frames.
+constexpr int kWindowReach = 5;
 
-/// The worst over the windows around all seams; frames beyond the motion's ends do not count. Needs
-/// one seam at least; a motion shorter than four frames has no jerk, shorter than three no jump.
-SeamSmoothness MeasureSeams(const BodyMotion& motion, std::span<const int> seams);
+/// The worst over the windows around all `frames` of transition points; what lies beyond the motion's ends does not
+/// count. Needs one at least; a motion shorter than four frames has no jerk, shorter than three no jump.
+TransitionSmoothness MeasureTransitions(const BodyMotion& motion, std::span<const int> frames);
 
 /// The largest second difference of any joint at each frame, centimetres; 0 at both ends.
 std::vector<double> SecondDifferencesCm(const BodyMotion& motion);
@@ -36,15 +36,15 @@ std::vector<double> NaturalJumpsCm(const BodyMotion& clip);
 /// Needs a value.
 double NaturalLimitCm(std::vector<double> natural_jumps);
 
-/// `natural_share` of one switch: its jump does not exceed the limit of the natural jumps (by more than rounding), of
-/// which it needs one. A switch that found no way has no jump, and is not natural.
+/// `natural_share` of one transition: its jump does not exceed the limit of the natural jumps (by more than rounding),
+/// of which it needs one. A transition that found no way has no jump, and is not natural.
 bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_cm);
 
-/// Mean over both feet and the second after frame `seam` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1):
-/// the horizontal speed of feet that should be standing. Needs a frame after the seam. Heights are above y = 0, where
-/// every clip of a stage was set down: `FootSlide` (engine/motion/statistics), of clips whose floor nobody knows, takes
-/// each foot's lowest point instead, which a foot that a join pushes through the floor would move.
-double FootSlideCmps(const BodyMotion& motion, int seam);
+/// Mean over both feet and the second after frame `point` of v_xz · clamp(2 − 2^(h / 2.5 cm), 0, 1):
+/// the horizontal speed of feet that should be standing. Needs a frame after the transition point. Heights are above y
+/// = 0, where every clip of a stage was set down: `FootSlide` (engine/motion/statistics), of clips whose floor nobody
+/// knows, takes each foot's lowest point instead, which a foot that a join pushes through the floor would move.
+double FootSlideCmps(const BodyMotion& motion, int point);
 
 /// The worst joint between the frame left and the frame entered, already aligned on the floor.
 double PoseGapCm(const BodyPose& leaving, const BodyPose& arriving);

@@ -2,12 +2,12 @@
 
 namespace etude {
 
-SwitchResult SwitchClips(const MotionLibrary& library, const SwitchRequest& request, const SwitchMethod& method) {
-  SwitchResult result{method.choice->plan(library, request, method.rules), {}};
-  if (!result.record.legs.empty()) {
-    result.splice = SpliceLegs(library.motions, result.record.legs, *method.join, method.join_settings);
+Transition MakeTransition(const MotionLibrary& library, const TransitionRequest& request, const TransitionWay& way) {
+  Transition made{way.choice->plan(library, request, way.rules, way.choice_settings), {}};
+  if (!made.record.segments.empty()) {
+    made.splice = SpliceSegments(library.motions, made.record.segments, *way.join, way.join_settings);
   }
-  return result;
+  return made;
 }
 
 }  // namespace etude

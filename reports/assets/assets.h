@@ -11,6 +11,6 @@ std::string_view ReportJs();
 /// Only for pages that show what paper_b_section.h makes.
 std::string_view PaperCss();
 /// Only for pages that show what reports/transitions makes.
-std::string_view SwitchesCss();
+std::string_view TransitionsCss();
 
 }  // namespace etude

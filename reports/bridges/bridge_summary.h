@@ -11,11 +11,11 @@
 
 namespace etude {
 
-/// The clips of `etude bridge`, danced by one body and tagged.
+/// The clips of `etude bridge`, performed by one body and tagged.
 struct BridgeLibrary {
   FuzzySystem system;
   TagRules tag_rules;
-  SwitchRules switch_rules;
+  MatchRules match_rules;
   MotionLibrary library;
   std::vector<std::string> sources;  ///< what opens the clips again
   std::vector<int> corrective;       ///< the clips that every other one must lead into

@@ -18,7 +18,7 @@ constexpr Paint kTrack{0.30, 0.34, 0.37, 1};
 constexpr Paint kBeyond{0.98, 0.52, 0.45, 1};
 
 // What a full bar stands for: the threshold alone, or the largest of them where no threshold is told.
-double FullBar(const SwitchFacts& facts, const PerFeature& partials) {
+double FullBar(const TransitionFacts& facts, const PerFeature& partials) {
   return facts.threshold ? *facts.threshold * *facts.threshold : std::ranges::max(partials);
 }
 
@@ -40,11 +40,11 @@ void DrawBar(Canvas& canvas, const Box& row, std::string_view label, std::option
 
 }  // namespace
 
-std::string SeamWords(const SwitchFacts& facts, std::size_t meeting) {
+std::string PointWords(const TransitionFacts& facts, std::size_t point) {
   std::string words;
   const auto add = [&](const std::string& more) { words += (words.empty() || more.empty() ? "" : " · ") + more; };
-  if (facts.meetings.size() > 1) add(fmt::format("{} of {}", meeting + 1, facts.meetings.size()));
-  if (const auto distance = facts.meetings[meeting].distance) {
+  if (facts.points.size() > 1) add(fmt::format("{} of {}", point + 1, facts.points.size()));
+  if (const auto distance = facts.points[point].distance) {
     std::string d = "d " + FormatFixed(*distance, 3);
     if (facts.threshold) d += fmt::format(" {} {:g}", *distance < *facts.threshold ? "<" : "≥", *facts.threshold);
     add(d);
@@ -53,13 +53,13 @@ std::string SeamWords(const SwitchFacts& facts, std::size_t meeting) {
   return words;
 }
 
-void DrawSeamBars(Canvas& canvas, const Box& box, const SwitchFacts& facts, std::optional<std::size_t> meeting) {
+void DrawDistanceBars(Canvas& canvas, const Box& box, const TransitionFacts& facts, std::optional<std::size_t> point) {
   const double inner = box.width - 2 * kBarMargin;
-  const bool known = meeting && *meeting < facts.meetings.size();
-  const std::optional<PerFeature> partials = known ? facts.meetings[*meeting].partials : std::nullopt;
-  const std::string heading = !known      ? "no switch yet"
-                              : !partials ? SeamWords(facts, *meeting) + " · no distances told"
-                                          : SeamWords(facts, *meeting);
+  const bool known = point && *point < facts.points.size();
+  const std::optional<PerFeature> partials = known ? facts.points[*point].partials : std::nullopt;
+  const std::string heading = !known      ? "no transition yet"
+                              : !partials ? PointWords(facts, *point) + " · no distances told"
+                                          : PointWords(facts, *point);
   canvas.DrawText({box.x + kBarMargin, box.y + 18}, heading, kHeadingSize, known ? kInk : kSoftInk, inner, known);
   const double full = partials ? FullBar(facts, *partials) : 0;
   constexpr double kGap = 14;

@@ -6,12 +6,12 @@
 namespace etude {
 
 /// Which moment of a request is seen at which frame of a film, the same for every method: from a second before the
-/// request until after the last switch, and then the switches once more, slower. Times are frames after the request.
-class SwitchClock {
+/// request until after the last transition, and then all once more, slower. Times are frames after the request.
+class TransitionClock {
  public:
   static constexpr int kSlowness = 4;
 
-  explicit SwitchClock(const SwitchRace& race);
+  explicit TransitionClock(const TransitionRace& race);
 
   int First() const { return first_; }
   int Last() const { return last_; }

@@ -18,42 +18,43 @@ constexpr Paint kVeil{0.078, 0.090, 0.102, 0.6};
 
 }  // namespace
 
-std::string CountdownWords(const std::string& wanted, int time, int last_seam, double rate_hz) {
+std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz) {
   if (time < 0) return "";
-  if (time <= last_seam) return fmt::format("{} in {} s", wanted, FormatFixed((last_seam - time) / rate_hz, 2));
-  return fmt::format("waited {} s", FormatFixed(last_seam / rate_hz, 2));
+  if (time <= last_point) return fmt::format("{} in {} s", wanted, FormatFixed((last_point - time) / rate_hz, 2));
+  return fmt::format("waited {} s", FormatFixed(last_point / rate_hz, 2));
 }
 
-Box SwitchPanel::BodyBox(const Box& column) {
-  return {column.x, column.y, column.width, column.height - kCaptionHeight - kStripHeight - kSeamBarsHeight - 2 * kGap};
+Box TransitionPanel::BodyBox(const Box& column) {
+  return {column.x, column.y, column.width,
+          column.height - kCaptionHeight - kStripHeight - kDistanceBarsHeight - 2 * kGap};
 }
 
 // Clips are named by what meets; a recording that does not tell knows the first and the last.
-std::string SwitchPanel::ClipAt(int time) const {
-  const std::size_t seams = path_.SeamsBefore(time);
-  if (seams == 0) return path_.facts.from;
-  if (seams >= path_.facts.seam_frames.size()) return path_.facts.to;
-  const bool is_told = seams <= path_.facts.meetings.size() && !path_.facts.meetings[seams - 1].to.empty();
-  return is_told ? path_.facts.meetings[seams - 1].to : "in-between";
+std::string TransitionPanel::ClipAt(int time) const {
+  const std::size_t points = path_.PointsBefore(time);
+  if (points == 0) return path_.facts.from;
+  if (points >= path_.facts.transition_frames.size()) return path_.facts.to;
+  const bool is_told = points <= path_.facts.points.size() && !path_.facts.points[points - 1].to.empty();
+  return is_told ? path_.facts.points[points - 1].to : "in-between";
 }
 
-void SwitchPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time) {
+void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time) {
   const Box body = BodyBox(column);
   DrawBody(canvas, body, renderer, time);
   const Box strip{column.x, body.y + body.height + kCaptionHeight + kGap, column.width, kStripHeight};
   canvas.FillBox(strip, kPlate, kPanelRadius);
   strip_.Draw(canvas, strip, path_, time);
-  const Box bars{column.x, strip.y + strip.height + kGap, column.width, kSeamBarsHeight};
+  const Box bars{column.x, strip.y + strip.height + kGap, column.width, kDistanceBarsHeight};
   canvas.FillBox(bars, kPlate, kPanelRadius);
-  const std::size_t seams = path_.SeamsBefore(time);
-  DrawSeamBars(canvas, bars, path_.facts, seams > 0 ? std::optional(seams - 1) : std::nullopt);
+  const std::size_t points = path_.PointsBefore(time);
+  DrawDistanceBars(canvas, bars, path_.facts, points > 0 ? std::optional(points - 1) : std::nullopt);
 }
 
-void SwitchPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
+void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
   const int frame = path_.FrameAt(time);
-  const std::size_t seams = path_.SeamsBefore(time);
+  const std::size_t points = path_.PointsBefore(time);
   std::optional<int> left;
-  if (seams > 0) left = path_.facts.seam_frames[seams - 1];
+  if (points > 0) left = path_.facts.transition_frames[points - 1];
   const int since = left ? time - path_.TimeOf(*left) : 0;
   const std::optional<int> ghost = left && since <= kGhostFrames ? left : std::nullopt;
   if (!drawn_ || drawn_->frame != frame || drawn_->ghost != ghost) {
@@ -80,11 +81,11 @@ void SwitchPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, i
   DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);
 }
 
-void SwitchPanel::DrawWords(Canvas& canvas, const Box& box, int time) const {
+void TransitionPanel::DrawWords(Canvas& canvas, const Box& box, int time) const {
   const double room = box.width - 2 * kPanelMargin;
-  canvas.DrawDot({box.x + kPanelMargin + 5, box.y + 17}, 5, PaintOfLeg(path_.facts, path_.SeamsBefore(time)));
+  canvas.DrawDot({box.x + kPanelMargin + 5, box.y + 17}, 5, PaintOfSegment(path_.facts, path_.PointsBefore(time)));
   canvas.DrawText({box.x + kPanelMargin + 18, box.y + 23}, ClipAt(time), 17, kInk, room - 18, true);
-  const std::string countdown = CountdownWords(path_.facts.to, time, path_.LastSeam(), path_.motion.rate_hz);
+  const std::string countdown = CountdownWords(path_.facts.to, time, path_.LastPoint(), path_.motion.rate_hz);
   canvas.DrawText({box.x + kPanelMargin, box.y + 43}, countdown.empty() ? "before the request" : countdown, 14,
                   kSoftInk, room);
 }

@@ -11,59 +11,59 @@
 namespace etude {
 namespace {
 
-// Older recordings tell the wait only; what tells neither is aligned at its switch.
-int RequestOf(const SwitchFacts& facts, double rate_hz) {
+// Older recordings tell the wait only; what tells neither is aligned at its transition.
+int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
   constexpr double kLongest = 3600;
   const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kLongest);
-  return facts.seam_frames.back() - static_cast<int>(std::lround(wait * rate_hz));
+  return facts.transition_frames.back() - static_cast<int>(std::lround(wait * rate_hz));
 }
 
-bool CanBeShown(const RecordedSwitch& recorded) {
-  return recorded.row->result.status == Status::kOk && !recorded.facts.seam_frames.empty();
+bool CanBeShown(const RecordedTransition& recorded) {
+  return recorded.row->result.status == Status::kOk && !recorded.facts.transition_frames.empty();
 }
 
-std::vector<const RecordedSwitch*> ShownOf(const SwitchWorld& world, const std::vector<std::string>& methods) {
-  std::vector<const RecordedSwitch*> shown;
+std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, const std::vector<std::string>& methods) {
+  std::vector<const RecordedTransition*> shown;
   for (const std::string& method : methods) {
     const auto found = std::ranges::find_if(
-        world.switches, [&](const RecordedSwitch& s) { return s.row->method == method && CanBeShown(s); });
-    if (found != world.switches.end() && shown.size() < kMostSwitchPaths) shown.push_back(&*found);
+        world.transitions, [&](const RecordedTransition& s) { return s.row->method == method && CanBeShown(s); });
+    if (found != world.transitions.end() && shown.size() < kMostTransitionPaths) shown.push_back(&*found);
   }
   return shown;
 }
 
 }  // namespace
 
-int SwitchPath::FrameAt(int time) const {
+int TransitionPath::FrameAt(int time) const {
   return std::clamp(request + time, 0, static_cast<int>(motion.poses.size()) - 1);
 }
 
-bool SwitchPath::IsRecordedAt(int time) const { return request + time >= 0; }
+bool TransitionPath::IsRecordedAt(int time) const { return request + time >= 0; }
 
-std::size_t SwitchPath::SeamsBefore(int time) const {
+std::size_t TransitionPath::PointsBefore(int time) const {
   return static_cast<std::size_t>(
-      std::ranges::count_if(facts.seam_frames, [&](int seam) { return TimeOf(seam) < time; }));
+      std::ranges::count_if(facts.transition_frames, [&](int point) { return TimeOf(point) < time; }));
 }
 
-Result<SwitchRace> FindSwitchRace(const RunData& run, const ScenarioSummary& scenario) {
-  const std::vector<SwitchWorld> worlds = SwitchWorldsOf(run, scenario);
-  const SwitchWorld* best = nullptr;
-  std::vector<const RecordedSwitch*> shown;
-  for (const SwitchWorld& world : worlds) {
+Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario) {
+  const std::vector<RecordedRequest> worlds = RecordedRequestsOf(run, scenario);
+  const RecordedRequest* best = nullptr;
+  std::vector<const RecordedTransition*> shown;
+  for (const RecordedRequest& world : worlds) {
     auto candidates = ShownOf(world, scenario.methods);
     if (candidates.size() <= shown.size()) continue;
     best = &world;
     shown = std::move(candidates);
   }
   if (worlds.empty()) {
-    return Fail({}, "this run kept no recordings of switches here (the scenario's key video)");
+    return Fail({}, "this run kept no recordings of transitions here (the scenario's key video)");
   }
-  if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods that switched");
-  SwitchRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
-  race.choice = fmt::format("the first of {} recorded in which most of them switched",
+  if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods with a transition");
+  TransitionRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
+  race.choice = fmt::format("the first of {} recorded in which most of them have one",
                             Plural(static_cast<long long>(worlds.size()), "world"));
-  for (const RecordedSwitch* recorded : shown) {
+  for (const RecordedTransition* recorded : shown) {
     const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");
     race.paths.push_back({.method = recorded->row->method,
                           .facts = recorded->facts,

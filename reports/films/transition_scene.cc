@@ -20,15 +20,15 @@ Box Column(std::size_t index, std::size_t count) {
   return {kLeft + static_cast<double>(index) * (width + kBetween), kTop, width, kFilmHeight - kTop - kBottom};
 }
 
-SwitchStage StageFor(const SwitchRace& race, const SwitchClock& clock) {
-  const Box body = SwitchPanel::BodyBox(Column(0, race.paths.size()));
+TransitionStage StageFor(const TransitionRace& race, const TransitionClock& clock) {
+  const Box body = TransitionPanel::BodyBox(Column(0, race.paths.size()));
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
 // One scale for all methods: who jumps is seen beside who does not.
-double HighestJump(const SwitchRace& race, const SwitchClock& clock) {
+double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
-  for (const SwitchPath& path : race.paths) {
+  for (const TransitionPath& path : race.paths) {
     for (int time = clock.First(); time <= clock.Last(); ++time) {
       highest = std::max(highest, path.jumps_cm[static_cast<std::size_t>(path.FrameAt(time))]);
     }
@@ -39,7 +39,7 @@ double HighestJump(const SwitchRace& race, const SwitchClock& clock) {
 
 }  // namespace
 
-SwitchScene::SwitchScene(SwitchRace race, std::string scenario, Renderer& renderer)
+TransitionScene::TransitionScene(TransitionRace race, std::string scenario, Renderer& renderer)
     : race_(std::move(race)),
       scenario_(std::move(scenario)),
       renderer_(renderer),
@@ -49,36 +49,37 @@ SwitchScene::SwitchScene(SwitchRace race, std::string scenario, Renderer& render
   for (std::size_t i = 0; i < race_.paths.size(); ++i) panels_.emplace_back(race_.paths[i], i, stage_, strip_);
 }
 
-int SwitchScene::PosterFrame() const {
+int TransitionScene::PosterFrame() const {
   constexpr int kAfterwards = 2;
   int latest = 0;
-  for (const SwitchPath& path : race_.paths) latest = std::max(latest, path.LastSeam());
+  for (const TransitionPath& path : race_.paths) latest = std::max(latest, path.LastPoint());
   return clock_.FrameOf(latest + kAfterwards);
 }
 
-std::string SwitchScene::Words() const {
+std::string TransitionScene::Words() const {
   std::string methods;
-  for (const SwitchPath& path : race_.paths) {
-    const bool is_late = path.LastSeam() > clock_.Last();
+  for (const TransitionPath& path : race_.paths) {
+    const bool is_late = path.LastPoint() > clock_.Last();
     methods += fmt::format(
         "{}{} ({}{})", methods.empty() ? "" : ", ", path.method,
         path.facts.branch.empty() ? "" : path.facts.branch + ", ",
-        is_late ? "after the film ends" : "after " + FormatFixed(path.LastSeam() / path.motion.rate_hz, 2) + " s");
+        is_late ? "after the film ends" : "after " + FormatFixed(path.LastPoint() / path.motion.rate_hz, 2) + " s");
   }
   return fmt::format(
       "The same request, {}, under {} methods, left to right {}; {}: {}. Ghost: the pose that was left. Beneath: the "
       "largest second difference of any joint, and the ten partial distances of the frames that met; a full bar alone "
       "reaches the threshold ({}) At the end once more, {} times slower.",
-      race_.request, race_.paths.size(), methods, race_.world, race_.choice, kFeatureLegend, SwitchClock::kSlowness);
+      race_.request, race_.paths.size(), methods, race_.world, race_.choice, kFeatureLegend,
+      TransitionClock::kSlowness);
 }
 
-Canvas SwitchScene::Draw(int frame) {
+Canvas TransitionScene::Draw(int frame) {
   const int time = clock_.TimeAt(frame);
   const double seconds = time / race_.paths.front().motion.rate_hz;
-  Canvas canvas =
-      BeginFrame(fmt::format("{}, {} · {} · {} s {} the request{}", scenario_, race_.world, race_.request,
-                             FormatFixed(std::abs(seconds), 2), seconds < 0 ? "before" : "after",
-                             clock_.IsSlow(frame) ? fmt::format(" · {} times slower", SwitchClock::kSlowness) : ""));
+  Canvas canvas = BeginFrame(
+      fmt::format("{}, {} · {} · {} s {} the request{}", scenario_, race_.world, race_.request,
+                  FormatFixed(std::abs(seconds), 2), seconds < 0 ? "before" : "after",
+                  clock_.IsSlow(frame) ? fmt::format(" · {} times slower", TransitionClock::kSlowness) : ""));
   for (std::size_t i = 0; i < panels_.size(); ++i) {
     panels_[i].Draw(canvas, Column(i, panels_.size()), renderer_, time);
   }

@@ -10,12 +10,12 @@
 namespace etude {
 
 /// One request under two to four methods side by side: who changes when, how smoothly, and by which distances.
-class SwitchScene : public Scene {
+class TransitionScene : public Scene {
  public:
   /// The renderer must outlive the scene.
-  SwitchScene(SwitchRace race, std::string scenario, Renderer& renderer);
-  SwitchScene(const SwitchScene&) = delete;
-  SwitchScene& operator=(const SwitchScene&) = delete;
+  TransitionScene(TransitionRace race, std::string scenario, Renderer& renderer);
+  TransitionScene(const TransitionScene&) = delete;
+  TransitionScene& operator=(const TransitionScene&) = delete;
 
   int Frames() const override { return clock_.Frames(); }
   /// Just after everyone has changed.
@@ -24,13 +24,13 @@ class SwitchScene : public Scene {
   Canvas Draw(int frame) override;
 
  private:
-  const SwitchRace race_;
+  const TransitionRace race_;
   const std::string scenario_;
   Renderer& renderer_;
-  const SwitchClock clock_;
-  const SwitchStage stage_;
+  const TransitionClock clock_;
+  const TransitionStage stage_;
   const JumpStrip strip_;
-  std::vector<SwitchPanel> panels_;
+  std::vector<TransitionPanel> panels_;
 };
 
 }  // namespace etude

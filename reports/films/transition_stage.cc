@@ -13,7 +13,7 @@ constexpr int kFollowFrames = 30;
 // Poses change little from one frame to the next: enough to know how much room they need.
 constexpr int kLookedAtEvery = 3;
 
-std::vector<FloorMove> PlacementsOf(const SwitchPath& path) {
+std::vector<FloorMove> PlacementsOf(const TransitionPath& path) {
   const double yaw = -Heading(path.motion.poses[static_cast<std::size_t>(path.FrameAt(0))]);
   const FloorMove turn{yaw, 0, 0};
   std::vector<FloorMove> placements;
@@ -24,22 +24,22 @@ std::vector<FloorMove> PlacementsOf(const SwitchPath& path) {
   return placements;
 }
 
-std::vector<std::vector<FloorMove>> AllPlacements(const SwitchRace& race) {
+std::vector<std::vector<FloorMove>> AllPlacements(const TransitionRace& race) {
   std::vector<std::vector<FloorMove>> placements;
-  for (const SwitchPath& path : race.paths) placements.push_back(PlacementsOf(path));
+  for (const TransitionPath& path : race.paths) placements.push_back(PlacementsOf(path));
   return placements;
 }
 
 }  // namespace
 
-SwitchStage::SwitchStage(const SwitchRace& race, int first, int last, int width, int height)
+TransitionStage::TransitionStage(const TransitionRace& race, int first, int last, int width, int height)
     : width_(width),
       height_(height),
       bear_(BearCharacter()),
       placements_(AllPlacements(race)),
       studio_(width, height, kStageDetail, SightOf(race, first, last)) {}
 
-Sight SwitchStage::SightOf(const SwitchRace& race, int first, int last) const {
+Sight TransitionStage::SightOf(const TransitionRace& race, int first, int last) const {
   Sight sight;
   for (std::size_t i = 0; i < race.paths.size(); ++i) {
     for (int time = first; time <= last; time += kLookedAtEvery) {
@@ -50,8 +50,8 @@ Sight SwitchStage::SightOf(const SwitchRace& race, int first, int last) const {
   return sight;
 }
 
-ColourImage SwitchStage::Picture(Renderer& renderer, const SwitchPath& path, std::size_t index, int frame,
-                                 std::optional<int> ghost) const {
+ColourImage TransitionStage::Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
+                                     std::optional<int> ghost) const {
   const FloorMove& placement = placements_[index][static_cast<std::size_t>(frame)];
   const auto placed = [&](int at) {
     return Placed(PosedFigure(bear_, path.motion.poses[static_cast<std::size_t>(at)]), placement);

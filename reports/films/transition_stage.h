@@ -10,17 +10,17 @@
 namespace etude {
 
 /// The place where all methods of a race are seen: one camera that stands still, everyone facing it at the request.
-class SwitchStage {
+class TransitionStage {
  public:
   /// For pictures of this size that show the moments `first` … `last`, in frames after the request.
-  SwitchStage(const SwitchRace& race, int first, int last, int width, int height);
+  TransitionStage(const TransitionRace& race, int first, int last, int width, int height);
 
   /// A path's frame; `ghost`, another frame of it, shimmers behind.
-  ColourImage Picture(Renderer& renderer, const SwitchPath& path, std::size_t index, int frame,
+  ColourImage Picture(Renderer& renderer, const TransitionPath& path, std::size_t index, int frame,
                       std::optional<int> ghost) const;
 
  private:
-  Sight SightOf(const SwitchRace& race, int first, int last) const;
+  Sight SightOf(const TransitionRace& race, int first, int last) const;
 
   int width_, height_;
   Character bear_;

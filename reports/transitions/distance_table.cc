@@ -37,13 +37,12 @@ void DistanceTable::AddWeights(const std::string& method, const FeatureWeights& 
   }
 }
 
-void DistanceTable::AddMeeting(const std::string& method, const MeetingFacts& meeting,
-                               std::optional<double> threshold) {
-  meetings_.push_back({method, meeting, threshold});
+void DistanceTable::AddPoint(const std::string& method, const PointFacts& point, std::optional<double> threshold) {
+  points_.push_back({method, point, threshold});
 }
 
 std::string DistanceTable::Html() const {
-  if (meetings_.empty()) return "";
+  if (points_.empty()) return "";
   std::string html =
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Partial distances\"><table class=\"partials\">"
       "<thead><tr><th scope=\"col\">Partial distances S·Δ²</th>";
@@ -59,16 +58,15 @@ std::string DistanceTable::Html() const {
     html += fmt::format("<td class=\"n\">{}</td><td></td></tr>",
                         fmt::format("{:.3g}", std::accumulate(weights.begin(), weights.end(), 0.0)));
   }
-  for (const Meeting& meeting : meetings_) {
-    const PerFeature& partials = *meeting.facts.partials;
+  for (const Point& point : points_) {
+    const PerFeature& partials = *point.facts.partials;
     const double sum = std::accumulate(partials.begin(), partials.end(), 0.0);
-    const double full = meeting.threshold ? *meeting.threshold * *meeting.threshold : std::ranges::max(partials);
-    const std::string clips =
-        meeting.facts.from.empty() ? "" : fmt::format("{} → {}", meeting.facts.from, meeting.facts.to);
-    html += fmt::format("<tr><td>{}<small>{}</small></td>", EscapeMarkup(meeting.method), EscapeMarkup(clips));
-    for (const double partial : partials) html += Bar(partial, full, meeting.threshold.has_value());
+    const double full = point.threshold ? *point.threshold * *point.threshold : std::ranges::max(partials);
+    const std::string clips = point.facts.from.empty() ? "" : fmt::format("{} → {}", point.facts.from, point.facts.to);
+    html += fmt::format("<tr><td>{}<small>{}</small></td>", EscapeMarkup(point.method), EscapeMarkup(clips));
+    for (const double partial : partials) html += Bar(partial, full, point.threshold.has_value());
     html += fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td></tr>", FormatFixed(sum, 3),
-                        DistanceWords(meeting.facts.distance.value_or(std::sqrt(sum)), meeting.threshold));
+                        DistanceWords(point.facts.distance.value_or(std::sqrt(sum)), point.threshold));
   }
   return html + fmt::format(
                     "</tbody></table></div><p class=\"quiet legend\">They sum to d². A full bar alone reaches the "

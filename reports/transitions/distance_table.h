@@ -18,26 +18,26 @@ constexpr std::string_view kFeatureLegend =
     "RH, LH: how far the right and the left arm are raised; RHE, LHE: their elbows; Posture: lying to jumping; Trunk: "
     "its lean; RF, LF: how far the legs are spread; RFK, LFK: their knees.";
 
-/// The ten partial distances of frames that met, one row per meeting, each with a bar: a full bar alone would reach the
+/// The ten partial distances of frames that met, one row per point, each with a bar: a full bar alone would reach the
 /// threshold. Weights stand above, once for all methods that share them.
 class DistanceTable {
  public:
   void AddWeights(const std::string& method, const FeatureWeights& weights);
-  /// `meeting` has partials.
-  void AddMeeting(const std::string& method, const MeetingFacts& meeting, std::optional<double> threshold);
+  /// `point` has partials.
+  void AddPoint(const std::string& method, const PointFacts& point, std::optional<double> threshold);
 
-  /// "" without meetings.
+  /// "" without points.
   std::string Html() const;
 
  private:
-  struct Meeting {
+  struct Point {
     std::string method;
-    MeetingFacts facts;
+    PointFacts facts;
     std::optional<double> threshold;
   };
 
   std::vector<std::pair<std::string, FeatureWeights>> weights_;  ///< whose they are, in words
-  std::vector<Meeting> meetings_;
+  std::vector<Point> points_;
 };
 
 }  // namespace etude

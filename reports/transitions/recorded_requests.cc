@@ -8,19 +8,19 @@
 
 namespace etude {
 
-std::string SwitchWorld::Name() const {
-  const Row& row = *switches.front().row;
+std::string RecordedRequest::Name() const {
+  const Row& row = *transitions.front().row;
   const std::string condition = ConditionLabel(row.condition);
   return fmt::format("{}{}trial {}", condition, condition.empty() ? "" : ", ", row.trial);
 }
 
-std::string SwitchWorld::Request() const {
-  const SwitchFacts& facts = switches.front().facts;
+std::string RecordedRequest::Request() const {
+  const TransitionFacts& facts = transitions.front().facts;
   return fmt::format("{} → {}", facts.from, facts.to);
 }
 
-std::vector<SwitchWorld> SwitchWorldsOf(const RunData& run, const ScenarioSummary& scenario) {
-  std::vector<SwitchWorld> worlds;
+std::vector<RecordedRequest> RecordedRequestsOf(const RunData& run, const ScenarioSummary& scenario) {
+  std::vector<RecordedRequest> worlds;
   if (scenario.task != "transition" || run.recordings.empty()) return worlds;
   std::map<std::string_view, const Recording*> recordings;
   for (const CellRecording& recorded : run.recordings) recordings.emplace(recorded.cell, &recorded.recording);
@@ -29,14 +29,14 @@ std::vector<SwitchWorld> SwitchWorldsOf(const RunData& run, const ScenarioSummar
     if (row.scenario != scenario.name) continue;
     const auto found = recordings.find(row.Id());
     if (found == recordings.end() || FindTrack(*found->second, "coach") == nullptr) continue;
-    auto facts = ReadSwitchFacts(*found->second, row.Id());
+    auto facts = ReadTransitionFacts(*found->second, row.Id());
     if (!facts) continue;
     const auto [place, is_new] = places.try_emplace({CompactLabel(row.condition), row.trial}, worlds.size());
     if (is_new) worlds.emplace_back();
-    worlds[place->second].switches.push_back({&row, found->second, *std::move(facts)});
+    worlds[place->second].transitions.push_back({&row, found->second, *std::move(facts)});
   }
-  const auto order = [&](const RecordedSwitch& s) { return std::ranges::find(scenario.methods, s.row->method); };
-  for (SwitchWorld& world : worlds) std::ranges::stable_sort(world.switches, {}, order);
+  const auto order = [&](const RecordedTransition& s) { return std::ranges::find(scenario.methods, s.row->method); };
+  for (RecordedRequest& world : worlds) std::ranges::stable_sort(world.transitions, {}, order);
   return worlds;
 }
 

@@ -9,15 +9,15 @@
 namespace etude {
 
 /// What one method did with a request, as recorded.
-struct RecordedSwitch {
+struct RecordedTransition {
   const Row* row;
   const Recording* recording;
-  SwitchFacts facts;
+  TransitionFacts facts;
 };
 
 /// One request, and what each method of which a recording was kept did with it. Never empty.
-struct SwitchWorld {
-  std::vector<RecordedSwitch> switches;  ///< in the order of the scenario's methods
+struct RecordedRequest {
+  std::vector<RecordedTransition> transitions;  ///< in the order of the scenario's methods
 
   /// "trial 3", "threshold=0.3, trial 3"
   std::string Name() const;
@@ -27,6 +27,6 @@ struct SwitchWorld {
 
 /// The worlds of a scenario of transitions with recordings that can be read, in the run's order; none for other tasks.
 /// The run must outlive them.
-std::vector<SwitchWorld> SwitchWorldsOf(const RunData& run, const ScenarioSummary& scenario);
+std::vector<RecordedRequest> RecordedRequestsOf(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -54,21 +54,22 @@ std::vector<Json> ObjectsOf(const Json& json, const char* key) {
   return objects;
 }
 
-// "seam_frames" when the change went through an in-between clip, else "seam_frame"; those inside the motion.
-std::vector<int> SeamsOf(const Json& extras, int frames) {
-  std::vector<int> seams;
+// "transition_frames" when the change went through an in-between clip, else "transition_frame"; those inside the
+// motion.
+std::vector<int> TransitionFramesOf(const Json& extras, int frames) {
+  std::vector<int> points;
   const auto add = [&](const Json& json) {
-    const auto seam = FrameOf(json);
-    if (seam && *seam >= 0 && *seam < frames) seams.push_back(*seam);
+    const auto point = FrameOf(json);
+    if (point && *point >= 0 && *point < frames) points.push_back(*point);
   };
-  const Json all = extras.value("seam_frames", Json::array());
-  for (const Json& seam : all.is_array() ? all : Json::array()) add(seam);
-  if (seams.empty()) add(extras.value("seam_frame", Json()));
-  std::ranges::sort(seams);
-  return seams;
+  const Json all = extras.value("transition_frames", Json::array());
+  for (const Json& point : all.is_array() ? all : Json::array()) add(point);
+  if (points.empty()) add(extras.value("transition_frame", Json()));
+  std::ranges::sort(points);
+  return points;
 }
 
-MeetingFacts MeetingOf(const Json& json) {
+PointFacts PointOf(const Json& json) {
   return {.from = ClipInWords(TextOf(json, "from")),
           .to = ClipInWords(TextOf(json, "to")),
           .from_frame = FrameOf(json, "from_frame"),
@@ -86,28 +87,28 @@ std::optional<CandidateFacts> CandidateOf(const Json& json) {
                         .distance = *distance,
                         .partials = FeaturesOf(json, "partials"),
                         .cost = NumberOf(json, "cost"),
-                        .fate = TextOf(json, "fate"),
-                        .meeting = FrameOf(json, "meeting")};
+                        .outcome = TextOf(json, "outcome"),
+                        .point = FrameOf(json, "point")};
 }
 
 }  // namespace
 
-Result<SwitchFacts> ReadSwitchFacts(const Recording& recording, const std::string& cell) {
+Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell) {
   const Json extras = Json::parse(recording.extras_json, nullptr, false);
   if (!extras.is_object()) return Fail({.file = "recording " + cell}, "its extras are no JSON object");
   const BodyMotion* coach = FindTrack(recording, "coach");
-  SwitchFacts facts;
+  TransitionFacts facts;
   facts.from = ClipInWords(TextOf(extras, "from"));
   facts.to = ClipInWords(TextOf(extras, "to"));
   facts.branch = TextOf(extras, "branch");
   facts.why = TextOf(extras, "why");
   facts.cost_unit = TextOf(extras, "cost_unit");
-  facts.seam_frames = SeamsOf(extras, coach == nullptr ? 0 : static_cast<int>(coach->poses.size()));
-  for (const Json& entry : ObjectsOf(extras, "switches")) facts.meetings.push_back(MeetingOf(entry));
-  if (facts.meetings.empty()) facts.meetings.push_back(MeetingOf(extras));
-  // Of a direct switch, older recordings tell the partial distances but once.
-  if (facts.meetings.size() == 1 && !facts.meetings[0].partials) {
-    facts.meetings[0].partials = FeaturesOf(extras, "partials");
+  facts.transition_frames = TransitionFramesOf(extras, coach == nullptr ? 0 : static_cast<int>(coach->poses.size()));
+  for (const Json& entry : ObjectsOf(extras, "transition_points")) facts.points.push_back(PointOf(entry));
+  if (facts.points.empty()) facts.points.push_back(PointOf(extras));
+  // Of a direct transition, older recordings tell the partial distances but once.
+  if (facts.points.size() == 1 && !facts.points[0].partials) {
+    facts.points[0].partials = FeaturesOf(extras, "partials");
   }
   for (const Json& entry : ObjectsOf(extras, "candidates")) {
     if (auto candidate = CandidateOf(entry)) facts.candidates.push_back(*std::move(candidate));

@@ -9,8 +9,8 @@
 
 namespace etude {
 
-/// Two frames that met when a motion changed clips.
-struct MeetingFacts {
+/// a transition point: two frames, at which a motion changed clips.
+struct PointFacts {
   std::string from, to;  ///< clips in words; "in-between" for frames of the method's own
   std::optional<int> from_frame, to_frame;
   std::optional<double> distance;
@@ -23,21 +23,21 @@ struct CandidateFacts {
   double distance = 0;
   std::optional<PerFeature> partials;
   std::optional<double> cost;  ///< what the choice ranks by, where that is not the distance
-  std::string fate;            ///< "taken", "too far", "later", "worse"
-  std::optional<int> meeting;  ///< which of the meetings it was looked at for
+  std::string outcome;         ///< "taken", "too far", "later", "worse"
+  std::optional<int> point;    ///< for which of the points it was looked at
 
   bool operator==(const CandidateFacts&) const = default;
 };
 
-/// What the recording of a transition tells of its switch. Whatever it leaves out is empty here: recordings of older
+/// What the recording of a transition tells of it. Whatever it leaves out is empty here: recordings of older
 /// runs, and of methods outside, tell less.
-struct SwitchFacts {
+struct TransitionFacts {
   std::string from, to;  ///< clips in words
   std::string branch;    ///< which way was taken: "front half", "in-between", …
   std::string why;       ///< one sentence
   std::string cost_unit;
-  std::vector<int> seam_frames;  ///< of the recording: the last ones before a change, rising; may be empty
-  std::vector<MeetingFacts> meetings;
+  std::vector<int> transition_frames;  ///< of the recording: the last ones before a change, rising; may be empty
+  std::vector<PointFacts> points;
   std::vector<CandidateFacts> candidates;
   std::optional<int> request_frame;  ///< of the recording; negative: before it begins
   std::optional<double> wait_s, threshold, natural_limit_cm;
@@ -45,8 +45,9 @@ struct SwitchFacts {
   std::optional<long long> pairs_seen, pairs_matched;
 };
 
-/// Fails, naming `cell`, when the extras are no JSON object. Seams outside of the coach's motion are left out.
-Result<SwitchFacts> ReadSwitchFacts(const Recording& recording, const std::string& cell);
+/// Fails, naming `cell`, when the extras are no JSON object. Transition points outside of the coach's motion are left
+/// out.
+Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const std::string& cell);
 
 /// A clip's name as people say it: "builtin:side_kick" is "side kick".
 std::string ClipInWords(std::string name);

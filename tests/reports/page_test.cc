@@ -136,9 +136,9 @@ TEST(Page, SaysWhyThereIsNoFilm) {
 TEST(Page, ExplainsRecordedSwitches) {
   RunData run = ExampleRun();
   EXPECT_THAT(WritePage(run, {}), Not(HasSubstr("Partial distances")));
-  AddSwitches(run);
+  AddTransitions(run);
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("Why each switch went where it went: clap → side kick, trial 7"));
+  EXPECT_THAT(page, HasSubstr("Why each transition went where it went: clap → side kick, trial 7"));
   EXPECT_THAT(page, HasSubstr(".partials"));
 }
 

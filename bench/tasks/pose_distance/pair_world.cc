@@ -23,12 +23,14 @@ const BodyPose& DrawFrame(const BodyMotion& motion, RandomStream& dice) {
 
 DancedClips DanceClips(const ClipLibrary& library) {
   const BodyPose standing = PoseOf(Controls{});
-  DancedClips clips{
-      .physique = MakePhysique(standing, StandingHipHeight(standing)), .names = {}, .identities = {}, .motions = {}};
+  DancedClips clips{.proportions = MakeBodyProportions(standing, StandingHipHeight(standing)),
+                    .names = {},
+                    .identities = {},
+                    .motions = {}};
   for (const LibraryClip& clip : library.clips) {
     clips.names.push_back(clip.name);
     clips.identities.push_back(clip.source);
-    clips.motions.push_back(PerformedBy(clips.physique, clip.motion));
+    clips.motions.push_back(PerformedBy(clips.proportions, clip.motion));
   }
   return clips;
 }
@@ -58,7 +60,7 @@ PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& ke
   for (int i = 0; i < count; ++i) {
     const BodyPose& a = DrawFrame(clips.motions[first], dice);
     const BodyPose& b = DrawFrame(clips.motions[second], dice);
-    world.pairs.push_back(MakePair(a, b, clips.physique.standing_hip_height));
+    world.pairs.push_back(MakePair(a, b, clips.proportions.standing_hip_height));
   }
   return world;
 }

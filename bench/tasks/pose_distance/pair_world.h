@@ -36,7 +36,7 @@ enum class PairSource {
 
 /// Clips danced by one body, to draw frames of.
 struct DancedClips {
-  Physique physique;
+  BodyProportions proportions;
   std::vector<std::string> names;
   std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
   std::vector<BodyMotion> motions;

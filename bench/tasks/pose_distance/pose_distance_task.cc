@@ -83,7 +83,7 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
                 "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
                 "['builtin:*']");
   }
-  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.physique));
+  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.proportions));
   return std::make_unique<PoseDistanceTask>(
       PairStudy{options, *std::move(methods), std::move(clips), fuzzy, LearntWeights(std::move(training), fuzzy)});
 }

@@ -28,7 +28,7 @@ Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaul
   method.name = fields.RequiredText("name");
   const Choice& choice = *FindChoice(fields.Choice("choice", ChoiceNames(), ChoiceNames().front()));
   const Join& join = *FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
-  SwitchRules& rules = method.way.rules;
+  MatchRules& rules = method.way.rules;
   method.weights = FindWeightSource(fields.Choice("weights", WeightSourceNames(), WeightSourceNames().front()));
   CommonLimits limits = defaults;
   ReadLimits(fields, limits);
@@ -36,8 +36,8 @@ Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaul
   rules.threshold = limits.threshold;
   rules.pick = fields.Choice("pick", PickNames(), PickNames().front()) == "smallest" ? Pick::kSmallest : Pick::kFirst;
   rules.within_class = fields.Boolean("within_class", false);
-  ReadSettings<SwitchRules>(fields, choice.settings, rules);
-  ReadSettings<JoinSettings>(fields, join.settings, method.way.join_settings);
+  method.way.choice_settings = ReadSettings(fields, choice.settings);
+  method.way.join_settings = ReadSettings(fields, join.settings);
   RefuseMisplacedKeys(fields, TransitionMethodKeys(), "choice", choice.name);
   RefuseMisplacedKeys(fields, TransitionMethodKeys(), "join", join.name);
   RETURN_IF_ERROR(fields.Finish());
@@ -83,8 +83,8 @@ std::vector<KeyInfo> TransitionMethodKeys() {
        "Which of several matching pairs is taken.",
        {"choice", {"fuzzy-bridge"}}},
       {"wait_s", "0…60 (seconds)", "(the scenario's)", "How long after the request a switch may come."}};
-  for (KeyInfo& key : SettingKeys("choice", AllChoices(), SwitchRules{})) keys.push_back(std::move(key));
-  for (KeyInfo& key : SettingKeys("join", AllJoins(), JoinSettings{})) keys.push_back(std::move(key));
+  for (KeyInfo& key : SettingKeys("choice", AllChoices())) keys.push_back(std::move(key));
+  for (KeyInfo& key : SettingKeys("join", AllJoins())) keys.push_back(std::move(key));
   return keys;
 }
 

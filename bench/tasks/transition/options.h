@@ -11,12 +11,12 @@
 
 namespace etude {
 
-/// One way to switch, as a scenario names it.
+/// One method, as a scenario names it.
 ///
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
-  SwitchMethod way;  ///< its weights are paper A's; learnt ones depend on the world
+  TransitionWay way;  ///< its weights are paper A's; learnt ones depend on the world
   WeightSource weights = WeightSource::kFixed;
   double wait_s = 1;  ///< the budget of its requests
 };

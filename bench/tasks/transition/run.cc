@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/transition/exchange.h"
-#include "bench/tasks/transition/follow.h"
+#include "bench/tasks/transition/outcome.h"
 #include "bench/tasks/transition/recording.h"
 #include "bench/tasks/transition/tally.h"
 #include "engine/base/digest.h"
@@ -35,11 +35,11 @@ std::string KeysDigest(const InBetweenNet& net) {
   return digest.Hex();
 }
 
-std::string SwitchesDigest(const SwitchRecord& record) {
+std::string TransitionDigest(const TransitionRecord& record) {
   Digest digest;
-  for (const Leg& leg : record.legs)
-    digest.Add(std::int64_t{leg.clip}).Add(std::int64_t{leg.first}).Add(std::int64_t{leg.last});
-  for (const FuzzyDistance& meeting : record.meetings) digest.Add(meeting.value);
+  for (const Segment& segment : record.segments)
+    digest.Add(std::int64_t{segment.clip}).Add(std::int64_t{segment.first}).Add(std::int64_t{segment.last});
+  for (const FuzzyDistance& distance : record.distances) digest.Add(distance.value);
   return digest.Hex();
 }
 
@@ -53,7 +53,7 @@ std::string MotionDigest(const BodyMotion& motion) {
 
 }  // namespace
 
-TransitionWorld::TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion)
+TransitionRun::TransitionRun(const TransitionBasis& basis, Result<TransitionRequest> request, bool keeps_motion)
     : basis_(basis), request_(std::move(request)), keeps_motion_(keeps_motion) {
   if (!request_) return;
   const TaggedClip &from = basis_.stage.library.tagged[request_->from], &to = basis_.stage.library.tagged[request_->to];
@@ -62,47 +62,47 @@ TransitionWorld::TransitionWorld(const TransitionBasis& basis, Result<SwitchRequ
                     {"in_between_keys", KeysDigest(basis_.stage.library.in_betweens)}};
 }
 
-std::optional<std::string> TransitionWorld::WhySkipped() const {
+std::optional<std::string> TransitionRun::WhySkipped() const {
   return request_ ? std::nullopt : std::optional(request_.error().message);
 }
 
-void TransitionWorld::PrepareShared() {
+void TransitionRun::PrepareShared() {
   for (const TransitionMethod& method : basis_.methods) WeightsOf(method.weights);  // learnt once, then remembered
 }
 
-CellResult TransitionWorld::Run(std::size_t index) {
+CellResult TransitionRun::Run(std::size_t index) {
   const TransitionMethod& method = basis_.methods[index];
-  SwitchRequest request = *request_;
+  TransitionRequest request = *request_;
   request.budget_s = method.wait_s;
-  SwitchMethod way = method.way;
+  TransitionWay way = method.way;
   way.rules.weights = WeightsOf(method.weights);
-  SwitchResult switched = SwitchClips(basis_.stage.library, request, way);
+  Transition made = MakeTransition(basis_.stage.library, request, way);
   // A forced way takes what is nearest, although no frames match.
   CellResult result = Score({.request = request,
-                             .matched = way.choice->matches_poses && switched.record.branch != Branch::kForced,
+                             .matched = way.choice->matches_poses && made.record.branch != Branch::kForced,
                              .rules = way.rules,
-                             .record = std::move(switched.record),
-                             .splice = std::move(switched.splice)});
+                             .record = std::move(made.record),
+                             .splice = std::move(made.splice)});
   std::optional<MatchTally> tally;
-  if (way.choice->uses_fuzzy) tally = TallyMatches(basis_.stage, request, *way.choice, way.rules);
+  if (way.choice->uses_fuzzy) tally = TallyMatches(basis_.stage, request, way);
   ScoreMatching(tally, result);
   return result;
 }
 
-Result<Payload> TransitionWorld::MakeProblem() {
+Result<Payload> TransitionRun::MakeProblem() {
   if (!request_) return tl::unexpected(request_.error());
   return RequestPayload(*request_, basis_.max_wait_s);
 }
 
-Result<Payload> TransitionWorld::MakeTruth() {
+Result<Payload> TransitionRun::MakeTruth() {
   if (!request_) return tl::unexpected(request_.error());
   return NaturePayload(basis_.stage, *request_);
 }
 
-Result<CellResult> TransitionWorld::Judge(const Json& answer) {
+Result<CellResult> TransitionRun::Judge(const Json& answer) {
   if (!request_) return tl::unexpected(request_.error());
-  ASSIGN_OR_RETURN(const auto read, ReadSwitchAnswer(answer, basis_.stage, *request_));
-  SwitchOutcome outcome;
+  ASSIGN_OR_RETURN(const auto read, ReadTransitionAnswer(answer, basis_.stage, *request_));
+  TransitionOutcome outcome;
   if (read.unsolved) {
     outcome.rules.weights = basis_.stage.fuzzy.weights;
     outcome.record.why = *read.unsolved;
@@ -114,27 +114,27 @@ Result<CellResult> TransitionWorld::Judge(const Json& answer) {
   return result;
 }
 
-const FeatureWeights& TransitionWorld::WeightsOf(WeightSource source) const {
+const FeatureWeights& TransitionRun::WeightsOf(WeightSource source) const {
   const std::vector<std::string>& identities = basis_.stage.identities;
   return basis_.learnt.For(source, identities[request_->from], identities[request_->to]);
 }
 
-CellResult TransitionWorld::Score(const SwitchOutcome& outcome) const {
+CellResult TransitionRun::Score(const TransitionOutcome& outcome) const {
   CellResult result = CellResult::Ended(Status::kOk, "");
   result.digests = stage_digests_;
   result.digests.emplace_back("weights", Digest().Add(std::span<const double>(outcome.rules.weights)).Hex());
-  result.digests.emplace_back("switches", SwitchesDigest(outcome.record));
+  result.digests.emplace_back("transition", TransitionDigest(outcome.record));
   result.digests.emplace_back("motion", MotionDigest(outcome.splice.motion));
-  if (outcome.record.legs.empty()) {
+  if (outcome.record.segments.empty()) {
     result.status = Status::kUnsolved;
     result.reason = outcome.record.why;
     MeasureNoWay(result);
     return result;
   }
-  ScoreSwitch(outcome, basis_.stage, result);
-  result.series.push_back(SeamSeries(outcome));
+  ScoreTransition(outcome, basis_.stage, result);
+  result.series.push_back(JumpSeries(outcome));
   if (basis_.explain) std::ranges::move(ExplanationOf(outcome.record), std::back_inserter(result.series));
-  if (keeps_motion_) result.recording = RecordSwitch(outcome, basis_.stage);
+  if (keeps_motion_) result.recording = RecordTransition(outcome, basis_.stage);
   return result;
 }
 

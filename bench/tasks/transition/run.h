@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// What the worlds of a task share; all of it must outlive them.
+/// What the runs of a task share; all of it must outlive them.
 struct TransitionBasis {
   const std::vector<TransitionMethod>& methods;
   const Stage& stage;
@@ -22,11 +22,11 @@ struct TransitionBasis {
   bool explain = false;   ///< whether every cell keeps its explanation
 };
 
-/// A world of the task: one request, on the task's stage.
-class TransitionWorld final : public TaskWorld {
+/// One request on the task's stage, and what methods make of it.
+class TransitionRun final : public TaskWorld {
  public:
-  /// A request that failed is a world to be skipped.
-  TransitionWorld(const TransitionBasis& basis, Result<SwitchRequest> request, bool keeps_motion);
+  /// A request that failed is to be skipped.
+  TransitionRun(const TransitionBasis& basis, Result<TransitionRequest> request, bool keeps_motion);
 
   std::optional<std::string> WhySkipped() const override;
   void PrepareShared() override;
@@ -37,10 +37,10 @@ class TransitionWorld final : public TaskWorld {
 
  private:
   const FeatureWeights& WeightsOf(WeightSource source) const;
-  CellResult Score(const SwitchOutcome& outcome) const;
+  CellResult Score(const TransitionOutcome& outcome) const;
 
   const TransitionBasis basis_;
-  const Result<SwitchRequest> request_;
+  const Result<TransitionRequest> request_;
   const bool keeps_motion_;
   std::vector<std::pair<std::string, std::string>> stage_digests_;
 };

@@ -12,22 +12,23 @@
 
 namespace etude {
 
-/// The metrics of a switch that has a way (docs/metrics.md), the worst seam counting where an in-between made two.
-void ScoreSwitch(const SwitchOutcome& outcome, const Stage& stage, CellResult& result);
+/// The metrics of a transition that has a way (docs/metrics.md), the worst transition point counting where an
+/// in-between made two.
+void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result);
 
-/// The metrics of the pairs that a switch could have used; nothing for a method without a threshold.
+/// The metrics of the pairs that a transition could have used; nothing for a method without a threshold.
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 
 /// The ids of all of them, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
-/// What a method without a switch is credited with (Task::ValueOfFailure): 0 of `natural_share`, which is a share of
-/// all cells. A switch that never came was not natural; left out of the count, a method could raise its share by
+/// What a method without a transition is credited with (Task::ValueOfFailure): 0 of `natural_share`, which is a share
+/// of all cells. A transition that never came was not natural; left out of the count, a method could raise its share by
 /// giving up where it is hard. Nothing for the rest: no number of centimetres stands for a jump that was not made,
 /// and 0 of `false_smooth` would be praise.
-std::optional<double> SwitchFailureValue(std::string_view metric);
+std::optional<double> TransitionFailureValue(std::string_view metric);
 
-/// Those of ScoreSwitch in a world in which no way was found.
+/// Those of ScoreTransition in a world in which no way was found.
 void MeasureNoWay(CellResult& result);
 
 }  // namespace etude

@@ -23,7 +23,7 @@ class TransitionTask final : public Task {
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
     const TransitionBasis basis{methods_, stage_, learnt_, max_wait_s_, explain_};
-    return std::make_unique<TransitionWorld>(basis, DrawRequest(stage_, key), keeps_motion);
+    return std::make_unique<TransitionRun>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
   std::string ClipOf(const WorldKey& key) const override {
@@ -32,7 +32,9 @@ class TransitionTask final : public Task {
 
   Result<Payload> Setting() const override { return StagePayload(stage_); }
 
-  std::optional<double> ValueOfFailure(std::string_view metric) const override { return SwitchFailureValue(metric); }
+  std::optional<double> ValueOfFailure(std::string_view metric) const override {
+    return TransitionFailureValue(metric);
+  }
 
  private:
   const std::vector<TransitionMethod> methods_;
@@ -47,7 +49,8 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   const bool explain = ReadExplain(input.condition);
   ASSIGN_OR_RETURN(auto methods, ReadTransitionMethods(common, input.methods));
   Stage stage = SetStage(input.clips, ReadStageRules(input.condition, FuzzyOf(input)));
-  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique));
+  ASSIGN_OR_RETURN(auto training,
+                   GatherTrainingClips(stage.library.motions, stage.identities, stage.library.proportions));
   return std::make_unique<TransitionTask>(std::move(methods), common.wait_s, explain, std::move(stage),
                                           std::move(training));
 }

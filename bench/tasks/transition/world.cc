@@ -11,14 +11,14 @@ int FromClip(const Stage& stage, const WorldKey& key) {
   return stage.playing[key.trial % static_cast<int>(stage.playing.size())];
 }
 
-Result<SwitchRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
+Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   constexpr int kEarliestRequest = 6;
   const int count = static_cast<int>(stage.library.names.size());
-  if (count < 2) return Fail({}, "a switch needs two clips; this library has {}", count);
-  SwitchRequest request{.from = FromClip(stage, key)};
+  if (count < 2) return Fail({}, "a transition needs two clips; this library has {}", count);
+  TransitionRequest request{.from = FromClip(stage, key)};
   const int frames = stage.library.tagged[request.from].FrameCount();
   if (!IsLongEnough(stage, request.from)) {
-    return Fail({}, "clip {} has {} frames; a switch is judged over at least {}", stage.library.names[request.from],
+    return Fail({}, "clip {} has {} frames; a transition is judged over at least {}", stage.library.names[request.from],
                 frames, kShortestClip);
   }
   std::vector<int> others;
@@ -27,7 +27,7 @@ Result<SwitchRequest> DrawRequest(const Stage& stage, const WorldKey& key) {
   }
   if (others.empty()) return Fail({}, "no other clip of this library has {} frames", kShortestClip);
   request.to = others[RandomStream(key, "to-clip").IndexBelow(others.size())];
-  // Late enough for a whole window before the seam, early enough to be before the clip's end.
+  // Late enough for a whole window before the point, early enough to be before the clip's end.
   const int last = frames - 2;
   RandomStream dice(key, "request-time");
   request.request_frame = kEarliestRequest + static_cast<int>(dice.IndexBelow(last - kEarliestRequest + 1));

@@ -11,6 +11,6 @@ int FromClip(const Stage& stage, const WorldKey& key);
 
 /// One trial's truth: which clip plays, which is asked for, and when; the budget is left to the method. The error is
 /// the reason to skip this world.
-Result<SwitchRequest> DrawRequest(const Stage& stage, const WorldKey& key);
+Result<TransitionRequest> DrawRequest(const Stage& stage, const WorldKey& key);
 
 }  // namespace etude

@@ -26,23 +26,23 @@ std::string_view BranchName(Branch branch) {
   return "";
 }
 
-std::string_view FateName(Fate fate) {
-  switch (fate) {
-    case Fate::kTaken:
+std::string_view OutcomeName(CandidateOutcome outcome) {
+  switch (outcome) {
+    case CandidateOutcome::kTaken:
       return "taken";
-    case Fate::kTooFar:
+    case CandidateOutcome::kTooFar:
       return "too far";
-    case Fate::kLater:
+    case CandidateOutcome::kLater:
       return "later";
-    case Fate::kWorse:
+    case CandidateOutcome::kWorse:
       return "worse";
   }
   return "";
 }
 
-double WaitOf(const std::vector<Leg>& legs, double rate_hz) {
+double WaitOf(const std::vector<Segment>& segments, double rate_hz) {
   double frames = 0;
-  for (std::size_t i = 0; i + 1 < legs.size(); ++i) frames += legs[i].last - legs[i].first;
+  for (std::size_t i = 0; i + 1 < segments.size(); ++i) frames += segments[i].last - segments[i].first;
   return frames / rate_hz;
 }
 

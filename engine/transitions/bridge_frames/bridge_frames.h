@@ -19,7 +19,7 @@ struct HeadRule {
 /// Which frames keep their head still enough.
 std::vector<bool> FindQuietHeads(const BodyMotion& motion, const HeadRule& rule = {});
 
-/// A clip as the search sees it: the fuzzy side of every frame, and which frames may be switched at.
+/// A clip as the search sees it: the fuzzy side of every frame, and its bridge frames.
 struct TaggedClip {
   double rate_hz = kJudgedRateHz;
   std::vector<Grades> grades;      ///< one per frame

@@ -11,9 +11,9 @@ namespace etude {
 
 /// How well one clip of a library leads into another.
 struct PairCoverage {
-  double frame_share = 0;   ///< of all frames: those with a partner among all frames of the other clip
-  double bridge_share = 0;  ///< of the bridge frames: those with a partner among the other's bridge frames
-  /// From the worst frame to the next bridge frame that has a partner, seconds. The clip starts over at its end, as
+  double frame_share = 0;   ///< of all frames: those that match some frame of the other clip
+  double bridge_share = 0;  ///< of the bridge frames: those that match one of the other's
+  /// From the worst frame to the next bridge frame that matches one, seconds. The clip starts over at its end, as
   /// moves do; none without such a bridge frame.
   std::optional<double> worst_wait_s;
   /// Of all frames: those from which no such bridge frame comes within the budget before the clip ends, so that the
@@ -24,7 +24,7 @@ struct PairCoverage {
 /// The same of every pair of clips of a library.
 class Coverage {
  public:
-  Coverage(std::span<const TaggedClip> clips, const SwitchRules& rules, double budget_s);
+  Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s);
 
   int ClipCount() const { return clip_count_; }
   /// From one clip into another one.

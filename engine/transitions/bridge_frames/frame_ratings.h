@@ -14,8 +14,8 @@ struct TaggedClip;
 struct FrameRating {
   int clips = 0;   ///< in how many clips the frame's ten tags occur together, its own included
   int frames = 0;  ///< in how many frames of the library
-  /// Root mean square of the distances to the frames of the same tags in other clips (equation 1): what a switch within
-  /// the class would cost. 0 when no other clip has them.
+  /// Root mean square of the distances to the frames of the same tags in other clips (equation 1): what a transition
+  /// within the class would cost. 0 when no other clip has them.
   double difference = 0;
 };
 

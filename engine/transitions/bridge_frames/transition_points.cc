@@ -28,23 +28,25 @@ std::vector<int> BridgeFramesWithin(const TaggedClip& clip, FrameWindow window) 
   return frames;
 }
 
-bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const SwitchRules& rules) {
+bool Matches(const TaggedClip& a, int frame_a, const TaggedClip& b, int frame_b, const MatchRules& rules) {
   if (rules.within_class && a.tags[frame_a] != b.tags[frame_b]) return false;
   return IsCloser(a.grades[frame_a], b.grades[frame_b], rules.weights, rules.threshold);
 }
 
-std::optional<Link> FindLink(const TaggedClip& playing, FrameWindow window, const TaggedClip& next,
-                             const SwitchRules& rules) {
+std::optional<TransitionPoint> FindTransitionPoint(const TaggedClip& playing, FrameWindow window,
+                                                   const TaggedClip& next, const MatchRules& rules) {
   // In rising order the front half comes first by itself.
   const std::vector<int> entering = BridgeFramesWithin(next, EntryWindow(next));
-  const auto rank = [&](const Link& link) { return std::tuple(!next.InFrontHalf(link.to), link.distance.value); };
-  std::optional<Link> best;
+  const auto rank = [&](const TransitionPoint& point) {
+    return std::tuple(!next.InFrontHalf(point.to), point.distance.value);
+  };
+  std::optional<TransitionPoint> best;
   for (int from : BridgeFramesWithin(playing, window)) {
     for (int to : entering) {
       if (!Matches(playing, from, next, to, rules)) continue;
-      const Link link{from, to, ComputeDistance(playing.grades[from], next.grades[to], rules.weights)};
-      if (rules.pick == Pick::kFirst) return link;
-      if (!best || rank(link) < rank(*best)) best = link;
+      const TransitionPoint point{from, to, ComputeDistance(playing.grades[from], next.grades[to], rules.weights)};
+      if (rules.pick == Pick::kFirst) return point;
+      if (!best || rank(point) < rank(*best)) best = point;
     }
   }
   return best;

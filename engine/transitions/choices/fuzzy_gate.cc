@@ -14,7 +14,7 @@ std::vector<Grades> GradesOf(const TaggedClip& clip, std::span<const int> frames
 }  // namespace
 
 FuzzyGate::FuzzyGate(const TaggedClip& playing, const TaggedClip& next, std::vector<int> entering,
-                     const SwitchRules& rules)
+                     const MatchRules& rules)
     : playing_(playing),
       next_(next),
       entering_(std::move(entering)),

@@ -13,7 +13,7 @@ namespace etude {
 class FuzzyGate {
  public:
   /// Clips and rules must outlive this.
-  FuzzyGate(const TaggedClip& playing, const TaggedClip& next, std::vector<int> entering, const SwitchRules& rules);
+  FuzzyGate(const TaggedClip& playing, const TaggedClip& next, std::vector<int> entering, const MatchRules& rules);
 
   struct Compared {
     int to = 0;
@@ -26,7 +26,7 @@ class FuzzyGate {
  private:
   const TaggedClip &playing_, &next_;
   std::vector<int> entering_;
-  const SwitchRules& rules_;
+  const MatchRules& rules_;
   FuzzyRows rows_;
   std::vector<double> distances_;
   std::vector<Compared> compared_;

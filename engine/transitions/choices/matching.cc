@@ -31,33 +31,76 @@ class MotionFeatureRows : public PairRows {
   std::span<const MotionFeatures> playing_, next_;
 };
 
-SwitchRecord PlanByPointCloud(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
-                              bool gated) {
+TransitionRecord PlanByPointCloud(const MotionLibrary& library, const TransitionRequest& request,
+                                  const MatchRules& rules, const PointCloudOptions& options, bool gated) {
   PointCloudRows costs(library.motions[request.from], library.motions[request.to], request.request_frame,
-                       rules.window_s);
-  return PlanRanked(library, request, rules, {.name = "point-cloud distance", .unit = "cm", .gated = gated}, costs);
+                       options.window_s);
+  const Ranking ranking{.allowed = AllowedAnyFrames(library, request, options.least_play_s),
+                        .name = "point-cloud distance",
+                        .unit = "cm",
+                        .gated = gated};
+  return PlanRanked(library, request, rules, ranking, costs);
+}
+
+/// The setting that all of these choices have.
+template <typename Options>
+typename SettingTable<Options>::Row LeastPlay() {
+  return {"least_play_s", &Options::least_play_s, 0, 60,
+          "Seconds of the wanted clip that must be left to play; its front half may always be entered."};
 }
 
 }  // namespace
 
-SwitchRecord PlanFuzzyKovar(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
-  return PlanByPointCloud(library, request, rules, true);
+const SettingTable<PointCloudOptions>& PointCloudSettings() {
+  static const SettingTable<PointCloudOptions> kSettings(
+      {{"window_s", &PointCloudOptions::window_s, 0, 2,
+        "Seconds of motion that the point clouds hold, half of them after the frame."},
+       LeastPlay<PointCloudOptions>()});
+  return kSettings;
 }
 
-SwitchRecord PlanPointCloud(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
-  return PlanByPointCloud(library, request, rules, false);
+TransitionRecord PlanFuzzyKovar(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                                const PointCloudOptions& options) {
+  return PlanByPointCloud(library, request, rules, options, true);
 }
 
-SwitchRecord PlanMotionMatching(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+TransitionRecord PlanPointCloud(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                                const PointCloudOptions& options) {
+  return PlanByPointCloud(library, request, rules, options, false);
+}
+
+const SettingTable<MotionMatchingOptions>& MotionMatchingSettings() {
+  static const SettingTable<MotionMatchingOptions> kSettings({LeastPlay<MotionMatchingOptions>()});
+  return kSettings;
+}
+
+TransitionRecord PlanMotionMatching(const MotionLibrary& library, const TransitionRequest& request,
+                                    const MatchRules& rules, const MotionMatchingOptions& options) {
   MotionFeatureRows costs(library.features[request.from], library.features[request.to]);
-  return PlanRanked(library, request, rules, {.name = "distance of positions and velocities", .unit = "SD"}, costs);
+  const Ranking ranking{.allowed = AllowedAnyFrames(library, request, options.least_play_s),
+                        .name = "distance of positions and velocities",
+                        .unit = "SD"};
+  return PlanRanked(library, request, rules, ranking, costs);
 }
 
-SwitchRecord PlanFuzzyWindow(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings() {
+  static const SettingTable<FuzzyWindowOptions> kSettings(
+      {{"reach_s", &FuzzyWindowOptions::reach_s, 0, 2,
+        "Seconds before and after the frame over which distances are averaged."},
+       LeastPlay<FuzzyWindowOptions>()});
+  return kSettings;
+}
+
+TransitionRecord PlanFuzzyWindow(const MotionLibrary& library, const TransitionRequest& request,
+                                 const MatchRules& rules, const FuzzyWindowOptions& options) {
   const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
-  const int reach = static_cast<int>(std::lround(rules.reach_s * playing.rate_hz));
+  const int reach = static_cast<int>(std::lround(options.reach_s * playing.rate_hz));
   FuzzyWindowRows costs(playing.grades, next.grades, request.request_frame, reach, rules.weights);
-  return PlanRanked(library, request, rules, {.name = "mean fuzzy distance", .unit = "d", .gated = true}, costs);
+  const Ranking ranking{.allowed = AllowedAnyFrames(library, request, options.least_play_s),
+                        .name = "mean fuzzy distance",
+                        .unit = "d",
+                        .gated = true};
+  return PlanRanked(library, request, rules, ranking, costs);
 }
 
 }  // namespace etude

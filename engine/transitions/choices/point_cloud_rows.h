@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/motion/body.h"
 #include "engine/transitions/choices/diagonal_sums.h"
 #include "engine/transitions/choices/pair_rows.h"
 

@@ -22,15 +22,15 @@ bool IsBetter(const RankedPair& a, const RankedPair& b) {
 /// The best pair of each row, and how many matched on the way.
 struct RankedPairs {
   std::vector<RankedPair> best;
-  std::int64_t pairs = 0, matching = 0;
+  std::int64_t matching = 0;
 };
 
 /// Without a gate every pair matches.
-RankedPairs RankPairs(const PairRange& range, FuzzyGate* gate, PairRows& costs) {
+RankedPairs RankPairs(const AllowedFrames& allowed, FuzzyGate* gate, PairRows& costs) {
   RankedPairs survey;
   std::vector<double> row;
-  std::vector<int> passing = FramesWithin({0, range.enter_end - 1});
-  for (int from = range.leave.first; from <= range.leave.last; ++from) {
+  std::vector<int> passing = allowed.enter;
+  for (int from : allowed.leave) {
     std::optional<RankedPair> best;
     if (gate != nullptr) {
       passing.clear();
@@ -48,7 +48,6 @@ RankedPairs RankPairs(const PairRange& range, FuzzyGate* gate, PairRows& costs) 
       if (!best || !best->matches || row[i] < best->rank) best = {from, passing[i], true, row[i], row[i]};
     }
     if (best) survey.best.push_back(*best);
-    survey.pairs += range.enter_end;
     survey.matching += static_cast<std::int64_t>(passing.size());
   }
   return survey;
@@ -56,34 +55,32 @@ RankedPairs RankPairs(const PairRange& range, FuzzyGate* gate, PairRows& costs) 
 
 }  // namespace
 
-SwitchRecord PlanRanked(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
-                        const Ranking& ranking, PairRows& costs) {
-  const PairRange range = AllowedPairs(library, request, rules);
+TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                            const Ranking& ranking, PairRows& costs) {
+  const std::int64_t pairs = ranking.allowed.Pairs();
   std::optional<FuzzyGate> gate;
   if (ranking.gated) {
-    gate.emplace(library.tagged[request.from], library.tagged[request.to], FramesWithin({0, range.enter_end - 1}),
-                 rules);
+    gate.emplace(library.tagged[request.from], library.tagged[request.to], ranking.allowed.enter, rules);
   }
-  RankedPairs survey = RankPairs(range, gate ? &*gate : nullptr, costs);
+  RankedPairs survey = RankPairs(ranking.allowed, gate ? &*gate : nullptr, costs);
   const auto best = std::min_element(survey.best.begin(), survey.best.end(), IsBetter);
   if (best == survey.best.end() || !best->matches) {
-    return ThroughInBetween(library, request, rules, DescribeNoMatch(survey.best, survey.pairs, "frames", rules),
-                            survey.pairs);
+    return ThroughInBetween(library, request, rules, DescribeNoMatch(survey.best, pairs, "frames", rules), pairs);
   }
   const RankedPair taken = *best;
   survey.best.erase(best);
 
-  SwitchRecord record = DirectSwitch(library, request, taken.from, taken.to, rules);
-  record.pairs_seen = survey.pairs;
+  TransitionRecord record = DirectTransition(library, request, taken.from, taken.to, rules);
+  record.pairs_seen = pairs;
   record.pairs_matched = survey.matching;
   record.cost_unit = ranking.unit;
-  record.candidates = ListCandidates(library, request, rules, taken, std::move(survey.best), Fate::kWorse);
-  const std::string among =
-      ranking.gated ? fmt::format("{} pairs with d < {:g}, of {}", survey.matching, rules.threshold, survey.pairs)
-                    : fmt::format("{} pairs", survey.pairs);
+  record.candidates = ListCandidates(library, request, rules, taken, std::move(survey.best), CandidateOutcome::kWorse);
+  const std::string among = ranking.gated
+                                ? fmt::format("{} pairs with d < {:g}, of {}", survey.matching, rules.threshold, pairs)
+                                : fmt::format("{} pairs", pairs);
   record.why = fmt::format("smallest {} of {}: {}, {:.2f} {}, d = {:.2f}", ranking.name, among,
                            DescribePair(library, request, taken.from, taken.to), *taken.cost, ranking.unit,
-                           record.meetings.front().value);
+                           record.distances.front().value);
   return record;
 }
 

@@ -2,19 +2,22 @@
 
 #include <string>
 
+#include "engine/transitions/base/match_rules.h"
+#include "engine/transitions/choices/allowed_frames.h"
 #include "engine/transitions/choices/pair_rows.h"
 
 namespace etude {
 
-/// What pairs are ranked by.
+/// Which pairs are ranked, and by what.
 struct Ranking {
+  AllowedFrames allowed;
   std::string name;    ///< "point-cloud distance"
   std::string unit;    ///< "cm"
   bool gated = false;  ///< only pairs that match by the rules; where none does, through an in-between
 };
 
-/// Takes, of all pairs of AllowedPairs, the one of least cost, the earlier one on a tie.
-SwitchRecord PlanRanked(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
-                        const Ranking& ranking, PairRows& costs);
+/// Takes, of all allowed pairs, the one of least cost, the earlier one on a tie.
+TransitionRecord PlanRanked(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                            const Ranking& ranking, PairRows& costs);
 
 }  // namespace etude

@@ -6,13 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "engine/transitions/bridge_frames/transition_points.h"
+
 namespace etude {
 namespace {
 
 using Key = InBetweenNet::Key;
 
 /// Where a clip and the in-between meet.
-struct Junction {
+struct KeyPoint {
   int frame = 0;  ///< of the clip
   int key = -1;   ///< of the net
   FuzzyDistance distance;
@@ -22,15 +24,15 @@ struct Junction {
 /// One clip of the library against the keys, counting the pairs that it compares.
 class KeySearch {
  public:
-  KeySearch(const MotionLibrary& library, int clip, const SwitchRules& rules, SwitchRecord& record)
+  KeySearch(const MotionLibrary& library, int clip, const MatchRules& rules, TransitionRecord& record)
       : library_(library), clip_(library.tagged[clip]), rules_(rules), record_(record) {}
 
   /// The first of `frames` that a key matches, with the nearest such key; else the nearest pair of `all` and any key.
-  Junction Find(std::span<const int> frames, std::span<const int> all) const {
+  KeyPoint Find(std::span<const int> frames, std::span<const int> all) const {
     for (int frame : frames) {
-      if (const Junction junction = MatchKeys(frame); junction.matches) return junction;
+      if (const KeyPoint junction = MatchKeys(frame); junction.matches) return junction;
     }
-    Junction nearest;
+    KeyPoint nearest;
     for (int frame : all) {
       for (int key = 0; key < KeyCount(); ++key) {
         const bool is_first = nearest.key < 0;
@@ -45,16 +47,19 @@ class KeySearch {
 
   /// The junction, and beside it those of `frames` that come nearest to the same key: half of the record's room.
   /// Their `from_frame` is the clip's.
-  std::vector<Candidate> ListCandidates(const Junction& junction, std::span<const int> frames) const {
+  std::vector<Candidate> ListCandidates(const KeyPoint& junction, std::span<const int> frames) const {
     std::vector<Candidate> listed;
     for (int frame : frames) {
       if (frame == junction.frame) continue;
-      const Fate fate = MatchesKey(frame, junction.key) ? Fate::kLater : Fate::kTooFar;
-      listed.push_back({.from_frame = frame, .distance = DistanceTo(junction.key, frame), .cost = {}, .fate = fate});
+      const CandidateOutcome outcome =
+          MatchesKey(frame, junction.key) ? CandidateOutcome::kLater : CandidateOutcome::kTooFar;
+      listed.push_back(
+          {.from_frame = frame, .distance = DistanceTo(junction.key, frame), .cost = {}, .outcome = outcome});
     }
     std::ranges::stable_sort(listed, {}, [](const Candidate& candidate) { return candidate.distance.value; });
     listed.resize(std::min(listed.size(), kMostCandidates / 2 - 1));
-    listed.push_back({.from_frame = junction.frame, .distance = junction.distance, .cost = {}, .fate = Fate::kTaken});
+    listed.push_back(
+        {.from_frame = junction.frame, .distance = junction.distance, .cost = {}, .outcome = CandidateOutcome::kTaken});
     std::ranges::stable_sort(listed, {}, &Candidate::from_frame);
     return listed;
   }
@@ -74,8 +79,8 @@ class KeySearch {
     return Matches(clip_, frame, library_.tagged[place.clip], place.frame, rules_);
   }
 
-  Junction MatchKeys(int frame) const {
-    Junction best{.frame = frame, .key = -1, .distance = {}, .matches = false};
+  KeyPoint MatchKeys(int frame) const {
+    KeyPoint best{.frame = frame, .key = -1, .distance = {}, .matches = false};
     for (int key = 0; key < KeyCount(); ++key) {
       if (!MatchesKey(frame, key)) continue;
       ++record_.pairs_matched;
@@ -88,8 +93,8 @@ class KeySearch {
 
   const MotionLibrary& library_;
   const TaggedClip& clip_;
-  const SwitchRules& rules_;
-  SwitchRecord& record_;
+  const MatchRules& rules_;
+  TransitionRecord& record_;
 };
 
 /// The frames from one key to another, directly unless a limb would have to turn too far.
@@ -106,13 +111,13 @@ std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int 
   return frames;
 }
 
-std::string Explain(const MotionLibrary& library, const SwitchRequest& request, const Junction& exit,
-                    const Junction& entrance, double threshold) {
-  const auto name = [&](const Junction& junction) {
+std::string Explain(const MotionLibrary& library, const TransitionRequest& request, const KeyPoint& exit,
+                    const KeyPoint& entrance, double threshold) {
+  const auto name = [&](const KeyPoint& junction) {
     const Key& key = library.in_betweens.keys[junction.key];
     return fmt::format("{} {}", library.names[key.clip], key.frame);
   };
-  const auto judge = [&](const Junction& junction) {
+  const auto judge = [&](const KeyPoint& junction) {
     const bool is_near = junction.distance.value < threshold;
     return fmt::format("{} (d = {:.2f}{})", junction.frame, junction.distance.value,
                        junction.matches ? ""
@@ -126,9 +131,9 @@ std::string Explain(const MotionLibrary& library, const SwitchRequest& request, 
 
 }  // namespace
 
-SwitchRecord ThroughInBetween(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
-                              const std::string& why_not, std::int64_t pairs_seen) {
-  SwitchRecord record;
+TransitionRecord ThroughInBetween(const MotionLibrary& library, const TransitionRequest& request,
+                                  const MatchRules& rules, const std::string& why_not, std::int64_t pairs_seen) {
+  TransitionRecord record;
   record.request_frame = request.request_frame;
   record.pairs_seen = pairs_seen;
   if (library.in_betweens.keys.empty()) {
@@ -139,23 +144,23 @@ SwitchRecord ThroughInBetween(const MotionLibrary& library, const SwitchRequest&
   const KeySearch exits(library, request.from, rules, record), entrances(library, request.to, rules, record);
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
-  const Junction exit = exits.Find(exit_frames, FramesWithin(window));
+  const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
   // In rising order the front half comes first by itself.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
-  const Junction entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
+  const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 
   record.branch = exit.matches && entrance.matches ? Branch::kInBetween : Branch::kForced;
   std::vector<BodyPose> own = MakeInBetween(library, exit.key, entrance.key, playing.rate_hz);
   const int last = static_cast<int>(own.size()) - 1;
-  record.legs = {{.clip = request.from, .first = request.request_frame, .last = exit.frame, .own = {}},
-                 {.clip = Leg::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
-                 {.clip = request.to, .first = entrance.frame, .last = next.FrameCount() - 1, .own = {}}};
-  record.meetings = {exit.distance, entrance.distance};
-  record.wait_s = WaitOf(record.legs, playing.rate_hz);
+  record.segments = {{.clip = request.from, .first = request.request_frame, .last = exit.frame, .own = {}},
+                     {.clip = Segment::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
+                     {.clip = request.to, .first = entrance.frame, .last = next.FrameCount() - 1, .own = {}}};
+  record.distances = {exit.distance, entrance.distance};
+  record.wait_s = WaitOf(record.segments, playing.rate_hz);
   record.candidates = exits.ListCandidates(exit, exit_frames);
   for (Candidate& candidate : entrances.ListCandidates(entrance, entrance_frames)) {
     candidate.to_frame = std::exchange(candidate.from_frame, last);
-    candidate.meeting = 1;
+    candidate.point = 1;
     record.candidates.push_back(std::move(candidate));
   }
   record.why = why_not + "; " + Explain(library, request, exit, entrance, rules.threshold);

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "engine/transitions/base/match_rules.h"
 #include "engine/transitions/base/transition_record.h"
-#include "engine/transitions/bridge_frames/transition_points.h"
 #include "engine/transitions/library/library.h"
 
 namespace etude {
@@ -14,10 +14,10 @@ namespace etude {
 /// frame that a key matches, front half first; of several keys the nearest. Where none matches at either end, the frame
 /// that is nearest to a key is taken there: that way is forced, and its distance may not be below the threshold.
 ///
-/// There always is a way, of at most the budget and LongestInBetween; no legs only when the library has no keys.
+/// There always is a way, of at most the budget and LongestInBetween; no segments only when the library has no keys.
 /// `request.to` must have two frames. `why_not` says why there is no direct way; `pairs_seen` were compared to know
 /// that.
-SwitchRecord ThroughInBetween(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules,
-                              const std::string& why_not, std::int64_t pairs_seen);
+TransitionRecord ThroughInBetween(const MotionLibrary& library, const TransitionRequest& request,
+                                  const MatchRules& rules, const std::string& why_not, std::int64_t pairs_seen);
 
 }  // namespace etude

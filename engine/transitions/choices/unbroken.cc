@@ -4,20 +4,20 @@
 
 namespace etude {
 
-SwitchRecord PlanUnbroken(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+TransitionRecord PlanUnbroken(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules) {
   const TaggedClip& playing = library.tagged[request.from];
   const int frame = request.request_frame, last = playing.FrameCount() - 1;
-  SwitchRecord record;
+  TransitionRecord record;
   record.request_frame = frame;
   if (frame >= last) {
     record.why = fmt::format("{} has no frame left to go on with", library.names[request.from]);
     return record;
   }
   record.branch = Branch::kUnbroken;
-  record.legs = {{.clip = request.from, .first = frame, .last = frame, .own = {}},
-                 {.clip = request.from, .first = frame, .last = last, .own = {}}};
-  record.meetings = {ComputeDistance(playing.grades[frame], playing.grades[frame], rules.weights)};
-  record.why = fmt::format("{} goes on: no switch, for comparison", library.names[request.from]);
+  record.segments = {{.clip = request.from, .first = frame, .last = frame, .own = {}},
+                     {.clip = request.from, .first = frame, .last = last, .own = {}}};
+  record.distances = {ComputeDistance(playing.grades[frame], playing.grades[frame], rules.weights)};
+  record.why = fmt::format("{} goes on: no transition, for comparison", library.names[request.from]);
   return record;
 }
 

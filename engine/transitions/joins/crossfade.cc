@@ -22,10 +22,18 @@ BodyPose Between(const BodyPose& from, const BodyPose& to, double share) {
 
 }  // namespace
 
-Blend Crossfade(const SeamMotions& motions, const JoinSettings& settings) {
-  std::vector<BodyPose> old(motions.continuation.begin(), motions.continuation.end());
-  if (old.empty()) old.push_back(motions.shown.now);
-  return [old = std::move(old), blend_frames = settings.blend_s * motions.rate_hz](const BodyPose& target, int frames) {
+const SettingTable<CrossfadeOptions>& CrossfadeSettings() {
+  static const SettingTable<CrossfadeOptions> kSettings({{"blend_s", &CrossfadeOptions::blend_s, 0, 5,
+                                                          "Seconds after the transition point until the new motion is "
+                                                          "shown alone."}});
+  return kSettings;
+}
+
+Blend Crossfade(const JoinInput& input, const CrossfadeOptions& options) {
+  const double blend_frames = options.blend_s * input.rate_hz;
+  std::vector<BodyPose> old = input.continuation(static_cast<std::size_t>(blend_frames) + 1);
+  if (old.empty()) old.push_back(input.shown.now);
+  return [old = std::move(old), blend_frames](const BodyPose& target, int frames) {
     if (frames >= blend_frames) return target;
     const std::size_t shown = std::min(static_cast<std::size_t>(frames), old.size());
     return Between(old[shown - 1], target, Smoothstep(0, blend_frames, frames));

@@ -8,30 +8,32 @@
 namespace etude {
 namespace {
 
-Blend CutOver(const SeamMotions& /*motions*/, const JoinSettings& /*settings*/) {
+Blend CutOver(const JoinInput& /*input*/, std::span<const double> /*values*/) {
   return [](const BodyPose& target, int /*frames*/) { return target; };
+}
+
+/// A row's `begin`: makes the join's own options of the values.
+template <auto Begin, auto Settings>
+Blend BeginWith(const JoinInput& input, std::span<const double> values) {
+  return Begin(input, Settings().Apply(values));
 }
 
 // A function, so that the table is made after every string it is made of.
 std::span<const Join> Table() {
-  static const JoinSetting kBlend{"blend_s", &JoinSettings::blend_s, 0, 5,
-                                  "Seconds after the seam until the new motion is shown alone."};
-  static const JoinSetting kHalfLife{"half_life_s", &JoinSettings::half_life_s, 0.001, 5,
-                                     "Seconds until about half of what was off at the seam is gone."};
   static const std::array kJoins = {
       Join{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
       Join{.name = "crossfade",
            .description = "the old motion fades into the new one (Kovar 2002)",
-           .settings = {kBlend},
-           .begin = Crossfade},
+           .settings = CrossfadeSettings().Describe(),
+           .begin = BeginWith<Crossfade, CrossfadeSettings>},
       Join{.name = "inertialised-quintic",
            .description = "what was off dies away along a quintic that does not overshoot (Bollo 2018)",
-           .settings = {kBlend},
-           .begin = InertialiseQuintic},
+           .settings = QuinticSettings().Describe(),
+           .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
       Join{.name = "inertialised-spring",
            .description = "what was off dies away like a critically damped spring (Holden 2020)",
-           .settings = {kHalfLife},
-           .begin = InertialiseSpring},
+           .settings = SpringSettings().Describe(),
+           .begin = BeginWith<InertialiseSpring, SpringSettings>},
   };
   return kJoins;
 }

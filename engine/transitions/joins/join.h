@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/number_setting.h"
+#include "engine/base/settings.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -17,31 +17,27 @@ struct PosePair {
   BodyPose now;
 };
 
-/// What meets at a seam, all in the place where it is shown.
-struct SeamMotions {
-  PosePair shown;                          ///< the last two frames shown
-  PosePair target;                         ///< the new motion's frames that would stand in their place
-  std::span<const BodyPose> continuation;  ///< what the old motion would have shown next; may be short, or empty
+/// What a join knows of a transition point, all in the place where it is shown.
+struct JoinInput {
+  PosePair shown;   ///< the last two frames shown
+  PosePair target;  ///< the new motion's frames that would stand in their place
+  /// What the old motion would have shown next: so many frames, fewer where it ends. To be asked only while the join
+  /// begins.
+  std::function<std::vector<BodyPose>(std::size_t count)> continuation;
   double rate_hz = kJudgedRateHz;
 };
 
-/// Numbers that some joins can be set by.
-struct JoinSettings {
-  double half_life_s = 0.1;  ///< of the spring: seconds until half an offset is gone; ours
-  double blend_s = 0.33;     ///< of the crossfade and the quintic: until the new motion is shown alone; ours
-};
-
-using JoinSetting = NumberSetting<JoinSettings>;
-
-/// The frame to show, `frames` (≥ 1) after the seam, from the new motion's frame there.
+/// The frame to show, `frames` (≥ 1) after the transition point, from the new motion's frame there.
 using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
 
-/// A way to put two clips together at a seam, by the name scenario files call it. All limbs keep their lengths.
+/// A way to put two clips together at a transition point, by the name scenario files call it. All limbs keep their
+/// lengths.
 struct Join {
   std::string name;
   std::string description;  ///< one line, for people
-  std::vector<JoinSetting> settings = {};
-  Blend (*begin)(const SeamMotions& motions, const JoinSettings& settings) = nullptr;
+  std::vector<NumberSetting> settings = {};
+  /// `values`: one per setting, in their order; none at all: the defaults.
+  Blend (*begin)(const JoinInput& input, std::span<const double> values) = nullptr;
 };
 
 /// Paper A's cut first.

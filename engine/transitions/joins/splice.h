@@ -9,26 +9,27 @@
 
 namespace etude {
 
-/// One place where a motion changes clips: what met there, aligned on the floor.
-struct Seam {
-  int frame = 0;                      ///< of the spliced motion: the last frame of the old leg
-  BodyPose leaving_before, leaving;   ///< the old leg's frame before the switch, and at it
-  BodyPose arriving, arriving_after;  ///< the new leg's frame at the switch, and after it
+/// A transition point in the place where it is shown.
+struct PlacedPoint {
+  int frame = 0;                      ///< of the spliced motion: the last frame of the old segment
+  BodyPose leaving_before, leaving;   ///< the old segment's frame before the point, and at it
+  BodyPose arriving, arriving_after;  ///< the new segment's frame at the point, and after it
 };
 
 /// A motion put together from clips.
 struct Splice {
   BodyMotion motion;
-  std::vector<Seam> seams;  ///< in order, one per switch
+  std::vector<PlacedPoint> points;  ///< in order
 };
 
 /// The frame before the first one, as if a motion had begun at a steady speed.
 BodyPose FrameBefore(const BodyPose& first, const BodyPose& second);
 
-/// Plays the first leg's clip from its start (not from the request) to the leg's end, and so on to the last leg's end.
-/// Every leg is turned and moved on the floor (yaw, x, z) to continue where the one before it stood, unless it is in
-/// place. There must be two legs at least, and each must have a frame to play.
-Splice SpliceLegs(std::span<const BodyMotion> clips, std::span<const Leg> legs, const Join& join,
-                  const JoinSettings& settings = {});
+/// Plays the first segment's clip from its start (not from the request) to the segment's end, and so on to the end of
+/// the last. Every segment is turned and moved on the floor (yaw, x, z) to continue where the one before it stood,
+/// unless it is in place. There must be two at least, and each must have a frame to play. `join_settings`: as
+/// Join::begin takes them.
+Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment> segments, const Join& join,
+                      std::span<const double> join_settings = {});
 
 }  // namespace etude

@@ -11,7 +11,7 @@ namespace {
 
 using enum Role;
 
-BodyPose Rebuild(const Physique& character, const BodyPose& source, double scale) {
+BodyPose Rebuild(const BodyProportions& proportions, const BodyPose& source, double scale) {
   BodyPose pose;
   pose[kHipCentre] = scale * source[kHipCentre];
   std::array<glm::dvec3, kRoleCount> directions{};
@@ -22,7 +22,7 @@ BodyPose Rebuild(const Physique& character, const BodyPose& source, double scale
     constexpr double kNoLimb = 1e-6;
     glm::dvec3& direction = directions[Index(bone.child)];
     direction = length < kNoLimb ? directions[Index(bone.parent)] : limb / length;
-    pose[bone.child] = pose[bone.parent] + character.limb_lengths[Index(bone.child)] * direction;
+    pose[bone.child] = pose[bone.parent] + proportions.limb_lengths[Index(bone.child)] * direction;
   }
   return pose;
 }
@@ -41,23 +41,23 @@ double FloorHeight(const BodyMotion& motion) {
 
 }  // namespace
 
-Physique MakePhysique(const BodyPose& pose, double standing_hip_height) {
+BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height) {
   const double own_height = StandingHipHeight(pose);
   assert(own_height > 0);
-  Physique character{.limb_lengths = {}, .standing_hip_height = standing_hip_height};
+  BodyProportions proportions{.limb_lengths = {}, .standing_hip_height = standing_hip_height};
   for (const Bone& bone : AllBones()) {
-    character.limb_lengths[Index(bone.child)] = BoneLength(pose, bone) * standing_hip_height / own_height;
+    proportions.limb_lengths[Index(bone.child)] = BoneLength(pose, bone) * standing_hip_height / own_height;
   }
-  return character;
+  return proportions;
 }
 
-BodyMotion PerformedBy(const Physique& character, const BodyMotion& motion) {
+BodyMotion PerformedBy(const BodyProportions& proportions, const BodyMotion& motion) {
   BodyMotion performed{.rate_hz = motion.rate_hz, .poses = {}};
   if (motion.poses.empty()) return performed;
   const double own_height = StandingHipHeight(motion.poses.front());
-  const double scale = own_height > 0 ? character.standing_hip_height / own_height : 1.0;
+  const double scale = own_height > 0 ? proportions.standing_hip_height / own_height : 1.0;
   performed.poses.reserve(motion.poses.size());
-  for (const BodyPose& pose : motion.poses) performed.poses.push_back(Rebuild(character, pose, scale));
+  for (const BodyPose& pose : motion.poses) performed.poses.push_back(Rebuild(proportions, pose, scale));
   const double floor = FloorHeight(performed);
   for (BodyPose& pose : performed.poses) {
     for (glm::dvec3& joint : pose.joints) joint.y -= floor;

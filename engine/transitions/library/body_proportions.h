@@ -6,23 +6,22 @@
 
 namespace etude {
 
-/// The body that performs all clips of a library.
-struct Physique {
+/// The body that performs all clips of a library: how long its limbs are, and how high its hips stand.
+struct BodyProportions {
   /// Metres, by the limb's child joint; the hip centre's entry is 0.
   std::array<double, kRoleCount> limb_lengths{};
   double standing_hip_height = 0;  ///< metres, as `StandingHipHeight` reads it
 };
 
-/// A character with the proportions of `pose`, scaled to stand `standing_hip_height` metres at the hips.
-/// `pose` must have legs.
-Physique MakePhysique(const BodyPose& pose, double standing_hip_height);
+/// Those of `pose`, scaled so that the hips stand `standing_hip_height` metres high. `pose` must have legs.
+BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
-/// The same dance, danced by `character`. Paper A's clips all belong to one character; real clips come
-/// from many people, and a switch between two bodies would be seen whatever the pose.
+/// The same motion, performed by a body of these proportions. Paper A's clips all belong to one character; real clips
+/// come from many people, and a transition between two bodies would be seen whatever the pose.
 ///
-/// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs;
-/// then the clip is set down, so that the lower foot is on or below the floor in 5 % of its frames. A
-/// limb of zero length in the source follows its parent limb's direction.
-BodyMotion PerformedBy(const Physique& character, const BodyMotion& motion);
+/// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clip is
+/// set down, so that the lower foot is on or below the floor in 5 % of its frames. A limb of zero length in the source
+/// follows its parent limb's direction.
+BodyMotion PerformedBy(const BodyProportions& proportions, const BodyMotion& motion);
 
 }  // namespace etude

@@ -4,13 +4,17 @@
 
 namespace etude {
 
-MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips, const Physique& physique,
-                          const TagRules& rules, const TweenRules& tween) {
-  MotionLibrary library{
-      .physique = physique, .names = std::move(names), .motions = {}, .tagged = {}, .features = {}, .in_betweens = {}};
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
+                          const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
+  MotionLibrary library{.proportions = proportions,
+                        .names = std::move(names),
+                        .motions = {},
+                        .tagged = {},
+                        .features = {},
+                        .in_betweens = {}};
   library.motions.reserve(clips.size());
-  for (const BodyMotion& clip : clips) library.motions.push_back(PerformedBy(physique, clip));
-  library.tagged = TagClips(library.motions, physique.standing_hip_height, rules);
+  for (const BodyMotion& clip : clips) library.motions.push_back(PerformedBy(proportions, clip));
+  library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
   library.features = ComputeMotionFeatures(library.motions);
   library.in_betweens =
       BuildInBetweens(library.tagged, {.weights = rules.weights, .threshold = kPaperThreshold, .tween = tween});

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// Clips made ready for switching: all danced by one body, at 30 Hz, tagged, and joined by in-betweens.
+/// Clips made ready for transitions: all performed by one body, at 30 Hz, tagged, and joined by in-betweens.
 struct MotionLibrary {
-  Physique physique;
+  BodyProportions proportions;
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
   std::vector<TaggedClip> tagged;                     ///< as `motions`, frame by frame
@@ -21,9 +21,9 @@ struct MotionLibrary {
   InBetweenNet in_betweens;
 };
 
-/// Makes a library of clips as they came: lets `physique` dance them, tags them by `rules`, and builds in-betweens that
-/// move by `tween`.
-MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips, const Physique& physique,
-                          const TagRules& rules = {}, const TweenRules& tween = {});
+/// Makes a library of clips as they came: has them performed by one body, tags them by `rules`, and builds in-betweens
+/// that move by `tween`.
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
+                          const BodyProportions& proportions, const TagRules& rules = {}, const TweenRules& tween = {});
 
 }  // namespace etude

@@ -19,7 +19,7 @@ struct ReadyClip {
   TimeBlocks targets;           // of `frames`, without the clip's last frame
 };
 
-ReadyClip MakeReady(const PartnerClip& clip, const PartnerRules& rules) {
+ReadyClip MakeReady(const MatchClip& clip, const MatchRules& rules) {
   ReadyClip ready;
   if (clip.frames) {
     ready.frames.assign(clip.frames->begin(), clip.frames->end());
@@ -43,18 +43,18 @@ ReadyClip MakeReady(const PartnerClip& clip, const PartnerRules& rules) {
   return ready;
 }
 
-/// Looks for the partners of one clip's frames in another clip.
+/// Finds the frames of another clip that match those of one clip.
 ///
 /// Frames ask in time order, and motion is smooth: by the triangle inequality a block of targets that was so and so far
 /// from one frame can be nearer to a later one only by the way between the two. So a block is looked at again only
 /// when that way has grown long enough to matter.
 class PairSearch {
  public:
-  PairSearch(const GradeMetric& metric, const PartnerRules& rules, const ReadyClip& from, const ReadyClip& to)
+  PairSearch(const GradeMetric& metric, const MatchRules& rules, const ReadyClip& from, const ReadyClip& to)
       : metric_(metric), rules_(rules), from_(from), to_(to) {}
 
-  std::vector<FramePartners> Run(SearchWork& work) {
-    std::vector<FramePartners> found;
+  std::vector<FrameMatches> Run(SearchWork& work) {
+    std::vector<FrameMatches> found;
     for (std::size_t block = 0; block < from_.boxes.size(); ++block) {
       FindNearBlocks(from_.boxes[block], work);
       if (near_.empty()) continue;
@@ -63,7 +63,7 @@ class PairSearch {
       way_ = 0;
       for (std::size_t i = start; i < end; ++i) {
         if (i > start) way_ += from_.steps[i];
-        if (const auto partners = FindFor(i, work)) found.push_back(*partners);
+        if (const auto matches = FindFor(i, work)) found.push_back(*matches);
       }
     }
     return found;
@@ -81,7 +81,7 @@ class PairSearch {
     double reach;  // how far it was at the last look, plus the way until then
   };
 
-  /// The target blocks, in time order, that any frame of `asking` may have a partner in.
+  /// The target blocks, in time order, that any frame of `asking` may match a frame of.
   void FindNearBlocks(const GradeBox& asking, SearchWork& work) {
     near_.clear();
     const double limit = SquaredLimit(rules_.threshold);
@@ -103,7 +103,7 @@ class PairSearch {
     return std::max(near.bound, rest);
   }
 
-  std::optional<FramePartners> FindFor(std::size_t asking, SearchWork& work) {
+  std::optional<FrameMatches> FindFor(std::size_t asking, SearchWork& work) {
     std::optional<int> first;
     Best nearest{0, rules_.threshold};
     std::size_t next = 0;
@@ -120,12 +120,12 @@ class PairSearch {
       if (LeastDistance(near_[next]) <= nearest.distance) Look(asking, near_[next], nearest, work);
     }
     hint_ = nearest.place / kBlockLanes;
-    return FramePartners{from_.frames[asking], to_.frames[*first], to_.frames[nearest.place], nearest.distance};
+    return FrameMatches{from_.frames[asking], to_.frames[*first], to_.frames[nearest.place], nearest.distance};
   }
 
   /// Looks at one block: improves `nearest`, and says which is the first frame that did.
   ///
-  /// While nothing is found, `nearest` is at the threshold, and the first frame that improves it is the first partner.
+  /// While nothing is found, `nearest` is at the threshold, and the first frame that improves it is the first match.
   std::optional<int> Look(std::size_t asking, NearBlock& near, Best& nearest, SearchWork& work) const {
     // Beyond the threshold, too, distances are worth knowing: they tell for how long the block need not be looked at.
     const double farthest = 2 * rules_.threshold;
@@ -154,25 +154,25 @@ class PairSearch {
   }
 
   const GradeMetric& metric_;
-  const PartnerRules& rules_;
+  const MatchRules& rules_;
   const ReadyClip& from_;
   const ReadyClip& to_;
   std::vector<NearBlock> near_;
   double way_ = 0;  // from the first of the sixteen frames to the one that asks
-  int hint_ = 0;    // the block of the nearest partner that was found last
+  int hint_ = 0;    // the block of the nearest match that was found last
 };
 
 }  // namespace
 
-double PartnerTable::Share(int from, int to) const {
+double MatchTable::Share(int from, int to) const {
   const int asked = AskedFrames(from);
   return asked == 0 ? 0 : static_cast<double>(Of(from, to).size()) / asked;
 }
 
-PartnerTable FindPartners(std::span<const PartnerClip> clips, const PartnerRules& rules, SearchWork* work) {
-  PartnerTable table;
+MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work) {
+  MatchTable table;
   std::vector<ReadyClip> ready;
-  for (const PartnerClip& clip : clips) {
+  for (const MatchClip& clip : clips) {
     ready.push_back(MakeReady(clip, rules));
     table.asked_.push_back(static_cast<int>(ready.back().frames.size()));
   }

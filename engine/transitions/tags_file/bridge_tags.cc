@@ -22,20 +22,20 @@ std::string MembershipsDigest(const FuzzySystem& system) {
 }
 
 BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
-                       const TagRules& tag_rules, const SwitchRules& switch_rules) {
+                       const TagRules& tag_rules, const MatchRules& match_rules) {
   BridgeTags tags{.system = system.name,
                   .memberships_digest = MembershipsDigest(system),
-                  .weights = switch_rules.weights,
-                  .threshold = switch_rules.threshold,
-                  .within_class = switch_rules.within_class,
+                  .weights = match_rules.weights,
+                  .threshold = match_rules.threshold,
+                  .within_class = match_rules.within_class,
                   .min_clips = tag_rules.min_clips,
                   .most_per_class = tag_rules.most_per_class,
                   .max_neck_bend_deg = RoundedDegrees(tag_rules.head.max_bend),
                   .max_neck_turn_deg_per_s = RoundedDegrees(tag_rules.head.max_turn_speed),
-                  .standing_hip_height_m = library.physique.standing_hip_height,
+                  .standing_hip_height_m = library.proportions.standing_hip_height,
                   .clips = {},
                   .keys = {}};
-  const std::vector<std::vector<FrameRating>> ratings = RateFrames(library.tagged, switch_rules.weights);
+  const std::vector<std::vector<FrameRating>> ratings = RateFrames(library.tagged, match_rules.weights);
   for (std::size_t c = 0; c < library.tagged.size(); ++c) {
     const TaggedClip& clip = library.tagged[c];
     ClipTags& of_clip = tags.clips.emplace_back();

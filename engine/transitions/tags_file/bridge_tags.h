@@ -60,6 +60,6 @@ std::string MembershipsDigest(const FuzzySystem& system);
 
 /// The tags of a library that was made by `tag_rules` and `system`. `sources` as the library's clips.
 BridgeTags CollectTags(const MotionLibrary& library, std::span<const std::string> sources, const FuzzySystem& system,
-                       const TagRules& tag_rules, const SwitchRules& switch_rules);
+                       const TagRules& tag_rules, const MatchRules& match_rules);
 
 }  // namespace etude

@@ -24,7 +24,7 @@ BodyMotion MotionAlongX(Function x_of) {
 }
 
 TEST(Jump, IsNothingOnASteadyMotion) {
-  const SeamSmoothness smooth = MeasureSeams(MotionAlongX([](int f) { return 0.05 * f; }), kSeams);
+  const TransitionSmoothness smooth = MeasureTransitions(MotionAlongX([](int f) { return 0.05 * f; }), kSeams);
   EXPECT_NEAR(smooth.jump_cm, 0, 1e-10);
   EXPECT_NEAR(smooth.mean_joint_jump_cm, 0, 1e-10);
   EXPECT_NEAR(smooth.jerk_peak_mps3, 0, 1e-7);
@@ -33,37 +33,38 @@ TEST(Jump, IsNothingOnASteadyMotion) {
 
 // A step of 7 cm has second differences +7 and −7, so a third difference of 14 cm.
 TEST(Jump, OfAStepIsItsHeight) {
-  const SeamSmoothness step = MeasureSeams(MotionAlongX([](int f) { return f > kSeam ? 0.07 : 0; }), kSeams);
+  const TransitionSmoothness step =
+      MeasureTransitions(MotionAlongX([](int f) { return f > kSeam ? 0.07 : 0; }), kSeams);
   EXPECT_NEAR(step.jump_cm, 7, 1e-10);
   EXPECT_NEAR(step.mean_joint_jump_cm, 7, 1e-10);
   EXPECT_NEAR(step.jerk_peak_mps3, 0.14 * 27000, 1e-6);
 }
 
 TEST(Jump, OfASteadyAccelerationHasNoJerk) {
-  const SeamSmoothness even = MeasureSeams(MotionAlongX([](int f) { return 0.001 * f * f; }), kSeams);
+  const TransitionSmoothness even = MeasureTransitions(MotionAlongX([](int f) { return 0.001 * f * f; }), kSeams);
   EXPECT_NEAR(even.jump_cm, 0.2, 1e-10);
   EXPECT_NEAR(even.jerk_peak_mps3, 0, 1e-6);
 }
 
 TEST(Jump, CountsWithinFiveFramesOfTheSeamOnly) {
   const auto step_after = [](int last) { return MotionAlongX([last](int f) { return f > last ? 0.07 : 0; }); };
-  EXPECT_NEAR(MeasureSeams(step_after(kSeam + 5), kSeams).jump_cm, 7, 1e-10);
-  EXPECT_NEAR(MeasureSeams(step_after(kSeam + 6), kSeams).jump_cm, 0, 1e-10);
-  EXPECT_NEAR(MeasureSeams(step_after(kSeam - 6), kSeams).jump_cm, 7, 1e-10) << "its second frame is inside";
-  EXPECT_NEAR(MeasureSeams(step_after(kSeam - 7), kSeams).jump_cm, 0, 1e-10);
+  EXPECT_NEAR(MeasureTransitions(step_after(kSeam + 5), kSeams).jump_cm, 7, 1e-10);
+  EXPECT_NEAR(MeasureTransitions(step_after(kSeam + 6), kSeams).jump_cm, 0, 1e-10);
+  EXPECT_NEAR(MeasureTransitions(step_after(kSeam - 6), kSeams).jump_cm, 7, 1e-10) << "its second frame is inside";
+  EXPECT_NEAR(MeasureTransitions(step_after(kSeam - 7), kSeams).jump_cm, 0, 1e-10);
 }
 
 TEST(Jump, TakesTheWorstOfTwoSeams) {
   const BodyMotion motion = MotionAlongX([](int f) { return f > 30 ? 0.07 : 0; });
   const int both[] = {5, 30};
-  EXPECT_NEAR(MeasureSeams(motion, std::span(both, 1)).jump_cm, 0, 1e-10);
-  EXPECT_NEAR(MeasureSeams(motion, both).jump_cm, 7, 1e-10);
+  EXPECT_NEAR(MeasureTransitions(motion, std::span(both, 1)).jump_cm, 0, 1e-10);
+  EXPECT_NEAR(MeasureTransitions(motion, both).jump_cm, 7, 1e-10);
 }
 
 TEST(Jump, OfOneJointAloneIsAveragedByTheMeanOnly) {
   BodyMotion motion = MotionAlongX([](int) { return 0; });
   for (int f = kSeam + 1; f < kFrames; ++f) motion.poses[f][Role::kLeftHand].x += 0.1;
-  const SeamSmoothness one = MeasureSeams(motion, kSeams);
+  const TransitionSmoothness one = MeasureTransitions(motion, kSeams);
   EXPECT_NEAR(one.jump_cm, 10, 1e-10);
   EXPECT_NEAR(one.mean_joint_jump_cm, 10.0 / kRoleCount, 1e-10);
 }
@@ -77,7 +78,7 @@ TEST(RotationStepChange, IsTheChangeOfALimbsTurningSpeed) {
     motion.poses[f][Role::kLeftHand] =
         motion.poses[f][Role::kLeftWrist] + 0.1 * glm::dvec3(std::cos(angle), std::sin(angle), 0);
   }
-  EXPECT_NEAR(MeasureSeams(motion, kSeams).rotation_step_change_deg, 7, 1e-9);
+  EXPECT_NEAR(MeasureTransitions(motion, kSeams).rotation_step_change_deg, 7, 1e-9);
 }
 
 TEST(NaturalJumps, JudgeEveryUnbrokenWindowOfElevenFrames) {

@@ -14,7 +14,7 @@ inline MotionLibrary BuiltinLibrary() {
   for (const std::string& act : BuiltinActNames()) names.push_back(act);
   std::vector<BodyMotion> clips;
   for (const std::string& name : names) clips.push_back(LoadBuiltinMove(name).value().motion);
-  return MakeLibrary(names, clips, MakePhysique(PoseOf(Controls{}), 0.9));
+  return MakeLibrary(names, clips, MakeBodyProportions(PoseOf(Controls{}), 0.9));
 }
 
 /// What switching through in-betweens came to.
@@ -25,17 +25,17 @@ struct Connections {
 };
 
 /// Tries every `step`-th frame of every clip into every other clip.
-inline Connections TryAll(const MotionLibrary& library, int step, const SwitchRules& rules = {}) {
+inline Connections TryAll(const MotionLibrary& library, int step, const MatchRules& rules = {}) {
   Connections connections;
   const int count = static_cast<int>(library.tagged.size());
   for (int from = 0; from < count; ++from) {
     for (int to = 0; to < count; ++to) {
       if (from == to) continue;
       for (int frame = 0; frame < library.tagged[from].FrameCount(); frame += step) {
-        const SwitchRequest request{.from = from, .request_frame = frame, .to = to, .budget_s = 1};
-        const SwitchRecord record = ThroughInBetween(library, request, rules, "", 0);
+        const TransitionRequest request{.from = from, .request_frame = frame, .to = to, .budget_s = 1};
+        const TransitionRecord record = ThroughInBetween(library, request, rules, "", 0);
         ++connections.tried;
-        connections.found += !record.legs.empty();
+        connections.found += !record.segments.empty();
         connections.forced += record.branch == Branch::kForced;
         connections.worst_wait_s = std::max(connections.worst_wait_s, record.wait_s);
       }

@@ -50,7 +50,7 @@ inline MotionLibrary RandomLibrary(RandomStream& dice, const std::vector<int>& l
     clips.push_back(RandomClip(dice, frames, dice.Uniform()));
     names.push_back("clip" + std::to_string(names.size()));
   }
-  return MakeLibrary(names, clips, MakePhysique(PosedBody().Pose(), PosedBody::kStandingHipHeight));
+  return MakeLibrary(names, clips, MakeBodyProportions(PosedBody().Pose(), PosedBody::kStandingHipHeight));
 }
 
 }  // namespace etude

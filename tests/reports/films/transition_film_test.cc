@@ -21,13 +21,13 @@ using ::testing::HasSubstr;
 RunData Recorded() {
   RunData run = ExampleRun();
   AddRecordings(run);
-  AddSwitches(run);
+  AddTransitions(run);
   return run;
 }
 
-SwitchRace ExampleRace() {
+TransitionRace ExampleRace() {
   const RunData run = Recorded();
-  auto race = FindSwitchRace(run, run.scenarios.front());
+  auto race = FindTransitionRace(run, run.scenarios.front());
   EXPECT_TRUE(race.has_value()) << ToString(race.error());
   return *std::move(race);
 }
@@ -38,59 +38,59 @@ int CountOf(const ColourImage& picture, const Paint& paint) {
       picture.pixels, [&](const Rgb8& p) { return near(p.r, paint.r) && near(p.g, paint.g) && near(p.b, paint.b); }));
 }
 
-TEST(SwitchRace, TakesTheFirstWorldThatMostMethodsRecorded) {
-  const SwitchRace race = ExampleRace();
+TEST(TransitionRace, TakesTheFirstWorldThatMostMethodsRecorded) {
+  const TransitionRace race = ExampleRace();
   EXPECT_EQ(race.world, "trial 7");
   ASSERT_EQ(race.paths.size(), 3u);
   EXPECT_EQ(race.paths[1].method, "fuzzy-bridge");
 }
 
-TEST(SwitchRace, AlignsEveryoneAtTheRequest) {
-  const SwitchRace race = ExampleRace();
-  EXPECT_EQ(race.paths[0].FirstSeam(), 0);
-  EXPECT_EQ(race.paths[1].FirstSeam(), 10);
-  EXPECT_EQ(race.paths[1].LastSeam(), 25);
-  EXPECT_EQ(race.paths[2].LastSeam(), 8);
-  EXPECT_EQ(race.paths[1].SeamsBefore(10), 0u);  // the seam's own frame is the last of the clip left
-  EXPECT_EQ(race.paths[1].SeamsBefore(11), 1u);
+TEST(TransitionRace, AlignsEveryoneAtTheRequest) {
+  const TransitionRace race = ExampleRace();
+  EXPECT_EQ(race.paths[0].FirstPoint(), 0);
+  EXPECT_EQ(race.paths[1].FirstPoint(), 10);
+  EXPECT_EQ(race.paths[1].LastPoint(), 25);
+  EXPECT_EQ(race.paths[2].LastPoint(), 8);
+  EXPECT_EQ(race.paths[1].PointsBefore(10), 0u);  // the point's own frame is the last of the clip left
+  EXPECT_EQ(race.paths[1].PointsBefore(11), 1u);
   EXPECT_EQ(race.paths[1].FrameAt(-1000), 0);
   EXPECT_FALSE(race.paths[1].IsRecordedAt(-61));
   EXPECT_EQ(race.paths[0].jumps_cm, SecondDifferencesCm(race.paths[0].motion));
 }
 
-TEST(SwitchRace, NeedsTwoMethodsInOneWorld) {
+TEST(TransitionRace, NeedsTwoMethodsInOneWorld) {
   RunData run = ExampleRun();
-  auto race = FindSwitchRace(run, run.scenarios.front());
+  auto race = FindTransitionRace(run, run.scenarios.front());
   ASSERT_FALSE(race.has_value());
   EXPECT_THAT(ToString(race.error()), HasSubstr("key video"));
   AddRecordings(run);
-  race = FindSwitchRace(run, run.scenarios.front());
+  race = FindTransitionRace(run, run.scenarios.front());
   ASSERT_FALSE(race.has_value());
   EXPECT_THAT(ToString(race.error()), HasSubstr("two methods"));
 }
 
-TEST(SwitchClock, PlaysOnceAndThenTheSwitchesSlowly) {
-  const SwitchClock clock(ExampleRace());
+TEST(TransitionClock, PlaysOnceAndThenTheSwitchesSlowly) {
+  const TransitionClock clock(ExampleRace());
   EXPECT_EQ(clock.TimeAt(0), clock.First());
   EXPECT_EQ(clock.TimeAt(clock.FrameOf(0)), 0);
   EXPECT_LT(clock.First(), 0);
   EXPECT_GT(clock.Last(), 25);
-  int slow_seams = 0;
+  int slow_points = 0;
   for (int frame = 1; frame < clock.Frames(); ++frame) {
     const int step = clock.TimeAt(frame) - clock.TimeAt(frame - 1);
     const bool begins_again = clock.IsSlow(frame) && !clock.IsSlow(frame - 1);
     EXPECT_TRUE(begins_again || step == 0 || step == 1) << frame;
-    slow_seams += clock.IsSlow(frame) && (clock.TimeAt(frame) == 0 || clock.TimeAt(frame) == 25);
+    slow_points += clock.IsSlow(frame) && (clock.TimeAt(frame) == 0 || clock.TimeAt(frame) == 25);
   }
-  EXPECT_EQ(slow_seams, 2 * SwitchClock::kSlowness);
+  EXPECT_EQ(slow_points, 2 * TransitionClock::kSlowness);
 }
 
-TEST(SwitchClock, DoesNotWaitForWhoWaitsTooLong) {
-  SwitchRace race = ExampleRace();
-  const int frames = SwitchClock(race).Frames();
+TEST(TransitionClock, DoesNotWaitForWhoWaitsTooLong) {
+  TransitionRace race = ExampleRace();
+  const int frames = TransitionClock(race).Frames();
   race.paths.push_back(race.paths.front());
   race.paths.back().request = -5000;
-  EXPECT_EQ(SwitchClock(race).Frames(), frames);
+  EXPECT_EQ(TransitionClock(race).Frames(), frames);
 }
 
 TEST(Countdown, RunsFromTheRequestToTheSwitch) {
@@ -99,16 +99,16 @@ TEST(Countdown, RunsFromTheRequestToTheSwitch) {
   EXPECT_EQ(CountdownWords("clap", 16, 15, 30), "waited 0.50 s");
 }
 
-TEST(SeamBars, AreAsLongAsTheirShareOfTheThreshold) {
-  SwitchFacts facts;
+TEST(DistanceBars, AreAsLongAsTheirShareOfTheThreshold) {
+  TransitionFacts facts;
   facts.threshold = 0.4;
-  facts.meetings.resize(1);
+  facts.points.resize(1);
   const auto amber = [&](double partial) {
     PerFeature partials{};
     partials[0] = partial;
-    facts.meetings[0].partials = partials;
-    Canvas canvas(420, static_cast<int>(kSeamBarsHeight));
-    DrawSeamBars(canvas, {0, 0, 420, kSeamBarsHeight}, facts, 0);
+    facts.points[0].partials = partials;
+    Canvas canvas(420, static_cast<int>(kDistanceBarsHeight));
+    DrawDistanceBars(canvas, {0, 0, 420, kDistanceBarsHeight}, facts, 0);
     return CountOf(canvas.Pixels(), kWarm);
   };
   EXPECT_EQ(amber(0), 0);
@@ -118,23 +118,23 @@ TEST(SeamBars, AreAsLongAsTheirShareOfTheThreshold) {
   EXPECT_EQ(amber(0.2), 0);  // beyond the threshold alone: another colour
 }
 
-TEST(SeamBars, TellDTheThresholdAndTheBranch) {
-  const SwitchRace race = ExampleRace();
-  EXPECT_EQ(SeamWords(race.paths[0].facts, 0), "d 0.500 ≥ 0.4 · now");
-  EXPECT_EQ(SeamWords(race.paths[1].facts, 1), "2 of 2 · d 0.350 < 0.4 · in-between");
+TEST(DistanceBars, TellDTheThresholdAndTheBranch) {
+  const TransitionRace race = ExampleRace();
+  EXPECT_EQ(PointWords(race.paths[0].facts, 0), "d 0.500 ≥ 0.4 · now");
+  EXPECT_EQ(PointWords(race.paths[1].facts, 1), "2 of 2 · d 0.350 < 0.4 · in-between");
 }
 
-TEST(SwitchScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
+TEST(TransitionScene, DrawsTheSamePixelsEveryTimeAndMarksTheChange) {
   auto renderer = Renderer::Create();
   ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
-  const SwitchRace race = ExampleRace();
-  const SwitchClock clock(race);
-  SwitchScene scene(race, "transition", **renderer);
+  const TransitionRace race = ExampleRace();
+  const TransitionClock clock(race);
+  TransitionScene scene(race, "transition", **renderer);
   const int before = clock.FrameOf(-5), after = clock.FrameOf(3);
   const ColourImage calm = scene.Draw(before).Pixels(), changed = scene.Draw(after).Pixels();
   // "now" has just changed: its column is framed, its bars are filled.
   EXPECT_GT(CountOf(changed, kWarm), CountOf(calm, kWarm) + 1500);
-  SwitchScene again(race, "transition", **renderer);
+  TransitionScene again(race, "transition", **renderer);
   EXPECT_EQ(again.Draw(after).Pixels().pixels, changed.pixels);
   EXPECT_THAT(scene.Words(), HasSubstr("fuzzy-bridge (in-between, after 0.83 s)"));
 }

@@ -235,7 +235,7 @@ Recording CoachRecording() {
   }
   return {
       {{"coach", coach}},
-      R"({"seam_frame": 80, "from": "clap", "to": "side kick", "branch": "matched in the front half", "distance": 0.31})"};
+      R"({"transition_frame": 80, "from": "clap", "to": "side kick", "branch": "matched in the front half", "distance": 0.31})"};
 }
 
 /// A coach who dances as one clip does until `first`, as an in-between until `second`, and then as the wanted clip.
@@ -260,10 +260,11 @@ std::string Partials(double unit) {
 }
 
 Recording Explained(int first, int second, const std::string& rest) {
-  return {{{"coach", Switching(first, second)}},
-          fmt::format(R"({{"request_frame": 60, "seam_frame": {}, "from": "builtin:clap", "to": "builtin:side_kick",)"
-                      R"( "threshold": 0.4, "natural_limit_cm": 4.5, "weights": {}, {}}})",
-                      first, kWeights, rest)};
+  return {
+      {{"coach", Switching(first, second)}},
+      fmt::format(R"({{"request_frame": 60, "transition_frame": {}, "from": "builtin:clap", "to": "builtin:side_kick",)"
+                  R"( "threshold": 0.4, "natural_limit_cm": 4.5, "weights": {}, {}}})",
+                  first, kWeights, rest)};
 }
 
 Recording CaptureRecording(std::vector<double>& errors) {
@@ -335,7 +336,7 @@ void AddRecordings(RunData& run) {
   run.series.push_back({capture, {{"mpjpe_mm", "frame", std::move(errors)}}});
 }
 
-void AddSwitches(RunData& run) {
+void AddTransitions(RunData& run) {
   constexpr int kTrial = 7;
   const auto add = [&](const std::string& method, Recording recording) {
     run.recordings.push_back({CellOf(run, "transition", method, kTrial), std::move(recording)});
@@ -347,23 +348,24 @@ void AddSwitches(RunData& run) {
   add("fuzzy-bridge",
       Explained(
           70, 85,
-          fmt::format(R"("seam_frames": [70, 85], "branch": "in-between", "wait_s": 0.8333, "pairs_seen": 40,)"
-                      R"( "pairs_matched": 0, "why": "No pair was close enough, so it goes through an in-between.",)"
-                      R"( "switches": [{{"from": "builtin:clap", "from_frame": 30, "to": "in-between", "to_frame": 0,)"
-                      R"( "distance": 0.3, "partials": {}}}, {{"from": "in-between", "from_frame": 14,)"
-                      R"( "to": "builtin:side_kick", "to_frame": 2, "distance": 0.35, "partials": {}}}])",
-                      Partials(0.036), Partials(0.049))));
+          fmt::format(
+              R"("transition_frames": [70, 85], "branch": "in-between", "wait_s": 0.8333, "pairs_seen": 40,)"
+              R"( "pairs_matched": 0, "why": "No pair was close enough, so it goes through an in-between.",)"
+              R"( "transition_points": [{{"from": "builtin:clap", "from_frame": 30, "to": "in-between", "to_frame": 0,)"
+              R"( "distance": 0.3, "partials": {}}}, {{"from": "in-between", "from_frame": 14,)"
+              R"( "to": "builtin:side_kick", "to_frame": 2, "distance": 0.35, "partials": {}}}])",
+              Partials(0.036), Partials(0.049))));
   add("gate-inertialised",
       Explained(
           68, 68,
           fmt::format(
               R"("branch": "front half", "wait_s": 0.2667, "why": "Of 3 pairs, it is the nearest.",)"
-              R"( "pairs_seen": 120, "pairs_matched": 3, "cost_unit": "cm", "switches": [{{"from": "builtin:clap",)"
+              R"( "pairs_seen": 120, "pairs_matched": 3, "cost_unit": "cm", "transition_points": [{{"from": "builtin:clap",)"
               R"( "from_frame": 28, "to": "builtin:side_kick", "to_frame": 4, "distance": 0.2, "partials": {}}}],)"
               R"( "candidates": [{{"from_frame": 27, "to_frame": 3, "distance": 0.25, "partials": {}, "cost": 14.5,)"
-              R"( "fate": "worse"}}, {{"from_frame": 28, "to_frame": 4, "distance": 0.2, "partials": {},)"
-              R"( "cost": 9.25, "fate": "taken"}}, {{"from_frame": 29, "to_frame": 4, "distance": 0.5,)"
-              R"( "partials": {}, "cost": null, "fate": "too far"}}])",
+              R"( "outcome": "worse"}}, {{"from_frame": 28, "to_frame": 4, "distance": 0.2, "partials": {},)"
+              R"( "cost": 9.25, "outcome": "taken"}}, {{"from_frame": 29, "to_frame": 4, "distance": 0.5,)"
+              R"( "partials": {}, "cost": null, "outcome": "too far"}}])",
               Partials(0.016), Partials(0.025), Partials(0.016), Partials(0.1))));
 }
 

@@ -9,59 +9,59 @@ namespace {
 
 constexpr FrameWindow kAll{0, 100};
 
-void ExpectLink(const std::optional<Link>& link, int from, int to) {
-  ASSERT_TRUE(link);
-  EXPECT_EQ(link->from, from);
-  EXPECT_EQ(link->to, to);
+void ExpectPoint(const std::optional<TransitionPoint>& point, int from, int to) {
+  ASSERT_TRUE(point);
+  EXPECT_EQ(point->from, from);
+  EXPECT_EQ(point->to, to);
 }
 
-TEST(FindLink, TakesTheFirstMatchInPlayingOrderThenTargetOrder) {
+TEST(FindTransitionPoint, TakesTheFirstMatchInPlayingOrderThenTargetOrder) {
   const TaggedClip playing = ClipOfLevels({9, 0, 0, 0}, {0, 1, 2});
   const TaggedClip next = ClipOfLevels({9.5, 5, 0.3, 0, 9.5, 9.5}, {1, 2, 3});
-  const std::optional<Link> link = FindLink(playing, kAll, next, {});
-  ExpectLink(link, 1, 2);
-  EXPECT_NEAR(link->distance.value, 0.3, 1e-12);
-  EXPECT_NEAR(link->distance.partials[0], 0.09, 1e-12);
+  const std::optional<TransitionPoint> point = FindTransitionPoint(playing, kAll, next, {});
+  ExpectPoint(point, 1, 2);
+  EXPECT_NEAR(point->distance.value, 0.3, 1e-12);
+  EXPECT_NEAR(point->distance.partials[0], 0.09, 1e-12);
 }
 
-TEST(FindLink, LooksAtTheFrontHalfBeforeTheRearHalf) {
+TEST(FindTransitionPoint, LooksAtTheFrontHalfBeforeTheRearHalf) {
   const TaggedClip playing = ClipOfLevels({0, 0}, {0, 1});
   // Smallest: the rear half holds an exact match, the front half only a fair one.
   const TaggedClip next = ClipOfLevels({5, 0.3, 0.2, 5, 0, 5}, {1, 2, 4});
-  SwitchRules smallest;
+  MatchRules smallest;
   smallest.pick = Pick::kSmallest;
-  ExpectLink(FindLink(playing, kAll, next, smallest), 0, 2);
+  ExpectPoint(FindTransitionPoint(playing, kAll, next, smallest), 0, 2);
   const TaggedClip rear_only = ClipOfLevels({5, 5, 5, 0.3, 0, 5}, {0, 3, 4});
-  ExpectLink(FindLink(playing, kAll, rear_only, {}), 0, 3);
-  ExpectLink(FindLink(playing, kAll, rear_only, smallest), 0, 4);
+  ExpectPoint(FindTransitionPoint(playing, kAll, rear_only, {}), 0, 3);
+  ExpectPoint(FindTransitionPoint(playing, kAll, rear_only, smallest), 0, 4);
   // A later frame with a partner in the front half goes before an earlier one with a nearer one in the rear half.
   const TaggedClip later = ClipOfLevels({0, 0.5}, {0, 1});
-  ExpectLink(FindLink(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), smallest), 1, 1);
-  ExpectLink(FindLink(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), {}), 0, 3);
+  ExpectPoint(FindTransitionPoint(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), smallest), 1, 1);
+  ExpectPoint(FindTransitionPoint(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), {}), 0, 3);
 }
 
-TEST(FindLink, NeedsADistanceBelowTheThreshold) {
+TEST(FindTransitionPoint, NeedsADistanceBelowTheThreshold) {
   const TaggedClip playing = ClipOfLevels({0, 0}, {0});
   const TaggedClip next = ClipOfLevels({0.5, 0.5}, {0});
-  SwitchRules rules;
+  MatchRules rules;
   rules.threshold = 0.5;
-  EXPECT_FALSE(FindLink(playing, kAll, next, rules)) << "equal is not below";
+  EXPECT_FALSE(FindTransitionPoint(playing, kAll, next, rules)) << "equal is not below";
   rules.threshold = 0.51;
-  EXPECT_TRUE(FindLink(playing, kAll, next, rules));
+  EXPECT_TRUE(FindTransitionPoint(playing, kAll, next, rules));
 }
 
-TEST(FindLink, NeverTargetsTheLastFrame) {
-  EXPECT_FALSE(FindLink(ClipOfLevels({0}, {0}), kAll, ClipOfLevels({9, 9, 0}, {0, 1, 2}), {}));
+TEST(FindTransitionPoint, NeverTargetsTheLastFrame) {
+  EXPECT_FALSE(FindTransitionPoint(ClipOfLevels({0}, {0}), kAll, ClipOfLevels({9, 9, 0}, {0, 1, 2}), {}));
 }
 
-TEST(FindLink, ComparesInsideTheClassOnlyWhenAsked) {
+TEST(FindTransitionPoint, ComparesInsideTheClassOnlyWhenAsked) {
   const TaggedClip playing = ClipOfLevels({0, 0}, {0});
   TaggedClip next = ClipOfLevels({0, 0, 0}, {0, 1});
   next.tags[0][3] = 1;
-  ExpectLink(FindLink(playing, kAll, next, {}), 0, 0);
-  SwitchRules rules;
+  ExpectPoint(FindTransitionPoint(playing, kAll, next, {}), 0, 0);
+  MatchRules rules;
   rules.within_class = true;
-  ExpectLink(FindLink(playing, kAll, next, rules), 0, 1);
+  ExpectPoint(FindTransitionPoint(playing, kAll, next, rules), 0, 1);
 }
 
 TEST(WaitWindow, EndsWithTheClip) {
@@ -72,7 +72,7 @@ TEST(WaitWindow, EndsWithTheClip) {
   EXPECT_EQ(WaitWindow(clip, 40, 0).last, 40) << "no budget: the frame shown now is the only one";
   EXPECT_EQ(WaitWindow(clip, 49, 1).last, 49);
   const TaggedClip playing = ClipOfLevels({0, 9, 0, 0}, {0, 1, 3});
-  ExpectLink(FindLink(playing, {1, 3}, ClipOfLevels({0, 0}, {0}), {}), 3, 0);
+  ExpectPoint(FindTransitionPoint(playing, {1, 3}, ClipOfLevels({0, 0}, {0}), {}), 3, 0);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(FuzzyGate, AgreesWithMatchesOnEveryPairThatTheRulesCompare) {
   for (int frame = 0; frame < next.FrameCount(); frame += 2) next.tags[frame][3] = next.tags[frame][3] == 0 ? 1 : 0;
   std::vector<int> every_third;
   for (int frame = 0; frame < next.FrameCount(); frame += 3) every_third.push_back(frame);
-  SwitchRules rules;
+  MatchRules rules;
   rules.threshold = 1.5;
   int matching[2] = {}, missing[2] = {};
   for (const bool within_class : {false, true}) {
@@ -45,7 +45,7 @@ TEST(FuzzyGate, AgreesWithMatchesOnEveryPairThatTheRulesCompare) {
 TEST(FuzzyGate, HasNothingToCompareWithoutFramesToEnter) {
   RandomStream dice({.suite_seed = 6, .scenario = "gate", .trial = 1}, "clips");
   const MotionLibrary library = RandomLibrary(dice, {10, 10});
-  const SwitchRules rules;
+  const MatchRules rules;
   FuzzyGate gate(library.tagged[0], library.tagged[1], {}, rules);
   EXPECT_TRUE(gate.Compare(3).empty());
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/transitions/choices/pair_rows.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/engine/transitions/random_clips.h"
 #include "tests/engine/transitions/test_clips.h"
 
@@ -14,7 +14,7 @@ namespace {
 MotionLibrary LibraryOf(const std::vector<BodyMotion>& clips) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < clips.size(); ++i) names.push_back("clip" + std::to_string(i));
-  return MakeLibrary(names, clips, MakePhysique(PosedBody().Pose(), PosedBody::kStandingHipHeight));
+  return MakeLibrary(names, clips, MakeBodyProportions(PosedBody().Pose(), PosedBody::kStandingHipHeight));
 }
 
 /// Clip 1 is clip 0 from its frame 40 on, danced elsewhere.
@@ -26,15 +26,15 @@ MotionLibrary OneDanceTwice() {
   return LibraryOf({whole, rest});
 }
 
-constexpr SwitchRequest kRequest{.from = 0, .request_frame = 70, .to = 1};
+constexpr TransitionRequest kRequest{.from = 0, .request_frame = 70, .to = 1};
 
 TEST(MatchingChoices, GoOnWithTheSameDanceWhereTheOtherClipHasIt) {
-  for (const auto plan : {PlanFuzzyKovar, PlanPointCloud, PlanMotionMatching, PlanFuzzyWindow}) {
-    const SwitchRecord record = plan(OneDanceTwice(), kRequest, {});
-    ASSERT_EQ(record.legs.size(), 2u);
-    EXPECT_EQ(record.legs[1].first, record.legs[0].last - 40) << record.why;
-    EXPECT_NEAR(record.meetings[0].value, 0, 1e-4) << "set down on the floor by its own lowest frames";
-    const auto taken = std::ranges::find(record.candidates, Fate::kTaken, &Candidate::fate);
+  for (const char* name : {"fuzzy-kovar", "point-cloud", "motion-matching", "fuzzy-window"}) {
+    const TransitionRecord record = FindChoice(name)->plan(OneDanceTwice(), kRequest, {}, {});
+    ASSERT_EQ(record.segments.size(), 2u);
+    EXPECT_EQ(record.segments[1].first, record.segments[0].last - 40) << record.why;
+    EXPECT_NEAR(record.distances[0].value, 0, 1e-4) << "set down on the floor by its own lowest frames";
+    const auto taken = std::ranges::find(record.candidates, CandidateOutcome::kTaken, &Candidate::outcome);
     ASSERT_NE(taken, record.candidates.end());
     for (const Candidate& other : record.candidates) {
       EXPECT_LE(*taken->cost, other.cost.value_or(*taken->cost));
@@ -45,15 +45,14 @@ TEST(MatchingChoices, GoOnWithTheSameDanceWhereTheOtherClipHasIt) {
 }
 
 TEST(MatchingChoices, LookAtEveryPairOfBudgetAndLeastPlay) {
-  SwitchRules rules;
-  rules.least_play_s = 2;
-  const PairRange range = AllowedPairs(OneDanceTwice(), kRequest, rules);
-  EXPECT_EQ(range.leave.first, 70);
-  EXPECT_EQ(range.leave.last, 100);
-  EXPECT_EQ(range.enter_end, 160 - 60);
-  EXPECT_EQ(PlanPointCloud(OneDanceTwice(), kRequest, rules).pairs_seen, 31 * 100);
-  rules.least_play_s = 60;
-  EXPECT_EQ(AllowedPairs(OneDanceTwice(), kRequest, rules).enter_end, 80) << "the front half may always be entered";
+  const AllowedFrames allowed = AllowedAnyFrames(OneDanceTwice(), kRequest, 2);
+  EXPECT_EQ(allowed.leave.front(), 70);
+  EXPECT_EQ(allowed.leave.back(), 100);
+  EXPECT_EQ(allowed.enter.back(), 160 - 60 - 1);
+  EXPECT_EQ(allowed.Pairs(), 31 * 100);
+  EXPECT_EQ(PlanPointCloud(OneDanceTwice(), kRequest, {}, {.least_play_s = 2}).pairs_seen, 31 * 100);
+  EXPECT_EQ(AllowedAnyFrames(OneDanceTwice(), kRequest, 60).enter.size(), 80u)
+      << "the front half may always be entered";
 }
 
 TEST(FuzzyGate, LetsOnlyMatchingPairsThrough) {
@@ -61,22 +60,22 @@ TEST(FuzzyGate, LetsOnlyMatchingPairsThrough) {
   BodyMotion raised = StandingClip(300, 170);
   raised.poses[150] = StandingClip(1, 0).poses[0];
   const MotionLibrary library = LibraryOf({StandingClip(100, 0), raised});
-  for (const auto plan : {PlanFuzzyKovar, PlanFuzzyWindow}) {
-    const SwitchRecord record = plan(library, {.from = 0, .request_frame = 10, .to = 1}, {});
-    ASSERT_EQ(record.legs.size(), 2u) << record.why;
-    EXPECT_EQ(record.legs[1].first, 150);
+  for (const char* name : {"fuzzy-kovar", "fuzzy-window"}) {
+    const TransitionRecord record = FindChoice(name)->plan(library, {.from = 0, .request_frame = 10, .to = 1}, {}, {});
+    ASSERT_EQ(record.segments.size(), 2u) << record.why;
+    EXPECT_EQ(record.segments[1].first, 150);
     EXPECT_EQ(record.pairs_matched, 31);
     EXPECT_EQ(record.pairs_seen, 31 * 270);
   }
-  const SwitchRecord ungated = PlanPointCloud(library, {.from = 0, .request_frame = 10, .to = 1}, {});
+  const TransitionRecord ungated = PlanPointCloud(library, {.from = 0, .request_frame = 10, .to = 1}, {});
   EXPECT_EQ(ungated.pairs_matched, ungated.pairs_seen);
 }
 
 TEST(FuzzyGate, GoesThroughAnInBetweenWhenNothingPasses) {
   const MotionLibrary library = LibraryOf({StandingClip(100, 0), StandingClip(100, 170)});
-  for (const auto plan : {PlanFuzzyKovar, PlanFuzzyWindow}) {
-    const SwitchRecord record = plan(library, {.from = 0, .request_frame = 10, .to = 1}, {});
-    EXPECT_EQ(record.legs.size(), 3u);
+  for (const char* name : {"fuzzy-kovar", "fuzzy-window"}) {
+    const TransitionRecord record = FindChoice(name)->plan(library, {.from = 0, .request_frame = 10, .to = 1}, {}, {});
+    EXPECT_EQ(record.segments.size(), 3u);
     EXPECT_NE(record.why.find("no match among 2170 pairs of frames: the nearest has d = "), std::string::npos)
         << record.why;
   }
@@ -84,13 +83,13 @@ TEST(FuzzyGate, GoesThroughAnInBetweenWhenNothingPasses) {
 
 TEST(FuzzyGate, ComparesInsideTheClassOnlyWhenAsked) {
   const MotionLibrary library = LibraryOf({StandingClip(100, 0), StandingClip(100, 170)});
-  SwitchRules rules;
+  MatchRules rules;
   rules.threshold = 6;
-  const SwitchRequest request{.from = 0, .request_frame = 10, .to = 1};
-  EXPECT_EQ(PlanFuzzyKovar(library, request, rules).legs.size(), 2u);
+  const TransitionRequest request{.from = 0, .request_frame = 10, .to = 1};
+  EXPECT_EQ(PlanFuzzyKovar(library, request, rules).segments.size(), 2u);
   rules.within_class = true;
-  const SwitchRecord record = PlanFuzzyKovar(library, request, rules);
-  EXPECT_EQ(record.legs.size(), 3u);
+  const TransitionRecord record = PlanFuzzyKovar(library, request, rules);
+  EXPECT_EQ(record.segments.size(), 3u);
   EXPECT_NE(record.why.find("no two of 2170 pairs of frames have the same tags"), std::string::npos) << record.why;
 }
 
@@ -103,8 +102,8 @@ TEST(MotionMatching, TellsArmsThatRiseFromArmsThatSink) {
     both.poses.push_back(StandingClip(1, std::min(degrees, 178.0)).poses[0]);
   }
   const MotionLibrary library = LibraryOf({rising, both});
-  const SwitchRequest request{.from = 0, .request_frame = 30, .to = 1, .budget_s = 0};
-  EXPECT_EQ(PlanMotionMatching(library, request, {}).legs[1].first, 150 + 30);
+  const TransitionRequest request{.from = 0, .request_frame = 30, .to = 1, .budget_s = 0};
+  EXPECT_EQ(PlanMotionMatching(library, request, {}).segments[1].first, 150 + 30);
 }
 
 }  // namespace

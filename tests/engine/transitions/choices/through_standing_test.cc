@@ -12,13 +12,13 @@ namespace {
 
 MotionLibrary Waving() {
   const std::vector<BodyMotion> clips = {WavingClip(60), WavingClip(80, 3)};
-  return MakeLibrary({"wave", "greet"}, clips, MakePhysique(PosedBody().Pose(), PosedBody::kStandingHipHeight));
+  return MakeLibrary({"wave", "greet"}, clips, MakeBodyProportions(PosedBody().Pose(), PosedBody::kStandingHipHeight));
 }
 
 TEST(StandingPose, StandsUprightOnTheFloorWithHangingArms) {
-  const Physique physique = Waving().physique;
-  const BodyPose pose = StandingPose(physique);
-  const PoseFeatures features = ComputeFeatures(pose, physique.standing_hip_height);
+  const BodyProportions proportions = Waving().proportions;
+  const BodyPose pose = StandingPose(proportions);
+  const PoseFeatures features = ComputeFeatures(pose, proportions.standing_hip_height);
   EXPECT_NEAR(features[Feature::kRH], 0, 1e-6);
   EXPECT_NEAR(features[Feature::kLH], 0, 1e-6);
   EXPECT_NEAR(features[Feature::kPosture], 80, 1e-6);
@@ -26,34 +26,34 @@ TEST(StandingPose, StandsUprightOnTheFloorWithHangingArms) {
   EXPECT_NEAR(features[Feature::kLFK], 180, 1e-6);
   EXPECT_NEAR(Heading(pose), 0, 1e-12);
   for (const Bone& bone : AllBones()) {
-    EXPECT_NEAR(BoneLength(pose, bone), physique.limb_lengths[Index(bone.child)], 1e-12) << RoleName(bone.child);
+    EXPECT_NEAR(BoneLength(pose, bone), proportions.limb_lengths[Index(bone.child)], 1e-12) << RoleName(bone.child);
   }
 }
 
 TEST(ThroughStanding, LeavesAtOnceStandsOnTheWayAndEntersAtTheFirstFrame) {
   const MotionLibrary library = Waving();
-  const SwitchRecord record = PlanThroughStanding(library, {.from = 0, .request_frame = 20, .to = 1}, {});
-  ASSERT_EQ(record.legs.size(), 3u);
-  const std::vector<BodyPose>& own = record.legs[1].own;
-  EXPECT_EQ(record.legs[0].last, 20);
-  EXPECT_EQ(record.legs[2].first, 0);
+  const TransitionRecord record = PlanThroughStanding(library, {.from = 0, .request_frame = 20, .to = 1}, {});
+  ASSERT_EQ(record.segments.size(), 3u);
+  const std::vector<BodyPose>& own = record.segments[1].own;
+  EXPECT_EQ(record.segments[0].last, 20);
+  EXPECT_EQ(record.segments[2].first, 0);
   EXPECT_NEAR(PoseGap(own.front(), library.motions[0].poses[20]), 0, 1e-9);
   EXPECT_NEAR(PoseGap(own.back(), library.motions[1].poses[0]), 0, 1e-9);
   double nearest = 1;
-  for (const BodyPose& pose : own) nearest = std::min(nearest, PoseGap(pose, StandingPose(library.physique)));
+  for (const BodyPose& pose : own) nearest = std::min(nearest, PoseGap(pose, StandingPose(library.proportions)));
   EXPECT_NEAR(nearest, 0, 1e-9);
   EXPECT_NEAR(record.wait_s, (static_cast<double>(own.size()) - 1) / 30, 1e-12);
 }
 
 TEST(Unbroken, MeetsItselfAtTheRequest) {
   const MotionLibrary library = Waving();
-  const SwitchRecord record = PlanUnbroken(library, {.from = 0, .request_frame = 20, .to = 1}, {});
-  ASSERT_EQ(record.legs.size(), 2u);
-  EXPECT_EQ(record.legs[1].clip, 0);
-  EXPECT_EQ(record.legs[0].last, record.legs[1].first);
-  EXPECT_EQ(record.meetings[0].value, 0);
+  const TransitionRecord record = PlanUnbroken(library, {.from = 0, .request_frame = 20, .to = 1}, {});
+  ASSERT_EQ(record.segments.size(), 2u);
+  EXPECT_EQ(record.segments[1].clip, 0);
+  EXPECT_EQ(record.segments[0].last, record.segments[1].first);
+  EXPECT_EQ(record.distances[0].value, 0);
   EXPECT_EQ(record.wait_s, 0);
-  EXPECT_TRUE(PlanUnbroken(library, {.from = 0, .request_frame = 59, .to = 1}, {}).legs.empty());
+  EXPECT_TRUE(PlanUnbroken(library, {.from = 0, .request_frame = 59, .to = 1}, {}).segments.empty());
 }
 
 }  // namespace

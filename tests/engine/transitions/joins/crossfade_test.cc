@@ -11,10 +11,12 @@ namespace {
 
 double ArmDegrees(const BodyPose& pose) { return ComputeFeatures(pose, PosedBody::kStandingHipHeight)[Feature::kRH]; }
 
-/// Arms hang at the seam; what the old motion would have shown next is given.
+/// Arms hang at the transition point; what the old motion would have shown next is given.
 Blend FadeOutOf(const std::vector<BodyPose>& continuation, const BodyPose& target) {
   const BodyPose hanging = StandingClip(1, 0).poses[0];
-  return Crossfade({.shown = {hanging, hanging}, .target = {target, target}, .continuation = continuation},
+  return Crossfade({.shown = {hanging, hanging},
+                    .target = {target, target},
+                    .continuation = [&](std::size_t) { return continuation; }},
                    {.blend_s = 1});
 }
 

@@ -12,19 +12,24 @@ namespace etude {
 namespace {
 
 /// What a law makes of an offset of `x` metres that changes by `v` per second.
-double Left(DecayLaw law, double x, double v, double seconds, const JoinSettings& settings = {}) {
-  return law({{x, 0, 0}, {v, 0, 0}}, seconds, settings).x;
+double Left(const DecayLaw& law, double x, double v, double seconds) { return law({{x, 0, 0}, {v, 0, 0}}, seconds).x; }
+
+DecayLaw SpringLaw() {
+  return [](const Offset& offset, double seconds) { return SpringDecay(offset, seconds); };
+}
+DecayLaw QuinticLaw(const QuinticOptions& options = {}) {
+  return [options](const Offset& offset, double seconds) { return QuinticDecay(offset, seconds, options); };
 }
 
-double SpeedAtStart(DecayLaw law, double x, double v) {
+double SpeedAtStart(const DecayLaw& law, double x, double v) {
   constexpr double kStep = 1e-6;
   return (Left(law, x, v, kStep) - Left(law, x, v, 0)) / kStep;
 }
 
-TEST(Inertialise, ShowsTheOldPoseAtTheSeamAndHalfTheOffsetAfterItsHalfLife) {
+TEST(Inertialise, ShowsTheOldPoseAtTheTransitionPointAndHalfTheOffsetAfterItsHalfLife) {
   const BodyPose hanging = StandingClip(1, 0).poses[0], raised = StandingClip(1, 60).poses[0];
-  const Inertialiser offsets({.shown = {hanging, hanging}, .target = {raised, raised}, .continuation = {}}, SpringDecay,
-                             {.half_life_s = 0.1});
+  const Inertialiser offsets({.shown = {hanging, hanging}, .target = {raised, raised}, .continuation = {}},
+                             SpringLaw());
   ExpectSamePose(offsets.Apply(raised, 0), hanging, 1e-12);
   const auto arm_degrees = [&](double seconds) {
     return ComputeFeatures(offsets.Apply(raised, seconds), PosedBody::kStandingHipHeight)[Feature::kRH];
@@ -35,28 +40,28 @@ TEST(Inertialise, ShowsTheOldPoseAtTheSeamAndHalfTheOffsetAfterItsHalfLife) {
 }
 
 TEST(Inertialise, StartsInTheShownPoseWithTheShownSpeed) {
-  for (DecayLaw law : {SpringDecay, QuinticDecay}) {
+  for (const DecayLaw& law : {SpringLaw(), QuinticLaw()}) {
     EXPECT_EQ(Left(law, 0.3, -0.5, 0), 0.3);
     EXPECT_NEAR(SpeedAtStart(law, 0.3, -0.5), -0.5, 1e-3);
   }
-  EXPECT_NEAR(SpeedAtStart(SpringDecay, 0.3, 0.5), 0.5, 1e-3) << "the spring lets it grow on";
-  EXPECT_NEAR(SpeedAtStart(QuinticDecay, 0.3, 0.5), 0, 1e-3) << "the quintic does not";
+  EXPECT_NEAR(SpeedAtStart(SpringLaw(), 0.3, 0.5), 0.5, 1e-3) << "the spring lets it grow on";
+  EXPECT_NEAR(SpeedAtStart(QuinticLaw(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
 }
 
 TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
-  const JoinSettings settings{.blend_s = 0.4};
+  const DecayLaw law = QuinticLaw({.blend_s = 0.4});
   constexpr double kStep = 1e-4;
-  EXPECT_EQ(Left(QuinticDecay, 0.3, -0.2, 0.4, settings), 0);
+  EXPECT_EQ(Left(law, 0.3, -0.2, 0.4), 0);
   // A root of third order: speed and acceleration are zero, too.
-  EXPECT_NEAR(Left(QuinticDecay, 0.3, -0.2, 0.4 - kStep, settings), 0, 1e-9);
-  EXPECT_GT(Left(QuinticDecay, 0.3, -0.2, 0.35, settings), 0);
+  EXPECT_NEAR(Left(law, 0.3, -0.2, 0.4 - kStep), 0, 1e-9);
+  EXPECT_GT(Left(law, 0.3, -0.2, 0.35), 0);
 }
 
 TEST(QuinticDecay, NeverOvershootsNorGrows) {
   for (double velocity : {0.0, -0.1, -1.0, -5.0, -50.0}) {
     double last = 0.3;
     for (int i = 1; i <= 400; ++i) {
-      const double left = Left(QuinticDecay, 0.3, velocity, 0.001 * i);
+      const double left = Left(QuinticLaw(), 0.3, velocity, 0.001 * i);
       EXPECT_GE(left, -1e-12) << velocity;
       EXPECT_LE(left, last + 1e-12) << velocity;
       last = left;
@@ -66,8 +71,8 @@ TEST(QuinticDecay, NeverOvershootsNorGrows) {
 }
 
 TEST(QuinticDecay, IsNothingWithoutOffsetOrWithoutTime) {
-  EXPECT_EQ(Left(QuinticDecay, 0, -1, 0.1), 0);
-  EXPECT_EQ(Left(QuinticDecay, 0.3, 0, 0.03, {.blend_s = 0}), 0);
+  EXPECT_EQ(Left(QuinticLaw(), 0, -1, 0.1), 0);
+  EXPECT_EQ(Left(QuinticLaw({.blend_s = 0}), 0.3, 0, 0.03), 0);
 }
 
 }  // namespace

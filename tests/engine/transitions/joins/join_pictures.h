@@ -19,7 +19,7 @@ inline double JumpAt(const BodyMotion& motion, int frame) {
 }
 
 /// Clip 0 up to frame `left`, then clip 1 after frame `entered`.
-inline std::vector<Leg> Legs(int left, int entered, const BodyMotion& next) {
+inline std::vector<Segment> Segments(int left, int entered, const BodyMotion& next) {
   return {{.clip = 0, .first = 0, .last = left, .own = {}},
           {.clip = 1, .first = entered, .last = static_cast<int>(next.poses.size()) - 1, .own = {}}};
 }

@@ -14,7 +14,9 @@ const std::vector<BodyMotion>& Strangers() {
   return kClips;
 }
 
-BodyMotion Spliced(const Join& join) { return SpliceLegs(Strangers(), Legs(19, 5, Strangers()[1]), join).motion; }
+BodyMotion Spliced(const Join& join) {
+  return SpliceSegments(Strangers(), Segments(19, 5, Strangers()[1]), join).motion;
+}
 
 BodyMotion CutTogether() { return Spliced(AllJoins().front()); }
 
@@ -39,7 +41,7 @@ TEST_P(EverySmoothJoin, LeavesWhatWasShownAndEndsInTheNewMotion) {
 
 TEST_P(EverySmoothJoin, TurnsOppositeLimbsAroundWithoutBreakingThem) {
   const std::vector<BodyMotion> clips = {StandingClip(10, 0), StandingClip(90, 180)};
-  const BodyMotion motion = SpliceLegs(clips, Legs(5, 0, clips[1]), TheJoin()).motion;
+  const BodyMotion motion = SpliceSegments(clips, Segments(5, 0, clips[1]), TheJoin()).motion;
   ExpectSameLimbs(motion, clips[0].poses[0]);
   ExpectSamePose(motion.poses.back(), clips[1].poses.back(), 1e-6);
   const double arm = glm::distance(motion.poses[6][Role::kLeftHand], motion.poses[5][Role::kLeftHand]);
@@ -60,7 +62,8 @@ TEST(Joins, AreAllTestedHere) { EXPECT_EQ(AllJoins().size(), 1 + 3u); }
 TEST(Joins, WithABlendEndExactlyInTheNewMotionAfterIt) {
   const BodyMotion cut = CutTogether();
   for (const char* name : {"crossfade", "inertialised-quintic"}) {
-    const Splice splice = SpliceLegs(Strangers(), Legs(19, 5, Strangers()[1]), *FindJoin(name), {.blend_s = 0.5});
+    const Splice splice =
+        SpliceSegments(Strangers(), Segments(19, 5, Strangers()[1]), *FindJoin(name), std::vector{0.5});
     ExpectSamePose(splice.motion.poses[19 + 15], cut.poses[19 + 15], 1e-9);
     EXPECT_GT(glm::distance(splice.motion.poses[19 + 8][Role::kLeftHand], cut.poses[19 + 8][Role::kLeftHand]), 0.01)
         << name << ": half a second, no sooner";

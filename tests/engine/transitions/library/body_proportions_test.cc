@@ -14,7 +14,7 @@ TEST(PerformedBy, GivesEveryClipTheCharactersLimbsAndHeight) {
   for (BodyPose& pose : small.poses) {
     for (glm::dvec3& joint : pose.joints) joint = 0.6 * joint + glm::dvec3(0, 0.3, 0);
   }
-  const Physique character = MakePhysique(StandingClip(1, 0).poses[0], 0.9);
+  const BodyProportions character = MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9);
   const BodyMotion performed = PerformedBy(character, small);
   const BodyMotion full_size = PerformedBy(character, WavingClip(40));
   EXPECT_NEAR(StandingHipHeight(performed.poses[0]), 0.9, 1e-12);

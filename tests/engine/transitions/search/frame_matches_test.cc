@@ -23,8 +23,8 @@ struct Library {
     grades.push_back(std::move(clip));
   }
   /// Either all frames take part, or `frames`.
-  std::vector<PartnerClip> Clips(bool all) const {
-    std::vector<PartnerClip> clips;
+  std::vector<MatchClip> Clips(bool all) const {
+    std::vector<MatchClip> clips;
     for (std::size_t c = 0; c < grades.size(); ++c) {
       clips.push_back({.grades = grades[c], .frames = std::nullopt, .tags = tags[c]});
       if (!all) clips.back().frames = frames[c];
@@ -34,17 +34,17 @@ struct Library {
 };
 
 /// The second implementation: every frame with every frame.
-std::vector<FramePartners> LoopOverAll(const PartnerClip& from, const PartnerClip& to, const PartnerRules& rules) {
-  const auto frames_of = [](const PartnerClip& clip) {
+std::vector<FrameMatches> LoopOverAll(const MatchClip& from, const MatchClip& to, const MatchRules& rules) {
+  const auto frames_of = [](const MatchClip& clip) {
     std::vector<int> frames;
     for (int f = 0; f < static_cast<int>(clip.grades.size()); ++f) {
       if (!clip.frames || std::ranges::binary_search(*clip.frames, f)) frames.push_back(f);
     }
     return frames;
   };
-  std::vector<FramePartners> found;
+  std::vector<FrameMatches> found;
   for (int a : frames_of(from)) {
-    std::optional<FramePartners> partners;
+    std::optional<FrameMatches> partners;
     for (int b : frames_of(to)) {
       if (b + 1 == static_cast<int>(to.grades.size())) continue;
       if (rules.within_class && from.tags[a] != to.tags[b]) continue;
@@ -59,15 +59,15 @@ std::vector<FramePartners> LoopOverAll(const PartnerClip& from, const PartnerCli
 }
 
 /// Compares every pair of clips; returns how many frames had partners.
-std::size_t ExpectSamePartners(std::span<const PartnerClip> clips, const PartnerRules& rules) {
-  const PartnerTable table = FindPartners(clips, rules);
+std::size_t ExpectSameMatches(std::span<const MatchClip> clips, const MatchRules& rules) {
+  const MatchTable table = FindMatches(clips, rules);
   EXPECT_EQ(table.ClipCount(), static_cast<int>(clips.size()));
   std::size_t compared = 0;
   for (int a = 0; a < table.ClipCount(); ++a) {
     for (int b = 0; b < table.ClipCount(); ++b) {
       SCOPED_TRACE(std::to_string(a) + " to " + std::to_string(b));
       const auto found = table.Of(a, b);
-      const auto expected = a == b ? std::vector<FramePartners>{} : LoopOverAll(clips[a], clips[b], rules);
+      const auto expected = a == b ? std::vector<FrameMatches>{} : LoopOverAll(clips[a], clips[b], rules);
       EXPECT_EQ(found.size(), expected.size());
       for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
         EXPECT_EQ(found[i].frame, expected[i].frame);
@@ -95,55 +95,55 @@ Library UnevenLibrary() {
   return library;
 }
 
-TEST(FindPartners, AnswersAsALoopDoesForClipsOfAnyLength) {
+TEST(FindMatches, AnswersAsALoopDoesForClipsOfAnyLength) {
   const Library library = UnevenLibrary();
   for (double threshold : {kPaperThreshold, 1.5}) {
     for (bool all : {true, false}) {
       for (bool within_class : {false, true}) {
         SCOPED_TRACE(testing::Message() << threshold << (all ? " all" : " some") << (within_class ? " in class" : ""));
-        const PartnerRules rules{.threshold = threshold, .within_class = within_class};
-        EXPECT_GT(ExpectSamePartners(library.Clips(all), rules), 100u);
+        const MatchRules rules{.threshold = threshold, .within_class = within_class};
+        EXPECT_GT(ExpectSameMatches(library.Clips(all), rules), 100u);
       }
     }
   }
 }
 
-TEST(FindPartners, AnswersAsALoopDoesForAnyThresholdAndWeights) {
+TEST(FindMatches, AnswersAsALoopDoesForAnyThresholdAndWeights) {
   const Library library = UnevenLibrary();
   FeatureWeights two_features{};
   two_features[0] = two_features[7] = 4;
   for (double threshold : {1e-160, 0.02, 1e9, std::numeric_limits<double>::infinity()}) {
     SCOPED_TRACE(threshold);
-    ExpectSamePartners(library.Clips(false), {.threshold = threshold});
-    EXPECT_GT(ExpectSamePartners(library.Clips(false), {.weights = two_features, .threshold = threshold}), 10u);
+    ExpectSameMatches(library.Clips(false), {.threshold = threshold});
+    EXPECT_GT(ExpectSameMatches(library.Clips(false), {.weights = two_features, .threshold = threshold}), 10u);
   }
 }
 
-TEST(FindPartners, HasNoneBelowAThresholdThatIsNone) {
+TEST(FindMatches, HasNoneBelowAThresholdThatIsNone) {
   const Library library = UnevenLibrary();
   for (double threshold : {0.0, -1.0}) {
-    EXPECT_EQ(ExpectSamePartners(library.Clips(true), {.threshold = threshold}), 0u);
+    EXPECT_EQ(ExpectSameMatches(library.Clips(true), {.threshold = threshold}), 0u);
   }
 }
 
-TEST(FindPartners, OfALibraryOfOneClipOrNoneIsEmpty) {
+TEST(FindMatches, OfALibraryOfOneClipOrNoneIsEmpty) {
   RandomStream dice = SearchDice("one");
   Library library;
-  EXPECT_EQ(FindPartners(library.Clips(true)).ClipCount(), 0);
+  EXPECT_EQ(FindMatches(library.Clips(true)).ClipCount(), 0);
   library.Add(WanderingFrames(100, dice), 1);
-  EXPECT_EQ(ExpectSamePartners(library.Clips(true), {}), 0u);
+  EXPECT_EQ(ExpectSameMatches(library.Clips(true), {}), 0u);
 }
 
-TEST(FindPartners, ComparesFewOfAllPairs) {
+TEST(FindMatches, ComparesFewOfAllPairs) {
   RandomStream dice = SearchDice("few");
   Library library;
   for (int i = 0; i < 6; ++i) library.Add(WanderingFrames(400, dice), 1);
   SearchWork work;
-  FindPartners(library.Clips(true), {}, &work);
+  FindMatches(library.Clips(true), {}, &work);
   EXPECT_GT(work.boxes, 0);
   EXPECT_LT(work.distances, 6 * 5 * 400 * 400 / 10);
   SearchWork everything;
-  FindPartners(library.Clips(true), {.threshold = 1e9}, &everything);
+  FindMatches(library.Clips(true), {.threshold = 1e9}, &everything);
   EXPECT_GT(everything.distances, work.distances) << "the control";
 }
 

@@ -14,7 +14,8 @@ using ::testing::IsEmpty;
 
 BridgeTags SomeTags() {
   const BodyMotion clips[] = {WavingClip(40), WavingClip(30, 1.1)};
-  const MotionLibrary library = MakeLibrary({"wave", "other"}, clips, MakePhysique(StandingClip(1, 0).poses[0], 0.9));
+  const MotionLibrary library =
+      MakeLibrary({"wave", "other"}, clips, MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9));
   const std::vector<std::string> sources = {"mocap/wave.bvh", "mocap/other.glb#1"};
   BridgeTags tags = CollectTags(library, sources, {}, {}, {});
   tags.clips[1].name = "Ärm & <leg> \"2\"";

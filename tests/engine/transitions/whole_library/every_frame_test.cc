@@ -18,7 +18,7 @@ TEST(InBetween, LeadsEverywhereUnderAnyThreshold) {
   const MotionLibrary library = BuiltinLibrary();
   const double bound = 1 + LongestInBetween(library.in_betweens.tween, kJudgedRateHz);
   for (double threshold : {0.0, 0.1, 6.0}) {
-    SwitchRules rules;
+    MatchRules rules;
     rules.threshold = threshold;
     const Connections connections = TryAll(library, 20, rules);
     EXPECT_EQ(connections.found, connections.tried) << threshold;

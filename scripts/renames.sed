@@ -1,0 +1,14 @@
+# Words that were renamed: turns the text of an older result folder into what the program writes now (`sed -E -f`).
+# Transitions: recordings' facts, series, digests and reasons.
+s/(\\?")seam_frame(s?\\?":)/\1transition_frame\2/g
+s/(\\?")switches(\\?": ?\[)/\1transition_points\2/g
+s/"digest_switches":/"digest_transition":/g
+s/(\\?")meeting(\\?":)/\1point\2/g
+s/(\\?")fate(\\?":)/\1outcome\2/g
+s/\bmeeting_partials\b/point_partials/g
+s/\bcandidate_meeting\b/candidate_point/g
+s/\bcandidate_fate\b/candidate_outcome/g
+s/goes on: no switch, for comparison/goes on: no transition, for comparison/g
+s/\ba switch needs two clips/a transition needs two clips/g
+s/\ba switch is judged over at least/a transition is judged over at least/g
+s/nothing moves around the seam, or too shortly/nothing moves around the transition, or too shortly/g
