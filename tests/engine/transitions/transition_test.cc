@@ -47,7 +47,7 @@ void ExpectSegmentsChain(const TransitionRecord& record, const MotionLibrary& li
   EXPECT_EQ(last.clip, record.branch == Branch::kUnbroken ? request.from : request.to);
   EXPECT_EQ(last.last, library.tagged[last.clip].FrameCount() - 1);
   for (std::size_t i = 0; i < record.segments.size(); ++i) {
-    const Segment& leg = record.segments[i];
+    const Segment& segment = record.segments[i];
     const int frames = segment.clip == Segment::kOwnFrames ? static_cast<int>(segment.own.size())
                                                            : library.tagged[segment.clip].FrameCount();
     EXPECT_GE(segment.first, 0);

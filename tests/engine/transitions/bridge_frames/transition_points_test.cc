@@ -18,7 +18,7 @@ void ExpectPoint(const std::optional<TransitionPoint>& point, int from, int to) 
 TEST(FindTransitionPoint, TakesTheFirstMatchInPlayingOrderThenTargetOrder) {
   const TaggedClip playing = ClipOfLevels({9, 0, 0, 0}, {0, 1, 2});
   const TaggedClip next = ClipOfLevels({9.5, 5, 0.3, 0, 9.5, 9.5}, {1, 2, 3});
-  const std::optional<TransitionPoint> link = FindTransitionPoint(playing, kAll, next, {});
+  const std::optional<TransitionPoint> point = FindTransitionPoint(playing, kAll, next, {});
   ExpectPoint(point, 1, 2);
   EXPECT_NEAR(point->distance.value, 0.3, 1e-12);
   EXPECT_NEAR(point->distance.partials[0], 0.09, 1e-12);

@@ -14,10 +14,10 @@ namespace {
 /// What a law makes of an offset of `x` metres that changes by `v` per second.
 double Left(const DecayLaw& law, double x, double v, double seconds) { return law({{x, 0, 0}, {v, 0, 0}}, seconds).x; }
 
-DecayLaw Spring() {
+DecayLaw SpringLaw() {
   return [](const Offset& offset, double seconds) { return SpringDecay(offset, seconds); };
 }
-DecayLaw Quintic(const QuinticOptions& options = {}) {
+DecayLaw QuinticLaw(const QuinticOptions& options = {}) {
   return [options](const Offset& offset, double seconds) { return QuinticDecay(offset, seconds, options); };
 }
 
@@ -28,7 +28,8 @@ double SpeedAtStart(const DecayLaw& law, double x, double v) {
 
 TEST(Inertialise, ShowsTheOldPoseAtTheTransitionPointAndHalfTheOffsetAfterItsHalfLife) {
   const BodyPose hanging = StandingClip(1, 0).poses[0], raised = StandingClip(1, 60).poses[0];
-  const Inertialiser offsets({.shown = {hanging, hanging}, .target = {raised, raised}, .continuation = {}}, Spring());
+  const Inertialiser offsets({.shown = {hanging, hanging}, .target = {raised, raised}, .continuation = {}},
+                             SpringLaw());
   ExpectSamePose(offsets.Apply(raised, 0), hanging, 1e-12);
   const auto arm_degrees = [&](double seconds) {
     return ComputeFeatures(offsets.Apply(raised, seconds), PosedBody::kStandingHipHeight)[Feature::kRH];
@@ -39,16 +40,16 @@ TEST(Inertialise, ShowsTheOldPoseAtTheTransitionPointAndHalfTheOffsetAfterItsHal
 }
 
 TEST(Inertialise, StartsInTheShownPoseWithTheShownSpeed) {
-  for (const DecayLaw& law : {Spring(), Quintic()}) {
+  for (const DecayLaw& law : {SpringLaw(), QuinticLaw()}) {
     EXPECT_EQ(Left(law, 0.3, -0.5, 0), 0.3);
     EXPECT_NEAR(SpeedAtStart(law, 0.3, -0.5), -0.5, 1e-3);
   }
-  EXPECT_NEAR(SpeedAtStart(Spring(), 0.3, 0.5), 0.5, 1e-3) << "the spring lets it grow on";
-  EXPECT_NEAR(SpeedAtStart(Quintic(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
+  EXPECT_NEAR(SpeedAtStart(SpringLaw(), 0.3, 0.5), 0.5, 1e-3) << "the spring lets it grow on";
+  EXPECT_NEAR(SpeedAtStart(QuinticLaw(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
 }
 
 TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
-  const DecayLaw law = Quintic({.blend_s = 0.4});
+  const DecayLaw law = QuinticLaw({.blend_s = 0.4});
   constexpr double kStep = 1e-4;
   EXPECT_EQ(Left(law, 0.3, -0.2, 0.4), 0);
   // A root of third order: speed and acceleration are zero, too.
@@ -60,7 +61,7 @@ TEST(QuinticDecay, NeverOvershootsNorGrows) {
   for (double velocity : {0.0, -0.1, -1.0, -5.0, -50.0}) {
     double last = 0.3;
     for (int i = 1; i <= 400; ++i) {
-      const double left = Left(Quintic(), 0.3, velocity, 0.001 * i);
+      const double left = Left(QuinticLaw(), 0.3, velocity, 0.001 * i);
       EXPECT_GE(left, -1e-12) << velocity;
       EXPECT_LE(left, last + 1e-12) << velocity;
       last = left;
@@ -70,8 +71,8 @@ TEST(QuinticDecay, NeverOvershootsNorGrows) {
 }
 
 TEST(QuinticDecay, IsNothingWithoutOffsetOrWithoutTime) {
-  EXPECT_EQ(Left(Quintic(), 0, -1, 0.1), 0);
-  EXPECT_EQ(Left(Quintic({.blend_s = 0}), 0.3, 0, 0.03), 0);
+  EXPECT_EQ(Left(QuinticLaw(), 0, -1, 0.1), 0);
+  EXPECT_EQ(Left(QuinticLaw({.blend_s = 0}), 0.3, 0, 0.03), 0);
 }
 
 }  // namespace

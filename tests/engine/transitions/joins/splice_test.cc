@@ -12,7 +12,7 @@ namespace {
 const Join& Cut() { return *FindJoin("cut"); }
 const Join& Spring() { return *FindJoin("inertialised-spring"); }
 
-TEST(SpliceSegments, ReproducesAClipThatIsSwitchedIntoItself) {
+TEST(SpliceSegments, ReproducesAClipThatIsJoinedToItself) {
   const BodyMotion clip = WavingClip(60);
   BodyMotion elsewhere = clip;
   for (BodyPose& pose : elsewhere.poses) pose = FloorMove{.yaw = 1, .x = 2, .z = 3}.Apply(pose);
