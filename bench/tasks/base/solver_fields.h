@@ -1,20 +1,74 @@
 #pragma once
 
-#include "bench/tasks/base/task.h"
-#include "engine/document/fields.h"
+#include <variant>
+#include <vector>
+
+#include "bench/keys/field_table.h"
+#include "engine/base/names.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 
-/// Reads a method's `solver` (ccd-nullspace by default) and what that solver can be set by (`weights`, `refresh`,
-/// `memory`, …) into `options`. Settings of another solver are a mistake worth telling. Complaints stay in `fields`.
-const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options);
+/// What a method has that names none: ccd-nullspace.
+const IkSolver* DefaultIkSolver();
 
-/// Reads a condition's `stop_at` (practical by default) into the goals of `options`.
+/// The defaults of a solver, but at most so many steps.
+IkOptions IkBudget(int most_steps);
+
+/// The names of the solvers that have `weights` and `refresh`.
+std::vector<std::string> WeighingSolvers();
+
+/// A method's `solver` and what that solver can be set by: `weights`, `refresh`, its own settings.
+template <typename Method>
+std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
+  using Row = Field<Method>;
+  std::vector<Row> rows = {
+      Row::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
+      Row::Name(
+          "weights", [=](Method& m) -> auto& { return (m.*options).weights; }, WeightRuleNames(), FindWeightRule,
+          "How an effector's position counts against its axes.")
+          .With("solver", WeighingSolvers()),
+      Row::Name(
+          "refresh", [=](Method& m) -> auto& { return (m.*options).refresh; }, WeightRefreshNames(), FindWeightRefresh,
+          "When errors are measured anew for weights that follow them.")
+          .With("solver", WeighingSolvers())};
+  for (const IkSolver& each : AllIkSolvers()) {
+    for (const IkSetting& setting : each.settings) {
+      const auto add = [&](auto member) {
+        rows.push_back(Row::Number(
+                           setting.key, [=](Method& m) -> auto& { return (m.*options).tuning.*member; },
+                           {setting.lowest, setting.largest}, setting.meaning)
+                           .With("solver", {each.name}));
+      };
+      std::visit(add, setting.member);
+    }
+  }
+  return rows;
+}
+
+/// A method's `tolerance_deg`; `meaning` says from where.
+template <typename Method>
+Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
+  return Field<Method>::Angle(
+             "tolerance_deg", [=](Method& m) -> auto& { return (m.*options).angle_change_tolerance; }, {0, 360},
+             std::move(meaning))
+      .WhenAbsent("(no bound)");
+}
+
+/// The limit of a solver's steps.
+template <typename Options>
+Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
+  return Field<Options>::Number(
+      "max_sweeps", [=](Options& o) -> auto& { return (o.*options).max_iterations; }, {1, 100'000}, std::move(meaning));
+}
+
+/// Reads `stop_at`, practical by default.
 void ReadIkGoals(Fields& condition, IkOptions& options);
-
-/// What the functions above read, for the reference page.
-std::vector<KeyInfo> IkSolverKeys();
-KeyInfo IkGoalsKey();
+template <typename Options>
+Field<Options> GoalsField(IkOptions Options::*options) {
+  return {{"stop_at", NameKind(std::vector<std::string>{"practical", "tight"}), "practical",
+           "Solvers stop when every effector is within 0.1 cm and 0.1°, or within 10⁻³ cm and 10⁻³°."},
+          [=](Fields& condition, Options& o) { ReadIkGoals(condition, o.*options); }};
+}
 
 }  // namespace etude

@@ -1,9 +1,5 @@
 #include "bench/tasks/base/task.h"
 
-#include <fmt/core.h>
-
-#include "engine/base/names.h"
-
 namespace etude {
 
 std::string_view StatusName(Status status) {
@@ -26,11 +22,6 @@ std::string_view StatusName(Status status) {
       return "skipped";
   }
   return "failed";
-}
-
-std::string KeyInfo::AllowedWhere() const {
-  if (only_with.key.empty()) return allowed;
-  return fmt::format("{}; with `{}: {}`", allowed, only_with.key, Join(only_with.values));
 }
 
 std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/scoring.h"
@@ -74,9 +75,11 @@ class DetectionTask final : public Task {
 };
 
 Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
-  const DetectionOptions options = ReadDetectionOptions(input.condition);
-  auto methods = ReadDetectionMethods(input.condition, input.methods);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  DetectionOptions options;
+  DetectionConditionFields().Read(input.condition, options);
+  DetectionMethod start;
+  start.recogniser = options.recogniser;
+  auto methods = ReadMethods(input, "detection", DetectionMethodFields(), start);
   if (!methods) return tl::unexpected(methods.error());
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*']");
@@ -93,8 +96,8 @@ TaskKind MakeDetectionTaskKind() {
           .default_metrics = metrics,
           .metrics = metrics,
           .make = MakeDetectionTask,
-          .condition_keys = DetectionConditionKeys(),
-          .method_keys = DetectionMethodKeys()};
+          .condition_keys = DetectionConditionFields().Describe(),
+          .method_keys = DetectionMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/pose_distance/blind_spots.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
@@ -73,10 +73,9 @@ class PoseDistanceTask final : public Task {
 };
 
 Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
-  const PairOptions options = ReadPairOptions(input.condition);
-  auto methods = ReadPoseDistanceMethods(input.methods);
-  const FuzzySystem& fuzzy = FuzzyOf(input);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  PairOptions options;
+  PoseDistanceConditionFields().Read(input.condition, options);
+  auto methods = ReadMethods(input, "pose-distance", PoseDistanceMethodFields());
   if (!methods) return tl::unexpected(methods.error());
   DancedClips clips = DanceClips(input.clips);
   if (options.source == PairSource::kFrames && !HoldsTwoDances(clips)) {
@@ -87,7 +86,8 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
   auto training = GatherTrainingClips(clips.motions, clips.identities, clips.physique);
   if (!training) return tl::unexpected(training.error());
   return std::make_unique<PoseDistanceTask>(
-      PairStudy{options, *std::move(methods), std::move(clips), fuzzy, LearntWeights(*std::move(training), fuzzy)});
+      PairStudy{options, *std::move(methods), std::move(clips), input.fuzzy,
+                LearntWeights(*std::move(training), input.fuzzy)});
 }
 
 }  // namespace
@@ -99,8 +99,8 @@ TaskKind MakePoseDistanceTaskKind() {
                               "close_f1"},
           .metrics = PoseDistanceMetrics(),
           .make = MakePoseDistanceTask,
-          .condition_keys = PoseDistanceConditionKeys(),
-          .method_keys = PoseDistanceMethodKeys()};
+          .condition_keys = PoseDistanceConditionFields().Describe(),
+          .method_keys = PoseDistanceMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/search/exchange.h"
 #include "bench/tasks/search/find.h"
 #include "bench/tasks/search/library.h"
@@ -104,9 +104,11 @@ Result<void> CheckClips(const ClipLibrary& clips, const Place& place) {
 }
 
 Result<std::unique_ptr<Task>> MakeSearchTask(TaskInput& input) {
-  SearchStudy study{.options = ReadSearchOptions(input.condition), .methods = {}, .fuzzy = FuzzyOf(input)};
-  auto methods = ReadSearchMethods(input.methods, study.options);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  SearchStudy study{.options = {}, .methods = {}, .fuzzy = input.fuzzy};
+  SearchConditionFields().Read(input.condition, study.options);
+  SearchMethod start;
+  start.question = study.options.question;
+  auto methods = ReadMethods(input, "search", SearchMethodFields(), start);
   if (!methods) return tl::unexpected(methods.error());
   if (auto usable = CheckClips(input.clips, input.condition.node().place); !usable) {
     return tl::unexpected(usable.error());
@@ -123,8 +125,8 @@ TaskKind MakeSearchTaskKind() {
           .default_metrics = {"distances_per_query", "search_agreement", "boxes_per_query", "matches_per_query"},
           .metrics = {"search_agreement", "matches_per_query", "distances_per_query", "boxes_per_query"},
           .make = MakeSearchTask,
-          .condition_keys = SearchConditionKeys(),
-          .method_keys = SearchMethodKeys()};
+          .condition_keys = SearchConditionFields().Describe(),
+          .method_keys = SearchMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/tracking/exchange.h"
 #include "bench/tasks/tracking/follow.h"
 #include "bench/tasks/tracking/scoring.h"
@@ -16,7 +17,6 @@ namespace {
 /// Everything that the worlds of one condition have in common.
 struct TrackingStudy {
   TrackingOptions options;
-  IkOptions common;
   std::vector<TrackingMethod> methods;
   ClipLibrary clips;
 };
@@ -69,7 +69,7 @@ class TrackingTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Exhibit> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.common)); }
+  Result<Exhibit> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.options.common)); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return TrackingValueOfFailure(metric);
@@ -85,10 +85,10 @@ class TrackingTask : public Task {
 
 Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
   TrackingStudy study;
-  study.options = ReadTrackingOptions(input.condition);
-  study.common = ReadFrameBudget(input.condition);
-  auto methods = ReadTrackingMethods(input.methods, study.common);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
+  TrackingConditionFields().Read(input.condition, study.options);
+  TrackingMethod start;
+  start.options = study.options.common;
+  auto methods = ReadMethods(input, "tracking", TrackingMethodFields(), start);
   if (!methods) return tl::unexpected(methods.error());
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a tracking scenario needs clips, e.g. clips: ['builtin:boxing']");
@@ -109,8 +109,8 @@ TaskKind MakeTrackingTaskKind() {
                       "hidden_angle_error_deg", "mpjpe_mm", "angle_jerk_ratio", "iterations_per_frame",
                       "iterations_per_frame_p95"},
           .make = MakeTrackingTask,
-          .condition_keys = TrackingConditionKeys(),
-          .method_keys = TrackingMethodKeys()};
+          .condition_keys = TrackingConditionFields().Describe(),
+          .method_keys = TrackingMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -1,109 +1,125 @@
 #include "bench/tasks/transition/options.h"
 
-#include <fmt/ranges.h>
-
 #include "bench/tasks/base/fuzzy_key.h"
-#include "bench/tasks/base/misplaced_keys.h"
-#include "bench/tasks/base/setting_fields.h"
-#include "bench/tasks/transition/stage_options.h"
 
 namespace etude {
 namespace {
 
-// Paper A's first: it is the default.
-std::vector<std::string> PickNames() { return {"first", "smallest"}; }
+// Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
+constexpr Range kThresholds{0, 6};
+constexpr Range kWaits_s{0, 60};
 
-/// Not the Join of engine/base/names, since that is a struct here.
-std::string ListOf(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
-
-void ReadLimits(Fields& fields, CommonLimits& limits) {
-  // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
-  limits.threshold = fields.Number("threshold", limits.threshold, {0, 6});
-  limits.wait_s = fields.Number("wait_s", limits.wait_s, {0, 60});
+std::vector<std::string> FuzzyChoices() {
+  std::vector<std::string> names;
+  for (const Choice& choice : AllChoices()) {
+    if (choice.uses_fuzzy) names.push_back(choice.name);
+  }
+  return names;
 }
 
-Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaults) {
-  Fields fields(node, "a method of task transition");
-  TransitionMethod method;
-  method.name = fields.RequiredText("name");
-  const Choice& choice = *FindChoice(fields.Choice("choice", ChoiceNames(), ChoiceNames().front()));
-  const Join& join = *FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
-  SwitchRules& rules = method.way.rules;
-  method.weights = FindWeightSource(fields.Choice("weights", WeightSourceNames(), WeightSourceNames().front()));
-  CommonLimits limits = defaults;
-  ReadLimits(fields, limits);
-  method.wait_s = limits.wait_s;
-  rules.threshold = limits.threshold;
-  rules.pick = fields.Choice("pick", PickNames(), PickNames().front()) == "smallest" ? Pick::kSmallest : Pick::kFirst;
-  rules.within_class = fields.Boolean("within_class", false);
-  ReadSettings<SwitchRules>(fields, choice.settings, rules);
-  ReadSettings<JoinSettings>(fields, join.settings, method.way.join_settings);
-  RefuseMisplacedKeys(fields, TransitionMethodKeys(), "choice", choice.name);
-  RefuseMisplacedKeys(fields, TransitionMethodKeys(), "join", join.name);
-  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
-  method.way.choice = &choice;
-  method.way.join = &join;
-  return method;
+/// What the choices and joins can be set by.
+std::vector<Field<TransitionMethod>> SettingFields() {
+  using Row = Field<TransitionMethod>;
+  std::vector<Row> rows;
+  for (const Choice& choice : AllChoices()) {
+    for (const RuleSetting& setting : choice.settings) {
+      const auto member = [=](TransitionMethod& m) -> auto& { return m.way.rules.*setting.member; };
+      rows.push_back(Row::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
+                         .With("choice", {choice.name}));
+    }
+  }
+  for (const Join& join : AllJoins()) {
+    for (const JoinSetting& setting : join.settings) {
+      const auto member = [=](TransitionMethod& m) -> auto& { return m.way.join_settings.*setting.member; };
+      rows.push_back(Row::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
+                         .With("join", {join.name}));
+    }
+  }
+  return rows;
 }
 
 }  // namespace
 
-std::vector<KeyInfo> TransitionConditionKeys() {
-  std::vector<KeyInfo> keys = {
-      {"threshold", "0…6", "0.4", "Two bridge frames match when their fuzzy distance is below it; for all methods."},
-      {"wait_s", "0…60 (seconds)", "1",
-       "How long after the request a switch may come; for all methods, those outside are told it as max_wait_s."}};
-  keys.push_back(
-      {"explain", "true, false", "false",
-       "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; filmed "
-       "cells are explained in the report anyway."});
-  for (KeyInfo& key : StageKeys()) keys.push_back(std::move(key));
-  keys.push_back(FuzzyKey());
-  return keys;
+const FieldTable<TransitionCondition>& TransitionConditionFields() {
+  using Options = TransitionCondition;
+  using Row = Field<Options>;
+  static const FieldTable<Options> table{
+      {Row::Number("threshold", &Options::threshold, kThresholds,
+                   "Two bridge frames match when their fuzzy distance is below it; for all methods."),
+       Row::Number("wait_s", &Options::wait_s, kWaits_s,
+                   "How long after the request a switch may come; for all methods, those outside are told it as "
+                   "max_wait_s.")
+           .Unit("seconds"),
+       Row::Flag("explain", &Options::explain,
+                 "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; "
+                 "filmed cells are explained in the report anyway."),
+       Row::Name(
+           "asked_for", [](auto& o) -> auto& { return o.stage.asks_for_acts; }, {{"any", false}, {"acts", true}},
+           "Which clips are asked for: any other one, or, while the other clips play, the coach's acts, where there "
+           "are any."),
+       Row::Number(
+           "min_clips", [](auto& o) -> auto& { return o.stage.min_clips; }, {1, 1000},
+           "In how many clips a bridge frame's ten tags occur together at least."),
+       Row::Number(
+           "most_per_class", [](auto& o) -> auto& { return o.stage.most_per_class; }, {0, 100000},
+           "Of each clip's frames with the same ten tags, only so many are bridge frames: those most alike to other "
+           "clips'; 0: all."),
+       Row::Angle(
+           "head_bend_deg", [](auto& o) -> auto& { return o.stage.head.max_bend; }, {0, 180},
+           "A bridge frame's neck is bent by no more."),
+       Row::Angle(
+           "head_turn_dps", [](auto& o) -> auto& { return o.stage.head.max_turn_speed; }, {0, 10000},
+           "A bridge frame's neck turns no faster.")
+           .Unit("degrees per second"),
+       Row::Angle(
+           "tween_dps", [](auto& o) -> auto& { return o.stage.tween.turn_speed; }, {10, 10000},
+           "The fastest that any limb turns in an in-between.")
+           .Unit("degrees per second"),
+       Row::Number(
+           "tween_s", [](auto& o) -> auto& { return o.stage.tween.shortest_s; }, {0, 10},
+           "An in-between takes at least this, however little there is to do.")
+           .Unit("seconds"),
+       Row::Angle(
+           "tween_deg", [](auto& o) -> auto& { return o.stage.tween.widest_turn; }, {0, 180},
+           "An in-between that would turn a limb by more goes by way of the most frequent pose."),
+       FuzzyField<Options>()}};
+  return table;
 }
 
-std::vector<KeyInfo> TransitionMethodKeys() {
-  KeyCondition fuzzy{"choice", {}};
-  for (const Choice& choice : AllChoices()) {
-    if (choice.uses_fuzzy) fuzzy.values.push_back(choice.name);
-  }
-  std::vector<KeyInfo> keys = {
-      {"choice", ListOf(ChoiceNames()), ChoiceNames().front(),
-       "Which frames are switched, and when: paper A's bridge frames, or what one would use otherwise."},
-      {"join", ListOf(JoinNames()), JoinNames().front(),
-       "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."},
-      {"weights", ListOf(WeightSourceNames()), WeightSourceNames().front(),
-       "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two judged, by "
-       "a logistic regression or a genetic algorithm."},
-      {"threshold", "0…6", "(the scenario's)", "The distance below which two frames match.", fuzzy},
-      {"within_class", "true, false", "false", "Whether only frames with the same ten tags are compared.", fuzzy},
-      {"pick",
-       ListOf(PickNames()),
-       PickNames().front(),
-       "Which of several matching pairs is taken.",
-       {"choice", {"fuzzy-bridge"}}},
-      {"wait_s", "0…60 (seconds)", "(the scenario's)", "How long after the request a switch may come."}};
-  for (KeyInfo& key : SettingKeys("choice", AllChoices(), SwitchRules{})) keys.push_back(std::move(key));
-  for (KeyInfo& key : SettingKeys("join", AllJoins(), JoinSettings{})) keys.push_back(std::move(key));
-  return keys;
-}
-
-CommonLimits ReadCommonLimits(Fields& condition) {
-  CommonLimits common;
-  ReadLimits(condition, common);
-  return common;
-}
-
-bool ReadExplain(Fields& condition) { return condition.Boolean("explain", false); }
-
-Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods) {
-  std::vector<TransitionMethod> read;
-  for (const Node& node : methods) {
-    auto method = ReadMethod(node, common);
-    if (!method) return tl::unexpected(method.error());
-    read.push_back(*std::move(method));
-  }
-  return read;
+const FieldTable<TransitionMethod>& TransitionMethodFields() {
+  using Row = Field<TransitionMethod>;
+  static const FieldTable<TransitionMethod> table = [] {
+    FieldTable<TransitionMethod> made{
+        {Row::Name(
+             "choice", [](auto& m) -> auto& { return m.way.choice; }, ChoiceNames(), FindChoice,
+             "Which frames are switched, and when: paper A's bridge frames, or what one would use otherwise."),
+         Row::Name(
+             "join", [](auto& m) -> auto& { return m.way.join; }, JoinNames(), FindJoin,
+             "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."),
+         Row::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
+                   "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two "
+                   "judged, by a logistic regression or a genetic algorithm."),
+         Row::Number(
+             "threshold", [](auto& m) -> auto& { return m.way.rules.threshold; }, kThresholds,
+             "The distance below which two frames match.")
+             .WhenAbsent("(the scenario's)")
+             .With("choice", FuzzyChoices()),
+         Row::Flag(
+             "within_class", [](auto& m) -> auto& { return m.way.rules.within_class; },
+             "Whether only frames with the same ten tags are compared.")
+             .With("choice", FuzzyChoices()),
+         Row::Name(
+             "pick", [](auto& m) -> auto& { return m.way.rules.pick; },
+             {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}, "Which of several matching pairs is taken.")
+             .With("choice", {"fuzzy-bridge"}),
+         Row::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a switch may come.")
+             .Unit("seconds")
+             .WhenAbsent("(the scenario's)")}};
+    const std::vector<Row> settings = SettingFields();
+    made.fields.insert(made.fields.end(), settings.begin(), settings.end());
+    return made;
+  }();
+  return table;
 }
 
 }  // namespace etude

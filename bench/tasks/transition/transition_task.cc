@@ -2,9 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/transition/exchange.h"
-#include "bench/tasks/transition/stage_options.h"
 #include "bench/tasks/transition/transition_world.h"
 #include "bench/training/training_clips.h"
 
@@ -43,15 +42,19 @@ class TransitionTask final : public Task {
 };
 
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
-  const CommonLimits common = ReadCommonLimits(input.condition);
-  const bool explain = ReadExplain(input.condition);
-  auto methods = ReadTransitionMethods(common, input.methods);
+  TransitionCondition condition;
+  TransitionConditionFields().Read(input.condition, condition);
+  condition.stage.fuzzy = input.fuzzy;
+  TransitionMethod start;
+  start.way.rules.threshold = condition.threshold;
+  start.wait_s = condition.wait_s;
+  auto methods = ReadMethods(input, "transition", TransitionMethodFields(), start);
   if (!methods) return tl::unexpected(methods.error());
-  Stage stage = SetStage(input.clips, ReadStageRules(input.condition, FuzzyOf(input)));
+  Stage stage = SetStage(input.clips, condition.stage);
   auto training = GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique);
   if (!training) return tl::unexpected(training.error());
-  return std::make_unique<TransitionTask>(*std::move(methods), common.wait_s, explain, std::move(stage),
-                                          *std::move(training));
+  return std::make_unique<TransitionTask>(*std::move(methods), condition.wait_s, condition.explain,
+                                          std::move(stage), *std::move(training));
 }
 
 }  // namespace
@@ -62,8 +65,8 @@ TaskKind MakeTransitionTaskKind() {
           .default_metrics = {"jump_cm", "natural_share", "pose_gap_cm", "false_smooth", "foot_slide_cmps", "wait_s"},
           .metrics = TransitionMetrics(),
           .make = MakeTransitionTask,
-          .condition_keys = TransitionConditionKeys(),
-          .method_keys = TransitionMethodKeys()};
+          .condition_keys = TransitionConditionFields().Describe(),
+          .method_keys = TransitionMethodFields().Describe()};
 }
 
 }  // namespace etude
