@@ -62,12 +62,10 @@ int CheckTags(const BridgeOptions& options) {
 /// Writes the tags, after reading them back.
 Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
   const BridgeTags tags = TagsOf(loaded);
-  const auto text = WriteTagsFile(tags);
-  if (!text) return tl::unexpected(text.error());
-  const auto back = ReadTagsFile(*text, path);
-  if (!back) return tl::unexpected(back.error());
-  if (!(*back == tags)) return Fail({path, 0, 0}, "reads back as other tags; nothing was written");
-  return WriteFileAtomically(path, *text);
+  ASSIGN_OR_RETURN(const auto text, WriteTagsFile(tags));
+  ASSIGN_OR_RETURN(const auto back, ReadTagsFile(text, path));
+  if (!(back == tags)) return Fail({path, 0, 0}, "reads back as other tags; nothing was written");
+  return WriteFileAtomically(path, text);
 }
 
 }  // namespace

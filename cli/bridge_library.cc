@@ -55,25 +55,20 @@ std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
 
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options) {
   BridgeLibrary loaded;
-  auto system = LoadFuzzySystem(options.fuzzy);
-  if (!system) return tl::unexpected(system.error());
-  loaded.system = *std::move(system);
-  const auto reading = ReadOptions(options.reading);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto wanted = ListReferences(options.to);
-  if (!wanted) return tl::unexpected(wanted.error());
+  ASSIGN_OR_RETURN(auto system, LoadFuzzySystem(options.fuzzy));
+  loaded.system = std::move(system);
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto wanted, ListReferences(options.to));
   std::vector<std::string> named = options.clips;
-  named.insert(named.end(), wanted->begin(), wanted->end());
-  const auto references = ListReferences(named);
-  if (!references) return tl::unexpected(references.error());
-  const auto clips = LoadClips(*references, {}, *reading);
-  if (!clips) return tl::unexpected(clips.error());
+  named.insert(named.end(), wanted.begin(), wanted.end());
+  ASSIGN_OR_RETURN(const auto references, ListReferences(named));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, reading));
 
   std::vector<BodyMotion> motions;
-  for (const LibraryClip& clip : clips->clips) {
-    const bool is_wanted = std::any_of(wanted->begin(), wanted->end(),
-                                       [&](const std::string& reference) { return Names(reference, clip); });
-    if (wanted->empty() ? IsCorrective(clip.source) : is_wanted)
+  for (const LibraryClip& clip : clips.clips) {
+    const bool is_wanted =
+        std::any_of(wanted.begin(), wanted.end(), [&](const std::string& reference) { return Names(reference, clip); });
+    if (wanted.empty() ? IsCorrective(clip.source) : is_wanted)
       loaded.corrective.push_back(static_cast<int>(motions.size()));
     motions.push_back(clip.motion);
     loaded.sources.push_back(clip.source);
@@ -86,7 +81,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options) {
                          .threshold = options.threshold,
                          .pick = Pick::kFirst,
                          .within_class = options.within_class};
-  loaded.library = MakeLibrary(UniqueNames(clips->clips), motions, MakePhysique(PoseOf(Controls{}), kJudgedHipHeight),
+  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions, MakePhysique(PoseOf(Controls{}), kJudgedHipHeight),
                                loaded.tag_rules);
   loaded.library.in_betweens = BuildInBetweens(
       loaded.library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});

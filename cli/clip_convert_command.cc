@@ -16,35 +16,27 @@ Performer PerformerNamed(const std::string& name) {
 }
 
 Result<std::string> Convert(const ClipConvertOptions& given) {
-  if (auto free = CheckOutput(given.output, given.overwrite); !free) return tl::unexpected(free.error());
-  const auto format = FormatOfName(given.output);
-  if (!format) return tl::unexpected(format.error());
-  auto reading = ReadOptions(given.reading);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto trim = ReadTrim(given.trim);
-  if (!trim) return tl::unexpected(trim.error());
-  const auto references = ExpandAll({given.input});
-  if (!references) return tl::unexpected(references.error());
-  if (references->size() > 1) {
-    return Fail({}, "'{}' stands for {} clips; one file is converted at a time", given.input, references->size());
+  RETURN_IF_ERROR(CheckOutput(given.output, given.overwrite));
+  ASSIGN_OR_RETURN(const auto format, FormatOfName(given.output));
+  ASSIGN_OR_RETURN(auto reading, ReadOptions(given.reading));
+  ASSIGN_OR_RETURN(const auto trim, ReadTrim(given.trim));
+  ASSIGN_OR_RETURN(const auto references, ExpandAll({given.input}));
+  if (references.size() > 1) {
+    return Fail({}, "'{}' stands for {} clips; one file is converted at a time", given.input, references.size());
   }
-  auto clips = ReadClips(references->front());
-  if (!clips) return tl::unexpected(clips.error());
+  ASSIGN_OR_RETURN(auto clips, ReadClips(references.front()));
 
-  ConvertOptions options{.trim = *trim,
+  ConvertOptions options{.trim = trim,
                          .rate_hz = std::nullopt,
                          .mirror = given.mirror,
                          .ground = given.ground,
                          .retarget = given.retarget,
                          .performer = PerformerNamed(given.character),
-                         .open = std::move(*reading)};
+                         .open = std::move(reading)};
   if (given.rate_hz > 0) options.rate_hz = given.rate_hz;
-  const auto converted = ConvertClips(std::move(*clips), *format, options);
-  if (!converted) return tl::unexpected(converted.error());
-  if (auto written = WriteFileAtomically(given.output, converted->bytes); !written) {
-    return tl::unexpected(written.error());
-  }
-  return converted->note;
+  ASSIGN_OR_RETURN(const auto converted, ConvertClips(std::move(clips), format, options));
+  RETURN_IF_ERROR(WriteFileAtomically(given.output, converted.bytes));
+  return converted.note;
 }
 
 }  // namespace

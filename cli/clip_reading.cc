@@ -32,16 +32,13 @@ Result<double> ReadUnit(const std::string& text) {
 Result<OpenOptions> ReadOptions(const ClipReading& reading) {
   OpenOptions options;
   if (!reading.joint_map.empty()) {
-    const auto text = ReadWholeFile(reading.joint_map);
-    if (!text) return tl::unexpected(text.error());
-    auto roles = ReadJointMapFile(*text, reading.joint_map);
-    if (!roles) return tl::unexpected(roles.error());
-    options.roles = std::move(*roles);
+    ASSIGN_OR_RETURN(const auto text, ReadWholeFile(reading.joint_map));
+    ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text, reading.joint_map));
+    options.roles = std::move(roles);
   }
   if (!reading.unit.empty()) {
-    const auto metres = ReadUnit(reading.unit);
-    if (!metres) return tl::unexpected(metres.error());
-    options.body.metres_per_unit = *metres;
+    ASSIGN_OR_RETURN(const auto metres, ReadUnit(reading.unit));
+    options.body.metres_per_unit = metres;
   }
   if (!reading.up.empty()) options.body.up = reading.up == "z" ? UpAxis::kZ : UpAxis::kY;
   return options;
@@ -57,9 +54,8 @@ Result<std::optional<TimeSpan>> ReadTrim(const std::string& text) {
 Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references) {
   std::vector<std::string> all;
   for (const std::string& reference : references) {
-    auto expanded = ExpandReference(reference, {});
-    if (!expanded) return tl::unexpected(expanded.error());
-    all.insert(all.end(), expanded->begin(), expanded->end());
+    ASSIGN_OR_RETURN(auto expanded, ExpandReference(reference, {}));
+    all.insert(all.end(), expanded.begin(), expanded.end());
     if (all.size() > kMostClips) return Fail({}, "more than {} clips", kMostClips);
   }
   return all;

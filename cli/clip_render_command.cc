@@ -45,61 +45,48 @@ Viewpoint ViewNamed(const std::string& name) {
 }
 
 Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
-  const auto reading = ReadOptions(options.reading);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto trim = ReadTrim(options.trim);
-  if (!trim) return tl::unexpected(trim.error());
-  const auto references = ExpandAll(options.clips);
-  if (!references) return tl::unexpected(references.error());
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto trim, ReadTrim(options.trim));
+  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
   std::vector<ClipActor> actors;
-  for (const std::string& reference : *references) {
-    auto clips = ReadClips(reference);
-    if (!clips) return tl::unexpected(clips.error());
-    for (SourceClip& clip : *clips) {
-      auto part = TrimTo(clip.clip, *trim);
+  for (const std::string& reference : references) {
+    ASSIGN_OR_RETURN(auto clips, ReadClips(reference));
+    for (SourceClip& clip : clips) {
+      auto part = TrimTo(clip.clip, trim);
       if (!part) return Fail({clip.source, 0, 0}, "{}", part.error().message);
       clip.clip = std::move(*part);
-      auto opened = UnderstandClip(std::move(clip), *reading);
-      if (!opened) return tl::unexpected(opened.error());
-      auto actor = ClipActor::Make(std::move(*opened), ActorNamed(options.character));
-      if (!actor) return tl::unexpected(actor.error());
-      actors.push_back(std::move(*actor));
+      ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), reading));
+      ASSIGN_OR_RETURN(auto actor, ClipActor::Make(std::move(opened), ActorNamed(options.character)));
+      actors.push_back(std::move(actor));
     }
   }
   return actors;
 }
 
 Result<void> WriteSheet(const ClipRenderOptions& options) {
-  const auto size = ReadSize(options.size, {200, 260});
-  if (!size) return tl::unexpected(size.error());
-  auto actors = Cast(options);
-  if (!actors) return tl::unexpected(actors.error());
-  auto renderer = Renderer::Create();
-  if (!renderer) return tl::unexpected(renderer.error());
-  const bool alone = actors->size() == 1;
+  ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {200, 260}));
+  ASSIGN_OR_RETURN(auto actors, Cast(options));
+  ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
+  const bool alone = actors.size() == 1;
   const int frames = options.frames > 0 ? options.frames : alone ? 12 : 8;
   const int columns = options.columns > 0 ? options.columns : alone ? 6 : frames;
-  const SheetOptions sheet{ViewNamed(options.view), size->width, size->height, frames, columns};
-  const auto png = DrawContactSheet(std::move(*actors), sheet, **renderer);
-  if (!png) return tl::unexpected(png.error());
-  return WriteFileAtomically(options.output, *png);
+  const SheetOptions sheet{ViewNamed(options.view), size.width, size.height, frames, columns};
+  ASSIGN_OR_RETURN(const auto png, DrawContactSheet(std::move(actors), sheet, *renderer));
+  return WriteFileAtomically(options.output, png);
 }
 
 /// False when Ctrl-C came.
 Result<bool> WriteFilm(const ClipRenderOptions& options) {
-  const auto size = ReadSize(options.size, {720, 720});
-  if (!size) return tl::unexpected(size.error());
-  if (size->width % 2 != 0 || size->height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
-  auto actors = Cast(options);
-  if (!actors) return tl::unexpected(actors.error());
-  if (actors->size() > 1) {
-    return Fail({}, "a film shows one clip, these are {}; a contact sheet (.png) shows all", actors->size());
+  ASSIGN_OR_RETURN(const auto size, ReadSize(options.size, {720, 720}));
+  if (size.width % 2 != 0 || size.height % 2 != 0) return Fail({}, "--size: films need even numbers of pixels");
+  ASSIGN_OR_RETURN(auto actors, Cast(options));
+  if (actors.size() > 1) {
+    return Fail({}, "a film shows one clip, these are {}; a contact sheet (.png) shows all", actors.size());
   }
-  auto renderer = Renderer::Create();
-  if (!renderer) return tl::unexpected(renderer.error());
+  ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
   const Interrupt interrupt;
-  const FilmOptions film{ViewNamed(options.view), size->width, size->height, interrupt.requested()};
-  auto whole = FilmClip(std::move(actors->front()), film, options.output, **renderer);
+  const FilmOptions film{ViewNamed(options.view), size.width, size.height, interrupt.requested()};
+  auto whole = FilmClip(std::move(actors.front()), film, options.output, *renderer);
   // Ctrl-C reaches the encoder, too, whose end may be what is noticed first.
   if (!whole && *interrupt.requested()) return false;
   return whole;

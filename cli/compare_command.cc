@@ -11,10 +11,9 @@ namespace {
 
 /// A whole run's snapshot; one that is not whole cannot be paired world by world.
 Result<Snapshot> LoadWholeRun(const std::string& folder) {
-  const auto run = LoadFinishedRun(folder);
-  if (!run) return tl::unexpected(run.error());
-  if (!run->incomplete.empty()) return Fail({folder, 0, 0}, "{}", run->incomplete.front());
-  return TakeSnapshot(*run);
+  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(folder));
+  if (!run.incomplete.empty()) return Fail({folder, 0, 0}, "{}", run.incomplete.front());
+  return TakeSnapshot(run);
 }
 
 }  // namespace

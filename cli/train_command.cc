@@ -62,30 +62,26 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 }
 
 Result<Split> LoadSplit(const TrainOptions& options) {
-  const auto reading = ReadOptions(options.reading);
-  if (!reading) return tl::unexpected(reading.error());
-  const auto references = ExpandAll(options.clips);
-  if (!references) return tl::unexpected(references.error());
-  auto library = LoadClips(*references, {}, *reading);
-  if (!library) return tl::unexpected(library.error());
+  ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
+  ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
+  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading));
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
-  for (LibraryClip& clip : library->clips) {
+  for (LibraryClip& clip : library.clips) {
     names.push_back(clip.name);
     motions.push_back(std::move(clip.motion));
   }
   if (names.size() > kMostClips) {
     return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(), kMostClips);
   }
-  const auto held_out = ChooseHeldOut(names, options);
-  if (!held_out) return tl::unexpected(held_out.error());
+  ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
   const BodyPose standing = PoseOf(Controls{});
   TrainingClips all = SampleClips(names, motions, MakePhysique(standing, StandingHipHeight(standing)));
   Split split;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    ((*held_out)[i] ? split.held_out_names : split.learnt_names).push_back(names[i]);
-    ((*held_out)[i] ? split.held_out : split.learnt).push_back(std::move(all.frames[i]));
+    (held_out[i] ? split.held_out_names : split.learnt_names).push_back(names[i]);
+    (held_out[i] ? split.held_out : split.learnt).push_back(std::move(all.frames[i]));
   }
   if (split.learnt.size() >= 2) return split;
   return Fail({}, "{} left to learn from, {} held out; pairs need two clips at least",

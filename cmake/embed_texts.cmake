@@ -11,14 +11,12 @@ endforeach()
 file(WRITE "${OUT}" "#include \"${HEADER}\"
 
 namespace etude {
-namespace {
 
-constexpr EmbeddedText kTexts[] = {
-${entries}};
-
-}  // namespace
-
-std::span<const EmbeddedText> ${FUNCTION}() { return kTexts; }
+std::span<const EmbeddedText> ${FUNCTION}() {
+  static constexpr EmbeddedText kTexts[] = {
+${entries}  };
+  return kTexts;
+}
 
 }  // namespace etude
 ")

@@ -40,11 +40,10 @@ Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folde
   for (const CellRecording& recorded : run.recordings) {
     const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
     if (row == run.rows.end() || row->task != "capture") continue;
-    const auto extras = ReadRecordingExtras(recorded.recording.extras_json);
-    if (!extras) return tl::unexpected(extras.error());
+    ASSIGN_OR_RETURN(const auto extras, ReadRecordingExtras(recorded.recording.extras_json));
     std::string name = recorded.cell;
     std::ranges::replace(name, '/', '~');
-    if (auto written = WriteFileAtomically(folder / (name + ".bvh"), extras->bvh); !written) return written;
+    RETURN_IF_ERROR(WriteFileAtomically(folder / (name + ".bvh"), extras.bvh));
   }
   return {};
 }

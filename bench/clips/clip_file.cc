@@ -73,30 +73,28 @@ std::string_view FormatName(ClipFormat format) {
 
 Result<ClipFile> ReadClipFile(const std::string& path) {
   CappedReader reader;
-  const auto bytes = reader.Read(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  TextScanner scanner(*bytes, path);
+  ASSIGN_OR_RETURN(const auto bytes, reader.Read(path));
+  TextScanner scanner(bytes, path);
   const bool has_text = scanner.SkipToText();
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
-  if (bytes->starts_with("glTF") || first.text == "{") {
+  if (bytes.starts_with("glTF") || first.text == "{") {
     file.format = first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
-    auto content = ReadGltf(*bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); });
-    if (!content) return tl::unexpected(content.error());
-    file.figure = std::move(content->character);
-    file.clips = std::move(content->clips);
+    ASSIGN_OR_RETURN(auto content,
+                     ReadGltf(bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); }));
+    file.figure = std::move(content.character);
+    file.clips = std::move(content.clips);
     return file;
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
     return Fail(scanner.At(first), "{}; allowed: BVH (it begins with HIERARCHY) and glTF 2.0 (.glb, .gltf)",
-                WhatElse(*bytes, std::string(first.text)));
+                WhatElse(bytes, std::string(first.text)));
   }
-  auto clip = ReadBvh(*bytes, path);
-  if (!clip) return tl::unexpected(clip.error());
-  file.figure = {.name = clip->name, .skeleton = clip->skeleton, .materials = {}, .meshes = {}};
-  file.clips.push_back(std::move(*clip));
+  ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path));
+  file.figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}};
+  file.clips.push_back(std::move(clip));
   return file;
 }
 

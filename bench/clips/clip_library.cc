@@ -7,20 +7,17 @@ namespace etude {
 namespace {
 
 Result<void> AddBuiltin(const std::string& reference, const Place& place, ClipLibrary& library) {
-  auto builtin = LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), place);
-  if (!builtin) return tl::unexpected(builtin.error());
-  library.clips.push_back({reference, reference, std::move(builtin->motion), std::move(builtin->move), ""});
+  ASSIGN_OR_RETURN(auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), place));
+  library.clips.push_back({reference, reference, std::move(builtin.motion), std::move(builtin.move), ""});
   return {};
 }
 
 Result<void> AddFile(const std::string& reference, const OpenOptions& options, ClipLibrary& library) {
-  auto clips = ReadClips(reference);
-  if (!clips) return tl::unexpected(clips.error());
-  for (SourceClip& clip : *clips) {
-    auto opened = UnderstandClip(std::move(clip), options);
-    if (!opened) return tl::unexpected(opened.error());
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference));
+  for (SourceClip& clip : clips) {
+    ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), options));
     library.clips.push_back(
-        {opened->source.name, opened->source.source, std::move(opened->body.motion), std::nullopt, opened->body.note});
+        {opened.source.name, opened.source.source, std::move(opened.body.motion), std::nullopt, opened.body.note});
   }
   return {};
 }
@@ -31,11 +28,10 @@ Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const 
                               const OpenOptions& options) {
   ClipLibrary library;
   for (const std::string& reference : references) {
-    const auto expanded = ExpandReference(reference, place);
-    if (!expanded) return tl::unexpected(expanded.error());
-    for (const std::string& one : *expanded) {
-      auto added = one.starts_with(kBuiltinPrefix) ? AddBuiltin(one, place, library) : AddFile(one, options, library);
-      if (!added) return tl::unexpected(added.error());
+    ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place));
+    for (const std::string& one : expanded) {
+      RETURN_IF_ERROR(one.starts_with(kBuiltinPrefix) ? AddBuiltin(one, place, library)
+                                                      : AddFile(one, options, library));
       if (library.clips.size() > kMostClips) return Fail(place, "more than {} clips", kMostClips);
     }
   }

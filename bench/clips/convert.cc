@@ -79,11 +79,10 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
     if (format == MotionFormat::kGlb && source.format == ClipFormat::kBvh) {
-      const auto unit = FindUnit(source, options.open);
-      if (!unit) return tl::unexpected(unit.error());
-      *edited = InMetres(std::move(*edited), unit->metres_per_unit, unit->up);
+      ASSIGN_OR_RETURN(const auto unit, FindUnit(source, options.open));
+      *edited = InMetres(std::move(*edited), unit.metres_per_unit, unit.up);
       if (clips.empty()) {
-        converted.note += fmt::format("; in metres, 1 unit = {:.4g} cm ({})", 100 * unit->metres_per_unit, unit->unit);
+        converted.note += fmt::format("; in metres, 1 unit = {:.4g} cm ({})", 100 * unit.metres_per_unit, unit.unit);
       }
     }
     clips.push_back(std::move(*edited));
@@ -121,18 +120,17 @@ Result<Converted> ConvertBodies(std::vector<SourceClip> sources, MotionFormat fo
     auto part = TrimTo(source.clip, options.trim);
     if (!part) return Fail({source.source, 0, 0}, "{}", part.error().message);
     source.clip = std::move(*part);
-    auto opened = UnderstandClip(std::move(source), open);
-    if (!opened) return tl::unexpected(opened.error());
-    note = opened->body.note;
-    BodyMotion motion = std::move(opened->body.motion);
+    ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(source), open));
+    note = opened.body.note;
+    BodyMotion motion = std::move(opened.body.motion);
     if (options.mirror) motion = Mirror(motion);
     if (is_canonical) motion = Retarget(motion, StandingPose());
-    const std::string& name = opened->source.name;
+    const std::string& name = opened.source.name;
     if (format == MotionFormat::kTrc) converted.bytes = WriteTrc(motion, name);
     if (format == MotionFormat::kCsv) converted.bytes = WriteJointCsv(motion);
     // The rest pose of a body with its own proportions: standing as the canonical one does.
     if (!is_canonical && clips.empty()) rest = Retarget({.poses = {rest}}, motion.poses.front()).poses.front();
-    clips.push_back(RigClip(motion, rest, opened->source.clip.name));
+    clips.push_back(RigClip(motion, rest, opened.source.clip.name));
   }
   converted.note = clips.size() == 1 ? "as a body: " + note : fmt::format("{} clips as bodies", clips.size());
   if (format == MotionFormat::kBvh) converted.bytes = WriteBvh(clips.front());

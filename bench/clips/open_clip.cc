@@ -16,9 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
-  const auto builtin = LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), {});
-  if (!builtin) return tl::unexpected(builtin.error());
-  Clip clip = RigClip(builtin->motion, StandingPose(), reference.substr(kBuiltinPrefix.size()));
+  ASSIGN_OR_RETURN(const auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), {}));
+  Clip clip = RigClip(builtin.motion, StandingPose(), reference.substr(kBuiltinPrefix.size()));
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
@@ -71,23 +70,22 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 Result<std::vector<SourceClip>> ReadClips(const std::string& reference) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   const SplitReference wanted = Split(reference);
-  auto file = ReadClipFile(wanted.path);
-  if (!file) return tl::unexpected(file.error());
+  ASSIGN_OR_RETURN(auto file, ReadClipFile(wanted.path));
   const std::string stem = fs::path(wanted.path).stem().string();
-  if (file->format == ClipFormat::kBvh) {
+  if (file.format == ClipFormat::kBvh) {
     if (wanted.animation) {
       return Fail({wanted.path, 0, 0}, "a BVH file has one motion; '#{}' chooses one of a glTF file",
                   *wanted.animation);
     }
-    return std::vector<SourceClip>{{stem, wanted.path, file->format, std::move(file->clips.front()), nullptr}};
+    return std::vector<SourceClip>{{stem, wanted.path, file.format, std::move(file.clips.front()), nullptr}};
   }
-  if (auto kept = KeepWanted(wanted, file->figure, file->clips); !kept) return tl::unexpected(kept.error());
-  const bool has_meshes = !file->figure.meshes.empty();
-  const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file->figure)) : nullptr;
+  RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
+  const bool has_meshes = !file.figure.meshes.empty();
+  const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file.figure)) : nullptr;
   std::vector<SourceClip> clips;
-  for (Clip& clip : file->clips) {
+  for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
-    clips.push_back({stem + animation, wanted.path + animation, file->format, std::move(clip), figure});
+    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure});
   }
   return clips;
 }
@@ -95,11 +93,9 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference) {
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
   if (source.format == ClipFormat::kBuiltin) return UnderstandBuiltin(std::move(source), options.body);
   const TaughtRoles* taught = options.roles ? &*options.roles : nullptr;
-  auto map = FindJointMap(source.clip.skeleton, source.source, taught);
-  if (!map) return tl::unexpected(map.error());
-  auto body = ToBodyMotion(source.clip, *map, source.source, options.body);
-  if (!body) return tl::unexpected(body.error());
-  return OpenedClip{std::move(source), std::move(*map), std::move(*body)};
+  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, taught));
+  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, options.body));
+  return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 
 }  // namespace etude

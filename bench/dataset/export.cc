@@ -41,7 +41,7 @@ class NewFolder {
     }
     NewFolder folder(path);
     fs::remove_all(folder.partial_, error);  // of an export that was killed
-    if (auto made = MakeFolder(folder.partial_); !made) return tl::unexpected(made.error());
+    RETURN_IF_ERROR(MakeFolder(folder.partial_));
     return folder;
   }
   NewFolder(NewFolder&& other) noexcept : path_(std::move(other.path_)), partial_(std::move(other.partial_)) {
@@ -70,10 +70,10 @@ class NewFolder {
   fs::path path_, partial_;
 };
 
-Result<void> SaveExhibit(const Exhibit& exhibit, const fs::path& folder, const char* name) {
-  if (auto saved = SaveJson(folder / name, *exhibit.json); !saved) return saved;
-  for (const Attachment& file : exhibit.files) {
-    if (auto saved = WriteFileAtomically(folder / file.name, file.bytes); !saved) return saved;
+Result<void> SavePayload(const Payload& payload, const fs::path& folder, const char* name) {
+  RETURN_IF_ERROR(SaveJson(folder / name, *payload.json));
+  for (const Attachment& file : payload.files) {
+    RETURN_IF_ERROR(WriteFileAtomically(folder / file.name, file.bytes));
   }
   return {};
 }
@@ -93,7 +93,7 @@ class Exporter {
   Result<void> SaveSetting(int condition, const std::string& place) {
     const auto setting = scenario_.task(condition).Setting();
     if (!setting) return About(place, setting.error());
-    return SaveExhibit(*setting, folder_ / "inputs" / place, "setting.json");
+    return SavePayload(*setting, folder_ / "inputs" / place, "setting.json");
   }
 
   /// Adds the world's line to `index`.
@@ -115,11 +115,11 @@ class Exporter {
     {
       const auto problem = world->MakeProblem();
       if (!problem) return About(path, problem.error());
-      if (auto saved = SaveExhibit(*problem, folder_ / "inputs" / path, "problem.json"); !saved) return saved;
+      RETURN_IF_ERROR(SavePayload(*problem, folder_ / "inputs" / path, "problem.json"));
     }
     const auto truth = world->MakeTruth();
     if (!truth) return About(path, truth.error());
-    return SaveExhibit(*truth, folder_ / "truth" / path, "truth.json");
+    return SavePayload(*truth, folder_ / "truth" / path, "truth.json");
   }
 
  private:
@@ -141,14 +141,11 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options,
   run.trials = options.trials;
   run.clips = options.clips;
   run.joint_map = options.joint_map;
-  const auto suite = ReadSuite(run);
-  if (!suite) return tl::unexpected(suite.error());
-  const auto scenarios = PrepareAll(*suite);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  auto folder = NewFolder::Begin(options.output);
-  if (!folder) return tl::unexpected(folder.error());
+  ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  ASSIGN_OR_RETURN(auto folder, NewFolder::Begin(options.output));
 
-  const Plan plan(*scenarios);
+  const Plan plan(scenarios);
   ExportOutcome outcome;
   std::string index = "scenario,task,condition,trial,clip,problem,prediction,skipped\n";
   on_progress(0, plan.world_count());
@@ -160,22 +157,21 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options,
     const World& world = plan.world(w);
     const PreparedScenario& scenario = plan.scenario_of(w);
     const std::string place = scenario.scenario().name + "/" + ConditionFolders(scenario.scenario())[world.condition];
-    Exporter exporter(scenario, folder->partial());
+    Exporter exporter(scenario, folder.partial());
     if (world.trial == 0) {
-      if (auto saved = exporter.SaveSetting(world.condition, place); !saved) return tl::unexpected(saved.error());
+      RETURN_IF_ERROR(exporter.SaveSetting(world.condition, place));
     }
-    auto saved = exporter.SaveWorld(world.condition, world.trial, place, outcome, index);
-    if (!saved) return tl::unexpected(saved.error());
+    RETURN_IF_ERROR(exporter.SaveWorld(world.condition, world.trial, place, outcome, index));
     on_progress(w + 1, plan.world_count());
   }
   const auto save = [&](const char* name, const std::string& text) {
-    return WriteFileAtomically(folder->partial() / name, text);
+    return WriteFileAtomically(folder.partial() / name, text);
   };
-  if (auto saved = save("inputs/index.csv", index); !saved) return tl::unexpected(saved.error());
-  if (auto saved = save("README.md", kReadme); !saved) return tl::unexpected(saved.error());
-  auto saved = SaveJson(folder->partial() / "manifest.json", MakeManifest(*suite, *scenarios, options.program_version));
-  if (!saved) return tl::unexpected(saved.error());
-  if (auto done = folder->Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(save("inputs/index.csv", index));
+  RETURN_IF_ERROR(save("README.md", kReadme));
+  RETURN_IF_ERROR(
+      SaveJson(folder.partial() / "manifest.json", MakeManifest(suite, scenarios, options.program_version)));
+  RETURN_IF_ERROR(folder.Finish());
   return outcome;
 }
 

@@ -46,8 +46,7 @@ Result<std::vector<fs::path>> FilesBelow(const fs::path& folder) {
 }  // namespace
 
 Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan, PredictionFaults& faults) {
-  const auto files = FilesBelow(folder);
-  if (!files) return tl::unexpected(files.error());
+  ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
   // By "SCENARIO/CONDITION" and trial.
   std::map<std::pair<std::string, int>, std::size_t> worlds;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
@@ -56,7 +55,7 @@ Result<PredictionFiles> FindPredictions(const fs::path& folder, const Plan& plan
     worlds[{scenario.name + "/" + ConditionFolders(scenario)[world.condition], world.trial}] = w;
   }
   PredictionFiles found(plan.world_count());
-  for (const fs::path& file : *files) {
+  for (const fs::path& file : files) {
     const std::optional<int> trial = TrialOf(file.filename());
     const auto world = trial ? worlds.find({file.parent_path().generic_string(), *trial}) : worlds.end();
     if (world == worlds.end()) {

@@ -43,7 +43,7 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
   std::error_code error;
   const fs::path manifest = fs::path(options.target) / "manifest.json";
   if (fs::exists(manifest, error)) {
-    if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
+    RETURN_IF_ERROR(CheckClips(manifest, *scenarios));
   }
   return scenarios;
 }
@@ -63,13 +63,11 @@ Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
   if (!error && size > kLargestAnswer) {
     return Fail({file.string(), 0, 0}, "{} bytes; an answer has at most {}", size, kLargestAnswer);
   }
-  const auto text = ReadWholeFile(file);
-  if (!text) return tl::unexpected(text.error());
-  const auto answer = ReadJson(*text, file.string());
-  if (!answer) return tl::unexpected(answer.error());
-  auto judged = world.Judge(*answer);
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const auto answer, ReadJson(text, file.string()));
+  auto judged = world.Judge(answer);
   if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));
-  judged->digests.emplace_back("answer", Digest().Add(std::string_view(answer->dump())).Hex());
+  judged->digests.emplace_back("answer", Digest().Add(std::string_view(answer.dump())).Hex());
   return judged;
 }
 
@@ -127,11 +125,10 @@ class Meter {
 /// Puts a row per answer into `cells`. False when stopped.
 Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& cells, PredictionFaults& faults,
                       Meter& meter) {
-  const auto files = FindPredictions(options.predictions, plan, faults);
-  if (!files) return tl::unexpected(files.error());
+  ASSIGN_OR_RETURN(const auto files, FindPredictions(options.predictions, plan, faults));
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     if (options.stop != nullptr && *options.stop) return false;
-    Row row = JudgeWorld(plan, w, (*files)[w], faults);
+    Row row = JudgeWorld(plan, w, files[w], faults);
     meter.Count(row);
     cells[plan.CellAt(w, plan.MethodCount(w) - 1)] = FinishedCell{std::move(row), {}};
   }
@@ -156,35 +153,30 @@ Json DescribeAnswers(const Plan& plan, const CellTable& cells) {
 
 Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
                                       const std::function<void(const Progress&)>& on_progress) {
-  auto suite = ReadTarget(options);
-  if (!suite) return tl::unexpected(suite.error());
-  suite->scored = ScoredMethod{options.name, options.alone};
-  const auto state = LookAtFolder(options.output);
-  if (!state) return tl::unexpected(state.error());
-  if (*state != FolderState::kFree) {
+  ASSIGN_OR_RETURN(auto suite, ReadTarget(options));
+  suite.scored = ScoredMethod{options.name, options.alone};
+  ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
+  if (state != FolderState::kFree) {
     return Fail({options.output, 0, 0}, "already holds a run; choose another folder with -o");
   }
-  const auto scenarios = PrepareTarget(*suite, options);
-  if (!scenarios) return tl::unexpected(scenarios.error());
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareTarget(suite, options));
 
-  const Plan plan(*scenarios);
+  const Plan plan(scenarios);
   CellTable cells(plan.cell_count());
   Meter meter(plan.cell_count(), on_progress);
   ScoreOutcome outcome{.run = {.folder = options.output}, .faults = {}};
-  const auto judged = JudgeAll(plan, options, cells, outcome.faults, meter);
-  if (!judged) return tl::unexpected(judged.error());
+  ASSIGN_OR_RETURN(const auto judged, JudgeAll(plan, options, cells, outcome.faults, meter));
   if (options.allow_missing) outcome.faults.missing.clear();
-  outcome.run.stopped = !*judged;
+  outcome.run.stopped = !judged;
   if (outcome.run.stopped || !outcome.faults.empty()) return outcome;
 
-  auto claimed = RunFolder::Claim(options.output, /*keep_contents=*/false);
-  if (!claimed) return tl::unexpected(claimed.error());
-  Json manifest = MakeManifest(*suite, *scenarios, options.program_version);
+  ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, /*keep_contents=*/false));
+  Json manifest = MakeManifest(suite, scenarios, options.program_version);
   manifest["scored"].update(DescribeAnswers(plan, cells));
   const fs::path folder = options.output;
-  if (auto saved = SaveJson(folder / "manifest.json", manifest); !saved) return tl::unexpected(saved.error());
+  RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
   const auto whole =
-      RunOrders(*suite, plan, plan.OrdersFor({}, DoneCells(cells)),
+      RunOrders(suite, plan, plan.OrdersFor({}, DoneCells(cells)),
                 {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
                 [&](std::size_t cell, FinishedCell finished) -> Result<void> {
                   meter.Count(finished.row);
@@ -198,8 +190,8 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
   const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
-  if (auto done = FinishRun(folder, plan, std::move(cells), host); !done) return tl::unexpected(done.error());
-  claimed->Keep();
+  RETURN_IF_ERROR(FinishRun(folder, plan, std::move(cells), host));
+  claimed.Keep();
   return outcome;
 }
 

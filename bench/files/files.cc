@@ -37,7 +37,7 @@ Result<void> RenameFinished(const std::filesystem::path& temporary, const std::f
 }
 
 Result<void> WriteFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
-  if (auto made = MakeFolder(path.parent_path()); !made) return made;
+  RETURN_IF_ERROR(MakeFolder(path.parent_path()));
   const std::filesystem::path temporary = TemporaryName(path);
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);

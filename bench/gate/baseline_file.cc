@@ -168,10 +168,10 @@ Result<void> FillCells(const Json& json, const Place& place, Snapshot& snapshot)
   for (SnapshotScenario& scenario : snapshot.scenarios) MakePlaces(scenario);
   const Slots slots = SlotsOf(snapshot);
   for (const Json& line : statuses) {
-    if (auto read = ReadStatuses(line, place, slots); !read) return read;
+    RETURN_IF_ERROR(ReadStatuses(line, place, slots));
   }
   for (const Json& line : values) {
-    if (auto read = ReadValues(line, place, slots); !read) return read;
+    RETURN_IF_ERROR(ReadValues(line, place, slots));
   }
   return {};
 }
@@ -206,21 +206,20 @@ Result<std::string> WriteBaseline(const Snapshot& snapshot) {
 }
 
 Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file) {
-  const auto json = ReadJson(text, file);
-  if (!json) return tl::unexpected(json.error());
+  ASSIGN_OR_RETURN(const auto json, ReadJson(text, file));
   const Place place{file, 0, 0};
   Snapshot snapshot;
   try {
-    const int schema = json->at("schema").get<int>();
+    const int schema = json.at("schema").get<int>();
     if (schema != kBaselineSchema) return Fail(place, "schema {}; this program reads {}", schema, kBaselineSchema);
-    snapshot.suite = json->at("suite").get<std::string>();
-    snapshot.program_version = json->at("etude").get<std::string>();
-    for (const Json& entry : json->at("scenarios")) {
+    snapshot.suite = json.at("suite").get<std::string>();
+    snapshot.program_version = json.at("etude").get<std::string>();
+    for (const Json& entry : json.at("scenarios")) {
       SnapshotScenario scenario = DecodeScenario(entry);
-      if (auto checked = CheckScenario(scenario, snapshot, place); !checked) return tl::unexpected(checked.error());
+      RETURN_IF_ERROR(CheckScenario(scenario, snapshot, place));
       snapshot.scenarios.push_back(std::move(scenario));
     }
-    if (auto filled = FillCells(*json, place, snapshot); !filled) return tl::unexpected(filled.error());
+    RETURN_IF_ERROR(FillCells(json, place, snapshot));
   } catch (const Json::exception& error) {
     return Fail(place, "not a baseline: {}", error.what());
   }
@@ -228,9 +227,8 @@ Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file) 
 }
 
 Result<Snapshot> LoadBaseline(const std::filesystem::path& path) {
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  return ReadBaseline(*text, path.string());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  return ReadBaseline(text, path.string());
 }
 
 }  // namespace etude

@@ -28,30 +28,26 @@ Result<void> CheckMetricVersions(const Json& manifest, const Place& place) {
 
 /// The scenarios of manifest.json, read from the texts that it keeps.
 Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  const auto manifest = ReadJson(*text, path.string());
-  if (!manifest) return tl::unexpected(manifest.error());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  ASSIGN_OR_RETURN(const auto manifest, ReadJson(text, path.string()));
   const Place place{path.string(), 0, 0};
-  auto suite = DecodeSetup(*manifest, place);
-  if (!suite) return tl::unexpected(suite.error());
-  if (auto same = CheckMetricVersions(*manifest, place); !same) return tl::unexpected(same.error());
+  ASSIGN_OR_RETURN(auto suite, DecodeSetup(manifest, place));
+  RETURN_IF_ERROR(CheckMetricVersions(manifest, place));
   std::vector<FinishedScenario> finished;
-  for (std::size_t s = 0; s < suite->scenarios.size(); ++s) {
+  for (std::size_t s = 0; s < suite.scenarios.size(); ++s) {
     FinishedScenario& one = finished.emplace_back();
-    one.setup = suite->scenarios[s];
-    auto parsed = ParseScenarios(one.setup.file, suite->sources);
-    if (!parsed) return tl::unexpected(parsed.error());
-    const auto named = std::find_if(parsed->begin(), parsed->end(),
+    one.setup = suite.scenarios[s];
+    ASSIGN_OR_RETURN(auto parsed, ParseScenarios(one.setup.file, suite.sources));
+    const auto named = std::find_if(parsed.begin(), parsed.end(),
                                     [&](const Scenario& scenario) { return scenario.name == one.setup.name; });
-    if (named == parsed->end()) return Fail(place, "'{}' holds no scenario '{}'", one.setup.file, one.setup.name);
+    if (named == parsed.end()) return Fail(place, "'{}' holds no scenario '{}'", one.setup.file, one.setup.name);
     one.scenario = std::move(*named);
     one.scenario.trials = one.setup.trials;
-    if (suite->scored) {
-      if (auto added = AddScoredMethod(*suite->scored, one.scenario); !added) return tl::unexpected(added.error());
+    if (suite.scored) {
+      RETURN_IF_ERROR(AddScoredMethod(*suite.scored, one.scenario));
     }
     try {
-      for (const Json& clip : manifest->at("scenarios").at(s).at("loaded_clips")) {
+      for (const Json& clip : manifest.at("scenarios").at(s).at("loaded_clips")) {
         one.clip_digests.push_back(clip.at("digest").get<std::string>());
       }
     } catch (const Json::exception& error) {
@@ -109,15 +105,11 @@ Result<FinishedRun> LoadFinishedRun(const fs::path& folder) {
         fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
     return run;
   }
-  auto data = LoadRun(folder);
-  if (!data) return tl::unexpected(data.error());
-  run.data = std::move(*data);
-  auto scenarios = LoadScenarios(folder / "manifest.json");
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  run.scenarios = std::move(*scenarios);
-  if (auto checked = CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}); !checked) {
-    return tl::unexpected(checked.error());
-  }
+  ASSIGN_OR_RETURN(auto data, LoadRun(folder));
+  run.data = std::move(data);
+  ASSIGN_OR_RETURN(auto scenarios, LoadScenarios(folder / "manifest.json"));
+  run.scenarios = std::move(scenarios);
+  RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {
     return Fail({(folder / "timings.jsonl").string(), 0, 0}, "tells no times, which a gate of this run needs");
   }

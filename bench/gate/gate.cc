@@ -61,7 +61,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   if (baseline == nullptr) return report;
   report.baseline_version = baseline->program_version;
   const Snapshot now = TakeSnapshot(run);
-  if (auto same = RequireComparable(*baseline, now, baseline_file); !same) return tl::unexpected(same.error());
+  RETURN_IF_ERROR(RequireComparable(*baseline, now, baseline_file));
   report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run));
   for (const std::string& name : report.comparison.only_before) {
     report.incomplete.push_back("the baseline holds what the run does not: " + name);

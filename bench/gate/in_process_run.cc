@@ -34,9 +34,8 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
   } else if (auto read = ReadSources(file, rehearsal.sources); !read) {
     return tl::unexpected(read.error());
   }
-  const auto scenarios = ParseScenarios(rehearsal.setup.file, rehearsal.sources);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  const Scenario& scenario = scenarios->front();
+  ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(rehearsal.setup.file, rehearsal.sources));
+  const Scenario& scenario = scenarios.front();
   rehearsal.setup.name = scenario.name;
   rehearsal.setup.trials = trials.value_or(scenario.trials);
   rehearsal.setup.clips = scenario.clips;
@@ -46,15 +45,16 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
 Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed) {
   ScenarioSetup setup = rehearsal.setup;
   setup.seed = seed;
-  const auto prepared = Prepare(
-      SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}}, setup);
-  if (!prepared) return tl::unexpected(prepared.error());
-  const Scenario& scenario = prepared->scenario();
+  ASSIGN_OR_RETURN(
+      const auto prepared,
+      Prepare(SuiteSetup{.suite = "", .seed = seed, .sources = rehearsal.sources, .scenarios = {}, .scored = {}},
+              setup));
+  const Scenario& scenario = prepared.scenario();
   FinishedRun run;
   run.data.suite = scenario.name;
   run.data.seed = seed;
   run.scenarios.push_back({scenario, setup, {}});
-  CellRunner runner(*prepared, "");
+  CellRunner runner(prepared, "");
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {
     for (int trial = 0; trial < scenario.trials; ++trial) {
       runner.Open(condition, trial);

@@ -209,7 +209,7 @@ Result<Options> ReadMapping(const Node& node, const std::string& what, const Fie
                             Options options = {}) {
   Fields fields(node, what);
   table.Read(fields, options);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return options;
 }
 

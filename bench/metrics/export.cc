@@ -73,11 +73,10 @@ Json EncodeMetric(const MetricInfo& metric, const std::vector<MetricVector>& vec
 }  // namespace
 
 Result<std::string> MetricsJson() {
-  const auto vectors = AllVectors();
-  if (!vectors) return tl::unexpected(vectors.error());
+  ASSIGN_OR_RETURN(const auto vectors, AllVectors());
   Json json = {{"format", kFormat}, {"version", kVersion}, {"joints", EncodeJoints()}};
   Json& metrics = json["metrics"] = Json::array();
-  for (const MetricInfo& metric : AllMetrics()) metrics.push_back(EncodeMetric(metric, *vectors));
+  for (const MetricInfo& metric : AllMetrics()) metrics.push_back(EncodeMetric(metric, vectors));
   return WriteJson(json);
 }
 

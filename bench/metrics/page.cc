@@ -86,14 +86,13 @@ std::string Section(const MetricInfo& metric, const std::vector<MetricVector>& v
 }  // namespace
 
 Result<std::string> MetricsPage() {
-  const auto vectors = AllVectors();
-  if (!vectors) return tl::unexpected(vectors.error());
+  ASSIGN_OR_RETURN(const auto vectors, AllVectors());
   std::string page(kIntroduction);
   std::string domain;
   for (const MetricInfo& metric : AllMetrics()) {
     if (metric.domain != domain) page += fmt::format("\n## {}\n", metric.domain);
     domain = metric.domain;
-    page += Section(metric, *vectors);
+    page += Section(metric, vectors);
   }
   return page;
 }

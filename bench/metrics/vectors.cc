@@ -50,11 +50,10 @@ std::string FindFault(const MetricVector& vector) {
 }  // namespace
 
 Result<std::vector<MetricVector>> ReadVectors(const std::string& text, const std::string& file) {
-  const auto list = ReadJson(text, file);
-  if (!list) return tl::unexpected(list.error());
+  ASSIGN_OR_RETURN(const auto list, ReadJson(text, file));
   std::vector<MetricVector> vectors;
   try {
-    for (const Json& entry : *list) {
+    for (const Json& entry : list) {
       vectors.push_back(Decode(entry));
       const std::string fault = FindFault(vectors.back());
       if (!fault.empty()) return Fail({file, 0, 0}, "vector {}: {}", vectors.size(), fault);

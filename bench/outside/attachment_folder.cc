@@ -7,12 +7,10 @@ namespace etude {
 Result<AttachmentFolder> AttachmentFolder::Write(std::span<const Attachment> files) {
   AttachmentFolder result;
   if (files.empty()) return result;
-  auto folder = TemporaryFolder::Make("files");
-  if (!folder) return tl::unexpected(folder.error());
-  result.folder_.emplace(std::move(*folder));
+  ASSIGN_OR_RETURN(auto folder, TemporaryFolder::Make("files"));
+  result.folder_.emplace(std::move(folder));
   for (const Attachment& file : files) {
-    auto written = WriteFileAtomically(result.folder_->path() / file.name, file.bytes);
-    if (!written) return tl::unexpected(written.error());
+    RETURN_IF_ERROR(WriteFileAtomically(result.folder_->path() / file.name, file.bytes));
   }
   return result;
 }

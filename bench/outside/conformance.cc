@@ -28,7 +28,7 @@ class Examination {
 
   /// Whether all checks were passed.
   Result<bool> Run() {
-    if (auto answers = CheckAnswers(); !answers) return tl::unexpected(answers.error());
+    RETURN_IF_ERROR(CheckAnswers());
     if (!all_passed_) return false;
     CheckOneProblemTwice();
     CheckOrder();
@@ -50,7 +50,7 @@ class Examination {
     return Ask(specimen, problem, problem.id, problem.problem);
   }
 
-  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Exhibit& shown) {
+  Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Payload& shown) {
     const auto start = std::chrono::steady_clock::now();
     const OutsideReply reply = method_.Ask(specimen.setting_id, specimen.setting, id, shown);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -137,7 +137,7 @@ class Examination {
 
   void CheckLongLines() {
     const SpecimenProblem& problem = specimens_[0].problems[0];
-    Exhibit shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
+    Payload shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
     const std::string id = "a \"long\" one, größer";
     ReportDifference("takes long lines, keys it does not know, and ids of any text",
@@ -157,9 +157,8 @@ class Examination {
 
 Result<bool> CheckConformance(const OutsideOptions& options,
                               const std::function<void(const ConformanceCheck&)>& report) {
-  const auto specimens = MakeSpecimens(options.task);
-  if (!specimens) return tl::unexpected(specimens.error());
-  return Examination(options, *specimens, report).Run();
+  ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task));
+  return Examination(options, specimens, report).Run();
 }
 
 }  // namespace etude

@@ -44,7 +44,7 @@ Result<Json> ReadMessageOfType(const std::string& line, std::string_view type) {
   return message;
 }
 
-Result<std::string> ExhibitLine(const char* type, const std::string& id, const Json& content,
+Result<std::string> LinePayload(const char* type, const std::string& id, const Json& content,
                                 const std::string& files) {
   Json message{{"type", type}, {"id", id}, {type, content}};
   if (!files.empty()) message["files"] = files;
@@ -58,28 +58,25 @@ Result<std::string> HelloLine(const std::string& task, const Json& options) {
 }
 
 Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files) {
-  return ExhibitLine("setting", id, content, files);
+  return LinePayload("setting", id, content, files);
 }
 
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files) {
-  return ExhibitLine("problem", id, content, files);
+  return LinePayload("problem", id, content, files);
 }
 
 Result<HelloReply> ReadHello(const std::string& line) {
-  const auto message = ReadMessageOfType(line, "hello");
-  if (!message) return tl::unexpected(message.error());
-  if (!message->contains("protocol") || (*message)["protocol"] != kProtocolVersion) {
+  ASSIGN_OR_RETURN(const auto message, ReadMessageOfType(line, "hello"));
+  if (!message.contains("protocol") || message["protocol"] != kProtocolVersion) {
     return Fail({}, "does not speak protocol {}: {}", kProtocolVersion, Printable(line));
   }
-  const auto name = TextOf(*message, "name", line), version = TextOf(*message, "version", line);
-  if (!name) return tl::unexpected(name.error());
+  ASSIGN_OR_RETURN(const auto name, TextOf(message, "name", line), version = TextOf(message, "version", line));
   if (!version) return tl::unexpected(version.error());
-  return HelloReply{name->substr(0, kLongestName), version->substr(0, kLongestName)};
+  return HelloReply{name.substr(0, kLongestName), version->substr(0, kLongestName)};
 }
 
 Result<void> ReadReady(const std::string& line) {
-  const auto message = ReadMessageOfType(line, "ready");
-  if (!message) return tl::unexpected(message.error());
+  RETURN_IF_ERROR(ReadMessageOfType(line, "ready"));
   return {};
 }
 
@@ -90,11 +87,10 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id) {
   if (!is_answer && (*message)["type"] != "no_answer") {
     return Fail({}, "said no 'answer' and no 'no_answer': {}", Printable(line));
   }
-  const auto said_id = TextOf(*message, "id", line);
-  if (!said_id) return tl::unexpected(said_id.error());
-  if (*said_id != id) return Fail({}, "answered {} when asked {}", Printable(*said_id), Printable(id));
+  ASSIGN_OR_RETURN(const auto said_id, TextOf(*message, "id", line));
+  if (said_id != id) return Fail({}, "answered {} when asked {}", Printable(said_id), Printable(id));
   if (!is_answer) {
-    if (const auto reason = TextOf(*message, "reason", line); !reason) return tl::unexpected(reason.error());
+    RETURN_IF_ERROR(TextOf(*message, "reason", line));
   } else if (!message->contains("answer") || !(*message)["answer"].is_object()) {
     return Fail({}, "its 'answer' has no object \"answer\": {}", Printable(line));
   }

@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
-constexpr int kMostSetbacks = 3;
+constexpr int kMostFailures = 3;
 constexpr int kDyingMs = 1000;     // from closing its output to its end
 constexpr int kEndingMs = 500;     // from the end of its input to its own
 constexpr double kLongestS = 1e9;  // beyond any run, within what the clock can hold
@@ -48,10 +48,10 @@ tl::unexpected<Failure> Unspeakable(const Error& error) { return Failed(Status::
 struct OutsideMethod::State {
   explicit State(OutsideOptions told) : options(std::move(told)), errors(options.error_file) {}
 
-  Outcome<Json> Converse(const std::string& setting_id, const Exhibit& setting, const std::string& problem_id,
-                         const Exhibit& problem);
+  Outcome<Json> Converse(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
+                         const Payload& problem);
   Outcome<void> Start();
-  Outcome<void> TellSetting(const std::string& id, const Exhibit& setting);
+  Outcome<void> TellSetting(const std::string& id, const Payload& setting);
   template <typename Step>
   Outcome<void> Attempt(const std::string& what, Step step);
 
@@ -73,45 +73,42 @@ struct OutsideMethod::State {
   double cpu_charged_s = 0;  ///< of that, told in earlier replies
   double peak_mb = 0;        ///< since the problem was put
 
-  struct Setback {
+  struct Failures {
     int times = 0;  ///< in a row
     Failure last;
   };
-  std::map<std::string, Setback> setbacks;  ///< by what was attempted
+  std::map<std::string, Failures> failures;  ///< by what was attempted
 };
 
 /// Tries a step that is the same for many problems, unless it has failed too often in a row.
 template <typename Step>
 Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Step step) {
-  Setback& setback = setbacks[what];
-  if (setback.times == kMostSetbacks) return tl::unexpected(setback.last);
+  Failures& failed = failures[what];
+  if (failed.times == kMostFailures) return tl::unexpected(failed.last);
   const Outcome<void> done = step();
   if (done) {
-    setback.times = 0;
+    failed.times = 0;
     return done;
   }
-  ++setback.times;
-  setback.last = {done.error().status, fmt::format("{}: {}", what, done.error().reason)};
-  return tl::unexpected(setback.last);
+  ++failed.times;
+  failed.last = {done.error().status, fmt::format("{}: {}", what, done.error().reason)};
+  return tl::unexpected(failed.last);
 }
 
-Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Exhibit& setting,
-                                             const std::string& problem_id, const Exhibit& problem) {
+Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Payload& setting,
+                                             const std::string& problem_id, const Payload& problem) {
   if (!child) {
-    if (auto started = Attempt("in its start", [&] { return Start(); }); !started)
-      return tl::unexpected(started.error());
+    RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
   }
   if (setting_in_force != setting_id) {
-    auto told = Attempt("at setting " + Printable(setting_id), [&] { return TellSetting(setting_id, setting); });
-    if (!told) return tl::unexpected(told.error());
+    RETURN_IF_ERROR(Attempt("at setting " + Printable(setting_id), [&] { return TellSetting(setting_id, setting); }));
   }
   const auto files = AttachmentFolder::Write(problem.files);
   if (!files) return Unspeakable(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return Unspeakable(line.error());
-  const auto said = Exchange(*line, options.time_s);
-  if (!said) return tl::unexpected(said.error());
-  auto answer = ReadAnswer(*said, problem_id);
+  ASSIGN_OR_RETURN(const auto said, Exchange(*line, options.time_s));
+  auto answer = ReadAnswer(said, problem_id);
   if (!answer) return BadOutput(answer.error());
   return std::move(*answer);
 }
@@ -128,23 +125,21 @@ Outcome<void> OutsideMethod::State::Start() {
   if (!started) return Unspeakable(started.error());
   child = std::move(*started);
   cpu_s = cpu_charged_s = 0;
-  const auto said = Exchange(*hello, StartSeconds());
-  if (!said) return tl::unexpected(said.error());
-  const auto reply = ReadHello(*said);
+  ASSIGN_OR_RETURN(const auto said, Exchange(*hello, StartSeconds()));
+  const auto reply = ReadHello(said);
   if (!reply) return BadOutput(reply.error());
   called_itself = reply->name + " " + reply->version;
   return {};
 }
 
-Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Exhibit& setting) {
+Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Payload& setting) {
   auto files = AttachmentFolder::Write(setting.files);
   if (!files) return Unspeakable(files.error());
   setting_files = std::move(*files);
   const auto line = SettingLine(id, *setting.json, setting_files.path());
   if (!line) return Unspeakable(line.error());
-  const auto said = Exchange(*line, StartSeconds());
-  if (!said) return tl::unexpected(said.error());
-  if (const auto ready = ReadReady(*said); !ready) return BadOutput(ready.error());
+  ASSIGN_OR_RETURN(const auto said, Exchange(*line, StartSeconds()));
+  if (const auto ready = ReadReady(said); !ready) return BadOutput(ready.error());
   setting_in_force = id;
   return {};
 }
@@ -160,7 +155,7 @@ Outcome<std::string> OutsideMethod::State::Exchange(const std::string& line, dou
     return Failed(Status::kBadOutput,
                   "said more than one line: " + Printable(more.value_or(std::string(child->PartOfLine()))));
   }
-  if (const auto fits = Look(); !fits) return tl::unexpected(fits.error());
+  RETURN_IF_ERROR(Look());
   return said;
 }
 
@@ -174,7 +169,7 @@ Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadlin
     bool over = false;
     const bool looks = Clock::now() >= next_look;
     if (looks) {
-      if (const auto fits = Look(); !fits) return tl::unexpected(fits.error());
+      RETURN_IF_ERROR(Look());
       next_look = Clock::now() + kLookEvery;
       over = child->HasEnded();  // what it has started may keep its output open
     }
@@ -232,8 +227,8 @@ OutsideMethod::~OutsideMethod() {
   if (state_ != nullptr) state_->Stop(kEndingMs);
 }
 
-OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Exhibit& setting, const std::string& problem_id,
-                                const Exhibit& problem) {
+OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
+                                const Payload& problem) {
   State& state = *state_;
   state.peak_mb = 0;
   auto said = state.Converse(setting_id, setting, problem_id, problem);

@@ -46,8 +46,8 @@ class OutsideMethod {
 
   /// Puts one problem. `setting_id` names the setting that the problem belongs to; the program is told
   /// `setting` first when another one is in force. Attachments lie in a folder while it works.
-  OutsideReply Ask(const std::string& setting_id, const Exhibit& setting, const std::string& problem_id,
-                   const Exhibit& problem);
+  OutsideReply Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
+                   const Payload& problem);
 
   /// What the program calls itself: "name version"; "" before its first handshake.
   std::string CalledItself() const;

@@ -38,25 +38,20 @@ const std::vector<Recipe>& Recipes() {
 Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const std::string& condition) {
   Specimen specimen;
   specimen.setting_id = kind.name + " " + condition;
-  auto clips = LoadClips(recipe.clips, {});
-  if (!clips) return tl::unexpected(clips.error());
-  specimen.clips = std::make_unique<ClipLibrary>(std::move(*clips));
-  const auto node = ParseYaml(condition, specimen.setting_id);
-  if (!node) return tl::unexpected(node.error());
-  Fields fields(*node, "a specimen of task " + kind.name);
+  ASSIGN_OR_RETURN(auto clips, LoadClips(recipe.clips, {}));
+  specimen.clips = std::make_unique<ClipLibrary>(std::move(clips));
+  ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, specimen.setting_id));
+  Fields fields(node, "a specimen of task " + kind.name);
   TaskInput input{fields, {}, *specimen.clips};
-  auto task = kind.make(input);
-  if (!task) return tl::unexpected(task.error());
-  specimen.task = std::move(*task);
-  auto setting = specimen.task->Setting();
-  if (!setting) return tl::unexpected(setting.error());
-  specimen.setting = std::move(*setting);
+  ASSIGN_OR_RETURN(auto task, kind.make(input));
+  specimen.task = std::move(task);
+  ASSIGN_OR_RETURN(auto setting, specimen.task.Setting());
+  specimen.setting = std::move(setting);
   for (int trial = 0; trial < kProblems; ++trial) {
-    auto world = specimen.task->MakeWorld({1, "check-method", trial}, false);
-    auto problem = world->MakeProblem();
-    if (!problem) return tl::unexpected(problem.error());
+    auto world = specimen.task.MakeWorld({1, "check-method", trial}, false);
+    ASSIGN_OR_RETURN(auto problem, world->MakeProblem());
     specimen.problems.push_back(
-        {fmt::format("{} {}", specimen.setting_id, trial), std::move(world), std::move(*problem)});
+        {fmt::format("{} {}", specimen.setting_id, trial), std::move(world), std::move(problem)});
   }
   return specimen;
 }
@@ -72,9 +67,8 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task) {
   for (const Recipe& recipe : Recipes()) {
     if (recipe.task != task) continue;
     for (const char* condition : recipe.conditions) {
-      auto specimen = MakeSpecimen(*kind, recipe, condition);
-      if (!specimen) return tl::unexpected(specimen.error());
-      specimens.push_back(std::move(*specimen));
+      ASSIGN_OR_RETURN(auto specimen, MakeSpecimen(*kind, recipe, condition));
+      specimens.push_back(std::move(specimen));
     }
   }
   return specimens;

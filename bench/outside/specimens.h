@@ -12,7 +12,7 @@ namespace etude {
 struct SpecimenProblem {
   std::string id;
   std::unique_ptr<TaskWorld> world;
-  Exhibit problem;
+  Payload problem;
 };
 
 /// Problems that share a setting.
@@ -20,7 +20,7 @@ struct Specimen {
   std::string setting_id;
   std::unique_ptr<ClipLibrary> clips;  ///< outlive the task
   std::unique_ptr<Task> task;
-  Exhibit setting;
+  Payload setting;
   std::vector<SpecimenProblem> problems;
 };
 

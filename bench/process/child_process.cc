@@ -99,8 +99,7 @@ Result<Pipe> MakePipe() {
 }  // namespace
 
 Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
-  const auto path = FindProgram(options.program);
-  if (!path) return tl::unexpected(path.error());
+  ASSIGN_OR_RETURN(const auto path, FindProgram(options.program));
   auto input = MakePipe(), output = MakePipe(), report = MakePipe();
   for (const auto* pipe : {&input, &output, &report}) {
     if (!*pipe) return tl::unexpected(pipe->error());
@@ -120,8 +119,8 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
   if (pid == 0) {
-    BecomeProgram(path->c_str(), argv.data(), envp.data(), input->read.number(), output->write.number(),
-                  errors.number(), report->write.number(), parent);
+    BecomeProgram(path.c_str(), argv.data(), envp.data(), input->read.number(), output->write.number(), errors.number(),
+                  report->write.number(), parent);
   }
   if (pid < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
   report->write.Close();
@@ -131,7 +130,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   }
   if (count > 0) {
     ::waitpid(pid, nullptr, 0);
-    return Fail({*path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
+    return Fail({path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
   }
   ::fcntl(input->write.number(), F_SETFL, O_NONBLOCK);
   ::fcntl(output->read.number(), F_SETFL, O_NONBLOCK);

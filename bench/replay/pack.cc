@@ -33,16 +33,15 @@ Result<Json> PackClips(const ClipLibrary& library) {
     const SplitReference reference = Split(clip.source);
     const auto [file, is_new] = number_of.emplace(reference.path, files.size());
     if (is_new) {
-      auto bytes = ReadWholeFile(reference.path);
-      if (!bytes) return tl::unexpected(bytes.error());
-      const std::size_t first = bytes->find_first_not_of(" \t\r\n");
-      if (first != std::string::npos && (*bytes)[first] == '{') {
+      ASSIGN_OR_RETURN(auto bytes, ReadWholeFile(reference.path));
+      const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+      if (first != std::string::npos && bytes[first] == '{') {
         return Fail({reference.path, 0, 0},
                     "a .gltf may need files beside it and is not packed; 'etude clip convert' "
                     "makes a .glb of it");
       }
       files.push_back({{"name", fs::path(reference.path).filename().string()},
-                       {"bytes", Json::binary({bytes->begin(), bytes->end()})}});
+                       {"bytes", Json::binary({bytes.begin(), bytes.end()})}});
     }
     clips.push_back({{"file", file->second}, {"animation", reference.animation.value_or("")}});
   }
@@ -56,8 +55,7 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
     const fs::path name = fs::path(file.at("name").get<std::string>()).filename();
     const auto& bytes = file.at("bytes").get_binary();
     paths.push_back((folder / std::to_string(paths.size()) / name).string());
-    auto written = WriteFileAtomically(paths.back(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    if (!written) return tl::unexpected(written.error());
+    RETURN_IF_ERROR(WriteFileAtomically(paths.back(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
   }
   std::vector<std::string> references;
   for (const Json& clip : packed.at("clips")) {
@@ -79,19 +77,16 @@ struct Pack {
 
 Result<Pack> ReadPack(const std::string& file) {
   const Place place{file, 0, 0};
-  const auto bytes = ReadWholeFile(file);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
   try {
-    const Json json = Json::from_cbor(*bytes);
+    const Json json = Json::from_cbor(bytes);
     if (json.at("etude_pack") != kPackVersion) {
       return Fail(place, "a pack of version {}; this program reads {}", json.at("etude_pack").dump(), kPackVersion);
     }
-    auto suite = DecodeSetup(json.at("setup"), place);
-    if (!suite) return tl::unexpected(suite.error());
-    if (suite->scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite->scenarios.size());
-    auto row = DecodeRow(json.at("row"), place);
-    if (!row) return tl::unexpected(row.error());
-    return Pack{std::move(*suite), std::move(*row), json.at("motions")};
+    ASSIGN_OR_RETURN(auto suite, DecodeSetup(json.at("setup"), place));
+    if (suite.scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite.scenarios.size());
+    ASSIGN_OR_RETURN(auto row, DecodeRow(json.at("row"), place));
+    return Pack{std::move(suite), std::move(row), json.at("motions")};
   } catch (const Json::exception& error) {
     return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", error.what());
   }
@@ -100,61 +95,53 @@ Result<Pack> ReadPack(const std::string& file) {
 }  // namespace
 
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file) {
-  const auto run = LoadRun(folder);
-  if (!run) return tl::unexpected(run.error());
-  const auto row = std::find_if(run->rows.begin(), run->rows.end(), [&](const Row& r) { return r.Id() == cell; });
-  if (row == run->rows.end()) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
-  auto whole = PrepareRun(fs::path(folder) / "manifest.json");
-  if (!whole) return tl::unexpected(whole.error());
-  const std::vector<PreparedScenario>& scenarios = whole->scenarios;
+  ASSIGN_OR_RETURN(const auto run, LoadRun(folder));
+  const auto row = std::find_if(run.rows.begin(), run.rows.end(), [&](const Row& r) { return r.Id() == cell; });
+  if (row == run.rows.end()) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
+  ASSIGN_OR_RETURN(auto whole, PrepareRun(fs::path(folder) / "manifest.json"));
+  const std::vector<PreparedScenario>& scenarios = whole.scenarios;
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
     return scenario.scenario().name == row->scenario;
   });
   if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
-  SuiteSetup suite = whole->suite;
-  auto clips = PackClips(prepared->clips());
-  if (!clips) return tl::unexpected(clips.error());
+  SuiteSetup suite = whole.suite;
+  ASSIGN_OR_RETURN(auto clips, PackClips(prepared->clips()));
   if (suite.scored && row->method == suite.scored->name) {
     return Fail({folder, 0, 0}, "'{}' is an answer that was scored, not run", cell);
   }
   suite.scored.reset();
   suite.scenarios = {prepared->setup()};
   const Json pack{{"etude_pack", kPackVersion},
-                  {"etude", run->program_version},
+                  {"etude", run.program_version},
                   {"setup", EncodeSetup(suite)},
                   {"row", EncodeRow(*row)},
-                  {"motions", std::move(*clips)}};
+                  {"motions", std::move(clips)}};
   const std::vector<std::uint8_t> bytes = Json::to_cbor(pack);
   return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 Result<CellCheck> ReplayPack(const std::string& file) {
-  auto pack = ReadPack(file);
-  if (!pack) return tl::unexpected(pack.error());
-  const auto folder = TemporaryFolder::Make("replay");
-  if (!folder) return tl::unexpected(folder.error());
+  ASSIGN_OR_RETURN(auto pack, ReadPack(file));
+  ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("replay"));
   try {
-    auto clips = UnpackClips(pack->motions, folder->path());
-    if (!clips) return tl::unexpected(clips.error());
-    pack->suite.scenarios.front().clips = std::move(*clips);
+    ASSIGN_OR_RETURN(auto clips, UnpackClips(pack.motions, folder.path()));
+    pack.suite.scenarios.front().clips = std::move(clips);
   } catch (const std::exception& error) {  // Json's, or a file that the pack does not have
     return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
   }
-  const auto scenarios = PrepareAll(pack->suite);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  const Plan plan(*scenarios);
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(pack.suite));
+  const Plan plan(scenarios);
   std::size_t cell = 0;
-  while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack->row.Id()) ++cell;
-  if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack->row.Id());
+  while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack.row.Id()) ++cell;
+  if (cell == plan.cell_count()) return Fail({file, 0, 0}, "its scenario makes no cell '{}'", pack.row.Id());
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
-  const auto whole = RunOrders(pack->suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
-                               {.program = ThisProgram(), .error_folder = "", .jobs = 1, .stop = nullptr},
-                               [&](std::size_t, FinishedCell finished) -> Result<void> {
-                                 check = CompareRows(pack->row, finished.row);
-                                 return {};
-                               });
-  if (!whole) return tl::unexpected(whole.error());
+  RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
+                            {.program = ThisProgram(), .error_folder = "", .jobs = 1, .stop = nullptr},
+                            [&](std::size_t, FinishedCell finished) -> Result<void> {
+                              check = CompareRows(pack.row, finished.row);
+                              return {};
+                            }));
   return *check;
 }
 

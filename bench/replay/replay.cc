@@ -55,22 +55,19 @@ std::vector<Order> OrdersOf(const Plan& plan, const std::set<std::size_t>& cells
 }  // namespace
 
 Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
-  const auto run = LoadRun(options.folder);
-  if (!run) return tl::unexpected(run.error());
-  const auto prepared = PrepareRun(fs::path(options.folder) / "manifest.json");
-  if (!prepared) return tl::unexpected(prepared.error());
-  const Plan plan(prepared->scenarios);
-  if (run->rows.size() != plan.cell_count()) {
-    return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", run->rows.size(), plan.cell_count());
+  ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder));
+  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(fs::path(options.folder) / "manifest.json"));
+  const Plan plan(prepared.scenarios);
+  if (run.rows.size() != plan.cell_count()) {
+    return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", run.rows.size(), plan.cell_count());
   }
-  const auto chosen = ChooseCells(options, *run, prepared->suite.scored);
-  if (!chosen) return tl::unexpected(chosen.error());
+  ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared.suite.scored));
   std::map<std::size_t, CellCheck> checks;
   const auto whole =
-      RunOrders(prepared->suite, plan, OrdersOf(plan, *chosen),
+      RunOrders(prepared.suite, plan, OrdersOf(plan, chosen),
                 {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
                 [&](std::size_t cell, FinishedCell finished) -> Result<void> {
-                  checks.emplace(cell, CompareRows(run->rows[cell], finished.row));
+                  checks.emplace(cell, CompareRows(run.rows[cell], finished.row));
                   return {};
                 });
   if (!whole) return tl::unexpected(whole.error());

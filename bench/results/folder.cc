@@ -24,23 +24,20 @@ std::string FileNameOf(std::string cell) {
 }
 
 Result<Json> ReadJsonFile(const fs::path& path) {
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  return ReadJson(*text, path.string());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  return ReadJson(text, path.string());
 }
 
 /// Calls `use(json, place)` for every line; stops at the first complaint.
 template <typename Use>
 Result<void> ForEachLine(const fs::path& path, Use use) {
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  std::istringstream lines(*text);
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number) {
     const Place place{path.string(), number, 0};
-    auto json = ReadJson(line, place.file, place.line);
-    if (!json) return tl::unexpected(json.error());
-    if (Result<void> used = use(*json, place); !used) return used;
+    ASSIGN_OR_RETURN(auto json, ReadJson(line, place.file, place.line));
+    if (Result<void> used = use(json, place); !used) return used;
   }
   return {};
 }
@@ -66,11 +63,9 @@ Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
   for (const Row& row : run.rows) {
     const fs::path path = folder / "recordings" / FileNameOf(row.Id());
     if (std::error_code none; !fs::exists(path, none)) continue;
-    const auto json = ReadJsonFile(path);
-    if (!json) return tl::unexpected(json.error());
-    auto recording = DecodeRecording(*json, {path.string(), 0, 0});
-    if (!recording) return tl::unexpected(recording.error());
-    run.recordings.push_back({row.Id(), std::move(*recording)});
+    ASSIGN_OR_RETURN(const auto json, ReadJsonFile(path));
+    ASSIGN_OR_RETURN(auto recording, DecodeRecording(json, {path.string(), 0, 0}));
+    run.recordings.push_back({row.Id(), std::move(recording)});
   }
   return {};
 }
@@ -89,20 +84,18 @@ Result<void> LoadTimes(const fs::path& folder, RunData& run) {
 }
 
 Result<void> LoadManifest(const fs::path& folder, RunData& run) {
-  const auto manifest = ReadJsonFile(folder / "manifest.json");
-  if (!manifest) return tl::unexpected(manifest.error());
-  const auto host = ReadJsonFile(folder / "host.json");
-  if (!host) return tl::unexpected(host.error());
+  ASSIGN_OR_RETURN(const auto manifest, ReadJsonFile(folder / "manifest.json"));
+  ASSIGN_OR_RETURN(const auto host, ReadJsonFile(folder / "host.json"));
   const Place place{(folder / "manifest.json").string(), 0, 0};
   try {
-    const int schema = manifest->at("schema").get<int>();
+    const int schema = manifest.at("schema").get<int>();
     if (schema != kResultSchema) return Fail(place, "schema {}; this program reads {}", schema, kResultSchema);
-    run.suite = manifest->at("suite").get<std::string>();
-    run.seed = manifest->at("seed").get<std::uint64_t>();
-    run.program_version = manifest->at("etude").get<std::string>();
-    run.command_line = host->at("command_line").get<std::string>();
-    run.host = host->at("host").get<std::string>();
-    run.wall_seconds = host->at("wall_seconds").get<double>();
+    run.suite = manifest.at("suite").get<std::string>();
+    run.seed = manifest.at("seed").get<std::uint64_t>();
+    run.program_version = manifest.at("etude").get<std::string>();
+    run.command_line = host.at("command_line").get<std::string>();
+    run.host = host.at("host").get<std::string>();
+    run.wall_seconds = host.at("wall_seconds").get<double>();
   } catch (const Json::exception& error) {
     return Fail(place, "not a manifest: {}", error.what());
   }
@@ -115,32 +108,27 @@ Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios) {
   std::string cells;
   for (const Row& row : rows) {
-    const auto line = WriteJson(EncodeRow(row));
-    if (!line) return tl::unexpected(line.error());
-    cells += *line + "\n";
+    ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeRow(row)));
+    cells += line + "\n";
     if (!row.result.recording) continue;
-    const auto json = EncodeRecording(*row.result.recording);
-    if (!json) return tl::unexpected(json.error());
-    const auto text = WriteJson(*json);
-    if (!text) return tl::unexpected(text.error());
-    auto saved = WriteFileAtomically(folder / "recordings" / FileNameOf(row.Id()), *text + "\n");
+    ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
+    ASSIGN_OR_RETURN(const auto text, WriteJson(json));
+    auto saved = WriteFileAtomically(folder / "recordings" / FileNameOf(row.Id()), text + "\n");
     if (!saved) return saved;
   }
   for (const ScenarioSummary& scenario : scenarios) {
     std::string lines;
     for (const Row& row : rows) {
       if (row.scenario != scenario.name || row.result.series.empty()) continue;
-      const auto line = WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}});
-      if (!line) return tl::unexpected(line.error());
-      lines += *line + "\n";
+      ASSIGN_OR_RETURN(const auto line, WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}}));
+      lines += line + "\n";
     }
     if (lines.empty()) continue;
     auto saved = WriteFileAtomically(folder / "series" / (scenario.name + ".jsonl"), lines);
     if (!saved) return saved;
   }
-  const auto summary = WriteJson(EncodeSummaries(scenarios));
-  if (!summary) return tl::unexpected(summary.error());
-  auto saved = WriteFileAtomically(folder / "summary.json", *summary + "\n");
+  ASSIGN_OR_RETURN(const auto summary, WriteJson(EncodeSummaries(scenarios)));
+  auto saved = WriteFileAtomically(folder / "summary.json", summary + "\n");
   if (!saved) return saved;
   return WriteFileAtomically(folder / "cells.jsonl", cells);
 }
@@ -156,22 +144,18 @@ Result<RunData> LoadRun(const fs::path& folder) {
                 "etude run --resume goes on with it, etude merge makes a run of shards",
                 kJournalFile);
   }
-  if (auto loaded = LoadManifest(folder, run); !loaded) return tl::unexpected(loaded.error());
-  auto rows = ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
-    auto row = DecodeRow(json, line);
-    if (!row) return tl::unexpected(row.error());
-    run.rows.push_back(std::move(*row));
+  RETURN_IF_ERROR(LoadManifest(folder, run));
+  RETURN_IF_ERROR(ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
+    ASSIGN_OR_RETURN(auto row, DecodeRow(json, line));
+    run.rows.push_back(std::move(row));
     return {};
-  });
-  if (!rows) return tl::unexpected(rows.error());
-  const auto summary = ReadJsonFile(folder / "summary.json");
-  if (!summary) return tl::unexpected(summary.error());
-  auto scenarios = DecodeSummaries(*summary, {(folder / "summary.json").string(), 0, 0});
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  run.scenarios = std::move(*scenarios);
-  if (auto loaded = LoadSeries(folder, run); !loaded) return tl::unexpected(loaded.error());
-  if (auto loaded = LoadRecordings(folder, run); !loaded) return tl::unexpected(loaded.error());
-  if (auto loaded = LoadTimes(folder, run); !loaded) return tl::unexpected(loaded.error());
+  }));
+  ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
+  ASSIGN_OR_RETURN(auto scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
+  run.scenarios = std::move(scenarios);
+  RETURN_IF_ERROR(LoadSeries(folder, run));
+  RETURN_IF_ERROR(LoadRecordings(folder, run));
+  RETURN_IF_ERROR(LoadTimes(folder, run));
   return run;
 }
 

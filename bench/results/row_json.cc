@@ -196,9 +196,8 @@ Result<Row> DecodeCell(const Json& json, const Place& place) {
     return Fail(place, "a series that cannot be read: {}", error.what());
   }
   if (json.contains("recording")) {
-    auto recording = DecodeRecording(json["recording"], place);
-    if (!recording) return tl::unexpected(recording.error());
-    row->result.recording = std::move(*recording);
+    ASSIGN_OR_RETURN(auto recording, DecodeRecording(json["recording"], place));
+    row->result.recording = std::move(recording);
   }
   return row;
 }

@@ -26,9 +26,8 @@ Json EncodeFinishedCell(FinishedCell cell) {
 }
 
 Result<FinishedCell> DecodeFinishedCell(const Json& json, const Place& place) {
-  auto row = DecodeCell(json, place);
-  if (!row) return tl::unexpected(row.error());
-  FinishedCell cell{std::move(*row), {}};
+  ASSIGN_OR_RETURN(auto row, DecodeCell(json, place));
+  FinishedCell cell{std::move(row), {}};
   try {
     const Json& usage = json.at("usage");
     cell.usage = {usage.at("wall_s").get<double>(), usage.at("cpu_s").get<double>(), usage.at("peak_mb").get<double>(),

@@ -116,13 +116,13 @@ CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
   if (setting_ == nullptr || condition_of_setting_ != condition_) {
     auto setting = scenario_.task(condition_).Setting();
     if (!setting) return CellResult::Ended(Status::kFailed, ToString(setting.error()));
-    setting_ = std::make_unique<Exhibit>(std::move(*setting));
+    setting_ = std::make_unique<Payload>(std::move(*setting));
     condition_of_setting_ = condition_;
   }
   if (problem_ == nullptr) {
     auto problem = world_->MakeProblem();
     if (!problem) return CellResult::Ended(Status::kFailed, ToString(problem.error()));
-    problem_ = std::make_unique<Exhibit>(std::move(*problem));
+    problem_ = std::make_unique<Payload>(std::move(*problem));
   }
   const std::string setting_id =
       scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].settings);

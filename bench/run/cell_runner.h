@@ -47,7 +47,7 @@ class CellRunner {
   std::unique_ptr<TaskWorld> world_;
   std::string why_no_world_;
   CellUsage world_usage_;
-  std::unique_ptr<Exhibit> setting_, problem_;  ///< of the open world, once asked for
+  std::unique_ptr<Payload> setting_, problem_;  ///< of the open world, once asked for
   int condition_of_setting_ = -1;
 };
 

@@ -12,18 +12,16 @@ namespace etude {
 namespace fs = std::filesystem;
 
 Result<void> SaveJson(const fs::path& path, const Json& json) {
-  const auto text = WriteJson(json);
-  if (!text) return tl::unexpected(text.error());
-  return WriteFileAtomically(path, *text + "\n");
+  ASSIGN_OR_RETURN(const auto text, WriteJson(json));
+  return WriteFileAtomically(path, text + "\n");
 }
 
 Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable cells, const Json& host) {
   std::vector<Row> rows;
   std::string timings;
   for (std::optional<FinishedCell>& cell : cells) {
-    const auto line = WriteJson(EncodeUsage(cell->row.Id(), cell->usage));
-    if (!line) return tl::unexpected(line.error());
-    timings += *line + "\n";
+    ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeUsage(cell->row.Id(), cell->usage)));
+    timings += line + "\n";
     rows.push_back(std::move(cell->row));
   }
   std::vector<ScenarioSummary> summaries;
@@ -35,9 +33,9 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable cells
     summaries.push_back(Summarise(scenario, std::span(rows).subspan(at, count), prepared.setup().seed));
     at += count;
   }
-  if (auto saved = SaveResults(folder, rows, summaries); !saved) return saved;
-  if (auto saved = WriteFileAtomically(folder / "timings.jsonl", timings); !saved) return saved;
-  if (auto saved = SaveJson(folder / "host.json", host); !saved) return saved;
+  RETURN_IF_ERROR(SaveResults(folder, rows, summaries));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "timings.jsonl", timings));
+  RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
   std::error_code error;
   fs::remove(folder / kJournalFile, error);
   if (error) return Fail({(folder / kJournalFile).string(), 0, 0}, "cannot be removed: {}", error.message());

@@ -34,17 +34,16 @@ bool HasRightSum(const std::string& line) {
 }
 
 Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
-  const auto json = ReadJson(line, place.file, place.line);
-  if (!json) return tl::unexpected(json.error());
+  ASSIGN_OR_RETURN(const auto json, ReadJson(line, place.file, place.line));
   JournalHead head;
   try {
-    const int version = json->at("journal").get<int>();
+    const int version = json.at("journal").get<int>();
     if (version != kJournalVersion) {
       return Fail(place, "a journal of version {}; this program reads {}", version, kJournalVersion);
     }
-    head.manifest = json->at("manifest").get<std::string>();
-    head.build = json->at("build").get<std::string>();
-    const auto shard = ParseShard(json->at("shard").get<std::string>());
+    head.manifest = json.at("manifest").get<std::string>();
+    head.build = json.at("build").get<std::string>();
+    const auto shard = ParseShard(json.at("shard").get<std::string>());
     if (!shard) return Fail(place, "{}", shard.error().message);
     head.shard = *shard;
   } catch (const Json::exception& error) {
@@ -57,19 +56,17 @@ Result<void> AddCell(const std::string& line, const Place& place, const Plan& pl
                      CellTable& cells) {
   if (!HasRightSum(line))
     return Fail(place, "this line is not as it was written; delete it to have its cell run again");
-  const auto json = ReadJson(line, place.file, place.line);
-  if (!json) return tl::unexpected(json.error());
-  auto finished = DecodeFinishedCell(*json, place);
-  if (!finished) return tl::unexpected(finished.error());
-  const auto number = json->find("cell");
-  if (number == json->end() || !number->is_number_unsigned()) return Fail(place, "a line without its cell's number");
+  ASSIGN_OR_RETURN(const auto json, ReadJson(line, place.file, place.line));
+  ASSIGN_OR_RETURN(auto finished, DecodeFinishedCell(json, place));
+  const auto number = json.find("cell");
+  if (number == json.end() || !number->is_number_unsigned()) return Fail(place, "a line without its cell's number");
   const std::size_t cell = number->get<std::size_t>();
   if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell)) ||
-      plan.IdentityOf(cell).Id() != finished->row.Id()) {
-    return Fail(place, "cell {} ({}) is none of this run's shard {}", cell, finished->row.Id(), ToString(shard));
+      plan.IdentityOf(cell).Id() != finished.row.Id()) {
+    return Fail(place, "cell {} ({}) is none of this run's shard {}", cell, finished.row.Id(), ToString(shard));
   }
-  if (cells[cell]) return Fail(place, "cell {} ({}) stands in two places", cell, finished->row.Id());
-  cells[cell] = std::move(*finished);
+  if (cells[cell]) return Fail(place, "cell {} ({}) stands in two places", cell, finished.row.Id());
+  cells[cell] = std::move(finished);
   return {};
 }
 
@@ -78,12 +75,11 @@ Result<void> AddCell(const std::string& line, const Place& place, const Plan& pl
 Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head) {
   Journal journal(folder / kJournalFile,
                   ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644));
-  const auto line = WriteJson({{"journal", kJournalVersion},
-                               {"manifest", head.manifest},
-                               {"build", head.build},
-                               {"shard", ToString(head.shard)}});
-  if (!line) return tl::unexpected(line.error());
-  if (auto written = journal.Write(*line + "\n"); !written) return tl::unexpected(written.error());
+  ASSIGN_OR_RETURN(const auto line, WriteJson({{"journal", kJournalVersion},
+                                               {"manifest", head.manifest},
+                                               {"build", head.build},
+                                               {"shard", ToString(head.shard)}}));
+  RETURN_IF_ERROR(journal.Write(line + "\n"));
   return journal;
 }
 
@@ -109,9 +105,8 @@ Journal::~Journal() {
 Result<void> Journal::Append(std::size_t cell, FinishedCell finished) {
   Json json{{"cell", cell}};
   json.update(EncodeFinishedCell(std::move(finished)));
-  const auto line = WriteJson(json);
-  if (!line) return tl::unexpected(line.error());
-  return Write(WithSum(*line));
+  ASSIGN_OR_RETURN(const auto line, WriteJson(json));
+  return Write(WithSum(line));
 }
 
 Result<void> Journal::Write(const std::string& line) {

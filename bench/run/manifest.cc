@@ -44,9 +44,8 @@ Json DescribeClips(const ClipLibrary& library) {
 }
 
 Result<Json> ReadManifestJson(const std::filesystem::path& path) {
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  auto json = ReadJson(*text, path.string());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  auto json = ReadJson(text, path.string());
   if (!json) return json;
   const Json schema = json->is_object() ? json->value("schema", Json()) : Json();
   if (schema != kResultSchema) {
@@ -76,17 +75,15 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
 }
 
 Result<SuiteSetup> ReadManifest(const std::filesystem::path& path) {
-  const auto json = ReadManifestJson(path);
-  if (!json) return tl::unexpected(json.error());
-  return DecodeSetup(*json, {path.string(), 0, 0});
+  ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
+  return DecodeSetup(json, {path.string(), 0, 0});
 }
 
 Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios) {
-  const auto json = ReadManifestJson(path);
-  if (!json) return tl::unexpected(json.error());
+  ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     const Json now = DescribeClips(scenarios[s].clips());
-    const Json then = json->at("scenarios").at(s).value("loaded_clips", Json::array());
+    const Json then = json.at("scenarios").at(s).value("loaded_clips", Json::array());
     if (now == then) continue;
     for (std::size_t c = 0; c < std::max(now.size(), then.size()); ++c) {
       if (c < now.size() && c < then.size() && now[c] == then[c]) continue;
@@ -101,18 +98,15 @@ Result<void> CheckClips(const std::filesystem::path& path, std::span<const Prepa
 }
 
 Result<PreparedRun> PrepareRun(const std::filesystem::path& manifest) {
-  auto suite = ReadManifest(manifest);
-  if (!suite) return tl::unexpected(suite.error());
-  auto scenarios = PrepareAll(*suite);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  if (auto same = CheckClips(manifest, *scenarios); !same) return tl::unexpected(same.error());
-  return PreparedRun{std::move(*suite), std::move(*scenarios)};
+  ASSIGN_OR_RETURN(auto suite, ReadManifest(manifest));
+  ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
+  RETURN_IF_ERROR(CheckClips(manifest, scenarios));
+  return PreparedRun{std::move(suite), std::move(scenarios)};
 }
 
 Result<std::string> BuildDigest() {
-  const auto bytes = ReadWholeFile("/proc/self/exe");
-  if (!bytes) return tl::unexpected(bytes.error());
-  return Digest().Add(std::string_view(*bytes)).Hex();
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile("/proc/self/exe"));
+  return Digest().Add(std::string_view(bytes)).Hex();
 }
 
 Json DescribeHost(const std::string& command_line, int jobs, double seconds) {

@@ -27,38 +27,34 @@ struct Shards {
 
 Result<void> AddShard(const fs::path& folder, const std::string& build, Shards& shards) {
   const Place place{folder.string(), 0, 0};
-  const auto head = ReadJournalHead(folder);
-  if (!head) return tl::unexpected(head.error());
-  if (head->build != build) return Fail(place, "was run by another build of etude than this one");
+  ASSIGN_OR_RETURN(const auto head, ReadJournalHead(folder));
+  if (head.build != build) return Fail(place, "was run by another build of etude than this one");
   if (shards.folders.empty()) {
-    auto manifest = ReadWholeFile(folder / "manifest.json");
-    if (!manifest) return tl::unexpected(manifest.error());
-    shards.manifest = std::move(*manifest);
-    shards.count = head->shard.count;
+    ASSIGN_OR_RETURN(auto manifest, ReadWholeFile(folder / "manifest.json"));
+    shards.manifest = std::move(manifest);
+    shards.count = head.shard.count;
   }
-  if (head->manifest != Digest().Add(std::string_view(shards.manifest)).Hex()) {
+  if (head.manifest != Digest().Add(std::string_view(shards.manifest)).Hex()) {
     return Fail(place, "is a shard of another run than the ones before: scenarios, seed, clips or version differ");
   }
-  if (head->shard.count != shards.count) {
-    return Fail(place, "is shard {}, but the ones before are of {}", ToString(head->shard), shards.count);
+  if (head.shard.count != shards.count) {
+    return Fail(place, "is shard {}, but the ones before are of {}", ToString(head.shard), shards.count);
   }
-  const auto [other, is_new] = shards.folders.emplace(head->shard.index, folder);
-  if (!is_new) return Fail(place, "is shard {}, and so is {}", ToString(head->shard), other->second.string());
+  const auto [other, is_new] = shards.folders.emplace(head.shard.index, folder);
+  if (!is_new) return Fail(place, "is shard {}, and so is {}", ToString(head.shard), other->second.string());
   return {};
 }
 
 /// Which shards the folders hold, after checking that they are parts of one run, each there once.
 Result<Shards> FindShards(const std::vector<std::string>& folders) {
-  const auto build = BuildDigest();
-  if (!build) return tl::unexpected(build.error());
+  ASSIGN_OR_RETURN(const auto build, BuildDigest());
   Shards shards;
   for (const std::string& folder : folders) {
-    const auto state = LookAtFolder(folder);
-    if (!state) return tl::unexpected(state.error());
-    if (*state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, no shard");
-    if (*state == FolderState::kFree) {
+    ASSIGN_OR_RETURN(const auto state, LookAtFolder(folder));
+    if (state == FolderState::kFinished) return Fail({folder, 0, 0}, "is a whole run already, no shard");
+    if (state == FolderState::kFree) {
       shards.missing.push_back(folder + " holds no shard");
-    } else if (auto added = AddShard(folder, *build, shards); !added) {
+    } else if (auto added = AddShard(folder, build, shards); !added) {
       return tl::unexpected(added.error());
     }
   }
@@ -85,50 +81,42 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
 
 Result<Json> ReadHost(const fs::path& folder) {
   const fs::path path = folder / "host.json";
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  return ReadJson(*text, path.string());
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  return ReadJson(text, path.string());
 }
 
 }  // namespace
 
 Result<RunOutcome> Merge(const MergeOptions& options) {
-  auto shards = FindShards(options.folders);
-  if (!shards) return tl::unexpected(shards.error());
-  if (shards->folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards->missing, "; "));
-  const auto prepared = PrepareRun(shards->folders.begin()->second / "manifest.json");
-  if (!prepared) return tl::unexpected(prepared.error());
-  const Plan plan(prepared->scenarios);
+  ASSIGN_OR_RETURN(auto shards, FindShards(options.folders));
+  if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
+  ASSIGN_OR_RETURN(const auto prepared, PrepareRun(shards.folders.begin()->second / "manifest.json"));
+  const Plan plan(prepared.scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
-  for (const auto& [index, folder] : shards->folders) {
-    const auto head = ReadJournal(folder, plan, cells);
-    if (!head) return tl::unexpected(head.error());
-    const std::string what = WhatLacks(plan, head->shard, folder, cells);
-    if (!what.empty()) shards->missing.push_back(what);
-    const auto host = what.empty() ? ReadHost(folder) : Json();
-    if (!host) return tl::unexpected(host.error());
-    hosts.push_back(*host);
+  for (const auto& [index, folder] : shards.folders) {
+    ASSIGN_OR_RETURN(const auto head, ReadJournal(folder, plan, cells));
+    const std::string what = WhatLacks(plan, head.shard, folder, cells);
+    if (!what.empty()) shards.missing.push_back(what);
+    ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadHost(folder) : Json());
+    hosts.push_back(host);
   }
-  if (!shards->missing.empty()) {
+  if (!shards.missing.empty()) {
     return Fail({}, "not all {} shards are there and finished (etude run --shard i/{} --resume goes on): {}",
-                shards->count, shards->count, Join(shards->missing, "; "));
+                shards.count, shards.count, Join(shards.missing, "; "));
   }
-  const auto state = LookAtFolder(options.output);
-  if (!state) return tl::unexpected(state.error());
-  if (*state != FolderState::kFree && !options.overwrite) {
+  ASSIGN_OR_RETURN(const auto state, LookAtFolder(options.output));
+  if (state != FolderState::kFree && !options.overwrite) {
     return Fail({options.output, 0, 0}, "already holds a run; --overwrite replaces it, -o chooses another folder");
   }
-  auto claimed = RunFolder::Claim(options.output, false);
-  if (!claimed) return tl::unexpected(claimed.error());
-  auto saved = WriteFileAtomically(fs::path(options.output) / "manifest.json", shards->manifest);
-  if (!saved) return tl::unexpected(saved.error());
+  ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
+  RETURN_IF_ERROR(WriteFileAtomically(fs::path(options.output) / "manifest.json", shards.manifest));
   RunOutcome outcome{.folder = options.output, .cells = cells.size()};
   for (const auto& cell : cells) outcome.cells_ok += cell->row.result.status == Status::kOk ? 1 : 0;
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
-  if (auto done = FinishRun(options.output, plan, std::move(cells), host); !done) return tl::unexpected(done.error());
-  claimed->Keep();
+  RETURN_IF_ERROR(FinishRun(options.output, plan, std::move(cells), host));
+  claimed.Keep();
   return outcome;
 }
 

@@ -41,13 +41,11 @@ Result<FolderState> CheckFolder(const fs::path& folder, const RunOptions& option
 /// A folder can only be gone on with by the same build, suite, seed and clips.
 Result<void> CheckManifest(const fs::path& folder, const std::string& manifest) {
   const fs::path path = folder / "manifest.json";
-  const auto found = ReadWholeFile(path);
-  if (!found) return tl::unexpected(found.error());
-  if (*found == manifest) return {};
-  const auto then = ReadJson(*found, path.string()), now = ReadJson(manifest, "");
-  if (!then) return tl::unexpected(then.error());
+  ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
+  if (found == manifest) return {};
+  ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()), now = ReadJson(manifest, ""));
   for (const auto& [key, value] : now->items()) {
-    if (!then->is_object() || then->value(key, Json()) != value) {
+    if (!then.is_object() || then.value(key, Json()) != value) {
       return Fail({path.string(), 0, 0}, "is of another run: its '{}' differs; only the same run can be resumed", key);
     }
   }
@@ -77,7 +75,7 @@ class Keeper {
   }
 
   Result<void> Add(std::size_t cell, FinishedCell finished) {
-    if (auto kept = journal_.Append(cell, finished); !kept) return kept;
+    RETURN_IF_ERROR(journal_.Append(cell, finished));
     Count(finished);
     cells_[cell] = std::move(finished);
     progress_.seconds = SecondsSince(start_);
@@ -103,11 +101,10 @@ class Keeper {
 
 /// The outcome of a folder that needs nothing more.
 Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
-  const auto run = LoadRun(folder);
-  if (!run) return tl::unexpected(run.error());
-  RunOutcome outcome{.folder = folder, .cells = run->rows.size()};
-  outcome.cells_ok = static_cast<std::size_t>(std::count_if(
-      run->rows.begin(), run->rows.end(), [](const Row& row) { return row.result.status == Status::kOk; }));
+  ASSIGN_OR_RETURN(const auto run, LoadRun(folder));
+  RunOutcome outcome{.folder = folder, .cells = run.rows.size()};
+  outcome.cells_ok = static_cast<std::size_t>(
+      std::count_if(run.rows.begin(), run.rows.end(), [](const Row& row) { return row.result.status == Status::kOk; }));
   return outcome;
 }
 
@@ -115,43 +112,35 @@ Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
 
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress) {
   const auto start = Clock::now();
-  const auto suite = options.from.empty() ? ReadSuite(options) : ReadManifest(options.from);
-  if (!suite) return tl::unexpected(suite.error());
-  if (suite->scored) {
+  ASSIGN_OR_RETURN(const auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
+  if (suite.scored) {
     return Fail({options.from, 0, 0}, "is of answers that were scored ('{}'), which cannot be run; etude score does it",
-                suite->scored->name);
+                suite.scored->name);
   }
-  const fs::path folder = FolderFor(options, *suite);
-  const auto state = CheckFolder(folder, options);
-  if (!state) return tl::unexpected(state.error());
-  const auto scenarios = PrepareAll(*suite);
-  if (!scenarios) return tl::unexpected(scenarios.error());
+  const fs::path folder = FolderFor(options, suite);
+  ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
   if (!options.from.empty()) {
-    if (auto same = CheckClips(options.from, *scenarios); !same) return tl::unexpected(same.error());
+    RETURN_IF_ERROR(CheckClips(options.from, scenarios));
   }
-  const Plan plan(*scenarios);
-  const auto manifest = WriteJson(MakeManifest(*suite, *scenarios, options.program_version));
-  if (!manifest) return tl::unexpected(manifest.error());
-  const auto build = BuildDigest();
-  if (!build) return tl::unexpected(build.error());
-  const JournalHead head{Digest().Add(*manifest + "\n").Hex(), *build, options.shard};
+  const Plan plan(scenarios);
+  ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
+  ASSIGN_OR_RETURN(const auto build, BuildDigest());
+  const JournalHead head{Digest().Add(manifest + "\n").Hex(), build, options.shard};
 
   if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = folder, .stopped = true};
-  const bool continues = options.resume && *state != FolderState::kFree;
-  auto claimed = RunFolder::Claim(folder, continues);
-  if (!claimed) return tl::unexpected(claimed.error());
+  const bool continues = options.resume && state != FolderState::kFree;
+  ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   CellTable cells(plan.cell_count());
   if (continues) {
-    if (auto same = CheckManifest(folder, *manifest + "\n"); !same) return tl::unexpected(same.error());
-    if (*state == FolderState::kFinished) return AlreadyWhole(folder);
-    const auto found = ReadJournal(folder, plan, cells);
-    if (!found) return tl::unexpected(found.error());
-    if (auto same = CheckHead(folder, *found, head); !same) return tl::unexpected(same.error());
-  } else if (auto saved = WriteFileAtomically(folder / "manifest.json", *manifest + "\n"); !saved) {
+    RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n"));
+    if (state == FolderState::kFinished) return AlreadyWhole(folder);
+    ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells));
+    RETURN_IF_ERROR(CheckHead(folder, found, head));
+  } else if (auto saved = WriteFileAtomically(folder / "manifest.json", manifest + "\n"); !saved) {
     return tl::unexpected(saved.error());
   }
-  auto journal = continues ? Journal::Continue(folder) : Journal::Begin(folder, head);
-  if (!journal) return tl::unexpected(journal.error());
+  ASSIGN_OR_RETURN(auto journal, continues ? Journal::Continue(folder) : Journal::Begin(folder, head));
 
   std::size_t wanted = 0;
   for (std::size_t world = 0; world < plan.world_count(); ++world) {
@@ -159,15 +148,15 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   }
   std::vector<Order> orders = plan.OrdersFor(options.shard, DoneCells(cells));
   const bool was_done = continues && orders.empty();
-  Keeper keeper(std::move(cells), std::move(*journal), wanted, on_progress);
-  const auto whole = RunOrders(*suite, plan, std::move(orders),
+  Keeper keeper(std::move(cells), std::move(journal), wanted, on_progress);
+  const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),
                                 .jobs = options.jobs,
                                 .stop = options.stop},
                                [&](std::size_t cell, FinishedCell finished) {
                                  auto kept = keeper.Add(cell, std::move(finished));
-                                 if (kept) claimed->Keep();
+                                 if (kept) claimed.Keep();
                                  return kept;
                                });
   const Progress& progress = keeper.progress();
@@ -178,12 +167,12 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   }
   RunOutcome outcome{folder, progress.cells_done, progress.cells_ok, SecondsSince(start), !*whole};
   if (outcome.stopped) return outcome;
-  claimed->Keep();
+  claimed.Keep();
   const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
   if (options.shard.IsWhole()) {
-    if (auto done = FinishRun(folder, plan, keeper.TakeCells(), host); !done) return tl::unexpected(done.error());
+    RETURN_IF_ERROR(FinishRun(folder, plan, keeper.TakeCells(), host));
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
-    if (auto done = SaveJson(folder / "host.json", host); !done) return tl::unexpected(done.error());
+    RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
   }
   outcome.seconds = SecondsSince(start);
   return outcome;

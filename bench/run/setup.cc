@@ -36,13 +36,11 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, c
   for (const Condition& condition : scenario.conditions) {
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
-    auto fuzzy = FuzzySystemOf(condition, texts);
-    if (!fuzzy) return tl::unexpected(fuzzy.error());
-    TaskInput input{fields, built_in, clips, *std::move(fuzzy)};
-    auto task = FindTaskKind(scenario.task)->make(input);
-    if (!task) return tl::unexpected(task.error());
-    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
-    tasks.push_back(std::move(*task));
+    ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(condition, texts));
+    TaskInput input{fields, built_in, clips, std::move(fuzzy)};
+    ASSIGN_OR_RETURN(auto task, FindTaskKind(scenario.task)->make(input));
+    RETURN_IF_ERROR(fields.Finish());
+    tasks.push_back(std::move(task));
   }
   return tasks;
 }
@@ -93,11 +91,10 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
 }
 
 Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup) {
-  auto scenarios = ParseScenarios(setup.file, suite.sources);
-  if (!scenarios) return tl::unexpected(scenarios.error());
-  const auto named = std::find_if(scenarios->begin(), scenarios->end(),
+  ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(setup.file, suite.sources));
+  const auto named = std::find_if(scenarios.begin(), scenarios.end(),
                                   [&](const Scenario& scenario) { return scenario.name == setup.name; });
-  if (named == scenarios->end()) return Fail({setup.file, 0, 0}, "holds no scenario named '{}'", setup.name);
+  if (named == scenarios.end()) return Fail({setup.file, 0, 0}, "holds no scenario named '{}'", setup.name);
   PreparedScenario prepared;
   prepared.scenario_ = std::move(*named);
   prepared.scenario_.trials = setup.trials;
@@ -105,19 +102,16 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   if (!setup.joint_map.empty()) {
     const auto text = suite.sources.find(setup.joint_map);
     if (text == suite.sources.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", setup.joint_map);
-    auto roles = ReadJointMapFile(text->second, setup.joint_map);
-    if (!roles) return tl::unexpected(roles.error());
-    how.roles = std::move(*roles);
+    ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text->second, setup.joint_map));
+    how.roles = std::move(roles);
   }
-  auto clips = LoadClips(setup.clips, {setup.file, 0, 0}, how);
-  if (!clips) return tl::unexpected(clips.error());
-  prepared.clips_ = std::make_unique<ClipLibrary>(std::move(*clips));
+  ASSIGN_OR_RETURN(auto clips, LoadClips(setup.clips, {setup.file, 0, 0}, how));
+  prepared.clips_ = std::make_unique<ClipLibrary>(std::move(clips));
   prepared.setup_ = setup;
-  auto tasks = MakeTasks(prepared.scenario_, *prepared.clips_, suite.sources);
-  if (!tasks) return tl::unexpected(tasks.error());
-  prepared.tasks_ = std::move(*tasks);
+  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, *prepared.clips_, suite.sources));
+  prepared.tasks_ = std::move(tasks);
   if (suite.scored) {
-    if (auto added = AddScoredMethod(*suite.scored, prepared.scenario_); !added) return tl::unexpected(added.error());
+    RETURN_IF_ERROR(AddScoredMethod(*suite.scored, prepared.scenario_));
   }
   return prepared;
 }
@@ -125,9 +119,8 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
   std::vector<PreparedScenario> scenarios;
   for (const ScenarioSetup& setup : suite.scenarios) {
-    auto prepared = Prepare(suite, setup);
-    if (!prepared) return tl::unexpected(prepared.error());
-    scenarios.push_back(std::move(*prepared));
+    ASSIGN_OR_RETURN(auto prepared, Prepare(suite, setup));
+    scenarios.push_back(std::move(prepared));
   }
   return scenarios;
 }

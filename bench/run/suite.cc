@@ -27,9 +27,8 @@ std::string SuiteName(const std::vector<std::string>& paths) {
 /// Keeps the text of a file that a scenario names among the sources, so that the manifest alone repeats the run.
 Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   if (file.empty() || texts.contains(file)) return {};
-  auto text = ReadWholeFile(file);
-  if (!text) return tl::unexpected(text.error());
-  texts[file] = std::move(*text);
+  ASSIGN_OR_RETURN(auto text, ReadWholeFile(file));
+  texts[file] = std::move(text);
   return {};
 }
 
@@ -71,21 +70,19 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
 }
 
 Result<SuiteSetup> ReadSuite(const RunOptions& options) {
-  const auto files = FindScenarioFiles(options.scenarios);
-  if (!files) return tl::unexpected(files.error());
+  ASSIGN_OR_RETURN(const auto files, FindScenarioFiles(options.scenarios));
   SuiteSetup suite;
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
   std::map<std::string, std::string> file_of_name;
   std::size_t cells = 0;
-  for (const std::string& file : *files) {
+  for (const std::string& file : files) {
     SourceTexts texts;
-    if (auto read = ReadSources(file, texts); !read) return tl::unexpected(read.error());
-    const auto scenarios = ParseScenarios(file, texts);
-    if (!scenarios) return tl::unexpected(scenarios.error());
+    RETURN_IF_ERROR(ReadSources(file, texts));
+    ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(file, texts));
     Digest digest;
     for (const auto& [path, text] : texts) digest.Add(text);
-    for (const Scenario& scenario : *scenarios) {
+    for (const Scenario& scenario : scenarios) {
       const auto [other, is_new] = file_of_name.emplace(scenario.name, file);
       if (!is_new) {
         return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario.name, other->second);
@@ -98,8 +95,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       }
       const bool replaced = !options.clips.empty() && !scenario.clips.empty();
       const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
-      if (auto kept = KeepText(joint_map, suite.sources); !kept) return tl::unexpected(kept.error());
-      if (auto kept = KeepFuzzySystems(scenario, suite.sources); !kept) return tl::unexpected(kept.error());
+      RETURN_IF_ERROR(KeepText(joint_map, suite.sources));
+      RETURN_IF_ERROR(KeepFuzzySystems(scenario, suite.sources));
       suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
                                  replaced ? options.clips : scenario.clips, joint_map, digest.Hex()});
     }

@@ -23,7 +23,7 @@ constexpr int kPollMilliseconds = 20;   // how stale a look at memory or at the 
 constexpr int kMostDeathsInSetup = 3;   // one may be chance (out of memory, a stray kill); a row of them is not
 constexpr double kLongestSetupS = 600;  // clips are read in it
 constexpr double kGraceS = 10;          // a method outside is ended by the worker, which then still has to tell
-constexpr int kFarewellMs = 3000;       // in which a worker lets its methods outside come to their end
+constexpr int kShutdownGraceMs = 3000;  // in which a worker lets its methods outside come to their end
 
 Clock::time_point After(double seconds) {
   constexpr double kLongest = 1e9;  // beyond any run, within what the clock can hold
@@ -49,9 +49,9 @@ class Supervisor {
       : plan_(plan), orders_(orders.begin(), orders.end()), options_(options), deliver_(deliver) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    const auto setup_line = WriteJson({{"setup", EncodeSetup(setup)}, {"error_folder", options_.error_folder}});
-    if (!setup_line) return tl::unexpected(setup_line.error());
-    setup_line_ = *setup_line;
+    ASSIGN_OR_RETURN(const auto setup_line,
+                     WriteJson({{"setup", EncodeSetup(setup)}, {"error_folder", options_.error_folder}}));
+    setup_line_ = setup_line;
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     while (workers_.size() < jobs) {
       auto worker = StartWorker();
@@ -61,17 +61,17 @@ class Supervisor {
     }
     while (!workers_.empty()) {
       if (options_.stop != nullptr && *options_.stop) return false;
-      if (auto stepped = Step(); !stepped) return tl::unexpected(stepped.error());
+      RETURN_IF_ERROR(Step());
     }
     return true;
   }
 
  private:
   Result<Worker> StartWorker() {
-    auto process = ChildProcess::Start({.program = options_.program, .arguments = {"worker"}, .error_file = ""});
-    if (!process) return tl::unexpected(process.error());
-    process->Send(setup_line_);  // a worker that is already dead is noticed when it is polled
-    return Worker(std::move(*process), After(kLongestSetupS));
+    ASSIGN_OR_RETURN(auto process,
+                     ChildProcess::Start({.program = options_.program, .arguments = {"worker"}, .error_file = ""}));
+    process.Send(setup_line_);  // a worker that is already dead is noticed when it is polled
+    return Worker(std::move(process), After(kLongestSetupS));
   }
 
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
@@ -81,7 +81,7 @@ class Supervisor {
     worker.order.reset();
     worker.built = false;
     if (orders_.empty()) {
-      worker.process.Finish(kFarewellMs);
+      worker.process.Finish(kShutdownGraceMs);
       worker.dismissed = true;
       return;
     }
@@ -111,8 +111,8 @@ class Supervisor {
     }
     ::poll(watched.data(), watched.size(), kPollMilliseconds);
     for (std::size_t i = 0; i < workers_.size(); ++i) {
-      const bool stirred = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
-      if (auto watched_over = WatchOver(workers_[i], stirred); !watched_over) return watched_over;
+      const bool has_input = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
+      RETURN_IF_ERROR(WatchOver(workers_[i], has_input));
     }
     // One that is still in its set-up is not waited for when there is nothing left to give it.
     std::erase_if(workers_,
@@ -120,13 +120,12 @@ class Supervisor {
     return {};
   }
 
-  Result<void> WatchOver(Worker& worker, bool stirred) {
-    if (stirred) {
+  Result<void> WatchOver(Worker& worker, bool has_input) {
+    if (has_input) {
       const bool alive = worker.process.Receive();
       for (auto line = worker.process.NextLine(); line && !worker.dismissed; line = worker.process.NextLine()) {
-        auto taken = Take(worker, *line);
-        if (!taken) return tl::unexpected(taken.error());
-        if (!*taken) return Replace(worker, Status::kBadOutput, "its worker answered with something else");
+        ASSIGN_OR_RETURN(auto taken, Take(worker, *line));
+        if (!taken) return Replace(worker, Status::kBadOutput, "its worker answered with something else");
       }
       if (worker.dismissed) return {};
       if (!alive) return Replace(worker, Status::kCrashed, "its worker ended with " + worker.process.Finish());
@@ -166,7 +165,7 @@ class Supervisor {
     if (!finished || finished->row.Id() != plan_.IdentityOf(cell).Id()) return false;
     worker.order->methods.erase(worker.order->methods.begin());
     StartNextMethod(worker);
-    if (auto delivered = deliver_(cell, std::move(*finished)); !delivered) return tl::unexpected(delivered.error());
+    RETURN_IF_ERROR(deliver_(cell, std::move(*finished)));
     return true;
   }
 
@@ -177,15 +176,14 @@ class Supervisor {
       return Fail({}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
     }
     if (worker.order) {
-      if (auto given_up = GiveUp(*worker.order, worker.built, status, reason); !given_up) return given_up;
+      RETURN_IF_ERROR(GiveUp(*worker.order, worker.built, status, reason));
     }
     if (orders_.empty()) {
       worker.dismissed = true;
       return {};
     }
-    auto next = StartWorker();
-    if (!next) return tl::unexpected(next.error());
-    worker = std::move(*next);
+    ASSIGN_OR_RETURN(auto next, StartWorker());
+    worker = std::move(next);
     return {};
   }
 
@@ -198,7 +196,7 @@ class Supervisor {
       const std::string when = built ? reason : reason + " while its world was being built";
       FinishedCell cell{plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, status, when),
                         {}};
-      if (auto told = deliver_(plan_.CellAt(order.world, method), std::move(cell)); !told) return told;
+      RETURN_IF_ERROR(deliver_(plan_.CellAt(order.world, method), std::move(cell)));
     }
     order.methods.erase(order.methods.begin(), order.methods.begin() + static_cast<std::ptrdiff_t>(lost));
     if (!order.methods.empty()) orders_.push_front(std::move(order));

@@ -24,7 +24,7 @@ int Misunderstood(const Error& error) {
 }
 
 /// Runs one order, answering as it goes.
-Result<void> Obey(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
+Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunner>> runners, std::ostream& out) {
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
   if (scenario >= runners.size()) return Fail({}, "there is no scenario {}", scenario);
@@ -32,9 +32,8 @@ Result<void> Obey(const Json& order, std::span<const std::unique_ptr<CellRunner>
   runner.Open(world.at(1).get<int>(), world.at(2).get<int>());
   out << kWorldBuilt << '\n' << std::flush;
   for (const Json& method : order.at("methods")) {
-    const auto line = WriteJson(EncodeFinishedCell(runner.Run(method.get<std::size_t>())));
-    if (!line) return tl::unexpected(line.error());
-    out << *line << '\n' << std::flush;
+    ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeFinishedCell(runner.Run(method.get<std::size_t>()))));
+    out << line << '\n' << std::flush;
   }
   return {};
 }
@@ -64,7 +63,7 @@ int RunWorker(std::istream& in, std::ostream& out) {
     while (std::getline(in, line)) {
       const auto order = ReadJson(line, "a worker's orders");
       if (!order) return Misunderstood(order.error());
-      if (auto done = Obey(*order, runners, out); !done) return Misunderstood(done.error());
+      if (auto done = Execute(*order, runners, out); !done) return Misunderstood(done.error());
     }
   } catch (const Json::exception& error) {
     return Misunderstood({place, error.what()});

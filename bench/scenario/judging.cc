@@ -93,7 +93,7 @@ Result<Expectation> ReadExpectation(const Node& item, const Scenario& scenario, 
   expectation.statistic = entry.Choice("statistic", {"median", "mean", "p95"}, "median");
   expectation.confidence = entry.Number("confidence", expectation.confidence, {0.5, 0.999});
   expectation.where = ReadWhere(entry, scenario);
-  if (auto done = entry.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(entry.Finish());
   if (expectation.below == expectation.of || expectation.above == expectation.of) {
     return Fail(item.place, "'{}' cannot be expected to differ from itself", expectation.of);
   }
@@ -115,7 +115,7 @@ Result<TimeRatio> ReadTimeRatio(const Node& item, const Scenario& scenario) {
   ratio.of = RequiredChoice(entry, "of", methods);
   ratio.over = RequiredChoice(entry, "over", methods);
   ratio.at_most = entry.Number("at_most", ratio.at_most, {0.001, 1e6});
-  if (auto done = entry.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(entry.Finish());
   if (ratio.of == ratio.over) return Fail(item.place, "the ratio of '{}' over itself says nothing", ratio.of);
   return ratio;
 }

@@ -89,7 +89,7 @@ Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
   } else {
     CheckKeysOfBuiltIn(method, kind);
   }
-  if (auto done = method.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(method.Finish());
   entry.node = node;
   std::erase_if(entry.node.entries, [](const Node::Entry& key) { return key.key == "against"; });
   return entry;

@@ -41,7 +41,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
   const auto step = range.OptionalNumber("step");
   const auto count = range.OptionalWhole("count", {2, static_cast<double>(most)});
   steps.logarithmic = range.Choice("scale", {"linear", "log"}, "linear") == "log";
-  if (auto done = range.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(range.Finish());
 
   const Place& place = swept.value.place;
   if (step.has_value() == count.has_value()) {
@@ -74,13 +74,12 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most) {
   const Node& value = swept.value;
   if (value.kind == Node::Kind::kMapping) {
-    const auto steps = ReadRange(swept, most);
-    if (!steps) return tl::unexpected(steps.error());
+    ASSIGN_OR_RETURN(const auto steps, ReadRange(swept, most));
     std::vector<Node> values;
-    for (std::size_t i = 0; i < steps->count; ++i) {
+    for (std::size_t i = 0; i < steps.count; ++i) {
       Node node;
       node.kind = Node::Kind::kScalar;
-      node.scalar = Write(ValueAt(*steps, i), *steps);
+      node.scalar = Write(ValueAt(steps, i), steps);
       node.place = value.place;
       values.push_back(std::move(node));
     }

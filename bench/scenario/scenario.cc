@@ -16,28 +16,28 @@ namespace {
 
 constexpr int kMostTrials = 1'000'000;
 
-RecordingWish ReadVideo(Fields& fields, const Scenario& scenario) {
-  RecordingWish wish;
+RecordingSelection ReadVideo(Fields& fields, const Scenario& scenario) {
+  RecordingSelection selection;
   const Node* node = fields.Raw("video");
-  if (node == nullptr) return wish;
+  if (node == nullptr) return selection;
   Fields video(*node, "'video'");
   const std::vector<std::string> names = MethodNames(scenario);
   const Node* methods = video.Raw("compare");
-  wish.methods = video.Texts("compare");
-  for (std::size_t i = 0; video.ok() && i < wish.methods.size(); ++i) {
-    if (std::find(names.begin(), names.end(), wish.methods[i]) == names.end()) {
-      video.Complain(methods->items[i].place, UnknownName("method", wish.methods[i], names));
+  selection.methods = video.Texts("compare");
+  for (std::size_t i = 0; video.ok() && i < selection.methods.size(); ++i) {
+    if (std::find(names.begin(), names.end(), selection.methods[i]) == names.end()) {
+      video.Complain(methods->items[i].place, UnknownName("method", selection.methods[i], names));
     }
   }
   const Node* trials = video.Raw("trials");
   for (double trial : video.Numbers("trials", {0, scenario.trials - 1.0})) {
     if (trial != std::floor(trial)) video.Complain(trials->place, "'trials' must be whole numbers");
-    wish.trials.push_back(static_cast<int>(trial));
+    selection.trials.push_back(static_cast<int>(trial));
   }
-  if (wish.trials.empty()) wish.trials = {0};
-  if (wish.methods.empty()) wish.methods = names;
+  if (selection.trials.empty()) selection.trials = {0};
+  if (selection.methods.empty()) selection.methods = names;
   if (auto done = video.Finish(); !done) fields.Complain(done.error().place, done.error().message);
-  return wish;
+  return selection;
 }
 
 Limits ReadLimits(Fields& fields) {
@@ -81,7 +81,7 @@ Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
   if (fields.ok()) scenario.expectations = ReadExpectations(fields, scenario, kind);
   if (fields.ok()) scenario.recordings = ReadVideo(fields, scenario);
   if (fields.ok()) scenario.gate = ReadGate(fields, scenario, kind);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return scenario;
 }
 
@@ -99,22 +99,20 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
     if (text == texts.end()) return Fail(asked_at, "the text of '{}' is missing", path);
     return text->second;
   };
-  const auto nodes = CollectScenarios(file, from_texts);
-  if (!nodes) return tl::unexpected(nodes.error());
+  ASSIGN_OR_RETURN(const auto nodes, CollectScenarios(file, from_texts));
   std::vector<Scenario> scenarios;
   std::size_t values = 0;
-  for (const Node& node : *nodes) {
-    auto scenario = ParseScenario(node, file);
-    if (!scenario) return tl::unexpected(scenario.error());
-    values += scenario->conditions.size() * CountValues(node);
+  for (const Node& node : nodes) {
+    ASSIGN_OR_RETURN(auto scenario, ParseScenario(node, file));
+    values += scenario.conditions.size() * CountValues(node);
     if (values > kMostValues) {
       return Fail(node.place, "with this scenario, the conditions of the file hold more than {} values", kMostValues);
     }
     for (const Scenario& other : scenarios) {
-      if (other.name != scenario->name) continue;
+      if (other.name != scenario.name) continue;
       return Fail(node.Find("scenario")->place, "two scenarios of this file are named '{}'", other.name);
     }
-    scenarios.push_back(*std::move(scenario));
+    scenarios.push_back(std::move(scenario));
   }
   return scenarios;
 }

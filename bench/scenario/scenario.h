@@ -31,7 +31,7 @@ struct Condition {
 };
 
 /// Which cells keep their motions for videos.
-struct RecordingWish {
+struct RecordingSelection {
   std::vector<std::string> methods;
   std::vector<int> trials;
 };
@@ -81,7 +81,7 @@ struct Scenario {
   std::vector<MethodEntry> methods;   ///< at least one
   std::vector<std::string> metrics;   ///< headline metrics; the task's own when the file names none
   std::vector<Expectation> expectations;
-  RecordingWish recordings;
+  RecordingSelection recordings;
   Limits limits;
   GateRules gate;
 };

@@ -41,33 +41,31 @@ class Collector {
   explicit Collector(const TextOf& text_of) : text_of_(text_of) {}
 
   Result<std::vector<Node>> Scenarios(const std::string& file) {
-    const auto top = Open(file, {file, 0, 0});
-    if (!top) return tl::unexpected(top.error());
-    const Node* list = top->Find("scenarios");
-    if (list == nullptr && top->Find("defaults") != nullptr) {
-      return Fail(top->place,
+    ASSIGN_OR_RETURN(const auto top, Open(file, {file, 0, 0}));
+    const Node* list = top.Find("scenarios");
+    if (list == nullptr && top.Find("defaults") != nullptr) {
+      return Fail(top.place,
                   "no scenario, only 'defaults': files that others include stand in a folder of their own, "
                   "such as shared/, which a run of this one leaves out");
     }
-    auto defaults = DefaultsOf(*top, file);
-    if (!defaults) return tl::unexpected(defaults.error());
+    ASSIGN_OR_RETURN(auto defaults, DefaultsOf(top, file));
     if (list == nullptr) {
-      Node scenario = *top;
+      Node scenario = top;
       std::erase_if(scenario.entries, [](const auto& entry) { return entry.key == "include"; });
-      return std::vector<Node>{WithDefaults(std::move(scenario), *defaults)};
+      return std::vector<Node>{WithDefaults(std::move(scenario), defaults)};
     }
-    Fields fields(*top, "a file of several scenarios");
+    Fields fields(top, "a file of several scenarios");
     for (const char* key : {"include", "defaults", "scenarios"}) fields.Raw(key);
-    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+    RETURN_IF_ERROR(fields.Finish());
     if (list->kind != Node::Kind::kSequence || list->items.empty()) {
       return Fail(list->place, "'scenarios' must be a list of at least one scenario, found {}", Describe(*list));
     }
     if (list->items.size() > kMostScenarios) {
       return Fail(list->place, "{} scenarios; at most {} in a file", list->items.size(), kMostScenarios);
     }
-    if (list->items.size() * CountAll(*defaults) > kMostValues) {
+    if (list->items.size() * CountAll(defaults) > kMostValues) {
       return Fail(list->place, "{} scenarios with defaults of {} values; at most {} values in all", list->items.size(),
-                  CountAll(*defaults), kMostValues);
+                  CountAll(defaults), kMostValues);
     }
     std::vector<Node> scenarios;
     for (const Node& item : list->items) {
@@ -75,7 +73,7 @@ class Collector {
         if (!IsKeyOfFiles(entry.key)) continue;
         return Fail(entry.place, "'{}' stands at the top of a file, not in one of its scenarios", entry.key);
       }
-      scenarios.push_back(WithDefaults(item, *defaults));
+      scenarios.push_back(WithDefaults(item, defaults));
     }
     return scenarios;
   }
@@ -90,10 +88,9 @@ class Collector {
   }
 
   Result<Node> Open(const std::string& file, const Place& asked_at) {
-    auto text = text_of_(file, asked_at);
-    if (!text) return tl::unexpected(text.error());
+    ASSIGN_OR_RETURN(auto text, text_of_(file, asked_at));
     chain_.push_back(file);
-    return ParseYaml(*text, file);
+    return ParseYaml(text, file);
   }
 
   /// What `include` and `defaults` of a file give to its scenarios.
@@ -130,12 +127,11 @@ class Collector {
     }
     if (chain_.size() > kDeepestInclude) return Fail(asked_at, "included more than {} files deep", kDeepestInclude);
     if (++inclusions_ > kMostInclusions) return Fail(asked_at, "more than {} inclusions", kMostInclusions);
-    const auto top = Open(file, asked_at);
-    if (!top) return tl::unexpected(top.error());
-    Fields fields(*top, "an included file");
+    ASSIGN_OR_RETURN(const auto top, Open(file, asked_at));
+    Fields fields(top, "an included file");
     for (const char* key : {"include", "defaults"}) fields.Raw(key);
-    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
-    auto defaults = DefaultsOf(*top, file);
+    RETURN_IF_ERROR(fields.Finish());
+    auto defaults = DefaultsOf(top, file);
     chain_.pop_back();
     return defaults;
   }
@@ -158,8 +154,7 @@ Result<void> ReadSources(const std::string& file, SourceTexts& texts) {
     if (asked_at.line == 0) return text;
     return Fail(asked_at, "{}", ToString(text.error()));
   };
-  const auto scenarios = CollectScenarios(file, from_disk);
-  if (!scenarios) return tl::unexpected(scenarios.error());
+  RETURN_IF_ERROR(CollectScenarios(file, from_disk));
   return {};
 }
 

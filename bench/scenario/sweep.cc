@@ -42,15 +42,14 @@ Condition At(Condition condition, const Point& point) {
 Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
   Axis axis;
   for (const Node::Entry& parameter : parameters) {
-    const auto values = SweptValues(parameter, kMostConditions);
-    if (!values) return tl::unexpected(values.error());
-    if (axis.empty()) axis.resize(values->size());
-    if (axis.size() != values->size()) {
+    ASSIGN_OR_RETURN(const auto values, SweptValues(parameter, kMostConditions));
+    if (axis.empty()) axis.resize(values.size());
+    if (axis.size() != values.size()) {
       return Fail(parameter.value.place,
                   "'{}' and '{}' are stepped together; they need as many values each, found {} and {}",
-                  parameters.front().key, parameter.key, axis.size(), values->size());
+                  parameters.front().key, parameter.key, axis.size(), values.size());
     }
-    for (std::size_t i = 0; i < axis.size(); ++i) axis[i].push_back({parameter.key, parameter.place, (*values)[i]});
+    for (std::size_t i = 0; i < axis.size(); ++i) axis[i].push_back({parameter.key, parameter.place, values[i]});
   }
   for (std::size_t i = 0; i < axis.size(); ++i) {
     const auto repeated = [&](const Point& other) { return SamePoint(axis[i], other); };
@@ -100,26 +99,24 @@ Result<std::vector<Axis>> ReadAxes(const Node& sweep, const TaskKind& kind) {
   std::vector<std::string> seen;
   const auto add = [&](const std::vector<Node::Entry>& parameters, bool in_group) -> Result<void> {
     for (const Node::Entry& parameter : parameters) {
-      if (auto known = CheckParameter(parameter, kind, in_group); !known) return known;
+      RETURN_IF_ERROR(CheckParameter(parameter, kind, in_group));
       if (std::find(seen.begin(), seen.end(), parameter.key) != seen.end()) {
         return Fail(parameter.place, "'{}' is swept twice", parameter.key);
       }
       seen.push_back(parameter.key);
     }
-    auto axis = ReadAxis(parameters);
-    if (!axis) return tl::unexpected(axis.error());
-    axes.push_back(*std::move(axis));
+    ASSIGN_OR_RETURN(auto axis, ReadAxis(parameters));
+    axes.push_back(std::move(axis));
     return {};
   };
   for (const Node::Entry& swept : sweep.entries) {
     if (swept.key != kTogether) {
-      if (auto added = add({swept}, false); !added) return tl::unexpected(added.error());
+      RETURN_IF_ERROR(add({swept}, false));
       continue;
     }
-    const auto groups = ReadGroups(swept.value);
-    if (!groups) return tl::unexpected(groups.error());
-    for (const Node& group : *groups) {
-      if (auto added = add(group.entries, true); !added) return tl::unexpected(added.error());
+    ASSIGN_OR_RETURN(const auto groups, ReadGroups(swept.value));
+    for (const Node& group : groups) {
+      RETURN_IF_ERROR(add(group.entries, true));
     }
   }
   return axes;

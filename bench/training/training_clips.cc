@@ -34,10 +34,9 @@ Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, con
   std::vector<std::string> known;
   std::vector<BodyMotion> all;
   for (const std::string& name : BuiltinMoveNames()) {
-    auto move = LoadBuiltinMove(name);
-    if (!move) return tl::unexpected(move.error());
+    ASSIGN_OR_RETURN(auto move, LoadBuiltinMove(name));
     known.push_back("builtin:" + name);
-    all.push_back(std::move(move->motion));
+    all.push_back(std::move(move.motion));
   }
   std::vector<std::size_t> others;
   std::vector<std::string> seen = known;

@@ -37,3 +37,22 @@ tl::unexpected<Error> Fail(Place place, fmt::format_string<Args...> format, Args
 }
 
 }  // namespace etude
+
+/// Leaves the function with the error of a Result, if there is one: `RETURN_IF_ERROR(fields.Finish());`
+#define RETURN_IF_ERROR(...)                                   \
+  do {                                                         \
+    if (auto etude_result_ = (__VA_ARGS__); !etude_result_) {  \
+      return tl::unexpected(std::move(etude_result_).error()); \
+    }                                                          \
+  } while (false)
+
+/// Declares what a Result holds, or leaves the function with its error:
+/// `ASSIGN_OR_RETURN(const auto clip, ReadBvh(text, file));`
+#define ASSIGN_OR_RETURN(declaration, ...) \
+  ETUDE_ASSIGN_OR_RETURN_(ETUDE_UNIQUE_(etude_result_, __COUNTER__), declaration, __VA_ARGS__)
+#define ETUDE_ASSIGN_OR_RETURN_(result, declaration, ...)        \
+  auto result = (__VA_ARGS__);                                   \
+  if (!result) return tl::unexpected(std::move(result).error()); \
+  declaration = *std::move(result)
+#define ETUDE_UNIQUE_(name, number) ETUDE_UNIQUE_NAME_(name, number)
+#define ETUDE_UNIQUE_NAME_(name, number) name##number

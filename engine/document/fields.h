@@ -24,7 +24,7 @@ struct Range {
 ///     Fields fields(node, "an ik scenario");
 ///     options.trials = fields.Integer("trials", 100, {1, 100000});
 ///     options.start = fields.Choice("start", {"near", "cold"}, "near");
-///     if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+///     RETURN_IF_ERROR(fields.Finish());
 class Fields {
  public:
   /// `what` is the mapping's role in complaints, e.g. "a method of task ik". `node` must outlive this.

@@ -27,9 +27,9 @@ class HierarchyReader {
   explicit HierarchyReader(TextScanner& scanner) : scanner_(scanner) {}
 
   Result<BvhHierarchy> Read() {
-    if (auto ok = Expect("HIERARCHY"); !ok) return tl::unexpected(ok.error());
-    if (auto ok = Expect("ROOT"); !ok) return tl::unexpected(ok.error());
-    if (auto ok = ReadJoint(-1, 1); !ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(Expect("HIERARCHY"));
+    RETURN_IF_ERROR(Expect("ROOT"));
+    RETURN_IF_ERROR(ReadJoint(-1, 1));
     const Token after = scanner_.Next();
     if (SameWord(after.text, "ROOT")) {
       return Fail(scanner_.At(after), "found a second ROOT; allowed: one skeleton per file");
@@ -59,9 +59,8 @@ class HierarchyReader {
     if (name.text.size() > kLongestName) {
       return Fail(scanner_.At(name), "a joint's name of {} bytes; allowed: {}", name.text.size(), kLongestName);
     }
-    auto index = AddJoint(std::string(name.text), parent, name, depth);
-    if (!index) return tl::unexpected(index.error());
-    if (auto ok = Expect("{"); !ok) return ok;
+    ASSIGN_OR_RETURN(auto index, AddJoint(std::string(name.text), parent, name, depth));
+    RETURN_IF_ERROR(Expect("{"));
 
     bool has_offset = false;
     bool has_channels = false;
@@ -74,16 +73,16 @@ class HierarchyReader {
         return {};
       } else if (SameWord(token.text, "OFFSET") && !has_offset) {
         has_offset = true;
-        ok = ReadOffset(*index);
+        ok = ReadOffset(index);
       } else if (SameWord(token.text, "CHANNELS") && !has_channels && !has_children) {
         has_channels = true;
-        ok = ReadChannels(*index);
+        ok = ReadChannels(index);
       } else if (SameWord(token.text, "JOINT")) {
         has_children = true;
-        ok = ReadJoint(*index, depth + 1);
+        ok = ReadJoint(index, depth + 1);
       } else if (SameWord(token.text, "End")) {
         has_children = true;
-        ok = ReadEndSite(*index, token, depth + 1);
+        ok = ReadEndSite(index, token, depth + 1);
       } else {
         return Unexpected(token, "OFFSET and CHANNELS (once each, before any child), JOINT, End Site or '}'");
       }
@@ -92,14 +91,13 @@ class HierarchyReader {
   }
 
   Result<void> ReadEndSite(int parent, const Token& start, int depth) {
-    if (auto ok = Expect("Site"); !ok) return ok;
+    RETURN_IF_ERROR(Expect("Site"));
     scanner_.NameInLine();  // some exporters name the site; nobody reads it
-    auto index = AddJoint(hierarchy_.skeleton.joints[parent].name + "_End", parent, start, depth);
-    if (!index) return tl::unexpected(index.error());
-    hierarchy_.skeleton.joints[*index].is_end_site = true;
-    if (auto ok = Expect("{"); !ok) return ok;
-    if (auto ok = Expect("OFFSET"); !ok) return ok;
-    if (auto ok = ReadOffset(*index); !ok) return ok;
+    ASSIGN_OR_RETURN(auto index, AddJoint(hierarchy_.skeleton.joints[parent].name + "_End", parent, start, depth));
+    hierarchy_.skeleton.joints[index].is_end_site = true;
+    RETURN_IF_ERROR(Expect("{"));
+    RETURN_IF_ERROR(Expect("OFFSET"));
+    RETURN_IF_ERROR(ReadOffset(index));
     return Expect("}");
   }
 
@@ -117,28 +115,26 @@ class HierarchyReader {
 
   Result<void> ReadOffset(int joint) {
     for (int axis = 0; axis < 3; ++axis) {
-      auto value = scanner_.Number(scanner_.Next(), "one of an OFFSET's three numbers");
-      if (!value) return tl::unexpected(value.error());
-      hierarchy_.skeleton.joints[joint].rest.translation[axis] = *value;
+      ASSIGN_OR_RETURN(auto value, scanner_.Number(scanner_.Next(), "one of an OFFSET's three numbers"));
+      hierarchy_.skeleton.joints[joint].rest.translation[axis] = value;
     }
     return {};
   }
 
   Result<void> ReadChannels(int joint) {
     const Token count_token = scanner_.Next();
-    auto count = scanner_.Number(count_token, "the number of channels");
-    if (!count) return tl::unexpected(count.error());
-    if (*count < 0 || *count > kMostChannels || *count != static_cast<int>(*count)) {
+    ASSIGN_OR_RETURN(auto count, scanner_.Number(count_token, "the number of channels"));
+    if (count < 0 || count > kMostChannels || count != static_cast<int>(count)) {
       return Fail(scanner_.At(count_token), "found {} channels; allowed: a whole number from 0 to {}",
                   Quote(count_token.text), kMostChannels);
     }
     std::array<bool, kMostChannels> seen{};
-    for (int i = 0; i < *count; ++i) {
+    for (int i = 0; i < count; ++i) {
       const Token token = scanner_.Next();
       const auto known =
           std::ranges::find_if(kChannelNames, [&](std::string_view name) { return SameWord(name, token.text); });
       if (known == kChannelNames.end()) {
-        return Unexpected(token, fmt::format("{} channels out of {}", *count, fmt::join(kChannelNames, ", ")));
+        return Unexpected(token, fmt::format("{} channels out of {}", count, fmt::join(kChannelNames, ", ")));
       }
       const int kind = static_cast<int>(known - kChannelNames.begin());
       if (seen[kind]) return Fail(scanner_.At(token), "channel {} stands twice in one joint", *known);

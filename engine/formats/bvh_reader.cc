@@ -41,25 +41,23 @@ Result<void> ExpectWords(TextScanner& scanner, std::initializer_list<std::string
 }
 
 Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) {
-  if (auto ok = ExpectWords(scanner, {"Frames", ":"}); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(ExpectWords(scanner, {"Frames", ":"}));
   const Token count_token = scanner.Next();
-  auto count = scanner.Number(count_token, "the number of frames");
-  if (!count) return tl::unexpected(count.error());
-  if (*count < 1 || *count != std::floor(*count)) {
+  ASSIGN_OR_RETURN(auto count, scanner.Number(count_token, "the number of frames"));
+  if (count < 1 || count != std::floor(count)) {
     return Fail(scanner.At(count_token), "found {} frames; allowed: a whole number from 1", Quote(count_token.text));
   }
   // Before any frame is stored: the announced size, not the file's, is what memory would be taken for.
-  const double bytes = *count * static_cast<double>(joints * sizeof(LocalTransform));
+  const double bytes = count * static_cast<double>(joints * sizeof(LocalTransform));
   if (bytes > kMostFrameBytes) {
     return Fail(scanner.At(count_token), "{} frames of {} joints take {:.0f} MB; allowed: {:.0f} MB", count_token.text,
                 joints, bytes / 1e6, kMostFrameBytes / 1e6);
   }
 
-  if (auto ok = ExpectWords(scanner, {"Frame", "Time", ":"}); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(ExpectWords(scanner, {"Frame", "Time", ":"}));
   const Token time_token = scanner.Next();
-  auto seconds = scanner.Number(time_token, "the frame time");
-  if (!seconds) return tl::unexpected(seconds.error());
-  if (*seconds < kShortestFrameSeconds || *seconds > kLongestFrameSeconds) {
+  ASSIGN_OR_RETURN(auto seconds, scanner.Number(time_token, "the frame time"));
+  if (seconds < kShortestFrameSeconds || seconds > kLongestFrameSeconds) {
     return Fail(scanner.At(time_token), "found a frame time of {} s; allowed: {:g} to {:g} s", time_token.text,
                 kShortestFrameSeconds, kLongestFrameSeconds);
   }
@@ -67,7 +65,7 @@ Result<MotionHeader> ReadMotionHeader(TextScanner& scanner, std::size_t joints) 
     return Fail(scanner.At(extra), "found {} after the frame time; expected the first frame on a line of its own",
                 Quote(extra.text));
   }
-  return MotionHeader{static_cast<int>(*count), RateOf(*seconds), count_token};
+  return MotionHeader{static_cast<int>(count), RateOf(seconds), count_token};
 }
 
 /// Turns a rotation about one of its own axes: the product of quaternions without all that is multiplied by zero. The
@@ -110,9 +108,8 @@ Result<void> ReadFrame(TextScanner& scanner, const std::vector<BvhChannel>& chan
       return Fail(scanner.At(token), "frame {} has {} numbers; its {} channels need {}", number, i, channels.size(),
                   channels.size());
     }
-    auto value = scanner.Number(token, "a channel's value");
-    if (!value) return tl::unexpected(value.error());
-    Apply(channels[i], *value, pose[channels[i].joint]);
+    ASSIGN_OR_RETURN(auto value, scanner.Number(token, "a channel's value"));
+    Apply(channels[i], value, pose[channels[i].joint]);
   }
   if (const Token extra = scanner.NextInLine(); !extra.text.empty()) {
     return Fail(scanner.At(extra), "frame {} goes on with {} after its {} numbers, one for each channel", number,
@@ -130,30 +127,27 @@ std::string NameWithoutFolderAndExtension(std::string_view file) {
 
 Result<Clip> ReadBvh(std::string_view bytes, const std::string& file) {
   TextScanner scanner(bytes, file);
-  auto hierarchy = ReadBvhHierarchy(scanner);
-  if (!hierarchy) return tl::unexpected(hierarchy.error());
-  auto header = ReadMotionHeader(scanner, hierarchy->skeleton.joints.size());
-  if (!header) return tl::unexpected(header.error());
+  ASSIGN_OR_RETURN(auto hierarchy, ReadBvhHierarchy(scanner));
+  ASSIGN_OR_RETURN(auto header, ReadMotionHeader(scanner, hierarchy.skeleton.joints.size()));
 
   Clip clip;
   clip.name = NameWithoutFolderAndExtension(file);
-  clip.skeleton = std::move(hierarchy->skeleton);
-  clip.rate_hz = header->rate_hz;
+  clip.skeleton = std::move(hierarchy.skeleton);
+  clip.rate_hz = header.rate_hz;
   const LocalPose rest = RestPose(clip.skeleton);
-  const auto announced = static_cast<std::size_t>(header->frame_count);
+  const auto announced = static_cast<std::size_t>(header.frame_count);
   while (scanner.SkipToText()) {
     if (clip.frames.size() > announced) {
       return Fail(scanner.At(scanner.Next()), "more lines than the {} frames announced on line {}", announced,
-                  header->frames_place.line);
+                  header.frames_place.line);
     }
     clip.frames.push_back(rest);
-    auto ok = ReadFrame(scanner, hierarchy->channels, clip.frames.size(), clip.frames.back());
-    if (!ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(ReadFrame(scanner, hierarchy.channels, clip.frames.size(), clip.frames.back()));
   }
   // Exporters that announce their last frame's number write one frame more: read like everybody does.
   if (clip.frames.size() == announced + 1) clip.frames.pop_back();
   if (clip.frames.size() != announced) {
-    return Fail(scanner.At(header->frames_place), "{} frames announced; the file holds {}", announced,
+    return Fail(scanner.At(header.frames_place), "{} frames announced; the file holds {}", announced,
                 clip.frames.size());
   }
   return clip;

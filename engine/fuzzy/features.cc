@@ -19,7 +19,7 @@ constexpr std::array kRightArmRaise = {kRightShoulder, kRightElbow, kLeftShoulde
 constexpr std::array kLeftArmRaise = {kLeftShoulder, kLeftElbow, kRightShoulder, kLeftHip, kRightHip};
 constexpr std::array kRightElbowBend = {kRightShoulder, kRightElbow, kRightWrist};
 constexpr std::array kLeftElbowBend = {kLeftShoulder, kLeftElbow, kLeftWrist};
-constexpr std::array kHeight = {kHipCentre};
+constexpr std::array kBodyHeight = {kHipCentre};
 constexpr std::array kLean = {kLeftShoulder, kRightShoulder, kLeftHip, kRightHip};
 constexpr std::array kRightLegSpread = {kRightHip, kRightKnee, kLeftHip, kLeftShoulder, kRightShoulder};
 constexpr std::array kLeftLegSpread = {kLeftHip, kLeftKnee, kRightHip, kLeftShoulder, kRightShoulder};
@@ -31,7 +31,7 @@ constexpr std::array<FeatureFacts, kFeatureCount> kFacts = {{
     {kLH, "LH", kLeftArmRaise},
     {kRHE, "RHE", kRightElbowBend},
     {kLHE, "LHE", kLeftElbowBend},
-    {kPosture, "Posture", kHeight},
+    {kPosture, "Posture", kBodyHeight},
     {kTrunk, "Trunk", kLean},
     {kRF, "RF", kRightLegSpread},
     {kLF, "LF", kLeftLegSpread},

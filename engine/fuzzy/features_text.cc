@@ -58,28 +58,25 @@ Result<Universe> ReadUniverse(Fields& fields) {
 class FeaturesReader {
  public:
   Result<void> ReadFeature(const Node::Entry& entry) {
-    const auto group = ReadGroup(entry);
-    if (!group) return tl::unexpected(group.error());
-    for (Feature feature : *group) {
+    ASSIGN_OR_RETURN(const auto group, ReadGroup(entry));
+    for (Feature feature : group) {
       bool& seen = seen_[static_cast<std::size_t>(feature)];
       if (seen) return Fail(entry.place, "the feature {} stands here twice", FeatureName(feature));
       seen = true;
     }
     Fields fields(entry.value, "the feature " + entry.key);
-    const auto universe = ReadUniverse(fields);
-    if (!universe) return tl::unexpected(universe.error());
+    ASSIGN_OR_RETURN(const auto universe, ReadUniverse(fields));
     const std::optional<double> weight = fields.OptionalNumber("weight", {0, 1e6});
     if (!weight) fields.Complain(entry.place, fmt::format("{} needs a 'weight' (S of equation 1)", entry.key));
     const Node* terms = fields.Raw("terms");
     if (terms == nullptr) fields.Complain(entry.place, fmt::format("{} needs 'terms'", entry.key));
-    if (auto done = fields.Finish(); !done) return done;
-    const auto shapes = ReadTerms(entry.key, group->front(), *terms, *universe);
-    if (!shapes) return tl::unexpected(shapes.error());
-    for (Feature feature : *group) {
+    RETURN_IF_ERROR(fields.Finish());
+    ASSIGN_OR_RETURN(const auto shapes, ReadTerms(entry.key, group.front(), *terms, universe));
+    for (Feature feature : group) {
       const std::size_t k = static_cast<std::size_t>(feature);
-      memberships_.universes[k] = *universe;
+      memberships_.universes[k] = universe;
       weights_[k] = *weight;
-      std::ranges::copy(*shapes, memberships_.shapes.begin() + static_cast<std::ptrdiff_t>(FirstTermOf(feature)));
+      std::ranges::copy(shapes, memberships_.shapes.begin() + static_cast<std::ptrdiff_t>(FirstTermOf(feature)));
     }
     return {};
   }
@@ -111,11 +108,10 @@ class FeaturesReader {
     for (const std::string& term : TermNames(feature)) {
       const Node* shape_node = fields.Raw(term);
       if (shape_node == nullptr) continue;  // an unknown key is the likelier cause: told first
-      const auto shape = ReadShape(*shape_node, universe);
-      if (!shape) return tl::unexpected(shape.error());
-      shapes.push_back(*shape);
+      ASSIGN_OR_RETURN(const auto shape, ReadShape(*shape_node, universe));
+      shapes.push_back(shape);
     }
-    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+    RETURN_IF_ERROR(fields.Finish());
     if (shapes.size() < TermsOf(feature).size()) {
       return Fail(node.place, "{} needs all its terms: {}", name, Join(TermNames(feature)));
     }
@@ -148,9 +144,9 @@ Result<FeatureSettings> ReadFeatures(const Node& node) {
   }
   FeaturesReader reader;
   for (const Node::Entry& entry : node.entries) {
-    if (auto read = reader.ReadFeature(entry); !read) return tl::unexpected(read.error());
+    RETURN_IF_ERROR(reader.ReadFeature(entry));
   }
-  if (auto done = reader.Finish(node.place); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(reader.Finish(node.place));
   return reader.settings();
 }
 

@@ -35,24 +35,21 @@ FeatureWeights PaperWeights() { return PaperSystem().weights; }
 const RuleBase& PaperRules() { return PaperSystem().rules; }
 
 Result<FuzzySystem> ReadFuzzySystem(std::string_view text, const std::string& file) {
-  const auto document = ParseYaml(text, file);
-  if (!document) return tl::unexpected(document.error());
-  Fields fields(*document, "a fuzzy system");
+  ASSIGN_OR_RETURN(const auto document, ParseYaml(text, file));
+  Fields fields(document, "a fuzzy system");
   const std::string name = fields.RequiredText("system");
   if (fields.ok() && !IsPlainName(name)) {
     fields.Complain(fields.Raw("system")->place,
                     fmt::format("{} is no name: at most {} letters, digits, '-', '_', '.'", Quote(name), kLongestName));
   }
   const Node* features_node = fields.Raw("features");
-  if (features_node == nullptr) fields.Complain(document->place, "a fuzzy system needs 'features'");
+  if (features_node == nullptr) fields.Complain(document.place, "a fuzzy system needs 'features'");
   const Node* rules_node = fields.Raw("rules");
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
-  const auto features = ReadFeatures(*features_node);
-  if (!features) return tl::unexpected(features.error());
-  const auto rules = rules_node != nullptr ? ReadRules(*rules_node) : RuleBase{};
-  if (!rules) return tl::unexpected(rules.error());
+  RETURN_IF_ERROR(fields.Finish());
+  ASSIGN_OR_RETURN(const auto features, ReadFeatures(*features_node));
+  ASSIGN_OR_RETURN(const auto rules, rules_node != nullptr ? ReadRules(*rules_node) : RuleBase{});
   // Every member is given, so that no default asks for the paper's system: it is read here itself.
-  return FuzzySystem{.name = name, .memberships = features->memberships, .weights = features->weights, .rules = *rules};
+  return FuzzySystem{.name = name, .memberships = features.memberships, .weights = features.weights, .rules = rules};
 }
 
 std::string WriteFuzzySystem(const FuzzySystem& system) {

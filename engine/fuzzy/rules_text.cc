@@ -41,7 +41,7 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   Fields fields(node, "a rule");
   const Node* premise = fields.Raw("if");
   const std::string pose = fields.RequiredText("then");
-  if (auto done = fields.Finish(); !done) return done;
+  RETURN_IF_ERROR(fields.Finish());
   if (premise == nullptr || premise->kind != Node::Kind::kMapping || premise->entries.empty()) {
     return Fail(premise == nullptr ? node.place : premise->place, "'if' must name terms ({{RH: up, LH: up}}), found {}",
                 premise == nullptr ? "nothing" : Describe(*premise));
@@ -53,9 +53,8 @@ Result<void> ReadRule(const Node& node, RuleBase& base) {
   }
   Rule rule;
   for (const Node::Entry& entry : premise->entries) {
-    const auto term = ReadTerm(entry);
-    if (!term) return tl::unexpected(term.error());
-    rule.terms.push_back(*term);
+    ASSIGN_OR_RETURN(const auto term, ReadTerm(entry));
+    rule.terms.push_back(term);
   }
   const auto known = std::ranges::find(base.poses, pose);
   rule.pose = static_cast<std::size_t>(known - base.poses.begin());
@@ -73,7 +72,7 @@ Result<RuleBase> ReadRules(const Node& node) {
   }
   RuleBase base;
   for (const Node& item : node.items) {
-    if (auto read = ReadRule(item, base); !read) return tl::unexpected(read.error());
+    RETURN_IF_ERROR(ReadRule(item, base));
   }
   return base;
 }

@@ -54,10 +54,9 @@ Result<std::vector<double>> ReadNumbers(const Node& node, const ShapeKind& kind)
   }
   std::vector<double> numbers;
   for (const Node& item : is_list ? std::span(node.items) : std::span(&node, 1)) {
-    const auto number = AsNumber(item);
-    if (!number) return tl::unexpected(number.error());
-    if (std::abs(*number) > kLargest) return Fail(item.place, "{} is out of range; allowed: ±{}", *number, kLargest);
-    numbers.push_back(*number);
+    ASSIGN_OR_RETURN(const auto number, AsNumber(item));
+    if (std::abs(number) > kLargest) return Fail(item.place, "{} is out of range; allowed: ±{}", number, kLargest);
+    numbers.push_back(number);
   }
   return numbers;
 }
@@ -75,16 +74,15 @@ Result<Shape> ReadShape(const Node& node, const Universe& universe) {
   const Node::Entry& entry = node.entries.front();
   const auto kind = std::ranges::find(kKinds, entry.key, [](const ShapeKind& k) { return std::string(k.name); });
   if (kind == std::end(kKinds)) return Fail(entry.place, "{}", UnknownName("shape", entry.key, names));
-  const auto numbers = ReadNumbers(entry.value, *kind);
-  if (!numbers) return tl::unexpected(numbers.error());
-  const Shape shape = kind->make(*numbers);
+  ASSIGN_OR_RETURN(const auto numbers, ReadNumbers(entry.value, *kind));
+  const Shape shape = kind->make(numbers);
   if (std::holds_alternative<Gaussian>(shape)) {
-    const double sigma = numbers->back();
+    const double sigma = numbers.back();
     if (sigma < kSmallestSigma) {
       return Fail(entry.value.items.back().place, "sigma must be at least {}, found {}", kSmallestSigma, sigma);
     }
-  } else if (const auto fall = std::ranges::is_sorted_until(*numbers); fall != numbers->end()) {
-    return Fail(entry.value.items[static_cast<std::size_t>(fall - numbers->begin())].place,
+  } else if (const auto fall = std::ranges::is_sorted_until(numbers); fall != numbers.end()) {
+    return Fail(entry.value.items[static_cast<std::size_t>(fall - numbers.begin())].place,
                 "'{}' needs rising numbers {}, found {} after {}", kind->name, kind->numbers, *fall, *(fall - 1));
   }
   const Cut top = CutOf(shape, 1);

@@ -31,14 +31,14 @@ class MapFinder {
 
   Result<JointMap> Find(const TaughtRoles* taught) {
     if (taught != nullptr) {
-      if (auto ok = TakeTaught(*taught); !ok) return tl::unexpected(ok.error());
+      RETURN_IF_ERROR(TakeTaught(*taught));
     }
-    if (auto ok = FindLimbs(); !ok) return tl::unexpected(ok.error());
-    if (auto ok = FindPelvis(); !ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(FindLimbs());
+    RETURN_IF_ERROR(FindPelvis());
     FindNeckAndHead();
     FindSpine();
-    if (auto ok = CheckTree(); !ok) return tl::unexpected(ok.error());
-    if (auto ok = CheckSides(); !ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(CheckTree());
+    RETURN_IF_ERROR(CheckSides());
     FindTips(places_, is_taught_);
     return places_.map();
   }
@@ -169,7 +169,7 @@ class MapFinder {
     }
     if (is_taught_[Index(kHead)]) pairs.push_back({kHipCentre, kHead});
     for (const Bone& pair : pairs) {
-      if (auto ok = CheckHangs(pair.child, pair.parent); !ok) return ok;
+      RETURN_IF_ERROR(CheckHangs(pair.child, pair.parent));
     }
     for (const Role role : {kSpine, kShoulderCentre, kHead}) {
       if (IsFree(places_, role)) continue;

@@ -33,13 +33,12 @@ std::string Quoted(std::string_view name) {
 }  // namespace
 
 Result<TaughtRoles> ReadJointMapFile(std::string_view yaml, const std::string& file) {
-  const auto document = ParseYaml(yaml, file);
-  if (!document) return tl::unexpected(document.error());
-  Fields fields(*document, "a joint map");
+  ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
+  Fields fields(document, "a joint map");
   const Node* roles = fields.Raw("roles");
-  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(fields.Finish());
   if (roles == nullptr || roles->kind != Node::Kind::kMapping || roles->entries.empty()) {
-    return Fail(roles == nullptr ? document->place : roles->place,
+    return Fail(roles == nullptr ? document.place : roles->place,
                 "'roles' must name joints (left_elbow: LForeArm), found {}",
                 roles == nullptr ? "nothing" : Describe(*roles));
   }

@@ -206,15 +206,14 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   const bool lies_along_z = !options.up && done.up == UpAxis::kY && MeanBodyAxis(glimpses).z > kLying;
   if (options.drop_t_pose) done.dropped_frames = CountForeignTPose(clip, sampler, done.up);
 
-  auto poses = Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file);
-  if (!poses) return tl::unexpected(poses.error());
-  if (auto ok = CheckSides(*poses, map, file); !ok) return tl::unexpected(ok.error());
-  const double stature = FindStature(rest, *poses);
+  ASSIGN_OR_RETURN(auto poses, Resampled(clip, sampler, done.dropped_frames, options.rate_hz, done.up, file));
+  RETURN_IF_ERROR(CheckSides(poses, map, file));
+  const double stature = FindStature(rest, poses);
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   FindUnit(stature, options.metres_per_unit, done);
-  Ground(*poses, done);
+  Ground(poses, done);
   done.note = Note(done, map, lies_along_z);
-  done.motion = {.rate_hz = options.rate_hz, .poses = std::move(*poses)};
+  done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   return done;
 }
 

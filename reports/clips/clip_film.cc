@@ -28,8 +28,7 @@ Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::fi
   shot.Include(SpreadFrames(shot, kLookedAt), sight);
   const Studio studio(options.width, options.height, kDetail, sight);
   const auto rate = static_cast<int>(std::lround(shot.actor().motion().rate_hz));
-  auto encoder = Encoder::Start(path, options.width, options.height, rate);
-  if (!encoder) return tl::unexpected(encoder.error());
+  ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, options.width, options.height, rate));
   const Box whole{0, 0, static_cast<double>(options.width), static_cast<double>(options.height)};
   for (int frame = 0; frame < shot.Frames(); ++frame) {
     if (options.stop != nullptr && *options.stop) return false;
@@ -38,9 +37,9 @@ Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::fi
     DrawTag(canvas, whole, fmt::format("{:.2f} s", shot.SecondsAt(frame)));
     DrawLegend(canvas, whole.width - 16, 29);
     DrawCaption(canvas, whole, facts.name, FactsAsLine(facts));
-    if (auto added = encoder->Add(canvas.Pixels()); !added) return tl::unexpected(added.error());
+    RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
   }
-  if (auto finished = encoder->Finish(); !finished) return tl::unexpected(finished.error());
+  RETURN_IF_ERROR(encoder.Finish());
   return true;
 }
 

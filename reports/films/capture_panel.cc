@@ -91,19 +91,18 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");
   if (truth == nullptr || recovered == nullptr) return Fail(place, "it lacks the track truth or recovered");
-  auto extras = ReadRecordingExtras(cell.recording->extras_json);
-  if (!extras) return tl::unexpected(extras.error());
+  ASSIGN_OR_RETURN(auto extras, ReadRecordingExtras(cell.recording->extras_json));
 
   const std::size_t frames = truth->poses.size();
   bool fits =
-      frames > 0 && recovered->poses.size() == frames && extras->brightness.size() == frames && !extras->views.empty();
-  for (const auto& view : extras->views) fits = fits && view.masks.size() == frames;
+      frames > 0 && recovered->poses.size() == frames && extras.brightness.size() == frames && !extras.views.empty();
+  for (const auto& view : extras.views) fits = fits && view.masks.size() == frames;
   if (!fits) return Fail(place, "its tracks, masks and brightness differ in length, or it has no camera");
 
   CapturePanel panel;
   panel.truth_ = *truth;
   panel.recovered_ = *recovered;
-  panel.extras_ = std::move(*extras);
+  panel.extras_ = std::move(extras);
   for (const auto& view : panel.extras_.views) panel.crops_.push_back(CropAround(panel.truth_, view.truth));
   panel.method_ = cell.row->method;
   panel.clip_ = ClipInWords(cell.row->clip);

@@ -49,14 +49,13 @@ Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 }  // namespace
 
 Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
-  auto facts = ReadSwitchFacts(*cell.recording, cell.row->Id());
-  if (!facts) return tl::unexpected(facts.error());
-  if (facts->seam_frames.empty()) {
+  ASSIGN_OR_RETURN(auto facts, ReadSwitchFacts(*cell.recording, cell.row->Id()));
+  if (facts.seam_frames.empty()) {
     return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole seam_frame within the motion");
   }
   CoachPanel panel;
   panel.bear_ = BearCharacter();
-  panel.facts_ = *std::move(facts);
+  panel.facts_ = std::move(facts);
   panel.method_ = cell.row->method;
   panel.motion_ = *FindTrack(*cell.recording, "coach");
   panel.CutTo(longest);

@@ -79,7 +79,7 @@ int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_
 Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
                                const std::string& program) {
   const Place place{.file = path.string()};
-  if (auto made = MakeFolder(path.parent_path()); !made) return tl::unexpected(made.error());
+  RETURN_IF_ERROR(MakeFolder(path.parent_path()));
   Log log(std::tmpfile(), std::fclose);
   if (!log) return Fail(place, "cannot make a temporary file: {}", std::strerror(errno));
   // A socket instead of a pipe: writing to a reader that has gone is then an error, not a signal.

@@ -8,12 +8,11 @@ namespace etude {
 namespace {
 
 Result<std::string> Encode(Scene& scene, const std::filesystem::path& path) {
-  auto encoder = Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate);
-  if (!encoder) return tl::unexpected(encoder.error());
+  ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate));
   for (int frame = 0; frame < scene.Frames(); ++frame) {
-    if (auto added = encoder->Add(scene.Draw(frame).Pixels()); !added) return tl::unexpected(added.error());
+    RETURN_IF_ERROR(encoder.Add(scene.Draw(frame).Pixels()));
   }
-  if (auto finished = encoder->Finish(); !finished) return tl::unexpected(finished.error());
+  RETURN_IF_ERROR(encoder.Finish());
   return ReadWholeFile(path);
 }
 

@@ -135,13 +135,11 @@ Result<IkRace> MakeRace(const std::array<RecordedCell, 2>& cells) {
   }
   race.truth = truth->poses.front();
   for (std::size_t i = 0; i < 2; ++i) {
-    auto path = ReadPath(*cells[i].row, *cells[i].recording);
-    if (!path) return tl::unexpected(path.error());
-    race.paths[i] = std::move(*path);
+    ASSIGN_OR_RETURN(auto path, ReadPath(*cells[i].row, *cells[i].recording));
+    race.paths[i] = std::move(path);
   }
-  auto targets = ReadTargets(*cells[0].row, *cells[0].recording);
-  if (!targets) return tl::unexpected(targets.error());
-  race.targets = *targets;
+  ASSIGN_OR_RETURN(auto targets, ReadTargets(*cells[0].row, *cells[0].recording));
+  race.targets = targets;
   return race;
 }
 

@@ -33,7 +33,7 @@ std::vector<Picture> DrawStrip(const CapturePanel& capture, Renderer& renderer) 
 }
 
 Result<void> SaveStripPictures(const CapturePanel& capture, Renderer& renderer, const std::filesystem::path& folder) {
-  if (auto made = MakeFolder(folder); !made) return made;
+  RETURN_IF_ERROR(MakeFolder(folder));
   for (const int frame : StripFrames(capture)) {
     for (std::size_t camera = 0; camera < std::min(kShownCameras, capture.Cameras()); ++camera) {
       const std::string name = fmt::format("camera-{}-frame-{:03}.exr", camera + 1, frame);

@@ -51,7 +51,7 @@ const Tube kSkull{.name = "skull",
                   .first_cap_cm = 1.6,
                   .last_cap_cm = 3,
                   .around = 16};
-const Blob kNose{.name = "nose",
+const Blob kNosePiece{.name = "nose",
                  .joint = kHead,
                  .centre_cm = {0, -2, 9.4},
                  .half_cm = {1.2, 2.6, 1.6},
@@ -114,7 +114,7 @@ const std::array kBalls = {
     Blob{.name = "knee", .joint = kLeftKnee, .centre_cm = {0, 0, 0.3}, .half_cm = {5, 5, 5}, .around = 12},
     Blob{.name = "ankle", .joint = kLeftAnkle, .centre_cm = {0, 0, 0}, .half_cm = {3.5, 3.5, 3.5}, .around = 10},
 };
-const Blob kFoot{.name = "foot",
+const Blob kFootPiece{.name = "foot",
                  .joint = kLeftAnkle,
                  .centre_cm = {1.3, -4.2, 6},
                  .half_cm = {4.6, 5.4, 13.5},
@@ -129,9 +129,9 @@ Character MannequinCharacter() {
   CharacterBuilder mannequin("mannequin", rest);
   const int wood = mannequin.AddMaterial("wood", kWood);
   for (const Tube& tube : {kPelvis, kChest, kNeck, kSkull}) mannequin.Add(wood, MakePiece(tube, rest));
-  mannequin.Add(wood, MakePiece(kNose, rest));
+  mannequin.Add(wood, MakePiece(kNosePiece, rest));
   for (const Tube& limb : kLimbs) mannequin.AddOnBothSides(wood, MakePiece(limb, rest));
-  mannequin.AddOnBothSides(wood, MakePiece(kFoot, rest));
+  mannequin.AddOnBothSides(wood, MakePiece(kFootPiece, rest));
 
   const int accent = mannequin.AddMaterial("accent", kAccent);
   mannequin.Add(accent, MakePiece(kBand, rest));

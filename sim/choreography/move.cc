@@ -39,7 +39,7 @@ void ReadTempoRange(Fields& fields, Move& move) {
 /// The move with its curves and motion made of its poses, at its tempo.
 Result<Move> Perform(Move move, MoveCurves::Style style, const Place& place) {
   style.beat_seconds = 60 / move.tempo_bpm;
-  if (auto ok = CheckJumps(move.poses, move.beats, style.beat_seconds, place); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(CheckJumps(move.poses, move.beats, style.beat_seconds, place));
   move.curves = MoveCurves(move.poses, move.beats, style);
   move.motion = MotionOf(move);
   return move;
@@ -48,11 +48,10 @@ Result<Move> Perform(Move move, MoveCurves::Style style, const Place& place) {
 }  // namespace
 
 Result<Move> ParseMove(std::string_view yaml, const std::string& file) {
-  const auto document = ParseYaml(yaml, file);
-  if (!document) return tl::unexpected(document.error());
+  ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
 
-  Fields fields(*document, "a choreography file");
-  const bool is_act = document->Find("act") != nullptr;
+  Fields fields(document, "a choreography file");
+  const bool is_act = document.Find("act") != nullptr;
   Move move;
   move.name = fields.RequiredText(is_act ? "act" : "move");
   move.tempo_bpm = fields.Number("tempo_bpm", 120, kTempoRange);
@@ -65,22 +64,20 @@ Result<Move> ParseMove(std::string_view yaml, const std::string& file) {
                                    .bounce = 0.01 * fields.Number("bounce_cm", 0, {0, 20}),
                                    .loops = move.loops};
   Node nothing;
-  nothing.place = document->place;
+  nothing.place = document.place;
   const Node* poses = fields.Raw("poses");
   const Node* key_poses = is_act ? nullptr : fields.Raw("key_poses");
-  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(fields.Finish());
 
   const double authored_beats = mirrored ? 0.5 * move.beats : move.beats;
-  auto keys = ReadPoses(poses ? *poses : nothing, authored_beats);
-  if (!keys) return tl::unexpected(keys.error());
-  if (mirrored) AppendMirrorImage(*keys, authored_beats);
+  ASSIGN_OR_RETURN(auto keys, ReadPoses(poses ? *poses : nothing, authored_beats));
+  if (mirrored) AppendMirrorImage(keys, authored_beats);
   if (!is_act) {
-    auto targets = ReadKeyPoses(key_poses ? *key_poses : nothing, move.beats);
-    if (!targets) return tl::unexpected(targets.error());
-    move.key_poses = std::move(*targets);
+    ASSIGN_OR_RETURN(auto targets, ReadKeyPoses(key_poses ? *key_poses : nothing, move.beats));
+    move.key_poses = std::move(targets);
   }
-  move.poses = std::move(*keys);
-  return Perform(std::move(move), style, document->place);
+  move.poses = std::move(keys);
+  return Perform(std::move(move), style, document.place);
 }
 
 Result<Move> AtTempo(const Move& move, double tempo_bpm, const Place& place) {

@@ -108,7 +108,7 @@ KeyPose::Target ReadTarget(Fields& pose, const Node& node, std::string_view feat
 }  // namespace
 
 Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
-  if (auto ok = CheckList(poses, "poses"); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(CheckList(poses, "poses"));
   std::vector<PoseKey> keys;
   for (const Node& item : poses.items) {
     Fields pose(item, "a pose");
@@ -121,7 +121,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
                                             beat, keys.back().beat));
     }
     if (beat + hold >= beats) pose.Complain(item.place, fmt::format("the pose is held beyond beat {}", beats));
-    if (auto ok = pose.Finish(); !ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(pose.Finish());
     keys.push_back({beat, controls, ease});
     if (hold > 0) keys.push_back({beat + hold, controls});
   }
@@ -129,7 +129,7 @@ Result<std::vector<PoseKey>> ReadPoses(const Node& poses, double beats) {
 }
 
 Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
-  if (auto ok = CheckList(key_poses, "key_poses"); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(CheckList(key_poses, "key_poses"));
   std::vector<KeyPose> read;
   for (const Node& item : key_poses.items) {
     Fields pose(item, "a key pose");
@@ -140,7 +140,7 @@ Result<std::vector<KeyPose>> ReadKeyPoses(const Node& key_poses, double beats) {
       if (const Node* node = pose.Raw(name)) key_pose.targets.push_back(ReadTarget(pose, *node, name, tolerance_deg));
     }
     if (key_pose.targets.empty()) pose.Complain(item.place, "a key pose needs at least one feature, e.g. 'RH: 90'");
-    if (auto ok = pose.Finish(); !ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(pose.Finish());
     read.push_back(std::move(key_pose));
   }
   return read;

@@ -42,7 +42,7 @@ Result<SongPart> ReadPart(const Node& item) {
   part.move = fields.RequiredText("move");
   part.times = fields.Integer("times", 2, {2, 32});
   part.half_time = fields.Boolean("half_time", false);
-  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(fields.Finish());
   return part;
 }
 
@@ -53,20 +53,18 @@ Result<std::vector<SongPart>> ReadParts(const Node& parts, double tempo_bpm, std
   std::set<std::string> names;
   double beat = kLeadBeats;
   for (const Node& item : parts.items) {
-    auto part = ReadPart(item);
-    if (!part) return tl::unexpected(part.error());
-    auto move = MoveOf(*part, tempo_bpm, item.Find("move")->place);
-    if (!move) return tl::unexpected(move.error());
-    part->start_beat = beat;
-    part->beats = part->times * move->beats / PaceOf(*part);
-    beat += part->beats;
+    ASSIGN_OR_RETURN(auto part, ReadPart(item));
+    ASSIGN_OR_RETURN(auto move, MoveOf(part, tempo_bpm, item.Find("move")->place));
+    part.start_beat = beat;
+    part.beats = part.times * move.beats / PaceOf(part);
+    beat += part.beats;
     const double seconds = (beat + kLeadBeats) * 60 / tempo_bpm;
     if (seconds > kLongestSeconds) {
       return Fail(item.place, "the song lasts {:.0f} s up to here; at most {}", seconds, kLongestSeconds);
     }
-    names.insert(part->move);
-    read.push_back(std::move(*part));
-    moves.push_back(std::move(*move));
+    names.insert(part.move);
+    read.push_back(std::move(part));
+    moves.push_back(std::move(move));
   }
   if (names.size() < kFewestMoves || names.size() > kMostMoves) {
     return Fail(parts.place, "{} different moves; a song has {} to {}", names.size(), kFewestMoves, kMostMoves);
@@ -109,24 +107,22 @@ std::vector<MusicTag> TagsOf(const Song& song) {
 }  // namespace
 
 Result<Song> ParseSong(std::string_view yaml, const std::string& file) {
-  const auto document = ParseYaml(yaml, file);
-  if (!document) return tl::unexpected(document.error());
+  ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
 
-  Fields fields(*document, "a song");
+  Fields fields(document, "a song");
   Song song;
   song.name = fields.RequiredText("song");
   song.tempo_bpm = fields.Number("tempo_bpm", 120, {40, 240});
   const Node* parts = fields.Raw("parts");
-  if (auto ok = fields.Finish(); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(fields.Finish());
   if (parts == nullptr || parts->kind != Node::Kind::kSequence) {
-    return Fail(parts ? parts->place : document->place, "'parts' must be a list of moves, found {}",
+    return Fail(parts ? parts->place : document.place, "'parts' must be a list of moves, found {}",
                 parts ? Describe(*parts) : "nothing");
   }
 
   std::vector<Move> moves;
-  auto read = ReadParts(*parts, song.tempo_bpm, moves);
-  if (!read) return tl::unexpected(read.error());
-  song.parts = std::move(*read);
+  ASSIGN_OR_RETURN(auto read, ReadParts(*parts, song.tempo_bpm, moves));
+  song.parts = std::move(read);
   song.motion = MotionOf(TurnsOf(song.parts, moves), song.tempo_bpm);
   song.tags = TagsOf(song);
   return song;

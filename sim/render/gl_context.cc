@@ -64,19 +64,17 @@ void GlContext::MakeCurrent() {
 Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const std::string& fragment_source,
                                       const std::vector<std::string>& attributes) const {
   const GlFunctions& gl = functions_;
-  const auto vertex = CompileShader(gl, GL_VERTEX_SHADER, vertex_source);
-  if (!vertex) return tl::unexpected(vertex.error());
-  const auto fragment = CompileShader(gl, GL_FRAGMENT_SHADER, fragment_source);
-  if (!fragment) return tl::unexpected(fragment.error());
+  ASSIGN_OR_RETURN(const auto vertex, CompileShader(gl, GL_VERTEX_SHADER, vertex_source));
+  ASSIGN_OR_RETURN(const auto fragment, CompileShader(gl, GL_FRAGMENT_SHADER, fragment_source));
   const GLuint program = gl.CreateProgram();
-  gl.AttachShader(program, *vertex);
-  gl.AttachShader(program, *fragment);
+  gl.AttachShader(program, vertex);
+  gl.AttachShader(program, fragment);
   for (std::size_t i = 0; i < attributes.size(); ++i) {
     gl.BindAttribLocation(program, static_cast<GLuint>(i), attributes[i].c_str());
   }
   gl.LinkProgram(program);
-  gl.DeleteShader(*vertex);
-  gl.DeleteShader(*fragment);
+  gl.DeleteShader(vertex);
+  gl.DeleteShader(fragment);
   GLint linked = 0;
   gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
   if (linked) return program;

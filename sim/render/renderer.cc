@@ -50,9 +50,8 @@ Result<Programs> LinkAll(const GlContext& context) {
       {programs.surfaces.shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
   };
   for (const auto& want : wanted) {
-    const auto program = context.LinkProgram(want.vertex, want.fragment, want.attributes);
-    if (!program) return tl::unexpected(program.error());
-    want.out = *program;
+    ASSIGN_OR_RETURN(const auto program, context.LinkProgram(want.vertex, want.fragment, want.attributes));
+    want.out = program;
   }
   return programs;
 }
@@ -168,11 +167,9 @@ Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Renderer::~Renderer() { state_->context->MakeCurrent(); }
 
 Result<std::unique_ptr<Renderer>> Renderer::Create() {
-  auto context = GlContext::Create();
-  if (!context) return tl::unexpected(context.error());
-  const auto programs = LinkAll(**context);
-  if (!programs) return tl::unexpected(programs.error());
-  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(std::move(*context), *programs)));
+  ASSIGN_OR_RETURN(auto context, GlContext::Create());
+  ASSIGN_OR_RETURN(const auto programs, LinkAll(*context));
+  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(std::move(context), programs)));
 }
 
 std::string RendererVersion() {

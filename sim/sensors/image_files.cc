@@ -62,11 +62,10 @@ std::string EncodePixels(const void* pixels, int width, int height, png_uint_32 
 
 template <typename Pixel>
 Result<Image<Pixel>> LoadPixels(const std::string& path, png_uint_32 format) {
-  const auto bytes = ReadBytes(path);
-  if (!bytes) return tl::unexpected(bytes.error());
+  ASSIGN_OR_RETURN(const auto bytes, ReadBytes(path));
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_memory(&png, bytes->data(), bytes->size())) {
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
     return Fail({path}, "not a PNG picture: {}", png.message);
   }
   if (png.width > kLargestPicture || png.height > kLargestPicture) {

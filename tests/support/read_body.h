@@ -10,16 +10,14 @@ namespace etude::testing {
 
 /// From the skeleton's names to the body: FindJointMap and ToBodyMotion.
 inline Result<BodyConversion> ToBody(const Clip& clip, const std::string& file, const BodyOptions& options = {}) {
-  const auto map = FindJointMap(clip.skeleton, file);
-  if (!map) return tl::unexpected(map.error());
-  return ToBodyMotion(clip, *map, file, options);
+  ASSIGN_OR_RETURN(const auto map, FindJointMap(clip.skeleton, file));
+  return ToBodyMotion(clip, map, file, options);
 }
 
 /// The same from the bytes of a BVH file.
 inline Result<BodyConversion> ReadBody(std::string_view bytes, const std::string& file) {
-  const auto clip = ReadBvh(bytes, file);
-  if (!clip) return tl::unexpected(clip.error());
-  return ToBody(*clip, file);
+  ASSIGN_OR_RETURN(const auto clip, ReadBvh(bytes, file));
+  return ToBody(clip, file);
 }
 
 }  // namespace etude::testing

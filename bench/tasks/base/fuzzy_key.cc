@@ -16,9 +16,8 @@ bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBu
 
 Result<FuzzySystem> OpenFuzzySystem(const std::string& reference, const Place& asked_at, const FuzzyTextOf& text_of) {
   if (!IsFuzzyFile(reference)) return LoadBuiltinFuzzySystem(reference.substr(kBuiltin.size()), asked_at);
-  const auto text = text_of(reference);
-  if (!text) return tl::unexpected(text.error());
-  return ReadFuzzySystem(*text, reference);
+  ASSIGN_OR_RETURN(const auto text, text_of(reference));
+  return ReadFuzzySystem(text, reference);
 }
 
 }  // namespace etude

@@ -32,11 +32,10 @@ Json DescribeBody() {
 
 Result<BodyPose> ReadPose(const Json& json, const std::string& path) {
   constexpr double kFarthest = 1000;
-  const auto numbers = ReadNumbers(json, path, 3 * kRoleCount, {-kFarthest, kFarthest});
-  if (!numbers) return tl::unexpected(numbers.error());
+  ASSIGN_OR_RETURN(const auto numbers, ReadNumbers(json, path, 3 * kRoleCount, {-kFarthest, kFarthest}));
   BodyPose pose;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    pose.joints[i] = {(*numbers)[3 * i], (*numbers)[3 * i + 1], (*numbers)[3 * i + 2]};
+    pose.joints[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
   }
   return pose;
 }

@@ -23,7 +23,7 @@ Result<std::vector<Method>> ReadMethods(TaskInput& input, const std::string& tas
     method.name = fields.RequiredText("name");
     table.Read(fields, method);
     if (finish && fields.ok()) finish(fields, method);
-    if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+    RETURN_IF_ERROR(fields.Finish());
     methods.push_back(std::move(method));
   }
   return methods;

@@ -79,7 +79,7 @@ struct Attachment {
 };
 
 /// What a method outside the program is given of a world, or what is true about it (docs/outside-methods.md).
-struct Exhibit {
+struct Payload {
   std::unique_ptr<Json> json;  ///< never null
   std::vector<Attachment> files;
 };
@@ -100,9 +100,9 @@ class TaskWorld {
   virtual CellResult Run(std::size_t method) = 0;
 
   /// What a method outside is asked here, beside Task::Setting.
-  virtual Result<Exhibit> MakeProblem() = 0;
+  virtual Result<Payload> MakeProblem() = 0;
   /// What `etude export` writes apart from the problem.
-  virtual Result<Exhibit> MakeTruth() = 0;
+  virtual Result<Payload> MakeTruth() = 0;
   /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is
   /// an Error that names where in the answer (e.g. "angles[3]"), what was found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;
@@ -122,7 +122,7 @@ class Task {
 
   /// What all problems of this condition share (the body's tree, the library of clips, …): told to methods
   /// outside once, before their first problem.
-  virtual Result<Exhibit> Setting() const = 0;
+  virtual Result<Payload> Setting() const = 0;
 
   /// What a method that gave no answer is credited with, where failing has a value: 0 for a solved share, twice
   /// the limit for a penalised cost (PAR-2). Nothing for every other metric: its value is missing.

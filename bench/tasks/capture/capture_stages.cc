@@ -86,9 +86,8 @@ Result<Renderer*> CaptureStages::GetRenderer() {
 
 Result<const Take*> CaptureStages::GetTake() {
   if (take_) return &*take_;
-  const auto renderer = GetRenderer();
-  if (!renderer) return tl::unexpected(renderer.error());
-  take_ = Film(world_, options_, key_, sources_, keeps_masks_, **renderer);
+  ASSIGN_OR_RETURN(const auto renderer, GetRenderer());
+  take_ = Film(world_, options_, key_, sources_, keeps_masks_, *renderer);
   return &*take_;
 }
 

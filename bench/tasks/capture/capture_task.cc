@@ -32,13 +32,12 @@ class CaptureTaskWorld : public TaskWorld {
 
   CellResult Run(std::size_t method) override { return RunCaptureCell(stages_, study_.methods[method], keeps_motion_); }
 
-  Result<Exhibit> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
-  Result<Exhibit> MakeTruth() override { return MakeCaptureTruth(stages_); }
+  Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
+  Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
 
   Result<CellResult> Judge(const Json& json) override {
-    const auto answer = ReadCaptureAnswer(json, stages_.world().truth.size());
-    if (!answer) return tl::unexpected(answer.error());
-    return ScoreCaptureAnswer(stages_.world(), *answer, keeps_motion_);
+    ASSIGN_OR_RETURN(const auto answer, ReadCaptureAnswer(json, stages_.world().truth.size()));
+    return ScoreCaptureAnswer(stages_.world(), answer, keeps_motion_);
   }
 
  private:
@@ -58,7 +57,7 @@ class CaptureTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Exhibit> Setting() const override { return Exhibit{std::make_unique<Json>(DescribeStudio()), {}}; }
+  Result<Payload> Setting() const override { return Payload{std::make_unique<Json>(DescribeStudio()), {}}; }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     if (metric == "frames_recovered") return 0;
@@ -76,12 +75,11 @@ class CaptureTask : public Task {
 Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   CaptureStudy study;
   CaptureConditionFields().Read(input.condition, study.options);
-  auto methods = ReadMethods(input, "capture", CaptureMethodFields());
-  if (!methods) return tl::unexpected(methods.error());
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", CaptureMethodFields()));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
-  study.methods = *std::move(methods);
+  study.methods = std::move(methods);
   for (const CaptureMethod& method : study.methods) {
     const PersonSource source = PersonSourceOf(method);
     const bool known = std::find(study.sources.begin(), study.sources.end(), source) != study.sources.end();

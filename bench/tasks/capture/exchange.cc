@@ -94,15 +94,14 @@ Json DescribeStudio() {
   return setting;
 }
 
-Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
+Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
   const CaptureWorld& world = stages.world();
-  if (auto small = CheckSize(world); !small) return tl::unexpected(small.error());
-  const auto renderer = stages.GetRenderer();
-  if (!renderer) return tl::unexpected(renderer.error());
+  RETURN_IF_ERROR(CheckSize(world));
+  ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
 
   std::vector<PersonSource> sources;
   for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
-  Exhibit problem{std::make_unique<Json>(), {}};
+  Payload problem{std::make_unique<Json>(), {}};
   Json cameras = Json::array();
   for (const std::vector<PointPair>& pairs : world.calibration_pairs) {
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
@@ -115,7 +114,7 @@ Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
       cameras[camera]["background"] = name;
     }
   };
-  const Take take = Film(world, options, key, sources, /*wants_masks=*/false, **renderer, keep);
+  const Take take = Film(world, options, key, sources, /*wants_masks=*/false, *renderer, keep);
   Json marks = Json::object();
   for (std::size_t i = 0; i < sources.size(); ++i) {
     marks[SegmenterNames()[i]] = ToJson(take.observations[i], stages.marked());
@@ -127,13 +126,12 @@ Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   return problem;
 }
 
-Result<Exhibit> MakeCaptureTruth(CaptureStages& stages) {
+Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
   const CaptureWorld& world = stages.world();
-  if (auto small = CheckSize(world); !small) return tl::unexpected(small.error());
-  const auto renderer = stages.GetRenderer();
-  if (!renderer) return tl::unexpected(renderer.error());
+  RETURN_IF_ERROR(CheckSize(world));
+  ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
 
-  Exhibit truth{std::make_unique<Json>(), {}};
+  Payload truth{std::make_unique<Json>(), {}};
   *truth.json = {{"poses", EncodePoses(world.truth)}, {"labels", PartNumbers()}};
   const BodyMotion motion{kJudgedRateHz, world.truth};
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
@@ -142,9 +140,8 @@ Result<Exhibit> MakeCaptureTruth(CaptureStages& stages) {
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-      auto bytes = EncodeExr(RenderFrame(world, camera, frame, **renderer));
-      if (!bytes) return tl::unexpected(bytes.error());
-      truth.files.push_back({PictureName(camera, frame, "exr"), *std::move(bytes)});
+      ASSIGN_OR_RETURN(auto bytes, EncodeExr(RenderFrame(world, camera, frame, *renderer)));
+      truth.files.push_back({PictureName(camera, frame, "exr"), std::move(bytes)});
     }
   }
   return truth;
@@ -153,16 +150,15 @@ Result<Exhibit> MakeCaptureTruth(CaptureStages& stages) {
 Result<CaptureAnswer> ReadCaptureAnswer(const Json& json, std::size_t frames) {
   AnswerFields fields(json);
   const Json& poses = fields.List("poses", frames, frames);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   CaptureAnswer answer;
   for (const Json& entry : poses) {
     if (entry.is_null()) {
       answer.emplace_back();
       continue;
     }
-    auto pose = ReadPose(entry, fields.PathOf("poses", answer.size()));
-    if (!pose) return tl::unexpected(pose.error());
-    answer.emplace_back(*std::move(pose));
+    ASSIGN_OR_RETURN(auto pose, ReadPose(entry, fields.PathOf("poses", answer.size())));
+    answer.emplace_back(std::move(pose));
   }
   return answer;
 }

@@ -36,7 +36,7 @@ Json DescribeStudio();
 /// missing or could not be read. A stroke goes from its limb's `from` to its `to`.
 ///
 /// Fails when there is no renderer, and for takes of more than kMostPictures pictures.
-Result<Exhibit> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
+Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 constexpr std::size_t kMostPictures = 1200;
 
 /// Truth: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and `truth.csv` (the same for
@@ -44,7 +44,7 @@ constexpr std::size_t kMostPictures = 1200;
 /// (depth along the viewing axis, metres), and `R`, `G`, `B` as a camera without noise would see them.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
-Result<Exhibit> MakeCaptureTruth(CaptureStages& stages);
+Result<Payload> MakeCaptureTruth(CaptureStages& stages);
 
 /// What a method outside answers, one entry per frame, null where it has no pose:
 ///

@@ -44,9 +44,8 @@ Result<RecordingExtras::View> ToView(const Json& json) {
   for (int i = 0; i < 3; ++i) view.truth.p_WC[i] = json.at("p_WC").at(i);
   const int width = json.at("mask_width"), height = json.at("mask_height");
   for (const Json& text : json.at("masks")) {
-    auto mask = DecodeMask(text.get_ref<const std::string&>(), width, height);
-    if (!mask) return tl::unexpected(mask.error());
-    view.masks.push_back(*std::move(mask));
+    ASSIGN_OR_RETURN(auto mask, DecodeMask(text.get_ref<const std::string&>(), width, height));
+    view.masks.push_back(std::move(mask));
   }
   return view;
 }
@@ -65,13 +64,12 @@ Result<RecordingExtras> ToExtras(const Json& json) {
   }
   extras.brightness = json.at("brightness").get<std::vector<double>>();
   for (const Json& camera : json.at("cameras")) {
-    auto view = ToView(camera);
-    if (!view) return tl::unexpected(view.error());
-    if (view->masks.size() != extras.brightness.size()) {
+    ASSIGN_OR_RETURN(auto view, ToView(camera));
+    if (view.masks.size() != extras.brightness.size()) {
       return Fail({}, "a capture recording with {} frames of light and {} masks", extras.brightness.size(),
-                  view->masks.size());
+                  view.masks.size());
     }
-    extras.views.push_back(*std::move(view));
+    extras.views.push_back(std::move(view));
   }
   extras.bvh = json.at("bvh");
   return extras;

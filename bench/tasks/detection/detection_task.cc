@@ -23,8 +23,8 @@ class UnlabelledWorld final : public TaskWorld {
 
   std::optional<std::string> WhySkipped() const override { return reason_; }
   CellResult Run(std::size_t) override { return CellResult::Ended(Status::kSkipped, reason_); }
-  Result<Exhibit> MakeProblem() override { return Fail({}, "{}", reason_); }
-  Result<Exhibit> MakeTruth() override { return Fail({}, "{}", reason_); }
+  Result<Payload> MakeProblem() override { return Fail({}, "{}", reason_); }
+  Result<Payload> MakeTruth() override { return Fail({}, "{}", reason_); }
   Result<CellResult> Judge(const Json&) override { return Fail({}, "{}", reason_); }
 
  private:
@@ -51,7 +51,7 @@ class DetectionTask final : public Task {
     return clip.is_labelled ? "" : clip.name;
   }
 
-  Result<Exhibit> Setting() const override { return ExhibitMoves(repertoire_); }
+  Result<Payload> Setting() const override { return MovesPayload(repertoire_); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     const SessionOptions& session = options_.session;  // PlanSession rounds the share to whole events
@@ -79,12 +79,11 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   DetectionConditionFields().Read(input.condition, options);
   DetectionMethod start;
   start.recogniser = options.recogniser;
-  auto methods = ReadMethods(input, "detection", DetectionMethodFields(), start);
-  if (!methods) return tl::unexpected(methods.error());
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "detection", DetectionMethodFields(), start));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*']");
   }
-  return std::make_unique<DetectionTask>(options, *std::move(methods), input.clips);
+  return std::make_unique<DetectionTask>(options, std::move(methods), input.clips);
 }
 
 }  // namespace

@@ -50,8 +50,8 @@ Judgement ReadEvent(AnswerFields& fields, const Window& window) {
 
 }  // namespace
 
-Exhibit ExhibitMoves(const Repertoire& repertoire) {
-  Exhibit setting{std::make_unique<Json>(DescribeBody()), {}};
+Payload MovesPayload(const Repertoire& repertoire) {
+  Payload setting{std::make_unique<Json>(DescribeBody()), {}};
   Json& moves = (*setting.json)["moves"] = Json::array();
   for (const Move& move : repertoire.moves) {
     moves.push_back(DescribeMove(move));
@@ -60,7 +60,7 @@ Exhibit ExhibitMoves(const Repertoire& repertoire) {
   return setting;
 }
 
-Exhibit ExhibitSession(const DetectionWorld& world) {
+Payload SessionPayload(const DetectionWorld& world) {
   Json frames = Json::array(), events = Json::array();
   for (const SensedFrame& frame : world.stream.frames) {
     frames.push_back(
@@ -76,7 +76,7 @@ Exhibit ExhibitSession(const DetectionWorld& world) {
   return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(MotionOf(world.stream), file)}}};
 }
 
-Exhibit ExhibitTruth(const DetectionWorld& world) {
+Payload TruthPayload(const DetectionWorld& world) {
   Json events = Json::array();
   for (const SessionEvent& event : world.session.events) {
     const Window window = WindowOf(event, world.stream);
@@ -120,7 +120,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
   }
   for (const auto& [move, frame] : alarms) verdict.alarms.push_back({move, frame});
 
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return verdict;
 }
 

@@ -18,7 +18,7 @@ namespace etude {
 ///
 /// `poses` is one performance of the move, danced perfectly; a key pose is reached when all its angles are (features:
 /// paper A's ten, engine/fuzzy).
-Exhibit ExhibitMoves(const Repertoire& repertoire);
+Payload MovesPayload(const Repertoire& repertoire);
 
 /// Problem: what the sensor saw, and what the coach asked for and when. A performance is judged in its window
 /// [begin_frame, end_frame). `states` has one letter per joint: tracked, inferred, not tracked.
@@ -27,7 +27,7 @@ Exhibit ExhibitMoves(const Repertoire& repertoire);
 ///      "events": [{"move": "clap", "begin_frame": 30, "end_frame": 120}, …], "file": "stream.trc"}
 ///
 /// The file holds the same positions, for other tools.
-Exhibit ExhibitSession(const DetectionWorld& world);
+Payload SessionPayload(const DetectionWorld& world);
 
 /// Truth: the session as it was danced. `first_right_s` is absent when the performance was not right.
 ///
@@ -35,7 +35,7 @@ Exhibit ExhibitSession(const DetectionWorld& world);
 ///      "events": [{"move": "clap", "is_right": true, "fault": "none", "danced": "clap", "begin_frame": 30,
 ///                  "end_frame": 120, "first_right_s": 2.9}, …],
 ///      "file": "truth.trc"}
-Exhibit ExhibitTruth(const DetectionWorld& world);
+Payload TruthPayload(const DetectionWorld& world);
 
 /// Answer: for each performance asked for, in order, the frame at which the method calls it right (in its window; null:
 /// it is wrong), and how right it looks, higher = righter, on any scale; then every frame at which it takes one of the

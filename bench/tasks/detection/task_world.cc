@@ -18,14 +18,13 @@ CellResult DetectionTaskWorld::Run(std::size_t method) {
   return Score(JudgeSession(world_, See(methods_[method]), repertoire_, methods_[method]));
 }
 
-Result<Exhibit> DetectionTaskWorld::MakeProblem() { return ExhibitSession(world_); }
+Result<Payload> DetectionTaskWorld::MakeProblem() { return SessionPayload(world_); }
 
-Result<Exhibit> DetectionTaskWorld::MakeTruth() { return ExhibitTruth(world_); }
+Result<Payload> DetectionTaskWorld::MakeTruth() { return TruthPayload(world_); }
 
 Result<CellResult> DetectionTaskWorld::Judge(const Json& answer) {
-  const auto verdict = ReadSessionAnswer(answer, world_, repertoire_);
-  if (!verdict) return tl::unexpected(verdict.error());
-  return Score(*verdict);
+  ASSIGN_OR_RETURN(const auto verdict, ReadSessionAnswer(answer, world_, repertoire_));
+  return Score(verdict);
 }
 
 const SeenSession& DetectionTaskWorld::See(const DetectionMethod& method) {

@@ -20,8 +20,8 @@ class DetectionTaskWorld final : public TaskWorld {
                      bool keeps_motion);
 
   CellResult Run(std::size_t method) override;
-  Result<Exhibit> MakeProblem() override;
-  Result<Exhibit> MakeTruth() override;
+  Result<Payload> MakeProblem() override;
+  Result<Payload> MakeTruth() override;
   Result<CellResult> Judge(const Json& answer) override;
 
  private:

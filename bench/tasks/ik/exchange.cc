@@ -39,10 +39,9 @@ Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
   const Json& degrees = fields.List("angles_deg", tree.limits.size(), tree.limits.size());
   answer.iterations = ReadCount(fields, "iterations");
   answer.fk_evaluations = ReadCount(fields, "fk_evaluations");
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
-  auto angles = ReadDegrees(degrees, "angles_deg", tree.limits.size());
-  if (!angles) return tl::unexpected(angles.error());
-  answer.angles = *std::move(angles);
+  RETURN_IF_ERROR(fields.Finish());
+  ASSIGN_OR_RETURN(auto angles, ReadDegrees(degrees, "angles_deg", tree.limits.size()));
+  answer.angles = std::move(angles);
   return answer;
 }
 

@@ -17,7 +17,7 @@ struct IkStudy {
   std::vector<IkMethod> methods;
 };
 
-Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 class IkTaskWorld : public TaskWorld {
  public:
@@ -30,8 +30,8 @@ class IkTaskWorld : public TaskWorld {
     return RunIkCell(study_.tree, world_, study_.methods[method], records_);
   }
 
-  Result<Exhibit> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
-  Result<Exhibit> MakeTruth() override { return Show(DescribeTruth(world_)); }
+  Result<Payload> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
+  Result<Payload> MakeTruth() override { return Show(DescribeTruth(world_)); }
 
   Result<CellResult> Judge(const Json& json) override {
     const auto answer = ReadIkAnswer(json, study_.tree);
@@ -69,9 +69,8 @@ Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
   IkStudy study;
   IkConditionFields().Read(input.condition, study.condition);
   study.tree.limits = JointLimits(study.condition.trial.limit_set);
-  auto methods = ReadIkMethods(input, study.condition);
-  if (!methods) return tl::unexpected(methods.error());
-  study.methods = *std::move(methods);
+  ASSIGN_OR_RETURN(auto methods, ReadIkMethods(input, study.condition));
+  study.methods = std::move(methods);
   return std::make_unique<IkTask>(std::move(study));
 }
 

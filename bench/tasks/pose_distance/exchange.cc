@@ -10,13 +10,13 @@ namespace {
 
 constexpr double kLargestDistance = 1e9;
 
-Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 }  // namespace
 
-Exhibit ExhibitBody() { return Show(DescribeBody()); }
+Payload BodyPayload() { return Show(DescribeBody()); }
 
-Exhibit ExhibitPairs(const PairWorld& world) {
+Payload PairsPayload(const PairWorld& world) {
   Json pairs = Json::array();
   for (const SeenPair& pair : world.pairs) {
     pairs.push_back({{"a", EncodePose(pair.a.pose)}, {"b", EncodePose(pair.b.pose)}});
@@ -24,7 +24,7 @@ Exhibit ExhibitPairs(const PairWorld& world) {
   return Show({{"pairs", std::move(pairs)}});
 }
 
-Exhibit ExhibitGaps(const PairWorld& world) {
+Payload GapsPayload(const PairWorld& world) {
   Json gaps = Json::array();
   for (const SeenPair& pair : world.pairs) gaps.push_back(100 * pair.gap_m);
   return Show({{"name", world.name}, {"pose_gap_cm", std::move(gaps)}});
@@ -48,7 +48,7 @@ Result<PairVerdict> ReadPairAnswer(const Json& answer, const PairWorld& world) {
     }
     verdict.alike.push_back(entry.get<bool>());
   }
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return verdict;
 }
 

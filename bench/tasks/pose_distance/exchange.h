@@ -11,17 +11,17 @@ namespace etude {
 /// Setting: the body.
 ///
 ///     {"joints": ["hip_centre", …], "parents": [null, "hip_centre", …]}
-Exhibit ExhibitBody();
+Payload BodyPayload();
 
 /// Problem: poses, two by two.
 ///
 ///     {"pairs": [{"a": [x, y, z, …], "b": [x, y, z, …]}, …]}
-Exhibit ExhibitPairs(const PairWorld& world);
+Payload PairsPayload(const PairWorld& world);
 
 /// Truth: how far the worst joint is off once heading and hips agree.
 ///
 ///     {"name": "arm forward or sideways", "pose_gap_cm": [103.2, …]}
-Exhibit ExhibitGaps(const PairWorld& world);
+Payload GapsPayload(const PairWorld& world);
 
 /// Answer: how unlike the two poses of each pair are, larger = more unlike, on any scale from 0 up; and whether a
 /// switch from the one to the other would go unnoticed.

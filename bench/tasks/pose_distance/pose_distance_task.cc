@@ -33,13 +33,12 @@ class PoseDistanceWorld final : public TaskWorld {
     return ScorePairs(world_, TellPairs(world_, method, study_.fuzzy.memberships, weights), &method.distance);
   }
 
-  Result<Exhibit> MakeProblem() override { return ExhibitPairs(world_); }
-  Result<Exhibit> MakeTruth() override { return ExhibitGaps(world_); }
+  Result<Payload> MakeProblem() override { return PairsPayload(world_); }
+  Result<Payload> MakeTruth() override { return GapsPayload(world_); }
 
   Result<CellResult> Judge(const Json& answer) override {
-    const auto verdict = ReadPairAnswer(answer, world_);
-    if (!verdict) return tl::unexpected(verdict.error());
-    return ScorePairs(world_, *verdict, nullptr);
+    ASSIGN_OR_RETURN(const auto verdict, ReadPairAnswer(answer, world_));
+    return ScorePairs(world_, verdict, nullptr);
   }
 
  private:
@@ -61,7 +60,7 @@ class PoseDistanceTask final : public Task {
     return study_.clips.names[static_cast<std::size_t>(key.trial) % study_.clips.names.size()];
   }
 
-  Result<Exhibit> Setting() const override { return ExhibitBody(); }
+  Result<Payload> Setting() const override { return BodyPayload(); }
 
  private:
   PairWorld WorldOf(const WorldKey& key) const {
@@ -75,19 +74,17 @@ class PoseDistanceTask final : public Task {
 Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
   PairOptions options;
   PoseDistanceConditionFields().Read(input.condition, options);
-  auto methods = ReadMethods(input, "pose-distance", PoseDistanceMethodFields());
-  if (!methods) return tl::unexpected(methods.error());
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "pose-distance", PoseDistanceMethodFields()));
   DancedClips clips = DanceClips(input.clips);
   if (options.source == PairSource::kFrames && !HoldsTwoDances(clips)) {
     return Fail(input.condition.node().place,
                 "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
                 "['builtin:*']");
   }
-  auto training = GatherTrainingClips(clips.motions, clips.identities, clips.physique);
-  if (!training) return tl::unexpected(training.error());
+  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.physique));
   return std::make_unique<PoseDistanceTask>(
-      PairStudy{options, *std::move(methods), std::move(clips), input.fuzzy,
-                LearntWeights(*std::move(training), input.fuzzy)});
+      PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
+                LearntWeights(std::move(training), input.fuzzy)});
 }
 
 }  // namespace

@@ -32,13 +32,12 @@ Json DescribeTerms(const FeatureWeights& weights) {
 Result<FoundFrames> ReadFrames(const Json& list, const std::string& path, std::size_t frames) {
   if (!list.is_array()) return Fail({}, "{}: {} is not a list", path, ShowJson(list));
   if (list.size() > frames) return Fail({}, "{}: {} frames; the library has {}", path, list.size(), frames);
-  auto numbers = ReadNumbers(list, path, list.size(), {0, static_cast<double>(frames) - 1});
-  if (!numbers) return tl::unexpected(numbers.error());
+  ASSIGN_OR_RETURN(auto numbers, ReadNumbers(list, path, list.size(), {0, static_cast<double>(frames) - 1}));
   FoundFrames found;
   std::set<int> seen;
-  for (std::size_t i = 0; i < numbers->size(); ++i) {
-    const int frame = static_cast<int>((*numbers)[i]);
-    if (frame != (*numbers)[i]) return Fail({}, "{}[{}]: {} is not a whole number", path, i, (*numbers)[i]);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const int frame = static_cast<int>(numbers[i]);
+    if (frame != numbers[i]) return Fail({}, "{}[{}]: {} is not a whole number", path, i, numbers[i]);
     if (!seen.insert(frame).second) return Fail({}, "{}[{}]: frame {} stands there twice", path, i, frame);
     found.push_back(frame);
   }
@@ -47,7 +46,7 @@ Result<FoundFrames> ReadFrames(const Json& list, const std::string& path, std::s
 
 }  // namespace
 
-Exhibit ExhibitLibrary(const SearchProblem& problem, SearchQuestion question) {
+Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question) {
   Json json{{"frames", problem.library.frames.size()},
             {"terms", DescribeTerms(problem.weights)},
             {"query", QuestionName(question)},
@@ -68,12 +67,11 @@ Result<SearchAnswer> ReadSearchAnswer(const Json& json, const SearchProblem& pro
                                       SearchQuestion question) {
   AnswerFields fields(json);
   const Json& lists = fields.List("found", queries, queries);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   SearchAnswer answer{.question = question, .found = {}, .distances = {}, .boxes = {}};
   for (std::size_t i = 0; i < lists.size(); ++i) {
-    auto found = ReadFrames(lists[i], fields.PathOf("found", i), problem.library.frames.size());
-    if (!found) return tl::unexpected(found.error());
-    answer.found.push_back(*std::move(found));
+    ASSIGN_OR_RETURN(auto found, ReadFrames(lists[i], fields.PathOf("found", i), problem.library.frames.size()));
+    answer.found.push_back(std::move(found));
   }
   return answer;
 }

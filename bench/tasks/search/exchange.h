@@ -14,7 +14,7 @@ namespace etude {
 ///      "query": "nearest", "threshold": 0.4, "file": "library.f64"}
 ///
 /// The distance of two frames is √(Σ weight · (difference of the grades)²) over the terms (paper A, equation 1).
-Exhibit ExhibitLibrary(const SearchProblem& problem, SearchQuestion question);
+Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 
 /// Problem: the frames asked about, as their grades.
 ///

@@ -44,16 +44,15 @@ class SearchWorld final : public TaskWorld {
     return Score(find(problem_, queries_, method.question));
   }
 
-  Result<Exhibit> MakeProblem() override { return Exhibit{std::make_unique<Json>(DescribeQueries(queries_)), {}}; }
+  Result<Payload> MakeProblem() override { return Payload{std::make_unique<Json>(DescribeQueries(queries_)), {}}; }
 
-  Result<Exhibit> MakeTruth() override {
-    return Exhibit{std::make_unique<Json>(DescribeFound(TruthOf(study_.options.question))), {}};
+  Result<Payload> MakeTruth() override {
+    return Payload{std::make_unique<Json>(DescribeFound(TruthOf(study_.options.question))), {}};
   }
 
   Result<CellResult> Judge(const Json& json) override {
-    const auto answer = ReadSearchAnswer(json, problem_, queries_.size(), study_.options.question);
-    if (!answer) return tl::unexpected(answer.error());
-    return Score(*answer);
+    ASSIGN_OR_RETURN(const auto answer, ReadSearchAnswer(json, problem_, queries_.size(), study_.options.question));
+    return Score(answer);
   }
 
  private:
@@ -83,8 +82,8 @@ class SearchTask final : public Task {
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
-  Result<Exhibit> Setting() const override {
-    return ExhibitLibrary(ProblemOf(study_, library_.Get()), study_.options.question);
+  Result<Payload> Setting() const override {
+    return LibraryPayload(ProblemOf(study_, library_.Get()), study_.options.question);
   }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override { return SearchFailureValue(metric); }
@@ -108,12 +107,9 @@ Result<std::unique_ptr<Task>> MakeSearchTask(TaskInput& input) {
   SearchConditionFields().Read(input.condition, study.options);
   SearchMethod start;
   start.question = study.options.question;
-  auto methods = ReadMethods(input, "search", SearchMethodFields(), start);
-  if (!methods) return tl::unexpected(methods.error());
-  if (auto usable = CheckClips(input.clips, input.condition.node().place); !usable) {
-    return tl::unexpected(usable.error());
-  }
-  study.methods = *std::move(methods);
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "search", SearchMethodFields(), start));
+  RETURN_IF_ERROR(CheckClips(input.clips, input.condition.node().place));
+  study.methods = std::move(methods);
   return std::make_unique<SearchTask>(std::move(study), input.clips);
 }
 

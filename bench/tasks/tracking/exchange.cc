@@ -40,16 +40,14 @@ Result<TrackingAnswer> ReadTrackingAnswer(const Json& json, const TrackingWorld&
   const bool tells_iterations = fields.Has("iterations");
   if (tells_iterations) answer.iterations.emplace();
   const Json& iterations = fields.List("iterations", 0, count);
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   for (std::size_t k = 0; k < count; ++k) {
-    auto angles = ReadDegrees(frames[k], fields.PathOf("angles_deg", k), world.tree.limits.size());
-    if (!angles) return tl::unexpected(angles.error());
-    answer.angles.push_back(*std::move(angles));
+    ASSIGN_OR_RETURN(auto angles, ReadDegrees(frames[k], fields.PathOf("angles_deg", k), world.tree.limits.size()));
+    answer.angles.push_back(std::move(angles));
   }
   if (!tells_iterations) return answer;
-  const auto counts = ReadNumbers(iterations, "iterations", count, {0, kMostIterations});
-  if (!counts) return tl::unexpected(counts.error());
-  for (const double each : *counts) {
+  ASSIGN_OR_RETURN(const auto counts, ReadNumbers(iterations, "iterations", count, {0, kMostIterations}));
+  for (const double each : counts) {
     if (each != std::floor(each)) {
       return Fail({}, "iterations[{}]: {} is not a whole number", answer.iterations->size(), each);
     }

@@ -21,7 +21,7 @@ struct TrackingStudy {
   ClipLibrary clips;
 };
 
-Exhibit Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
+Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 class TrackingTaskWorld : public TaskWorld {
  public:
@@ -39,18 +39,17 @@ class TrackingTaskWorld : public TaskWorld {
     return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
   }
 
-  Result<Exhibit> MakeProblem() override { return Show(DescribeMotion(*world_)); }
-  Result<Exhibit> MakeTruth() override {
-    Exhibit truth = Show(DescribeTrueAngles(*world_));
+  Result<Payload> MakeProblem() override { return Show(DescribeMotion(*world_)); }
+  Result<Payload> MakeTruth() override {
+    Payload truth = Show(DescribeTrueAngles(*world_));
     const Clip clip = ToClip(world_->tree, world_->truth, study_.options.rate_hz, "truth");
     truth.files.push_back({"truth.bvh", WriteBvh(clip)});
     return truth;
   }
 
   Result<CellResult> Judge(const Json& json) override {
-    const auto answer = ReadTrackingAnswer(json, *world_);
-    if (!answer) return tl::unexpected(answer.error());
-    return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
+    ASSIGN_OR_RETURN(const auto answer, ReadTrackingAnswer(json, *world_));
+    return ScoreTracking(*world_, study_.options.rate_hz, answer, keeps_motion_);
   }
 
  private:
@@ -88,12 +87,11 @@ Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
   TrackingConditionFields().Read(input.condition, study.options);
   TrackingMethod start;
   start.options = study.options.common;
-  auto methods = ReadMethods(input, "tracking", TrackingMethodFields(), start);
-  if (!methods) return tl::unexpected(methods.error());
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "tracking", TrackingMethodFields(), start));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a tracking scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
-  study.methods = *std::move(methods);
+  study.methods = std::move(methods);
   study.clips = input.clips;
   return std::make_unique<TrackingTask>(std::move(study));
 }

@@ -88,8 +88,8 @@ SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRe
 
 }  // namespace
 
-Exhibit ExhibitStage(const Stage& stage) {
-  Exhibit setting{std::make_unique<Json>(Json{{"rate_hz", kJudgedRateHz}}), {}};
+Payload StagePayload(const Stage& stage) {
+  Payload setting{std::make_unique<Json>(Json{{"rate_hz", kJudgedRateHz}}), {}};
   setting.json->update(DescribeBody());
   Json& clips = (*setting.json)["clips"] = Json::array();
   for (std::size_t clip = 0; clip < stage.library.names.size(); ++clip) {
@@ -101,13 +101,13 @@ Exhibit ExhibitStage(const Stage& stage) {
   return setting;
 }
 
-Exhibit ExhibitRequest(const SwitchRequest& request, double max_wait_s) {
+Payload RequestPayload(const SwitchRequest& request, double max_wait_s) {
   const Json json = {
       {"from", request.from}, {"to", request.to}, {"request_frame", request.request_frame}, {"max_wait_s", max_wait_s}};
   return {std::make_unique<Json>(json), {}};
 }
 
-Exhibit ExhibitNature(const Stage& stage, const SwitchRequest& request) {
+Payload NaturePayload(const Stage& stage, const SwitchRequest& request) {
   const double limit = NaturalLimitCm(NaturalJumpsOf(stage, request.from, request.to));
   return {std::make_unique<Json>(Json{{"natural_limit_cm", limit}}), {}};
 }
@@ -120,7 +120,7 @@ Result<SwitchAnswer> ReadSwitchAnswer(const Json& answer, const Stage& stage, co
   } else {
     read = ReadSwitch(fields, stage, request);
   }
-  if (auto done = fields.Finish(); !done) return tl::unexpected(done.error());
+  RETURN_IF_ERROR(fields.Finish());
   return read;
 }
 

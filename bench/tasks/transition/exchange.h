@@ -20,7 +20,7 @@ namespace etude {
 ///      "clips": [{"name": "builtin:clap", "poses": [[x, y, z, …], …], "file": "clip-0.bvh"}, …]}
 ///
 /// The files hold the same poses, for other tools.
-Exhibit ExhibitStage(const Stage& stage);
+Payload StagePayload(const Stage& stage);
 
 /// Problem: clip `from` shows its frame `request_frame` when clip `to` is asked for.
 ///
@@ -28,12 +28,12 @@ Exhibit ExhibitStage(const Stage& stage);
 ///
 /// `max_wait_s` is the scenario's `wait_s`: how long the caller would like to wait at most. A later switch is
 /// allowed and costs `wait_s`, as that of the built-in `wait-for-end` does.
-Exhibit ExhibitRequest(const SwitchRequest& request, double max_wait_s);
+Payload RequestPayload(const SwitchRequest& request, double max_wait_s);
 
 /// Truth: the largest jump that still counts in `natural_share`.
 ///
 ///     {"natural_limit_cm": 3.1}
-Exhibit ExhibitNature(const Stage& stage, const SwitchRequest& request);
+Payload NaturePayload(const Stage& stage, const SwitchRequest& request);
 
 /// How a method outside gets from one clip into the other:
 ///

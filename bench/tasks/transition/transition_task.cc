@@ -29,7 +29,7 @@ class TransitionTask final : public Task {
     return stage_.library.names.empty() ? "" : stage_.library.names[FromClip(stage_, key)];
   }
 
-  Result<Exhibit> Setting() const override { return ExhibitStage(stage_); }
+  Result<Payload> Setting() const override { return StagePayload(stage_); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override { return SwitchFailureValue(metric); }
 
@@ -48,13 +48,11 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   TransitionMethod start;
   start.way.rules.threshold = condition.threshold;
   start.wait_s = condition.wait_s;
-  auto methods = ReadMethods(input, "transition", TransitionMethodFields(), start);
-  if (!methods) return tl::unexpected(methods.error());
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "transition", TransitionMethodFields(), start));
   Stage stage = SetStage(input.clips, condition.stage);
-  auto training = GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique);
-  if (!training) return tl::unexpected(training.error());
-  return std::make_unique<TransitionTask>(*std::move(methods), condition.wait_s, condition.explain,
-                                          std::move(stage), *std::move(training));
+  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique));
+  return std::make_unique<TransitionTask>(std::move(methods), condition.wait_s, condition.explain,
+                                          std::move(stage), std::move(training));
 }
 
 }  // namespace

@@ -89,26 +89,25 @@ CellResult TransitionWorld::Run(std::size_t index) {
   return result;
 }
 
-Result<Exhibit> TransitionWorld::MakeProblem() {
+Result<Payload> TransitionWorld::MakeProblem() {
   if (!request_) return tl::unexpected(request_.error());
-  return ExhibitRequest(*request_, basis_.max_wait_s);
+  return RequestPayload(*request_, basis_.max_wait_s);
 }
 
-Result<Exhibit> TransitionWorld::MakeTruth() {
+Result<Payload> TransitionWorld::MakeTruth() {
   if (!request_) return tl::unexpected(request_.error());
-  return ExhibitNature(basis_.stage, *request_);
+  return NaturePayload(basis_.stage, *request_);
 }
 
 Result<CellResult> TransitionWorld::Judge(const Json& answer) {
   if (!request_) return tl::unexpected(request_.error());
-  const auto read = ReadSwitchAnswer(answer, basis_.stage, *request_);
-  if (!read) return tl::unexpected(read.error());
+  ASSIGN_OR_RETURN(const auto read, ReadSwitchAnswer(answer, basis_.stage, *request_));
   SwitchOutcome outcome;
-  if (read->unsolved) {
+  if (read.unsolved) {
     outcome.rules.weights = basis_.stage.fuzzy.weights;
-    outcome.record.why = *read->unsolved;
+    outcome.record.why = *read.unsolved;
   } else {
-    outcome = FollowAnswer(*read, basis_.stage, *request_);
+    outcome = FollowAnswer(read, basis_.stage, *request_);
   }
   CellResult result = Score(outcome);
   ScoreMatching(std::nullopt, result);

@@ -31,8 +31,8 @@ class TransitionWorld final : public TaskWorld {
   std::optional<std::string> WhySkipped() const override;
   void PrepareShared() override;
   CellResult Run(std::size_t method) override;
-  Result<Exhibit> MakeProblem() override;
-  Result<Exhibit> MakeTruth() override;
+  Result<Payload> MakeProblem() override;
+  Result<Payload> MakeTruth() override;
   Result<CellResult> Judge(const Json& answer) override;
 
  private:

@@ -157,14 +157,12 @@ Result<BridgeTags> ReadTagsFile(std::string_view text, const std::string& file) 
   if (text.size() > kLargestTagsFile) {
     return Fail({file, 0, 0}, "{} bytes; a tags file has up to {}", text.size(), kLargestTagsFile);
   }
-  auto xml = XmlReader::Open(text, TagsFileSchemas().front().text, file);
-  if (!xml) return tl::unexpected(xml.error());
-  TagsReader reader(*xml);
+  ASSIGN_OR_RETURN(auto xml, XmlReader::Open(text, TagsFileSchemas().front().text, file));
+  TagsReader reader(xml);
   while (true) {
-    const auto more = xml->Next();
-    if (!more) return tl::unexpected(more.error());
-    if (!*more) return reader.Take();
-    if (auto read = reader.ReadElement(); !read) return tl::unexpected(read.error());
+    ASSIGN_OR_RETURN(const auto more, xml.Next());
+    if (!more) return reader.Take();
+    RETURN_IF_ERROR(reader.ReadElement());
   }
 }
 

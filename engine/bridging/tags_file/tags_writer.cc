@@ -62,10 +62,10 @@ void WriteFrame(XmlWriter& xml, const TaggedFrame& frame, double rate_hz) {
 }  // namespace
 
 Result<std::string> WriteTagsFile(const BridgeTags& tags) {
-  if (auto name = CheckName(tags.system); !name) return tl::unexpected(name.error());
+  RETURN_IF_ERROR(CheckName(tags.system));
   for (const ClipTags& clip : tags.clips) {
     for (const std::string& name : {clip.name, clip.source}) {
-      if (auto checked = CheckName(name); !checked) return tl::unexpected(checked.error());
+      RETURN_IF_ERROR(CheckName(name));
     }
   }
   XmlWriter xml;

@@ -96,7 +96,7 @@ Result<XmlReader> XmlReader::Open(std::string_view text, std::string_view schema
   state->file = file;
   state->text = text;
   state->schema = Compile(schema);
-  if (auto checked = CheckBeforeParsing(text, file); !checked) return tl::unexpected(checked.error());
+  RETURN_IF_ERROR(CheckBeforeParsing(text, file));
   // Twice: while libxml2 2.9 holds elements against a schema, an error of syntax, or a warning, makes it crash.
   state->Start();
   int read = 1;

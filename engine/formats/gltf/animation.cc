@@ -107,10 +107,9 @@ class ClipReader {
       return file_.Refuse("animations", "found {}; allowed: {}", count, kMostAnimations);
     }
     for (int i = 0; i < static_cast<int>(count); ++i) {
-      auto channels = ReadChannels(i);
-      if (!channels) return tl::unexpected(channels.error());
-      if (channels->empty()) continue;
-      if (auto ok = Sample(i, *channels); !ok) return tl::unexpected(ok.error());
+      ASSIGN_OR_RETURN(auto channels, ReadChannels(i));
+      if (channels.empty()) continue;
+      RETURN_IF_ERROR(Sample(i, channels));
     }
     return std::move(clips_);
   }
@@ -124,9 +123,7 @@ class ClipReader {
     for (std::size_t i = 0; i < animation.channels.size(); ++i) {
       const tinygltf::AnimationChannel& source = animation.channels[i];
       const std::string where = fmt::format("animations[{}].channels[{}]", index, i);
-      if (auto ok = file_.CheckIndex(source.sampler, animation.samplers.size(), where + ".sampler"); !ok) {
-        return tl::unexpected(ok.error());
-      }
+      RETURN_IF_ERROR(file_.CheckIndex(source.sampler, animation.samplers.size(), where + ".sampler"));
       Property property;
       if (source.target_path == "translation") {
         property = Property::kTranslation;
@@ -148,9 +145,9 @@ class ClipReader {
         return file_.Refuse(where, "found the {} of node {} again; allowed: one channel each", source.target_path,
                             source.target_node);
       }
-      auto curve = GltfCurve::Read(file_, index, source.sampler, property == Property::kRotation ? 4 : 3);
-      if (!curve) return tl::unexpected(curve.error());
-      channels.push_back({joint, property, std::move(*curve)});
+      ASSIGN_OR_RETURN(auto curve,
+                       GltfCurve::Read(file_, index, source.sampler, property == Property::kRotation ? 4 : 3));
+      channels.push_back({joint, property, std::move(curve)});
     }
     return channels;
   }

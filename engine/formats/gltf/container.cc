@@ -53,13 +53,11 @@ Result<GltfContainer> OpenGlb(std::string_view bytes, const Place& place) {
   }
   bytes = bytes.substr(0, length);
   std::size_t at = kHeaderBytes;
-  auto json = TakeChunk(bytes, at, kJsonChunk, place);
-  if (!json) return tl::unexpected(json.error());
-  GltfContainer container{.is_binary = true, .json = *json, .binary = {}};
+  ASSIGN_OR_RETURN(auto json, TakeChunk(bytes, at, kJsonChunk, place));
+  GltfContainer container{.is_binary = true, .json = json, .binary = {}};
   if (at < bytes.size()) {
-    auto binary = TakeChunk(bytes, at, kBinaryChunk, place);
-    if (!binary) return tl::unexpected(binary.error());
-    container.binary = *binary;
+    ASSIGN_OR_RETURN(auto binary, TakeChunk(bytes, at, kBinaryChunk, place));
+    container.binary = binary;
   }
   return container;
 }
@@ -122,11 +120,10 @@ Result<GltfContainer> OpenGltfContainer(std::string_view bytes, const std::strin
     if (!glb) return glb;
     container = *glb;
   }
-  const auto buffers = Outline().CountBuffers(container.json, place);
-  if (!buffers) return tl::unexpected(buffers.error());
+  ASSIGN_OR_RETURN(const auto buffers, Outline().CountBuffers(container.json, place));
   // Every buffer without a URI gets its own copy of the binary part.
-  if (static_cast<double>(*buffers) * static_cast<double>(container.binary.size()) > kMostGltfBytes) {
-    return Fail(place, "{} buffers beside {} bytes of binary data; allowed: {:.0f} MB together", *buffers,
+  if (static_cast<double>(buffers) * static_cast<double>(container.binary.size()) > kMostGltfBytes) {
+    return Fail(place, "{} buffers beside {} bytes of binary data; allowed: {:.0f} MB together", buffers,
                 container.binary.size(), kMostGltfBytes / 1e6);
   }
   return container;

@@ -34,9 +34,8 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
     return file.Refuse(where + ".interpolation", "found {}; allowed: LINEAR, STEP, CUBICSPLINE",
                        Quote(source.interpolation));
   }
-  auto times = file.Read(source.input, 1, GltfComponents::kFloat, where + ".input");
-  if (!times) return tl::unexpected(times.error());
-  curve.times_ = std::move(times->values);
+  ASSIGN_OR_RETURN(auto times, file.Read(source.input, 1, GltfComponents::kFloat, where + ".input"));
+  curve.times_ = std::move(times.values);
   for (std::size_t i = 1; i < curve.times_.size(); ++i) {
     if (!(curve.times_[i - 1] < curve.times_[i])) {
       return file.Refuse(where + ".input", "found {} s after {} s; allowed: times that ascend", curve.times_[i],
@@ -44,10 +43,10 @@ Result<GltfCurve> GltfCurve::Read(GltfFile& file, int animation, int sampler, st
     }
   }
   const bool is_rotation = width == 4;
-  auto values = file.Read(source.output, width,
-                          is_rotation ? GltfComponents::kFloatOrNormalized : GltfComponents::kFloat, where + ".output");
-  if (!values) return tl::unexpected(values.error());
-  curve.values_ = std::move(*values);
+  ASSIGN_OR_RETURN(auto values, file.Read(source.output, width,
+                                          is_rotation ? GltfComponents::kFloatOrNormalized : GltfComponents::kFloat,
+                                          where + ".output"));
+  curve.values_ = std::move(values);
   const std::size_t per_key = curve.interpolation_ == GltfInterpolation::kCubicSpline ? 3 : 1;
   if (curve.values_.Count() != per_key * curve.times_.size()) {
     return file.Refuse(where + ".output", "found {} values; {} times need {}", curve.values_.Count(),

@@ -13,8 +13,6 @@
 namespace etude {
 namespace {
 
-constexpr double kLargestNumber = 1e9;  // sums and products of what was read stay finite
-
 /// Places of elements within a buffer, already checked.
 struct Elements {
   std::span<const unsigned char> bytes;  ///< from the first element on
@@ -114,14 +112,10 @@ double Component(const unsigned char* bytes, int type, bool normalized) {
 Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset, std::size_t count, std::size_t size,
                         const std::string& where) {
   const tinygltf::Model& model = file.model();
-  if (auto ok = file.CheckIndex(view_index, model.bufferViews.size(), where + ".bufferView"); !ok) {
-    return tl::unexpected(ok.error());
-  }
+  RETURN_IF_ERROR(file.CheckIndex(view_index, model.bufferViews.size(), where + ".bufferView"));
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   const std::string view_name = fmt::format("bufferViews[{}]", view_index);
-  if (auto ok = file.CheckIndex(view.buffer, model.buffers.size(), view_name + ".buffer"); !ok) {
-    return tl::unexpected(ok.error());
-  }
+  RETURN_IF_ERROR(file.CheckIndex(view.buffer, model.buffers.size(), view_name + ".buffer"));
   const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
     return file.Refuse(view_name, "found {} bytes at byte {}; buffer {} holds {}", view.byteLength, view.byteOffset,
@@ -157,20 +151,20 @@ Result<void> ReadSparse(const GltfFile& file, const tinygltf::Accessor& accessor
   }
   const std::size_t count = static_cast<std::size_t>(sparse.count);
   const std::size_t component_bytes = ComponentBytes(accessor.componentType);
-  auto indices = Locate(file, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
-                        ComponentBytes(sparse.indices.componentType), where + ".indices");
-  if (!indices) return tl::unexpected(indices.error());
-  auto values = Locate(file, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
-                       component_bytes * numbers.width, where + ".values");
-  if (!values) return tl::unexpected(values.error());
+  ASSIGN_OR_RETURN(auto indices,
+                   Locate(file, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset), count,
+                          ComponentBytes(sparse.indices.componentType), where + ".indices"));
+  ASSIGN_OR_RETURN(auto values,
+                   Locate(file, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset), count,
+                          component_bytes * numbers.width, where + ".values"));
   for (std::size_t i = 0; i < count; ++i) {
-    const double index = Component(&indices->bytes[i * indices->stride], sparse.indices.componentType, false);
+    const double index = Component(&indices.bytes[i * indices.stride], sparse.indices.componentType, false);
     if (index >= static_cast<double>(total)) {
       return file.Refuse(where + ".indices", "found {}; allowed: 0 to {}", index, total - 1);
     }
     for (std::size_t k = 0; k < numbers.width; ++k) {
       numbers.values[static_cast<std::size_t>(index) * numbers.width + k] = Component(
-          &values->bytes[i * values->stride + k * component_bytes], accessor.componentType, accessor.normalized);
+          &values.bytes[i * values.stride + k * component_bytes], accessor.componentType, accessor.normalized);
     }
   }
   return {};
@@ -185,7 +179,7 @@ Result<void> GltfFile::CheckIndex(int index, std::size_t count, const std::strin
 }
 
 Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents allowed, const std::string& where) {
-  if (auto ok = CheckIndex(index, model_.accessors.size(), where); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(CheckIndex(index, model_.accessors.size(), where));
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
   const std::string name = fmt::format("{} (accessors[{}])", where, index);
   if (Width(accessor.type) != width) {
@@ -217,13 +211,13 @@ Result<GltfNumbers> GltfFile::Read(int index, std::size_t width, GltfComponents 
     }
   }
   if (accessor.sparse.isSparse) {
-    if (auto ok = ReadSparse(*this, accessor, numbers, name + ".sparse"); !ok) return tl::unexpected(ok.error());
+    RETURN_IF_ERROR(ReadSparse(*this, accessor, numbers, name + ".sparse"));
   }
   const bool is_index = allowed == GltfComponents::kUnsigned;  // has its own limits
   for (std::size_t i = 0; !is_index && i < numbers.values.size(); ++i) {
-    if (!(std::abs(numbers.values[i]) <= kLargestNumber)) {
+    if (!(std::abs(numbers.values[i]) <= kLargestGltfNumber)) {
       return Refuse(name, "found {} in element {}; allowed: numbers within ±{:g}", numbers.values[i], i / width,
-                    kLargestNumber);
+                    kLargestGltfNumber);
     }
   }
   return numbers;

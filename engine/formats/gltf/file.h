@@ -13,6 +13,11 @@ class Model;
 
 namespace etude {
 
+/// What the parser leaves where an index is not given.
+constexpr int kNoIndex = -1;
+/// Larger numbers are refused, so that sums and products of what was read stay finite.
+constexpr double kLargestGltfNumber = 1e9;
+
 /// The numbers of an accessor, element by element.
 struct GltfNumbers {
   std::size_t width = 1;  ///< numbers per element

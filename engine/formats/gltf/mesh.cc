@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t kMostTriangles = 2'000'000;
 constexpr std::size_t kMostVertices = 2'000'000;
 constexpr std::size_t kMostBindings = 500'000;
-constexpr int kNone = -1;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -84,7 +83,7 @@ class MeshReader {
     std::vector<int> nodes = nodes_.mesh_nodes;
     std::ranges::stable_sort(nodes, {}, [&](int node) { return Node(node).mesh; });
     for (const int node : nodes) {
-      if (auto ok = ReadNode(node); !ok) return ok;
+      RETURN_IF_ERROR(ReadNode(node));
     }
     return {};
   }
@@ -95,15 +94,14 @@ class MeshReader {
   Result<void> ReadNode(int node) {
     const std::string where = fmt::format("nodes[{}]", node);
     const int index = Node(node).mesh;
-    if (auto ok = file_.CheckIndex(index, model_.meshes.size(), where + ".mesh"); !ok) return ok;
-    const bool has_skin = Node(node).skin != kNone;
-    auto bindings = ReadGltfBindings(file_, nodes_, node);
-    if (!bindings) return tl::unexpected(bindings.error());
+    RETURN_IF_ERROR(file_.CheckIndex(index, model_.meshes.size(), where + ".mesh"));
+    const bool has_skin = Node(node).skin != kNoIndex;
+    ASSIGN_OR_RETURN(auto bindings, ReadGltfBindings(file_, nodes_, node));
     const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
     if (mesh.primitives.empty()) {
       return file_.Refuse(fmt::format("meshes[{}].primitives", index), "found none; at least one is needed");
     }
-    bindings_ += bindings->size() * mesh.primitives.size();  // every surface gets a copy
+    bindings_ += bindings.size() * mesh.primitives.size();  // every surface gets a copy
     if (bindings_ > kMostBindings) {
       return file_.Refuse(where, "with it surfaces hang on {} joints; allowed: {}", bindings_, kMostBindings);
     }
@@ -111,8 +109,8 @@ class MeshReader {
       const std::string place = fmt::format("meshes[{}].primitives[{}]", index, i);
       SkinnedMesh read;
       read.name = mesh.name.empty() ? NodeName(node) : mesh.name;
-      read.bindings = *bindings;
-      if (auto ok = ReadPrimitive(mesh.primitives[i], has_skin, place, read); !ok) return ok;
+      read.bindings = bindings;
+      RETURN_IF_ERROR(ReadPrimitive(mesh.primitives[i], has_skin, place, read));
       if (read.triangles.empty()) continue;
       if (!has_skin && IsMirrored(nodes_.skeleton, nodes_.joint_of[node])) TurnOver(read);
       character_.meshes.push_back(std::move(read));
@@ -131,10 +129,10 @@ class MeshReader {
       return file_.Refuse(where + ".mode", "found {}; allowed: 0 to 6", primitive.mode);
     }
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || !primitive.attributes.contains("POSITION")) return {};
-    if (auto ok = ReadVertices(primitive, where, mesh); !ok) return ok;
-    if (auto ok = ReadTriangles(primitive, where, mesh); !ok) return ok;
+    RETURN_IF_ERROR(ReadVertices(primitive, where, mesh));
+    RETURN_IF_ERROR(ReadTriangles(primitive, where, mesh));
     if (has_skin) {
-      if (auto ok = ReadGltfWeights(file_, primitive, where, mesh); !ok) return ok;
+      RETURN_IF_ERROR(ReadGltfWeights(file_, primitive, where, mesh));
     }
     const bool is_flat = !primitive.attributes.contains("NORMAL");
     triangles_ += mesh.triangles.size();
@@ -150,7 +148,7 @@ class MeshReader {
 
   Result<void> ReadMaterialIndex(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
     mesh.material = primitive.material;
-    if (primitive.material != kNone) {
+    if (primitive.material != kNoIndex) {
       return file_.CheckIndex(primitive.material, model_.materials.size(), where + ".material");
     }
     if (character_.materials.size() == model_.materials.size()) {
@@ -161,14 +159,14 @@ class MeshReader {
   }
 
   Result<void> ReadVertices(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
-    auto positions = file_.Read(primitive.attributes.at("POSITION"), 3, GltfComponents::kAny, where + ".POSITION");
-    if (!positions) return tl::unexpected(positions.error());
-    if (positions->Count() > kMostVertices) {
-      return file_.Refuse(where, "found {} vertices; allowed: {}", positions->Count(), kMostVertices);
+    ASSIGN_OR_RETURN(auto positions,
+                     file_.Read(primitive.attributes.at("POSITION"), 3, GltfComponents::kAny, where + ".POSITION"));
+    if (positions.Count() > kMostVertices) {
+      return file_.Refuse(where, "found {} vertices; allowed: {}", positions.Count(), kMostVertices);
     }
-    mesh.vertices.resize(positions->Count());
+    mesh.vertices.resize(positions.Count());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-      const double* p = (*positions)[i];
+      const double* p = positions[i];
       mesh.vertices[i].position = {p[0], p[1], p[2]};
     }
     const auto normal = primitive.attributes.find("NORMAL");
@@ -185,14 +183,13 @@ class MeshReader {
 
   Result<void> ReadTriangles(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
     std::vector<std::uint32_t> corners;
-    if (primitive.indices == kNone) {
+    if (primitive.indices == kNoIndex) {
       corners.resize(mesh.vertices.size());
       for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
     } else {
-      auto indices = file_.Read(primitive.indices, 1, GltfComponents::kUnsigned, where + ".indices");
-      if (!indices) return tl::unexpected(indices.error());
-      for (std::size_t i = 0; i < indices->values.size(); ++i) {
-        const double index = indices->values[i];
+      ASSIGN_OR_RETURN(auto indices, file_.Read(primitive.indices, 1, GltfComponents::kUnsigned, where + ".indices"));
+      for (std::size_t i = 0; i < indices.values.size(); ++i) {
+        const double index = indices.values[i];
         if (index >= static_cast<double>(mesh.vertices.size())) {
           return file_.Refuse(where + ".indices", "found vertex {} in element {}; allowed: 0 to {}", index, i,
                               mesh.vertices.size() - 1);

@@ -13,9 +13,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMostJoints = 1024;
-constexpr int kDeepestNesting = 128;
-constexpr double kLargestNumber = 1e9;
-constexpr int kNone = -1;
+constexpr int kMostLevels = 128;
 
 /// Up to this much a matrix may miss a right angle, and a last row 0, 0, 0, 1: files hold floats.
 constexpr double kMatrixRounding = 1e-3;
@@ -30,7 +28,7 @@ class NodeReader {
     if (count_ == 0) return file_.Refuse("nodes", "found none; at least one is needed");
     for (auto step : {&NodeReader::FindParents, &NodeReader::CheckNesting, &NodeReader::MarkScene,
                       &NodeReader::MarkOutsiders, &NodeReader::MakeJoints}) {
-      if (auto ok = (this->*step)(); !ok) return tl::unexpected(ok.error());
+      RETURN_IF_ERROR((this->*step)());
     }
     return std::move(nodes_);
   }
@@ -39,14 +37,14 @@ class NodeReader {
   const tinygltf::Node& At(int node) const { return model_.nodes[static_cast<std::size_t>(node)]; }
 
   Result<void> FindParents() {
-    parents_.assign(count_, kNone);
+    parents_.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       const std::vector<int>& children = At(node).children;
       for (std::size_t i = 0; i < children.size(); ++i) {
         const std::string where = fmt::format("{}.children[{}]", NodeName(node), i);
-        if (auto ok = file_.CheckIndex(children[i], count_, where); !ok) return ok;
+        RETURN_IF_ERROR(file_.CheckIndex(children[i], count_, where));
         int& parent = parents_[children[i]];
-        if (parent != kNone) {
+        if (parent != kNoIndex) {
           return file_.Refuse(where, "found node {}, a child of node {} already; allowed: one parent", children[i],
                               parent);
         }
@@ -59,9 +57,9 @@ class NodeReader {
   Result<void> CheckNesting() {
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       int depth = 1;
-      for (int above = parents_[node]; above != kNone; above = parents_[above]) {
+      for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
         if (above == node) return file_.Refuse(NodeName(node), "is its own ancestor; allowed: a tree");
-        if (++depth > kDeepestNesting) return TooDeep(node);
+        if (++depth > kMostLevels) return TooDeep(node);
       }
     }
     return {};
@@ -70,10 +68,10 @@ class NodeReader {
   /// Either nested too deep or below a cycle: with more steps than nodes there is one.
   Result<void> TooDeep(int node) const {
     std::size_t steps = 0;
-    for (int above = parents_[node]; above != kNone; above = parents_[above]) {
+    for (int above = parents_[node]; above != kNoIndex; above = parents_[above]) {
       if (++steps > count_) return file_.Refuse(NodeName(node), "hangs below its own descendants; allowed: a tree");
     }
-    return file_.Refuse(NodeName(node), "nested deeper than {} levels", kDeepestNesting);
+    return file_.Refuse(NodeName(node), "nested deeper than {} levels", kMostLevels);
   }
 
   Result<void> MarkScene() {
@@ -82,16 +80,16 @@ class NodeReader {
     std::vector<int> open;
     if (model_.scenes.empty()) {
       for (int node = 0; node < static_cast<int>(count_); ++node) {
-        if (parents_[node] == kNone) open.push_back(node);
+        if (parents_[node] == kNoIndex) open.push_back(node);
       }
     } else {
       const int scene = model_.defaultScene < 0 ? 0 : model_.defaultScene;
-      if (auto ok = file_.CheckIndex(scene, model_.scenes.size(), "scene"); !ok) return ok;
+      RETURN_IF_ERROR(file_.CheckIndex(scene, model_.scenes.size(), "scene"));
       open = model_.scenes[static_cast<std::size_t>(scene)].nodes;
       for (std::size_t i = 0; i < open.size(); ++i) {
         const std::string where = fmt::format("scenes[{}].nodes[{}]", scene, i);
-        if (auto ok = file_.CheckIndex(open[i], count_, where); !ok) return ok;
-        if (parents_[open[i]] != kNone) {
+        RETURN_IF_ERROR(file_.CheckIndex(open[i], count_, where));
+        if (parents_[open[i]] != kNoIndex) {
           return file_.Refuse(where, "found node {}, a child of node {}; allowed: roots", open[i], parents_[open[i]]);
         }
       }
@@ -113,7 +111,7 @@ class NodeReader {
       const std::vector<int>& joints = model_.skins[i].joints;
       for (std::size_t k = 0; k < joints.size(); ++k) {
         const std::string where = fmt::format("skins[{}].joints[{}]", i, k);
-        if (auto ok = file_.CheckIndex(joints[k], count_, where); !ok) return ok;
+        RETURN_IF_ERROR(file_.CheckIndex(joints[k], count_, where));
         is_bone[joints[k]] = true;
         MarkWithAncestors(joints[k]);
       }
@@ -122,49 +120,48 @@ class NodeReader {
       for (std::size_t k = 0; k < model_.animations[i].channels.size(); ++k) {
         const int target = model_.animations[i].channels[k].target_node;
         const std::string where = fmt::format("animations[{}].channels[{}].target.node", i, k);
-        if (auto ok = file_.CheckIndex(target, count_, where); !ok) return ok;
+        RETURN_IF_ERROR(file_.CheckIndex(target, count_, where));
         MarkWithAncestors(target);
       }
     }
     for (int node = 0; node < static_cast<int>(count_); ++node) {
-      if (!in_scene_[node] || At(node).mesh == kNone) continue;
+      if (!in_scene_[node] || At(node).mesh == kNoIndex) continue;
       nodes_.mesh_nodes.push_back(node);
-      if (At(node).skin != kNone && At(node).children.empty() && !is_bone[node]) is_joint_[node] = false;
+      if (At(node).skin != kNoIndex && At(node).children.empty() && !is_bone[node]) is_joint_[node] = false;
     }
     return {};
   }
 
   void MarkWithAncestors(int node) {
-    for (; node != kNone && !is_joint_[node]; node = parents_[node]) is_joint_[node] = true;
+    for (; node != kNoIndex && !is_joint_[node]; node = parents_[node]) is_joint_[node] = true;
   }
 
   Result<void> MakeJoints() {
     const auto joints = static_cast<std::size_t>(std::ranges::count(is_joint_, true));
     if (joints == 0) return file_.Refuse("scenes", "found no nodes in the default one; at least one is needed");
     if (joints > kMostJoints) return file_.Refuse("nodes", "found {} joints; allowed: {}", joints, kMostJoints);
-    nodes_.joint_of.assign(count_, kNone);
+    nodes_.joint_of.assign(count_, kNoIndex);
     for (int node = 0; node < static_cast<int>(count_); ++node) {
       if (!is_joint_[node]) continue;
       // Its ancestors first, from the top down, where the file has them behind it.
       std::vector<int> chain;
-      for (int above = node; above != kNone && nodes_.joint_of[above] == kNone; above = parents_[above]) {
+      for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);
       }
       for (auto next = chain.rbegin(); next != chain.rend(); ++next) {
-        if (auto ok = MakeJoint(*next); !ok) return ok;
+        RETURN_IF_ERROR(MakeJoint(*next));
       }
     }
     return CheckGltfPose(file_, nodes_.skeleton, RestPose(nodes_.skeleton), "nodes");
   }
 
   Result<void> MakeJoint(int node) {
-    auto rest = ReadTransform(node);
-    if (!rest) return tl::unexpected(rest.error());
+    ASSIGN_OR_RETURN(auto rest, ReadTransform(node));
     const std::string& name = At(node).name;
-    const int parent = parents_[node] == kNone ? kNone : nodes_.joint_of[parents_[node]];
+    const int parent = parents_[node] == kNoIndex ? kNoIndex : nodes_.joint_of[parents_[node]];
     nodes_.joint_of[node] = static_cast<int>(nodes_.skeleton.joints.size());
     nodes_.skeleton.joints.push_back(
-        {.name = names_.Add(name.empty() ? fmt::format("node_{}", node) : name), .parent = parent, .rest = *rest});
+        {.name = names_.Add(name.empty() ? fmt::format("node_{}", node) : name), .parent = parent, .rest = rest});
     return {};
   }
 
@@ -173,8 +170,8 @@ class NodeReader {
       return file_.Refuse(where, "found {} numbers; allowed: {}", numbers.size(), count);
     }
     for (const double number : numbers) {
-      if (!(std::abs(number) <= kLargestNumber)) {
-        return file_.Refuse(where, "found {}; allowed: numbers within ±{:g}", number, kLargestNumber);
+      if (!(std::abs(number) <= kLargestGltfNumber)) {
+        return file_.Refuse(where, "found {}; allowed: numbers within ±{:g}", number, kLargestGltfNumber);
       }
     }
     return {};
@@ -186,9 +183,7 @@ class NodeReader {
     for (const auto& [numbers, count, name] :
          {std::tuple(&node.matrix, 16, ".matrix"), std::tuple(&node.translation, 3, ".translation"),
           std::tuple(&node.rotation, 4, ".rotation"), std::tuple(&node.scale, 3, ".scale")}) {
-      if (auto ok = CheckNumbers(*numbers, static_cast<std::size_t>(count), where + name); !ok) {
-        return tl::unexpected(ok.error());
-      }
+      RETURN_IF_ERROR(CheckNumbers(*numbers, static_cast<std::size_t>(count), where + name));
     }
     if (!node.matrix.empty()) return Decompose(node.matrix, where + ".matrix");
     LocalTransform local;
@@ -243,7 +238,8 @@ Result<GltfNodes> ReadGltfNodes(const GltfFile& file) { return NodeReader(file).
 Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const LocalPose& pose,
                            const std::string& where) {
   const auto is_within = [](const glm::dvec3& v) {
-    return std::abs(v.x) <= kLargestNumber && std::abs(v.y) <= kLargestNumber && std::abs(v.z) <= kLargestNumber;
+    return std::abs(v.x) <= kLargestGltfNumber && std::abs(v.y) <= kLargestGltfNumber &&
+           std::abs(v.z) <= kLargestGltfNumber;
   };
   std::vector<GlobalTransform> globals;
   ComputeGlobals(skeleton, pose, globals);
@@ -251,7 +247,7 @@ Result<void> CheckGltfPose(const GltfFile& file, const Skeleton& skeleton, const
     const auto& [position, axes] = globals[i];
     if (is_within(position) && is_within(axes[0]) && is_within(axes[1]) && is_within(axes[2])) continue;
     return file.Refuse(where, "found joint {} beyond ±{:g} in the world", Quote(skeleton.joints[i].name),
-                       kLargestNumber);
+                       kLargestGltfNumber);
   }
   return {};
 }

@@ -144,9 +144,9 @@ Result<void> TidyNames(std::vector<Named>& all, std::string_view kind, const std
 }
 
 Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
-  if (auto ok = TidyNames(model.nodes, "nodes", file); !ok) return ok;
-  if (auto ok = TidyNames(model.animations, "animations", file); !ok) return ok;
-  if (auto ok = TidyNames(model.meshes, "meshes", file); !ok) return ok;
+  RETURN_IF_ERROR(TidyNames(model.nodes, "nodes", file));
+  RETURN_IF_ERROR(TidyNames(model.animations, "animations", file));
+  RETURN_IF_ERROR(TidyNames(model.meshes, "meshes", file));
   return TidyNames(model.materials, "materials", file);
 }
 
@@ -154,8 +154,7 @@ Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
 
 Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
                                                    const FetchFile& fetch) {
-  auto container = OpenGltfContainer(bytes, file);
-  if (!container) return tl::unexpected(container.error());
+  ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));
 
   Fetcher fetcher{.fetch = &fetch, .file = file, .complaint = {}};
   tinygltf::TinyGLTF parser;
@@ -165,16 +164,16 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   std::string errors, warnings;
   bool is_read = false;
   try {
-    is_read = container->is_binary ? parser.LoadBinaryFromMemory(model.get(), &errors, &warnings,
-                                                                 reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                                 static_cast<unsigned>(bytes.size()))
-                                   : parser.LoadASCIIFromString(model.get(), &errors, &warnings, bytes.data(),
-                                                                static_cast<unsigned>(bytes.size()), "");
+    is_read = container.is_binary ? parser.LoadBinaryFromMemory(model.get(), &errors, &warnings,
+                                                                reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                                static_cast<unsigned>(bytes.size()))
+                                  : parser.LoadASCIIFromString(model.get(), &errors, &warnings, bytes.data(),
+                                                               static_cast<unsigned>(bytes.size()), "");
   } catch (const std::exception& exception) {
     errors = exception.what();
   }
   // Filled even where reading failed, and then most likely the reason.
-  if (auto ok = CheckExtensions(*model, file); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(CheckExtensions(*model, file));
   const std::string complaint = Complaint(errors);
   if (!is_read || !complaint.empty()) {
     // Files asked for in vain count only when they were needed.
@@ -184,7 +183,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
   }
-  if (auto ok = TidyAllNames(*model, file); !ok) return tl::unexpected(ok.error());
+  RETURN_IF_ERROR(TidyAllNames(*model, file));
   return model;
 }
 

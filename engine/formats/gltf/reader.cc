@@ -19,18 +19,15 @@ std::string Stem(const std::string& file) {
 }  // namespace
 
 Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch) {
-  const auto model = ParseGltf(bytes, file, fetch);
-  if (!model) return tl::unexpected(model.error());
-  GltfFile parsed(**model, file);
-  auto nodes = ReadGltfNodes(parsed);
-  if (!nodes) return tl::unexpected(nodes.error());
+  ASSIGN_OR_RETURN(const auto model, ParseGltf(bytes, file, fetch));
+  GltfFile parsed(*model, file);
+  ASSIGN_OR_RETURN(auto nodes, ReadGltfNodes(parsed));
   GltfContent content;
   content.character.name = Stem(file);
-  content.character.skeleton = nodes->skeleton;
-  if (auto ok = ReadGltfMeshes(parsed, *nodes, content.character); !ok) return tl::unexpected(ok.error());
-  auto clips = ReadGltfClips(parsed, *nodes);
-  if (!clips) return tl::unexpected(clips.error());
-  content.clips = std::move(*clips);
+  content.character.skeleton = nodes.skeleton;
+  RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, content.character));
+  ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
+  content.clips = std::move(clips);
   return content;
 }
 

@@ -9,8 +9,6 @@
 namespace etude {
 namespace {
 
-constexpr int kNone = -1;
-
 using Bindings = std::vector<SkinnedMesh::Binding>;
 
 /// The four greatest of a vertex's weights, in the order given where there are no more; sum 1.
@@ -44,28 +42,25 @@ Influences Strongest(std::vector<std::pair<int, double>> all) {
 Result<Bindings> ReadGltfBindings(GltfFile& file, const GltfNodes& nodes, int node) {
   const tinygltf::Model& model = file.model();
   const int index = model.nodes[static_cast<std::size_t>(node)].skin;
-  if (index == kNone) {
+  if (index == kNoIndex) {
     SkinnedMesh::Binding rigid;
     rigid.joint = nodes.joint_of[node];
     return Bindings{rigid};
   }
-  if (auto ok = file.CheckIndex(index, model.skins.size(), fmt::format("nodes[{}].skin", node)); !ok) {
-    return tl::unexpected(ok.error());
-  }
+  RETURN_IF_ERROR(file.CheckIndex(index, model.skins.size(), fmt::format("nodes[{}].skin", node)));
   const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(index)];
   const std::string name = fmt::format("skins[{}]", index);
   if (skin.joints.empty()) return file.Refuse(name + ".joints", "found none; at least one is needed");
   Bindings bindings;
   for (const int joint : skin.joints) bindings.push_back({nodes.joint_of[joint]});
-  if (skin.inverseBindMatrices == kNone) return bindings;
+  if (skin.inverseBindMatrices == kNoIndex) return bindings;
   const std::string matrices_name = name + ".inverseBindMatrices";
-  auto matrices = file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name);
-  if (!matrices) return tl::unexpected(matrices.error());
-  if (matrices->Count() < bindings.size()) {
-    return file.Refuse(matrices_name, "found {}; {} joints need as many", matrices->Count(), bindings.size());
+  ASSIGN_OR_RETURN(auto matrices, file.Read(skin.inverseBindMatrices, 16, GltfComponents::kFloat, matrices_name));
+  if (matrices.Count() < bindings.size()) {
+    return file.Refuse(matrices_name, "found {}; {} joints need as many", matrices.Count(), bindings.size());
   }
   for (std::size_t i = 0; i < bindings.size(); ++i) {
-    const double* m = (*matrices)[i];
+    const double* m = matrices[i];
     constexpr double kRounding = 1e-3;
     const bool is_affine = std::abs(m[3]) < kRounding && std::abs(m[7]) < kRounding && std::abs(m[11]) < kRounding &&
                            std::abs(m[15] - 1) < kRounding;
@@ -91,12 +86,12 @@ Result<void> ReadGltfWeights(GltfFile& file, const tinygltf::Primitive& primitiv
       return file.Refuse(where, "found one of JOINTS_{0} and WEIGHTS_{0}; allowed: both or none", set);
     }
     if (!has_joints) break;
-    auto joint_numbers = ReadGltfAttribute(file, joint->second, 4, GltfComponents::kUnsigned, where + ".JOINTS", mesh);
-    if (!joint_numbers) return tl::unexpected(joint_numbers.error());
+    ASSIGN_OR_RETURN(auto joint_numbers,
+                     ReadGltfAttribute(file, joint->second, 4, GltfComponents::kUnsigned, where + ".JOINTS", mesh));
     auto weight_numbers =
         ReadGltfAttribute(file, weight->second, 4, GltfComponents::kFloatOrNormalized, where + ".WEIGHTS", mesh);
     if (!weight_numbers) return tl::unexpected(weight_numbers.error());
-    joints.push_back(std::move(*joint_numbers));
+    joints.push_back(std::move(joint_numbers));
     weights.push_back(std::move(*weight_numbers));
   }
   if (joints.empty()) return file.Refuse(where, "found no JOINTS_0; its skin needs them");

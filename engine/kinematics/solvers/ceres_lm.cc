@@ -17,7 +17,7 @@ namespace {
 // With less damping than this, JᵀJ of 29 angles and 24 demands is too nearly singular for Cholesky.
 constexpr double kLargestRadius = 1e8;
 // A step that lowers the sum by a smaller part than this leads nowhere.
-constexpr double kSmallestGain = 1e-9;
+constexpr double kSmallestCostChange = 1e-9;
 // More than Ceres's 5: at limits, ways out often lead uphill at first.
 constexpr int kMostStepsUphill = 20;
 
@@ -158,7 +158,7 @@ ceres::Solver::Options TunedOptions(const IkOptions& options) {
   tuned.max_num_line_search_step_size_iterations = 0;  // steps are cut at the bounds, not searched along
   // Only our goals, our iterations and a standstill stop it.
   tuned.max_num_iterations = options.max_iterations;
-  tuned.function_tolerance = kSmallestGain;
+  tuned.function_tolerance = kSmallestCostChange;
   tuned.gradient_tolerance = 0;
   tuned.parameter_tolerance = 0;
   tuned.max_solver_time_in_seconds = std::numeric_limits<double>::max();

@@ -20,14 +20,14 @@ bool IsBetter(const RankedPair& a, const RankedPair& b) {
 }
 
 /// The best pair of each row, and how many matched on the way.
-struct Survey {
+struct RankedPairs {
   std::vector<RankedPair> best;
   std::int64_t pairs = 0, matching = 0;
 };
 
 /// Without a gate every pair matches.
-Survey SurveyPairs(const PairRange& range, FuzzyGate* gate, PairRows& costs) {
-  Survey survey;
+RankedPairs RankPairs(const PairRange& range, FuzzyGate* gate, PairRows& costs) {
+  RankedPairs survey;
   std::vector<double> row;
   std::vector<int> passing = FramesWithin({0, range.enter_end - 1});
   for (int from = range.leave.first; from <= range.leave.last; ++from) {
@@ -64,7 +64,7 @@ SwitchRecord PlanRanked(const MotionLibrary& library, const SwitchRequest& reque
     gate.emplace(library.tagged[request.from], library.tagged[request.to], FramesWithin({0, range.enter_end - 1}),
                  rules);
   }
-  Survey survey = SurveyPairs(range, gate ? &*gate : nullptr, costs);
+  RankedPairs survey = RankPairs(range, gate ? &*gate : nullptr, costs);
   const auto best = std::min_element(survey.best.begin(), survey.best.end(), IsBetter);
   if (best == survey.best.end() || !best->matches) {
     return ThroughInBetween(library, request, rules, DescribeNoMatch(survey.best, survey.pairs, "frames", rules),

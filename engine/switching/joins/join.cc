@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-Blend Cut(const SeamMotions& /*motions*/, const JoinSettings& /*settings*/) {
+Blend CutOver(const SeamMotions& /*motions*/, const JoinSettings& /*settings*/) {
   return [](const BodyPose& target, int /*frames*/) { return target; };
 }
 
@@ -19,7 +19,7 @@ std::span<const Join> Table() {
   static const JoinSetting kHalfLife{"half_life_s", &JoinSettings::half_life_s, 0.001, 5,
                                      "Seconds until about half of what was off at the seam is gone."};
   static const std::array kJoins = {
-      Join{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = Cut},
+      Join{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
       Join{.name = "crossfade",
            .description = "the old motion fades into the new one (Kovar 2002)",
            .settings = {kBlend},

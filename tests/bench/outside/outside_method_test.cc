@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-Exhibit Show(Json json, std::vector<Attachment> files = {}) {
+Payload Show(Json json, std::vector<Attachment> files = {}) {
   return {std::make_unique<Json>(std::move(json)), std::move(files)};
 }
 

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string ReadPage(const std::string& name) {
-  const auto text = ReadWholeFile(std::filesystem::path(ETUDE_SOURCE_DIR) / "docs" / name);
+  const auto text = ReadWholeFile(std::filesystem::path("docs") / name);
   EXPECT_TRUE(text) << name;
   return text.value_or("");
 }
@@ -108,8 +108,7 @@ TEST(Documents, OfScenariosInTheRepositoryAreRead) {
   ASSERT_TRUE(clips);
   int count = 0;
   for (const std::string folder : {"quick", "paper", "full"}) {
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(ETUDE_SOURCE_DIR) / "scenarios" / folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path("scenarios") / folder)) {
       if (entry.path().extension() != ".yaml") continue;
       const std::string name = entry.path().filename().string();
       const auto text = ReadWholeFile(entry.path());

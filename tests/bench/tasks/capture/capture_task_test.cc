@@ -17,12 +17,10 @@ using testing::HasSubstr;
 const WorldKey kKey{.suite_seed = 3, .scenario = "capture-test", .trial = 0};
 
 Result<std::unique_ptr<Task>> Make(const std::string& yaml) {
-  const auto node = ParseYaml(yaml, "test.yaml");
-  if (!node) return tl::unexpected(node.error());
-  const auto clips = LoadClips({"builtin:boxing"}, {});
-  if (!clips) return tl::unexpected(clips.error());
-  Fields condition(*node, "a test");
-  TaskInput input{condition, node->Find("methods")->items, *clips};
+  ASSIGN_OR_RETURN(const auto node, ParseYaml(yaml, "test.yaml"));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips({"builtin:boxing"}, {}));
+  Fields condition(node, "a test");
+  TaskInput input{condition, node.Find("methods")->items, clips};
   auto task = MakeCaptureTaskKind().make(input);
   if (task && !condition.ok()) return tl::unexpected(condition.Finish().error());
   return task;

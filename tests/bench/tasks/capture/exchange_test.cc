@@ -29,8 +29,8 @@ std::unique_ptr<Task> MakeTask(const std::string& yaml, std::vector<Node> method
   return std::move(*MakeCaptureTaskKind().make(input));
 }
 
-const Attachment* Find(const Exhibit& exhibit, std::string_view name) {
-  for (const Attachment& file : exhibit.files) {
+const Attachment* Find(const Payload& payload, std::string_view name) {
+  for (const Attachment& file : payload.files) {
     if (file.name == name) return &file;
   }
   ADD_FAILURE() << "no file " << name;

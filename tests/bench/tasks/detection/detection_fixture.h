@@ -24,10 +24,9 @@ methods:
 
   /// A task made of a scenario's text; the text must live as long as the task is being made only.
   static Result<std::unique_ptr<Task>> MakeTask(const std::string& yaml, const ClipLibrary& clips) {
-    auto node = ParseYaml(yaml, "test.yaml");
-    if (!node) return tl::unexpected(node.error());
-    Fields condition(*node, "a detection scenario");
-    TaskInput input{condition, node->Find("methods")->items, clips};
+    ASSIGN_OR_RETURN(auto node, ParseYaml(yaml, "test.yaml"));
+    Fields condition(node, "a detection scenario");
+    TaskInput input{condition, node.Find("methods")->items, clips};
     return MakeDetectionTaskKind().make(input);
   }
 

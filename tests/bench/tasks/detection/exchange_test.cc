@@ -68,7 +68,7 @@ TEST_F(DetectionExchange, TellsEveryDigitOfWhatTheSensorSawAndNothingOfTheTruth)
 }
 
 TEST_F(DetectionExchange, TeachesWhatBuiltInRecognisersAreTaught) {
-  const Exhibit setting = *task_->Setting();
+  const Payload setting = *task_->Setting();
   const Repertoire repertoire = RepertoireOf(FourMoves());
   ASSERT_EQ((*setting.json)["moves"].size(), repertoire.moves.size());
   ASSERT_EQ(setting.files.size(), repertoire.moves.size());
