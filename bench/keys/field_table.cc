@@ -44,4 +44,13 @@ std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const
   return names;
 }
 
+std::span<const Node> ReadItems(Fields& fields, const std::string& key) {
+  const Node* list = fields.Raw(key);
+  if (list == nullptr) return {};
+  if (list->kind != Node::Kind::kSequence) {
+    fields.Complain(list->place, fmt::format("'{}' must be a list, found {}", key, Describe(*list)));
+  }
+  return list->items;
+}
+
 }  // namespace etude

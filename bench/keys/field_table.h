@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -36,6 +37,9 @@ void ReadNumbers(Fields& fields, const std::string& key, Range range, const std:
                  std::vector<double>& values);
 /// Reads a list of names; complains of one that is not `known`.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
+
+/// The items of a list; none where there is no list.
+std::span<const Node> ReadItems(Fields& fields, const std::string& key);
 
 /// One key of a mapping that is read into `Options`: declared once, for the reader, the page of keys and the schema. A
 /// `member` is a pointer to one, or a function that gives one ([](auto& o) -> auto& { return o.noise.position_cm; });
@@ -155,6 +159,12 @@ struct Field {
     field.info.value.allowed += " (" + unit + ")";
     return field;
   }
+  /// What else is to be said of its values.
+  Field And(const std::string& words) const {
+    Field field = *this;
+    field.info.value.allowed += "; " + words;
+    return field;
+  }
   /// What an absent key means, when that is no value: "(the scenario's)".
   Field WhenAbsent(const std::string& words) const {
     Field field = *this;
@@ -183,13 +193,19 @@ struct FieldTable {
   std::vector<Field<Options>> fields;
   std::function<void(Fields&, Options&)> check = {};  ///< complains of what only all values together show
 
-  /// Complaints stay in `mapping`; absent keys leave `options` as they are.
-  void Read(Fields& mapping, Options& options) const {
+  /// Complaints stay in `mapping`; absent keys leave `options` as they are. `check` is left to the caller.
+  void ReadKeys(Fields& mapping, Options& options) const {
     const std::vector<KeyInfo> keys = Infos();
     for (const Field<Options>& field : fields) {
+      if (field.info.IsRequired() && mapping.Raw(field.info.key) == nullptr) mapping.RequiredText(field.info.key);
       if (MayStand(field.info, keys, mapping.node())) field.read(mapping, options);
     }
     RefuseMisplacedKeys(mapping, keys);
+  }
+
+  /// Likewise, and checks what was read.
+  void Read(Fields& mapping, Options& options) const {
+    ReadKeys(mapping, options);
     if (check && mapping.ok()) check(mapping, options);
   }
 
@@ -208,9 +224,40 @@ template <typename Options>
 Result<Options> ReadMapping(const Node& node, const std::string& what, const FieldTable<Options>& table,
                             Options options = {}) {
   Fields fields(node, what);
-  table.Read(fields, options);
+  table.ReadKeys(fields, options);
+  RETURN_IF_ERROR(fields.Finish());  // a key that nobody knows explains what is missing
+  if (table.check) table.check(fields, options);
   RETURN_IF_ERROR(fields.Finish());
   return options;
+}
+
+/// Reads the mapping under `key`, where there is one, on top of `value`; complaints stay in `fields`.
+template <typename Value>
+void ReadNested(Fields& fields, const std::string& key, const FieldTable<Value>& table, Value& value) {
+  const Node* node = fields.Raw(key);
+  if (node == nullptr) return;
+  auto read = ReadMapping(*node, "'" + key + "'", table, value);
+  if (read) {
+    value = *std::move(read);
+  } else {
+    fields.Complain(read.error().place, read.error().message);
+  }
+}
+
+/// Reads the list of mappings under `key`, where there is one; each of them is `what`. Complaints stay in `fields`.
+template <typename Value>
+std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std::string& what,
+                              const FieldTable<Value>& table) {
+  std::vector<Value> values;
+  for (const Node& item : ReadItems(fields, key)) {
+    auto read = ReadMapping(item, what, table);
+    if (read) {
+      values.push_back(*std::move(read));
+    } else {
+      fields.Complain(read.error().place, read.error().message);
+    }
+  }
+  return values;
 }
 
 }  // namespace etude

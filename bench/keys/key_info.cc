@@ -50,7 +50,9 @@ ValueKind NameKind(std::span<const std::string> names) {
 
 ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<std::size_t> count) {
   Json schema{{"type", "array"}, {"items", Json::parse(item.schema)}};
-  if (count) schema["minItems"] = schema["maxItems"] = *count;
+  for (const char* bound : {"minItems", "maxItems"}) {
+    if (count) schema[bound] = *count;
+  }
   return {std::move(allowed), schema.dump()};
 }
 

@@ -44,6 +44,7 @@ struct KeyInfo {
 
   /// What is allowed, and what it goes with: "0…1; with `weights: adaptive`".
   std::string AllowedWhere() const;
+  bool IsRequired() const { return fallback.empty(); }
   bool HasDefaultValue() const { return !fallback.empty() && fallback.front() != '('; }
 };
 

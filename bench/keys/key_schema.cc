@@ -69,7 +69,7 @@ Json KeySchema(const KeyInfo& key) {
   Json schema = Json::parse(key.value.schema);
   std::string description = key.meaning;
   if (!schema.contains("enum") || !key.only_with.key.empty()) description += " Allowed: " + key.AllowedWhere() + ".";
-  if (!key.fallback.empty() && !key.HasDefaultValue()) description += " When left out: " + key.fallback + ".";
+  if (!key.IsRequired() && !key.HasDefaultValue()) description += " When left out: " + key.fallback + ".";
   schema["description"] = std::move(description);
   if (!key.HasDefaultValue()) return schema;
   if (const auto value = ParseYaml(key.fallback, "default")) schema["default"] = ToJson(*value);
@@ -82,7 +82,7 @@ Json MappingSchema(std::span<const KeyInfo> keys) {
     std::vector<Json> schemas;
     for (const KeyInfo& variant : Variants(key.key, keys)) schemas.push_back(KeySchema(variant));
     properties[key.key] = AnyOf(std::move(schemas));
-    if (key.fallback.empty()) required.push_back(key.key);
+    if (key.IsRequired()) required.push_back(key.key);
   }
   Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = std::move(required);

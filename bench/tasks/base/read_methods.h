@@ -21,8 +21,10 @@ Result<std::vector<Method>> ReadMethods(TaskInput& input, const std::string& tas
     Fields fields(node, "a method of task " + task);
     Method method = start;
     method.name = fields.RequiredText("name");
-    table.Read(fields, method);
-    if (finish && fields.ok()) finish(fields, method);
+    table.ReadKeys(fields, method);
+    RETURN_IF_ERROR(fields.Finish());
+    if (table.check) table.check(fields, method);
+    if (finish) finish(fields, method);
     RETURN_IF_ERROR(fields.Finish());
     methods.push_back(std::move(method));
   }
