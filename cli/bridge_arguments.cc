@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kBridgeExamples =
     "\nA bridge frame is a frame that one may switch at: its pose occurs in several clips, its head is quiet. Two of\n"
     "them match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
     "docs/bridge-frames.md tells more.\n\n"
@@ -54,7 +54,7 @@ void DefineBridge(CLI::App& app, Action& action) {
                         "The summary for programs (docs/schemas/bridge-summary.schema.json)"));
   command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
   AddReading(*command, options->reading);
-  command->footer(kExamples);
+  command->footer(kBridgeExamples);
   command->callback([=, &action] { action = [=] { return BridgeCommand(*options); }; });
 }
 

@@ -11,7 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kClipExamples =
     "\nA clip is a BVH file, an animation of a glTF file (dance.glb#Jump; without # all of them), a pattern of files\n"
     "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md tells more.\n\n"
     "Try:\n"
@@ -112,7 +112,7 @@ void AddReading(CLI::App& command, ClipReading& reading) {
 
 void DefineClip(CLI::App& app, Action& action) {
   CLI::App* clip = app.add_subcommand("clip", "Look at motion clips, convert and render them");
-  clip->footer(kExamples);
+  clip->footer(kClipExamples);
   clip->require_subcommand(1);
   DefineInfo(*clip, action);
   DefineConvert(*clip, action);

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr const char* kExamples =
+constexpr const char* kTrainExamples =
     "\nPaper A's distance says that two frames may be switched when d < 0.4. How much each of its ten features\n"
     "counts (S), and where its membership functions bend, were chosen by hand. This command learns them: it takes\n"
     "frames of every clip, two clips at a time, calls a pair close when its worst joint is less than 15 cm off\n"
@@ -48,7 +48,7 @@ void DefineTrain(CLI::App& app, Action& action) {
       ->capture_default_str();
   command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
   AddReading(*command, options->reading);
-  command->footer(kExamples);
+  command->footer(kTrainExamples);
   command->callback([=, &action] { action = [=] { return TrainCommand(*options); }; });
 }
 

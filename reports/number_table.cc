@@ -20,7 +20,7 @@ std::string Cell(std::string_view html) { return fmt::format("<td>{}</td>", html
 std::string NumberCell(std::string_view html) { return fmt::format("<td class=\"n\">{}</td>", html); }
 
 // The shortest text that reads back as the same number; empty when there is none.
-std::string Exact(std::optional<double> value) {
+std::string ExactText(std::optional<double> value) {
   return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
 
@@ -94,17 +94,17 @@ std::string NumberTableCsv(const RunData& run, const ScenarioSummary& scenario) 
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
       if (method.attempted > 0) {
-        csv +=
-            fmt::format("{},{},{},ok_share,,,{},{},{},{},0,,wilson\n", EscapeCsv(scenario.name),
-                        EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method), Exact(method.ok_low),
-                        Exact(method.ok_high), static_cast<double>(method.ok) / method.attempted, method.attempted);
+        csv += fmt::format("{},{},{},ok_share,,,{},{},{},{},0,,wilson\n", EscapeCsv(scenario.name),
+                           EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method),
+                           ExactText(method.ok_low), ExactText(method.ok_high),
+                           static_cast<double>(method.ok) / method.attempted, method.attempted);
       }
       for (const MetricSummary& metric : method.metrics) {
         const MetricInfo* info = FindMetric(metric.id);
         csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", EscapeCsv(scenario.name),
                            EscapeCsv(ConditionLabel(condition.condition)), EscapeCsv(method.method),
-                           EscapeCsv(metric.id), EscapeCsv(info == nullptr ? "" : info->unit), Exact(metric.median),
-                           Exact(metric.ci_low), Exact(metric.ci_high), Exact(metric.mean), metric.present,
+                           EscapeCsv(metric.id), EscapeCsv(info == nullptr ? "" : info->unit), ExactText(metric.median),
+                           ExactText(metric.ci_low), ExactText(metric.ci_high), ExactText(metric.mean), metric.present,
                            metric.missing, EscapeCsv(MissingText(run, scenario, condition, method, metric)),
                            IntervalKindName(metric.interval));
       }

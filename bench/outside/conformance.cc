@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr int kEndingMs = 2000;
+constexpr int kEndAllowedMs = 2000;
 
 /// What a method made of a problem, in a form that can be compared: its answer, or why it gave none.
 struct Attempt {
@@ -34,9 +34,9 @@ class Examination {
     CheckOrder();
     CheckSettings();
     CheckLongLines();
-    const std::string end = method_.End(kEndingMs);
+    const std::string end = method_.End(kEndAllowedMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kEndingMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kEndAllowedMs / 1000) : end);
     return all_passed_;
   }
 
@@ -115,7 +115,7 @@ class Examination {
 
   /// In a new program, from the last problem to the first.
   void CheckOrder() {
-    method_.End(kEndingMs);
+    method_.End(kEndAllowedMs);
     std::string difference;
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
       difference = Compare(Ask(specimens_[0], specimens_[0].problems[i]), i);

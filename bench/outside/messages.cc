@@ -70,9 +70,9 @@ Result<HelloReply> ReadHello(const std::string& line) {
   if (!message.contains("protocol") || message["protocol"] != kProtocolVersion) {
     return Fail({}, "does not speak protocol {}: {}", kProtocolVersion, Printable(line));
   }
-  ASSIGN_OR_RETURN(const auto name, TextOf(message, "name", line), version = TextOf(message, "version", line));
-  if (!version) return tl::unexpected(version.error());
-  return HelloReply{name.substr(0, kLongestName), version->substr(0, kLongestName)};
+  ASSIGN_OR_RETURN(const auto name, TextOf(message, "name", line));
+  ASSIGN_OR_RETURN(const auto version, TextOf(message, "version", line));
+  return HelloReply{name.substr(0, kLongestName), version.substr(0, kLongestName)};
 }
 
 Result<void> ReadReady(const std::string& line) {

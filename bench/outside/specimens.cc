@@ -45,10 +45,10 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
   TaskInput input{fields, {}, *specimen.clips};
   ASSIGN_OR_RETURN(auto task, kind.make(input));
   specimen.task = std::move(task);
-  ASSIGN_OR_RETURN(auto setting, specimen.task.Setting());
+  ASSIGN_OR_RETURN(auto setting, specimen.task->Setting());
   specimen.setting = std::move(setting);
   for (int trial = 0; trial < kProblems; ++trial) {
-    auto world = specimen.task.MakeWorld({1, "check-method", trial}, false);
+    auto world = specimen.task->MakeWorld({1, "check-method", trial}, false);
     ASSIGN_OR_RETURN(auto problem, world->MakeProblem());
     specimen.problems.push_back(
         {fmt::format("{} {}", specimen.setting_id, trial), std::move(world), std::move(problem)});

@@ -43,8 +43,9 @@ Result<void> CheckManifest(const fs::path& folder, const std::string& manifest) 
   const fs::path path = folder / "manifest.json";
   ASSIGN_OR_RETURN(const auto found, ReadWholeFile(path));
   if (found == manifest) return {};
-  ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()), now = ReadJson(manifest, ""));
-  for (const auto& [key, value] : now->items()) {
+  ASSIGN_OR_RETURN(const auto then, ReadJson(found, path.string()));
+  ASSIGN_OR_RETURN(const auto now, ReadJson(manifest, ""));
+  for (const auto& [key, value] : now.items()) {
     if (!then.is_object() || then.value(key, Json()) != value) {
       return Fail({path.string(), 0, 0}, "is of another run: its '{}' differs; only the same run can be resumed", key);
     }

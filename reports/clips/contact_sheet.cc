@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr double kDetail = 2;
+constexpr double kSheetDetail = 2;
 constexpr int kMargin = 16;
 constexpr int kGap = 6;
 constexpr int kTitle = 46;       // room for a clip's name and facts above its pictures
@@ -59,7 +59,7 @@ Result<std::string> DrawContactSheet(std::vector<ClipActor> actors, const SheetO
   }
   Sight sight;
   for (std::size_t i = 0; i < shots.size(); ++i) shots[i].Include(frames[i], sight);
-  const Studio studio(options.width, options.height, kDetail, sight);
+  const Studio studio(options.width, options.height, kSheetDetail, sight);
 
   Canvas canvas(width, height);
   canvas.FillBox({0, 0, static_cast<double>(width), static_cast<double>(height)}, kBackdrop);

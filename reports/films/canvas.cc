@@ -12,7 +12,7 @@
 namespace etude {
 namespace {
 
-using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+using CairoSurface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
 using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
 
 void SetPaint(cairo_t* cr, const Paint& paint) { cairo_set_source_rgba(cr, paint.r, paint.g, paint.b, paint.a); }
@@ -57,12 +57,12 @@ void DropLastCharacter(std::string& text) {
 }  // namespace
 
 struct Canvas::State {
-  Surface surface;
+  CairoSurface surface;
   Context context;
 };
 
 Canvas::Canvas(int width, int height) {
-  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy);
+  CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), cairo_surface_destroy);
   Context context(cairo_create(surface.get()), cairo_destroy);
   state_ = std::make_unique<State>(State{std::move(surface), std::move(context)});
 }
@@ -93,7 +93,7 @@ void Canvas::FillShade(const Box& box, const Paint& top, const Paint& bottom) {
 
 void Canvas::DrawImage(const ColourImage& image, const Box& box, double radius) {
   if (image.pixels.empty()) return;
-  Surface source(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height), cairo_surface_destroy);
+  CairoSurface source(cairo_image_surface_create(CAIRO_FORMAT_RGB24, image.width, image.height), cairo_surface_destroy);
   unsigned char* rows = cairo_image_surface_get_data(source.get());
   const int stride = cairo_image_surface_get_stride(source.get());
   for (int y = 0; y < image.height; ++y) {
@@ -119,7 +119,7 @@ void Canvas::DrawImage(const ColourImage& image, const Box& box, double radius) 
 
 void Canvas::DrawMask(const Mask& mask, const Box& box, const Paint& paint) {
   if (mask.pixels.empty()) return;
-  Surface source(cairo_image_surface_create(CAIRO_FORMAT_A8, mask.width, mask.height), cairo_surface_destroy);
+  CairoSurface source(cairo_image_surface_create(CAIRO_FORMAT_A8, mask.width, mask.height), cairo_surface_destroy);
   unsigned char* rows = cairo_image_surface_get_data(source.get());
   const int stride = cairo_image_surface_get_stride(source.get());
   for (int y = 0; y < mask.height; ++y) {

@@ -21,13 +21,13 @@ constexpr double kDistance = 4.2;
 constexpr double kEyeHeight = 1.45;
 constexpr double kLookAtHeight = 0.94;
 // Drawn this much larger and shrunk, which smooths edges at half the price of RenderSmooth.
-constexpr double kDetail = 1.5;
+constexpr double kCoachDetail = 1.5;
 // The camera follows slowly: a second to either side. Standing still also spares drawing the room anew.
-constexpr int kFollowFrames = 30;
+constexpr int kCoachFollowFrames = 30;
 // How close to the room's wall the hips may come.
 constexpr double kNearestToWall = 1.0;
 // How long the change stays marked after the seam, and how long its distances are shown around it.
-constexpr int kMarkFrames = 15;
+constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Beside the feet, above the time line.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
@@ -60,7 +60,7 @@ Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
   panel.motion_ = *FindTrack(*cell.recording, "coach");
   panel.CutTo(longest);
   PutOnStage(panel.motion_, panel.Seam());
-  panel.followed_ = FollowedWay(panel.motion_, kFollowFrames);
+  panel.followed_ = FollowedWay(panel.motion_, kCoachFollowFrames);
   return panel;
 }
 
@@ -92,7 +92,7 @@ Camera CoachPanel::CameraAt(int frame, double width, double height) const {
 void CoachPanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int frame, bool shown_before) const {
   const BodyPose& pose = motion_.poses[static_cast<std::size_t>(frame)];
   const std::vector<Figure> coach{PosedFigure(bear_, pose)};
-  const Camera camera = CameraAt(frame, panel.width * kDetail, panel.height * kDetail);
+  const Camera camera = CameraAt(frame, panel.width * kCoachDetail, panel.height * kCoachDetail);
   canvas.DrawImage(renderer.Render(Room{}, coach, camera, Targets::kColour).colour, panel, kPanelRadius);
   DrawTag(canvas, panel, shown_before ? "The coach · shown again" : "The coach");
   const std::string how = facts_.branch.empty() ? method_ : fmt::format("{} · {}", method_, facts_.branch);
@@ -140,7 +140,7 @@ void CoachPanel::DrawSeam(Canvas& canvas, const Box& panel, int frame) const {
     canvas.FillBox(bars, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
     DrawSeamBars(canvas, bars, facts_, meeting);
   }
-  if (frame >= *near && frame < *near + kMarkFrames) DrawMark(canvas, panel, "change");
+  if (frame >= *near && frame < *near + kCoachMarkFrames) DrawMark(canvas, panel, "change");
 }
 
 }  // namespace etude

@@ -15,7 +15,7 @@ constexpr Paint kFloor{0.30, 0.34, 0.37, 1};
 constexpr Paint kNature{0.55, 0.82, 0.50, 1};
 constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
 constexpr double kTextSize = 13, kJumpRoom = 184;
-constexpr double kSide = 12, kTop = 24, kBottom = 34, kClipHeight = 6;
+constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
 // The metric jump_cm, as far as it is known at a frame.
 std::optional<double> JumpAtSeams(const SwitchPath& path, int frame) {
@@ -50,7 +50,8 @@ const Paint& PaintOfLeg(const SwitchFacts& facts, std::size_t seams_before) {
 }
 
 void JumpStrip::Draw(Canvas& canvas, const Box& box, const SwitchPath& path, int time) const {
-  const Frame frame{{box.x + kSide, box.y + kTop, box.width - 2 * kSide, box.height - kTop - kBottom}, *this};
+  const Frame frame{{box.x + kSide, box.y + kStripTop, box.width - 2 * kSide, box.height - kStripTop - kStripBottom},
+                    *this};
   const int shown = path.FrameAt(time);
   std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
   if (const auto most = JumpAtSeams(path, shown)) jump += fmt::format(", switch {}", FormatFixed(*most, 1));

@@ -7,12 +7,12 @@ namespace etude {
 namespace {
 
 constexpr double kSecondsPerDoubling = 0.7;
-constexpr double kShortest = 4, kLongest = 8;  // seconds
+constexpr double kShortestRace = 4, kLongest = 8;  // seconds
 
 }  // namespace
 
 RaceClock::RaceClock(int last_iteration) : last_(last_iteration) {
-  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kShortest, kLongest);
+  const double seconds = std::clamp(kSecondsPerDoubling * std::log2(1.0 + last_), kShortestRace, kLongest);
   run_ = static_cast<int>(std::lround(seconds * kFilmRate));
 }
 

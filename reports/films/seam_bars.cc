@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kHeadingSize = 15, kLabelSize = 13, kValueSize = 12;
 constexpr double kHeadingHeight = 26, kRowHeight = 18, kBarHeight = 8;
-constexpr double kLabelWidth = 58, kValueWidth = 40, kMargin = 12;
+constexpr double kLabelWidth = 58, kValueWidth = 40, kBarMargin = 12;
 constexpr std::size_t kRows = kFeatureCount / 2;
 constexpr Paint kTrack{0.30, 0.34, 0.37, 1};
 constexpr Paint kBeyond{0.98, 0.52, 0.45, 1};
@@ -54,19 +54,19 @@ std::string SeamWords(const SwitchFacts& facts, std::size_t meeting) {
 }
 
 void DrawSeamBars(Canvas& canvas, const Box& box, const SwitchFacts& facts, std::optional<std::size_t> meeting) {
-  const double inner = box.width - 2 * kMargin;
+  const double inner = box.width - 2 * kBarMargin;
   const bool known = meeting && *meeting < facts.meetings.size();
   const std::optional<PerFeature> partials = known ? facts.meetings[*meeting].partials : std::nullopt;
   const std::string heading = !known      ? "no switch yet"
                               : !partials ? SeamWords(facts, *meeting) + " · no distances told"
                                           : SeamWords(facts, *meeting);
-  canvas.DrawText({box.x + kMargin, box.y + 18}, heading, kHeadingSize, known ? kInk : kSoftInk, inner, known);
+  canvas.DrawText({box.x + kBarMargin, box.y + 18}, heading, kHeadingSize, known ? kInk : kSoftInk, inner, known);
   const double full = partials ? FullBar(facts, *partials) : 0;
   constexpr double kGap = 14;
   const double half = (inner - kGap) / 2;
   for (std::size_t k = 0; k < kFeatureCount; ++k) {
     const double column = static_cast<double>(k / kRows), line = static_cast<double>(k % kRows);
-    const Box row{box.x + kMargin + column * (half + kGap), box.y + kHeadingHeight + line * kRowHeight, half,
+    const Box row{box.x + kBarMargin + column * (half + kGap), box.y + kHeadingHeight + line * kRowHeight, half,
                   kRowHeight};
     DrawBar(canvas, row, FeatureName(AllFeatures()[k]), partials ? std::optional((*partials)[k]) : std::nullopt, full,
             facts.threshold.has_value());

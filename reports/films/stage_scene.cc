@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 // Long enough to watch one change of moves; kLongest is short enough to be made in seconds.
-constexpr int kShortest = 5 * kFilmRate;
+constexpr int kShortestScene = 5 * kFilmRate;
 // A motion that is shown again rests on its last frame before it starts anew.
 constexpr int kRest = kFilmRate / 2;
 
@@ -34,7 +34,7 @@ StageScene::StageScene(Renderer& renderer, std::optional<CoachPanel> coach, std:
     : renderer_(renderer), coach_(std::move(coach)), capture_(std::move(capture)) {}
 
 int StageScene::Frames() const {
-  return std::clamp(coach_ ? coach_->Frames() : capture_->Frames(), kShortest, kLongest);
+  return std::clamp(coach_ ? coach_->Frames() : capture_->Frames(), kShortestScene, kLongest);
 }
 
 // Just after the change of moves.

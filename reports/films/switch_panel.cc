@@ -12,7 +12,7 @@ namespace {
 
 // How long a change stays marked, and the pose that was left shimmers on.
 constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
-constexpr double kMargin = 12;
+constexpr double kPanelMargin = 12;
 constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
 constexpr Paint kVeil{0.078, 0.090, 0.102, 0.6};
 
@@ -81,12 +81,12 @@ void SwitchPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, i
 }
 
 void SwitchPanel::DrawWords(Canvas& canvas, const Box& box, int time) const {
-  const double room = box.width - 2 * kMargin;
-  canvas.DrawDot({box.x + kMargin + 5, box.y + 17}, 5, PaintOfLeg(path_.facts, path_.SeamsBefore(time)));
-  canvas.DrawText({box.x + kMargin + 18, box.y + 23}, ClipAt(time), 17, kInk, room - 18, true);
+  const double room = box.width - 2 * kPanelMargin;
+  canvas.DrawDot({box.x + kPanelMargin + 5, box.y + 17}, 5, PaintOfLeg(path_.facts, path_.SeamsBefore(time)));
+  canvas.DrawText({box.x + kPanelMargin + 18, box.y + 23}, ClipAt(time), 17, kInk, room - 18, true);
   const std::string countdown = CountdownWords(path_.facts.to, time, path_.LastSeam(), path_.motion.rate_hz);
-  canvas.DrawText({box.x + kMargin, box.y + 43}, countdown.empty() ? "before the request" : countdown, 14, kSoftInk,
-                  room);
+  canvas.DrawText({box.x + kPanelMargin, box.y + 43}, countdown.empty() ? "before the request" : countdown, 14,
+                  kSoftInk, room);
 }
 
 }  // namespace etude

@@ -7,7 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr double kDetail = 1.5;
+constexpr double kStageDetail = 1.5;
 // Who walks is followed slowly: a second to either side.
 constexpr int kFollowFrames = 30;
 // Poses change little from one frame to the next: enough to know how much room they need.
@@ -37,7 +37,7 @@ SwitchStage::SwitchStage(const SwitchRace& race, int first, int last, int width,
       height_(height),
       bear_(BearCharacter()),
       placements_(AllPlacements(race)),
-      studio_(width, height, kDetail, SightOf(race, first, last)) {}
+      studio_(width, height, kStageDetail, SightOf(race, first, last)) {}
 
 Sight SwitchStage::SightOf(const SwitchRace& race, int first, int last) const {
   Sight sight;

@@ -12,18 +12,19 @@ namespace etude {
 namespace {
 
 // The panel in its own units; the page scales it. Above the curves stand the terms, below the axis two rows of numbers.
-constexpr double kWidth = 240, kHeight = 150;
-constexpr double kLeft = 24, kRight = 10, kTop = 22, kBottom = 32;
-constexpr double kBase = kHeight - kBottom;
+constexpr double kPanelWidth = 240, kPanelHeight = 150;
+constexpr double kPanelLeft = 24, kPanelRight = 10, kPanelTop = 22, kPanelBottom = 32;
+constexpr double kBase = kPanelHeight - kPanelBottom;
 
-class Panel {
+class MembershipPanel {
  public:
-  explicit Panel(const Universe& universe) : universe_(universe) {}
+  explicit MembershipPanel(const Universe& universe) : universe_(universe) {}
 
   double Across(double input) const {
-    return kLeft + (kWidth - kLeft - kRight) * (input - universe_.low) / (universe_.high - universe_.low);
+    return kPanelLeft +
+           (kPanelWidth - kPanelLeft - kPanelRight) * (input - universe_.low) / (universe_.high - universe_.low);
   }
-  static double Down(double grade) { return kTop + (kBase - kTop) * (1 - grade); }
+  static double Down(double grade) { return kPanelTop + (kBase - kPanelTop) * (1 - grade); }
 
   std::string Curve(const Shape& shape, std::size_t style) const {
     constexpr int kSteps = 120;
@@ -43,7 +44,7 @@ class Panel {
     const double peak = 0.5 * (std::max(top.low, universe_.low) + std::min(top.high, universe_.high));
     const double room = 0.15 * (universe_.high - universe_.low);  // a middle name there would leave the panel
     const char* anchor = peak < universe_.low + room ? "start" : peak > universe_.high - room ? "end" : "middle";
-    return fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text>", Across(peak), kTop - 8, anchor,
+    return fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{}</text>", Across(peak), kPanelTop - 8, anchor,
                        EscapeMarkup(std::string(name)));
   }
 
@@ -86,13 +87,13 @@ class Panel {
 }  // namespace
 
 std::string MembershipPlotSvg(Feature feature, const Memberships& memberships, const std::string& title) {
-  const Panel panel(memberships.universes[static_cast<std::size_t>(feature)]);
-  std::string svg = fmt::format("<svg class=\"panel\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", kWidth,
-                                kHeight, EscapeMarkup(title));
+  const MembershipPanel panel(memberships.universes[static_cast<std::size_t>(feature)]);
+  std::string svg = fmt::format("<svg class=\"panel\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">",
+                                kPanelWidth, kPanelHeight, EscapeMarkup(title));
   for (double grade : {0.0, 0.5, 1.0}) {
-    const double y = Panel::Down(grade);
-    svg += fmt::format("<path d=\"M{} {:.1f}H{}\"/><text x=\"{}\" y=\"{:.1f}\" class=\"y\">{:g}</text>", kLeft, y,
-                       kWidth - kRight, kLeft - 5, y + 4, grade);
+    const double y = MembershipPanel::Down(grade);
+    svg += fmt::format("<path d=\"M{} {:.1f}H{}\"/><text x=\"{}\" y=\"{:.1f}\" class=\"y\">{:g}</text>", kPanelLeft, y,
+                       kPanelWidth - kPanelRight, kPanelLeft - 5, y + 4, grade);
   }
   std::vector<double> marks;
   std::string curves, labels;

@@ -6,19 +6,19 @@
 namespace etude {
 namespace {
 
-using Json = nlohmann::json;
+using SortedJson = nlohmann::json;  // keys in alphabetical order
 
 constexpr const char* kFormat = "etude-capture";
 constexpr int kVersion = 1;
 constexpr int kLargestSide = 4096;  // pixels
 
-Json ToJson(const RecordingExtras::View& view) {
+SortedJson ToJson(const RecordingExtras::View& view) {
   const Intrinsics& in = view.truth.intrinsics;
-  Json rotation = Json::array();
+  SortedJson rotation = SortedJson::array();
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) rotation.push_back(view.truth.R_CW[column][row]);
   }
-  Json masks = Json::array();
+  SortedJson masks = SortedJson::array();
   for (const Mask& mask : view.masks) masks.push_back(EncodeMask(mask));
   const glm::dvec3& p = view.truth.p_WC;
   return {{"width", in.width},
@@ -35,7 +35,7 @@ Json ToJson(const RecordingExtras::View& view) {
           {"masks", std::move(masks)}};
 }
 
-Result<RecordingExtras::View> ToView(const Json& json) {
+Result<RecordingExtras::View> ToView(const SortedJson& json) {
   RecordingExtras::View view;
   Intrinsics& in = view.truth.intrinsics;
   in = {json.at("width"), json.at("height"), json.at("fx"),  json.at("fy"),
@@ -43,14 +43,14 @@ Result<RecordingExtras::View> ToView(const Json& json) {
   for (int i = 0; i < 9; ++i) view.truth.R_CW[i % 3][i / 3] = json.at("R_CW").at(i);
   for (int i = 0; i < 3; ++i) view.truth.p_WC[i] = json.at("p_WC").at(i);
   const int width = json.at("mask_width"), height = json.at("mask_height");
-  for (const Json& text : json.at("masks")) {
+  for (const SortedJson& text : json.at("masks")) {
     ASSIGN_OR_RETURN(auto mask, DecodeMask(text.get_ref<const std::string&>(), width, height));
     view.masks.push_back(std::move(mask));
   }
   return view;
 }
 
-Result<RecordingExtras> ToExtras(const Json& json) {
+Result<RecordingExtras> ToExtras(const SortedJson& json) {
   if (json.at("format") != kFormat || json.at("version") != kVersion) {
     return Fail({}, "a capture recording of format {} version {}; this program reads {} version {}",
                 json.at("format").dump(), json.at("version").dump(), kFormat, kVersion);
@@ -59,11 +59,11 @@ Result<RecordingExtras> ToExtras(const Json& json) {
   extras.texture_seed = json.at("room").at("texture_seed");
   extras.casts_shadows = json.at("room").at("casts_shadows");
   for (std::size_t i = 0; i < extras.colours.size(); ++i) {
-    const Json& colour = json.at("colours").at(i);
+    const SortedJson& colour = json.at("colours").at(i);
     extras.colours[i] = {colour.at(0), colour.at(1), colour.at(2)};
   }
   extras.brightness = json.at("brightness").get<std::vector<double>>();
-  for (const Json& camera : json.at("cameras")) {
+  for (const SortedJson& camera : json.at("cameras")) {
     ASSIGN_OR_RETURN(auto view, ToView(camera));
     if (view.masks.size() != extras.brightness.size()) {
       return Fail({}, "a capture recording with {} frames of light and {} masks", extras.brightness.size(),
@@ -78,24 +78,24 @@ Result<RecordingExtras> ToExtras(const Json& json) {
 }  // namespace
 
 std::string WriteRecordingExtras(const RecordingExtras& extras) {
-  Json colours = Json::array();
+  SortedJson colours = SortedJson::array();
   for (const Rgb8& colour : extras.colours) colours.push_back({colour.r, colour.g, colour.b});
-  Json cameras = Json::array();
+  SortedJson cameras = SortedJson::array();
   for (const RecordingExtras::View& view : extras.views) cameras.push_back(ToJson(view));
-  const Json json = {{"format", kFormat},
-                     {"version", kVersion},
-                     {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
-                     {"colours", std::move(colours)},
-                     {"brightness", extras.brightness},
-                     {"cameras", std::move(cameras)},
-                     {"bvh", extras.bvh}};
+  const SortedJson json = {{"format", kFormat},
+                           {"version", kVersion},
+                           {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
+                           {"colours", std::move(colours)},
+                           {"brightness", extras.brightness},
+                           {"cameras", std::move(cameras)},
+                           {"bvh", extras.bvh}};
   return json.dump();
 }
 
 Result<RecordingExtras> ReadRecordingExtras(std::string_view text) {
   try {
-    return ToExtras(Json::parse(text));
-  } catch (const Json::exception& error) {
+    return ToExtras(SortedJson::parse(text));
+  } catch (const SortedJson::exception& error) {
     return Fail({}, "no readable capture recording: {}", error.what());
   }
 }
