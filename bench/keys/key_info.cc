@@ -105,11 +105,10 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
     });
     if (may_stand) continue;
     const std::string& chooser = key.only_with.key;
-    mapping.Complain(written->place,
-                     fmt::format("{} '{}'{} has no '{}'; allowed with {}: {}", chooser,
-                                 ValueOf(chooser, keys, mapping.node()),
-                                 mapping.node().Find(chooser) == nullptr ? " (the default)" : "", key.key, chooser,
-                                 Join(allowed)));
+    mapping.Complain(
+        written->place,
+        fmt::format("{} '{}'{} has no '{}'; allowed with {}: {}", chooser, ValueOf(chooser, keys, mapping.node()),
+                    mapping.node().Find(chooser) == nullptr ? " (the default)" : "", key.key, chooser, Join(allowed)));
   }
 }
 

@@ -38,8 +38,9 @@ struct KeyCondition {
 struct KeyInfo {
   std::string key;
   ValueKind value;
-  std::string fallback;  ///< what an absent key means, as one would write it, or in (parentheses); "" = it must be there
-  std::string meaning;   ///< one sentence
+  std::string
+      fallback;         ///< what an absent key means, as one would write it, or in (parentheses); "" = it must be there
+  std::string meaning;  ///< one sentence
   KeyCondition only_with = {};
 
   /// What is allowed, and what it goes with: "0…1; with `weights: adaptive`".
@@ -54,7 +55,8 @@ std::string NumberText(double number);
 /// Keys that differ in their conditions only, as one.
 std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
 
-/// Whether the values of `mapping` allow `key` in it; `keys` are all that it may have, and their defaults count as said.
+/// Whether the values of `mapping` allow `key` in it; `keys` are all that it may have, and their defaults count as
+/// said.
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
 
 /// Complains of keys that `mapping` has and that do not go with its other values (KeyInfo::only_with): there they would

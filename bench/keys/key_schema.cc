@@ -37,7 +37,8 @@ Json AnyOf(std::vector<Json> schemas) {
 /// What must be said beside a key with a condition.
 Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool says_all) {
   const KeyCondition& condition = key.only_with;
-  Json schema{{"properties", {{condition.key, {{"enum", condition.values}}}, {key.key, Json::parse(key.value.schema)}}}};
+  Json schema{
+      {"properties", {{condition.key, {{"enum", condition.values}}}, {key.key, Json::parse(key.value.schema)}}}};
   const auto chooser = std::ranges::find(keys, condition.key, &KeyInfo::key);
   const bool by_default = chooser != keys.end() && std::ranges::count(condition.values, chooser->fallback) > 0;
   if (says_all && !by_default) schema["required"] = {condition.key};

@@ -18,8 +18,8 @@ Json KeySchema(const KeyInfo& key);
 /// Likewise of a mapping with such keys and no others. A key may stand there several times, with other conditions each.
 Json MappingSchema(std::span<const KeyInfo> keys);
 
-/// Which keys go with which values of others, as `dependencies`. `says_all`: an absent key has its default; else another
-/// part of the file may say it.
+/// Which keys go with which values of others, as `dependencies`. `says_all`: an absent key has its default; else
+/// another part of the file may say it.
 Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
 
 }  // namespace etude

@@ -13,7 +13,8 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// A list of metrics that the task reports, each once.
-std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task, const std::vector<std::string>& known) {
+std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
+                                        const std::vector<std::string>& known) {
   const char* key = "metrics";
   const std::vector<std::string> metrics = fields.Texts(key);
   for (std::size_t i = 0; i < metrics.size(); ++i) {
@@ -108,7 +109,7 @@ std::vector<std::string> ReadMetrics(Fields& fields, const TaskKind& kind) {
 }
 
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
-  using Row = Field<Expectation>;
+  using Key = Field<Expectation>;
   const std::vector<std::string> methods = MethodNames(scenario);
   const char* another = "(another claim is made)";
   return {{KnownName("metric", &Expectation::metric, "a metric that the task reports", metrics, "What is judged."),
@@ -117,12 +118,14 @@ FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::v
                .WhenAbsent(another),
            KnownName("above", &Expectation::above, "a method", methods, "`of` has higher values in the same worlds.")
                .WhenAbsent(another),
-           Row::Number("at_most", &Expectation::at_most, {}, "The statistic is not above it.").WhenAbsent(another),
-           Row::Number("at_least", &Expectation::at_least, {}, "The statistic is not below it.").WhenAbsent(another),
-           Row::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
+           Key::Number("at_most", &Expectation::at_most, {}, "The statistic is not above it.").WhenAbsent(another),
+           Key::Number("at_least", &Expectation::at_least, {}, "The statistic is not below it.").WhenAbsent(another),
+           Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
                      "What `at_most` and `at_least` are about."),
-           Row::Number("confidence", &Expectation::confidence, {0.5, 0.999}, "How sure `below` and `above` must be."),
-           {{"where", {"a mapping of swept parameters to one of their values", R"({"type":"object"})"}, "{}",
+           Key::Number("confidence", &Expectation::confidence, {0.5, 0.999}, "How sure `below` and `above` must be."),
+           {{"where",
+             {"a mapping of swept parameters to one of their values", R"({"type":"object"})"},
+             "{}",
              "Judged in these conditions only."},
             [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
           CheckExpectation};
@@ -138,14 +141,14 @@ FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
 }
 
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
-  using Row = Field<GateRules>;
+  using Key = Field<GateRules>;
   return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(`metrics`)",
              "What is compared."},
             [&scenario, metrics](Fields& gate, GateRules& rules) {
               auto named = ReadMetricList(gate, scenario.task, metrics);
               if (!named.empty()) rules.metrics = std::move(named);
             }},
-           Row::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
+           Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
                      "Only a difference that matters is a regression, or every difference is."),
            {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
              "How processor times may compare within the run."},

@@ -77,7 +77,7 @@ ValueKind PlainNameKind() {
 }
 
 const FieldTable<MethodEntry>& OutsideMethodFields() {
-  using Row = Field<MethodEntry>;
+  using Key = Field<MethodEntry>;
   static const FieldTable<MethodEntry> table{
       {{{"name", PlainNameKind(), "", "Its name, unique in the scenario."},
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
@@ -88,7 +88,7 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
         ReadProgram},
        {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Told to that program as JSON."},
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
-       Row::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s}, "How long it may take over one problem.")
+       Key::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s}, "How long it may take over one problem.")
            .WhenAbsent("(`limits.time_s`)")
            .And("with `exec`")}};
   return table;

@@ -64,14 +64,16 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
 }  // namespace
 
 FieldTable<RangeWords> RangeFields(std::size_t most) {
-  using Row = Field<RangeWords>;
-  return {{Row::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
-           Row::Number("to", &RangeWords::to, {}, "The last value; with `step`, it is not passed.").WhenAbsent(""),
-           Row::Number("step", &RangeWords::step, {}, "From one value to the next.").And("not 0").WhenAbsent("(`count` says it)"),
-           Row::Number("count", &RangeWords::count, {2, static_cast<double>(most)},
+  using Key = Field<RangeWords>;
+  return {{Key::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
+           Key::Number("to", &RangeWords::to, {}, "The last value; with `step`, it is not passed.").WhenAbsent(""),
+           Key::Number("step", &RangeWords::step, {}, "From one value to the next.")
+               .And("not 0")
+               .WhenAbsent("(`count` says it)"),
+           Key::Number("count", &RangeWords::count, {2, static_cast<double>(most)},
                        "How many values, spread from `from` to `to`.")
                .WhenAbsent("(`step` says it)"),
-           Row::Name("scale", &RangeWords::is_logarithmic, {{"linear", false}, {"log", true}},
+           Key::Name("scale", &RangeWords::is_logarithmic, {{"linear", false}, {"log", true}},
                      "Equal differences, or equal ratios; log goes with `count`.")}};
 }
 

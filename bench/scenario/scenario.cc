@@ -1,5 +1,6 @@
 #include "bench/scenario/scenario.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/scenario/judging.h"
@@ -21,48 +22,48 @@ std::vector<std::string> TaskNames() {
   return names;
 }
 
-void ReadFilmedTrials(Fields& video, const Scenario& scenario, RecordingWish& wish) {
+void ReadFilmedTrials(Fields& video, const Scenario& scenario, RecordingSelection& selection) {
   const Node* trials = video.Raw("trials");
   std::vector<int> read;
   for (double trial : video.Numbers("trials", {0, scenario.trials - 1.0})) {
     if (trial != std::floor(trial)) video.Complain(trials->place, "'trials' must be whole numbers");
     read.push_back(static_cast<int>(trial));
   }
-  if (!read.empty()) wish.trials = std::move(read);
+  if (!read.empty()) selection.trials = std::move(read);
 }
 
-void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingWish& wish) {
+void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingSelection& selection) {
   const std::vector<std::string> names = MethodNames(scenario), read = video.Texts("compare");
   for (std::size_t i = 0; i < read.size(); ++i) {
     if (std::find(names.begin(), names.end(), read[i]) != names.end()) continue;
     video.Complain(video.Raw("compare")->items[i].place, UnknownName("method", read[i], names));
   }
-  wish.methods = read.empty() ? names : read;
+  selection.methods = read.empty() ? names : read;
 }
 
 }  // namespace
 
 const FieldTable<Limits>& LimitFields() {
-  using Row = Field<Limits>;
+  using Key = Field<Limits>;
   static const FieldTable<Limits> table{
-      {Row::Number("time_s", &Limits::time_s, {0.001, 86'400}, "Seconds by the clock."),
-       Row::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
+      {Key::Number("time_s", &Limits::time_s, {0.001, 86'400}, "Seconds by the clock."),
+       Key::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
                    "Resident memory of the worker, and of each program it has started.")}};
   return table;
 }
 
-FieldTable<RecordingWish> VideoFields(const Scenario& scenario) {
-  using Wish = RecordingWish;
+FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
+  using Selection = RecordingSelection;
   return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)", "Whose motions are kept."},
-            [&](Fields& video, Wish& wish) { ReadFilmedMethods(video, scenario, wish); }},
-           {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)), "[0]",
-             "Of which worlds."},
-            [&](Fields& video, Wish& wish) { ReadFilmedTrials(video, scenario, wish); }}}};
+            [&](Fields& video, Selection& selection) { ReadFilmedMethods(video, scenario, selection); }},
+           {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)),
+             "[0]", "Of which worlds."},
+            [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
 }
 
 /// A key is read where those before it are right: methods are asked about their task, expectations about methods.
 const FieldTable<Scenario>& ScenarioFields() {
-  using Row = Field<Scenario>;
+  using Key = Field<Scenario>;
   static const auto when_right = [](auto read) {
     return [=](Fields& fields, Scenario& scenario) {
       if (fields.ok()) read(fields, scenario, *FindTaskKind(scenario.task));
@@ -76,18 +77,22 @@ const FieldTable<Scenario>& ScenarioFields() {
         [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
        {{"task", NameKind(TaskNames()), "", "The kind of question."},
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", TaskNames(), ""); }},
-       Row::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
+       Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
                   "What worlds are made of; trials go through them in turn."),
-       Row::Text("joint_map", &Scenario::joint_map, "a file",
+       Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Teaches which joints of the clips play which roles, where names do not tell.")
            .WhenAbsent("(names tell)"),
-       Row::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
-       Row::Number("seed", &Scenario::seed, {0, kLargestSeed}, "Of all worlds; `etude run --seed` wins over it.")
+       Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
+       Key::Number("seed", &Scenario::seed, {0, kLargestSeed}, "Of all worlds; `etude run --seed` wins over it.")
            .WhenAbsent("1"),
-       {{"sweep", {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"}, "{}",
+       {{"sweep",
+         {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
+         "{}",
          "One condition for every combination of values."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.conditions = ReadSweep(fields, kind); })},
-       {{"methods", {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"}, "",
+       {{"methods",
+         {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
+         "",
          "What is compared, on the same worlds."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
        {{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(the task's)",
@@ -101,9 +106,9 @@ const FieldTable<Scenario>& ScenarioFields() {
        {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(no motion is kept)",
          "Which motions are kept for the report's films."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {
-          RecordingWish wish{MethodNames(s), {0}};
-          ReadNested(fields, "video", VideoFields(s), wish);
-          if (fields.Raw("video") != nullptr) s.recordings = wish;
+          RecordingSelection selection{MethodNames(s), {0}};
+          ReadNested(fields, "video", VideoFields(s), selection);
+          if (fields.Raw("video") != nullptr) s.recordings = selection;
         })},
        {{"limits", MappingKind("a mapping", LimitFields().Describe()), "{}",
          "What a cell, or the building of a world, may take before it is ended."},

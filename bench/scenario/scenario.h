@@ -103,6 +103,6 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
 std::span<const KeyInfo> CommonScenarioKeys();
 const FieldTable<Limits>& LimitFields();
 /// Names methods of `scenario`, which must outlive it.
-FieldTable<RecordingWish> VideoFields(const Scenario& scenario);
+FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
 }  // namespace etude

@@ -49,10 +49,8 @@ Json SweepSchema(const TaskKind& kind) {
     const bool is_name = schema.contains("enum") || schema.value("type", Json()) == "boolean";
     parameters[key.key] = is_name ? values : Json{{"anyOf", {values, Ref("range")}}};
   }
-  const Json group{{"type", "object"},
-                   {"minProperties", 2},
-                   {"properties", parameters},
-                   {"additionalProperties", false}};
+  const Json group{
+      {"type", "object"}, {"minProperties", 2}, {"properties", parameters}, {"additionalProperties", false}};
   parameters["together"] = {{"anyOf", {group, ListOf(group)}}};
   return {{"type", "object"}, {"properties", std::move(parameters)}, {"additionalProperties", false}};
 }
@@ -118,9 +116,7 @@ Json ScenarioSchema() {
     tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
                       {{"properties", {{"scenarios", std::move(in_list)}}}}));
   }
-  tops.push_back(
-      {{"if", has_defaults},
-       {"else", {{"properties", {{"scenarios", ListOf({{"required", required}})}}}}}});
+  tops.push_back({{"if", has_defaults}, {"else", {{"properties", {{"scenarios", ListOf({{"required", required}})}}}}}});
   Json of_list = MappingSchema(FileKeys());
   of_list["properties"]["scenarios"]["items"] = std::move(listed);
   of_list["properties"]["defaults"] = {{"allOf", {Ref("scenario")}}, {"properties", {{"scenario", false}}}};
@@ -148,11 +144,12 @@ std::string KeysAsSchema() {
     definitions[kind.name] = TaskSchema(kind);
     definitions[kind.name + "-method"] = MethodSchema(kind);
   }
-  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-              {"title", "A scenario file of Etude"},
-              {"description",
-               "Written by `etude list keys --schema`. What it accepts may still be refused: the program also knows which "
-               "methods, conditions and files there are."}};
+  Json schema{
+      {"$schema", "http://json-schema.org/draft-07/schema#"},
+      {"title", "A scenario file of Etude"},
+      {"description",
+       "Written by `etude list keys --schema`. What it accepts may still be refused: the program also knows which "
+       "methods, conditions and files there are."}};
   schema.update(ScenarioSchema());
   schema["definitions"] = std::move(definitions);
   return schema.dump(1) + "\n";

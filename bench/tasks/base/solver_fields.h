@@ -21,22 +21,22 @@ std::vector<std::string> WeighingSolvers();
 /// A method's `solver` and what that solver can be set by: `weights`, `refresh`, its own settings.
 template <typename Method>
 std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
-  using Row = Field<Method>;
-  std::vector<Row> rows = {
-      Row::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
-      Row::Name(
-          "weights", [=](Method& m) -> auto& { return (m.*options).weights; }, WeightRuleNames(), FindWeightRule,
+  using Key = Field<Method>;
+  std::vector<Key> rows = {
+      Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
+      Key::Name(
+          "weights", [=](Method & m) -> auto& { return (m.*options).weights; }, WeightRuleNames(), FindWeightRule,
           "How an effector's position counts against its axes.")
           .With("solver", WeighingSolvers()),
-      Row::Name(
-          "refresh", [=](Method& m) -> auto& { return (m.*options).refresh; }, WeightRefreshNames(), FindWeightRefresh,
+      Key::Name(
+          "refresh", [=](Method & m) -> auto& { return (m.*options).refresh; }, WeightRefreshNames(), FindWeightRefresh,
           "When errors are measured anew for weights that follow them.")
           .With("solver", WeighingSolvers())};
   for (const IkSolver& each : AllIkSolvers()) {
     for (const IkSetting& setting : each.settings) {
       const auto add = [&](auto member) {
-        rows.push_back(Row::Number(
-                           setting.key, [=](Method& m) -> auto& { return (m.*options).tuning.*member; },
+        rows.push_back(Key::Number(
+                           setting.key, [=](Method & m) -> auto& { return (m.*options).tuning.*member; },
                            {setting.lowest, setting.largest}, setting.meaning)
                            .With("solver", {each.name}));
       };
@@ -50,7 +50,7 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
 template <typename Method>
 Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
   return Field<Method>::Angle(
-             "tolerance_deg", [=](Method& m) -> auto& { return (m.*options).angle_change_tolerance; }, {0, 360},
+             "tolerance_deg", [=](Method & m) -> auto& { return (m.*options).angle_change_tolerance; }, {0, 360},
              std::move(meaning))
       .WhenAbsent("(no bound)");
 }
@@ -59,7 +59,8 @@ Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
 template <typename Options>
 Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
   return Field<Options>::Number(
-      "max_sweeps", [=](Options& o) -> auto& { return (o.*options).max_iterations; }, {1, 100'000}, std::move(meaning));
+      "max_sweeps", [=](Options & o) -> auto& { return (o.*options).max_iterations; }, {1, 100'000},
+      std::move(meaning));
 }
 
 /// Reads `stop_at`, practical by default.

@@ -11,25 +11,24 @@ constexpr Range kHolds{1, 30};
 
 const FieldTable<DetectionOptions>& DetectionConditionFields() {
   using Options = DetectionOptions;
-  using Row = Field<Options>;
+  using Key = Field<Options>;
   static const FieldTable<Options> table{
-      {Row::Number(
+      {Key::Number(
            "events", [](auto& o) -> auto& { return o.session.events; }, {1, 200},
            "How many performances a session holds."),
-       Row::Number(
+       Key::Number(
            "fault_share", [](auto& o) -> auto& { return o.session.fault_share; }, kShare,
            "Which share of them is danced wrong."),
-       Row::Number(
+       Key::Number(
            "skill", [](auto& o) -> auto& { return o.session.skill; }, kShare,
            "The learner's: 1 is careful, at 0 every deviation is twice as large."),
-       Row::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
-       Row::Number("turn_deg", &Options::turn_deg, {-180, 180},
-                   "How far the dancer is turned away from the sensor.")
+       Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
+       Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the dancer is turned away from the sensor.")
            .Unit("degrees"),
-       Row::Number(
+       Key::Number(
            "threshold", [](auto& o) -> auto& { return o.recogniser.threshold; }, kThresholds,
            "The weighted share of a key pose's angles that must be met; for all methods."),
-       Row::Number(
+       Key::Number(
            "hold_frames", [](auto& o) -> auto& { return o.recogniser.hold_frames; }, kHolds,
            "For how many frames in a row a key pose must be met; for all methods.")}};
   return table;
@@ -37,35 +36,35 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
 
 const FieldTable<DetectionMethod>& DetectionMethodFields() {
   using Method = DetectionMethod;
-  using Row = Field<Method>;
+  using Key = Field<Method>;
   static const std::vector<std::string> recognisers = {"key-pose"};
   static const FieldTable<Method> table{
-      {Row::Name(
+      {Key::Name(
            "filter", [](auto& m) -> auto& { return m.filter.kind; }, FilterNames(), FilterOf,
            "How the sensed joints are smoothed first."),
-       Row::Flags("oracle", {{"stream", &Method::sees_truth}},
+       Key::Flags("oracle", {{"stream", &Method::sees_truth}},
                   "What is replaced by the truth: the skeletons as danced instead of as sensed, so what the sensor "
                   "costs."),
-       Row{{"recogniser", NameKind(recognisers), recognisers.front(),
+       Key{{"recogniser", NameKind(recognisers), recognisers.front(),
             "How a move is recognised: by passing its key poses in order."},
            [](Fields& method, Method&) { method.Choice("recogniser", recognisers, recognisers.front()); }},
-       Row::Name(
+       Key::Name(
            "weights", [](auto& m) -> auto& { return m.recogniser.weights; },
            {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
            "How much an angle counts: all alike, or by how well its joints are seen."),
-       Row::Number(
+       Key::Number(
            "threshold", [](auto& m) -> auto& { return m.recogniser.threshold; }, kThresholds,
            "The weighted share of a key pose's angles that must be met.")
            .WhenAbsent("(the scenario's)"),
-       Row::Number(
+       Key::Number(
            "hold_frames", [](auto& m) -> auto& { return m.recogniser.hold_frames; }, kHolds,
            "For how many frames in a row it must be met.")
            .WhenAbsent("(the scenario's)"),
-       Row::Number(
+       Key::Number(
            "inferred_weight", [](auto& m) -> auto& { return m.recogniser.inferred_weight; }, kShare,
            "What an angle with an inferred joint counts.")
            .With("weights", {"adaptive"}),
-       Row::Number(
+       Key::Number(
            "not_tracked_weight", [](auto& m) -> auto& { return m.recogniser.not_tracked_weight; }, kShare,
            "What an angle with a joint that is not tracked counts.")
            .With("weights", {"adaptive"})}};

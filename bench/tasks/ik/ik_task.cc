@@ -55,7 +55,9 @@ class IkTask : public Task {
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
-  Result<Exhibit> Setting() const override { return Show(DescribeIkSetting(study_.tree, study_.condition.common, study_.condition.trial)); }
+  Result<Payload> Setting() const override {
+    return Show(DescribeIkSetting(study_.tree, study_.condition.common, study_.condition.trial));
+  }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return IkValueOfFailure(metric, study_.condition.common.max_iterations);

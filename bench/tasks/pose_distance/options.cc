@@ -13,14 +13,14 @@ constexpr Range kThresholdsCm{0, 1000};
 }  // namespace
 
 const FieldTable<PairOptions>& PoseDistanceConditionFields() {
-  using Row = Field<PairOptions>;
+  using Key = Field<PairOptions>;
   static const FieldTable<PairOptions> table{
-      {Row::Name("pairs", &PairOptions::source,
+      {Key::Name("pairs", &PairOptions::source,
                  {{"blindspots", PairSource::kBlindSpots}, {"frames", PairSource::kFrames}},
                  "What is compared: the eight pairs of poses that paper A's distance takes for alike, one a trial, or "
                  "any frames of two different clips."),
        FuzzyField<PairOptions>(),
-       Row::Number("pairs_per_world", &PairOptions::pairs_per_world, {1, 10000},
+       Key::Number("pairs_per_world", &PairOptions::pairs_per_world, {1, 10000},
                    "How many pairs of frames are drawn in a trial.")
            .With("pairs", {"frames"})}};
   return table;
@@ -28,21 +28,23 @@ const FieldTable<PairOptions>& PoseDistanceConditionFields() {
 
 const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields() {
   using Method = PoseDistanceMethod;
-  using Row = Field<Method>;
+  using Key = Field<Method>;
   static const FieldTable<Method> table{
-      {Row::Name("distance", &Method::distance, PoseDistanceNames(), FindPoseDistance,
+      {Key::Name("distance", &Method::distance, PoseDistanceNames(), FindPoseDistance,
                  "How unlike two poses are: paper A's d, Kovar's point clouds (of one frame), or the joints' mean "
                  "distance once heading and hips agree."),
-       Row::Name("weights", &Method::weights, WeightSourceNames(), FindWeightSource,
+       Key::Name("weights", &Method::weights, WeightSourceNames(), FindWeightSource,
                  "How much each fuzzy feature counts: as paper A says, or as learnt on all clips but the two judged, "
                  "by a logistic regression or a genetic algorithm.")
            .With("distance", {"fuzzy"}),
        // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
-       Row::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike when d is below it.")
+       Key::Number("threshold", &Method::threshold, {0, 6}, "Poses are called alike when d is below it.")
            .With("distance", {"fuzzy"}),
-       Row{{"threshold_cm", NumberKind(kThresholdsCm), NumberText(kDefaultThresholdCm),
+       Key{{"threshold_cm", NumberKind(kThresholdsCm), NumberText(kDefaultThresholdCm),
             "Poses are called alike when their distance is below it."},
-           [](Fields& method, Method& m) { m.threshold = method.Number("threshold_cm", kDefaultThresholdCm, kThresholdsCm); }}
+           [](Fields& method, Method& m) {
+             m.threshold = method.Number("threshold_cm", kDefaultThresholdCm, kThresholdsCm);
+           }}
            .Unit("cm")
            .With("distance", {"point-cloud", "joint-positions"})}};
   return table;

@@ -82,9 +82,8 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
                 "['builtin:*']");
   }
   ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.physique));
-  return std::make_unique<PoseDistanceTask>(
-      PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
-                LearntWeights(std::move(training), input.fuzzy)});
+  return std::make_unique<PoseDistanceTask>(PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
+                                                      LearntWeights(std::move(training), input.fuzzy)});
 }
 
 }  // namespace

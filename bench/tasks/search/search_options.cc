@@ -32,28 +32,27 @@ int FramesAskedFor(SearchQuestion question) {
 
 const FieldTable<SearchOptions>& SearchConditionFields() {
   using Options = SearchOptions;
-  using Row = Field<Options>;
+  using Key = Field<Options>;
   static const FieldTable<Options> table{
-      {Row::Number("frames", &Options::frames, {10, kMostLibraryFrames},
+      {Key::Number("frames", &Options::frames, {10, kMostLibraryFrames},
                    "How many frames are searched: the clips, performed again and again with other tempo and "
                    "amplitude."),
-       Row::Number("queries", &Options::queries, {1, 10'000},
+       Key::Number("queries", &Options::queries, {1, 10'000},
                    "How many frames are asked about in a world; none is in the library."),
-       Row::Number("threshold", &Options::threshold, {0, 6},
+       Key::Number("threshold", &Options::threshold, {0, 6},
                    "Frames of a smaller fuzzy distance match: what `first` and `within` ask for."),
-       Row::Name("query", &Options::question, Questions(),
+       Key::Name("query", &Options::question, Questions(),
                  "The first matching frame, all of them, or the one or ten of smallest distance; for all methods."),
        FuzzyField<Options>()}};
   return table;
 }
 
 const FieldTable<SearchMethod>& SearchMethodFields() {
-  using Row = Field<SearchMethod>;
+  using Key = Field<SearchMethod>;
   static const FieldTable<SearchMethod> table{
-      {Row::Name("search", &SearchMethod::way,
-                 {{"index", SearchWay::kIndex}, {"brute-force", SearchWay::kBruteForce}},
+      {Key::Name("search", &SearchMethod::way, {{"index", SearchWay::kIndex}, {"brute-force", SearchWay::kBruteForce}},
                  "Through the exact index, or by looking at every frame."),
-       Row::Name("query", &SearchMethod::question, Questions(), "What is asked about every frame.")
+       Key::Name("query", &SearchMethod::question, Questions(), "What is asked about every frame.")
            .WhenAbsent("(the scenario's)")}};
   return table;
 }

@@ -68,7 +68,9 @@ class TrackingTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Exhibit> Setting() const override { return Show(DescribeTrackingSetting(study_.options, study_.options.common)); }
+  Result<Payload> Setting() const override {
+    return Show(DescribeTrackingSetting(study_.options, study_.options.common));
+  }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return TrackingValueOfFailure(metric);

@@ -19,19 +19,19 @@ std::vector<std::string> FuzzyChoices() {
 
 /// What the choices and joins can be set by.
 std::vector<Field<TransitionMethod>> SettingFields() {
-  using Row = Field<TransitionMethod>;
-  std::vector<Row> rows;
+  using Key = Field<TransitionMethod>;
+  std::vector<Key> rows;
   for (const Choice& choice : AllChoices()) {
     for (const RuleSetting& setting : choice.settings) {
-      const auto member = [=](TransitionMethod& m) -> auto& { return m.way.rules.*setting.member; };
-      rows.push_back(Row::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
+      const auto member = [=](TransitionMethod & m) -> auto& { return m.way.rules.*setting.member; };
+      rows.push_back(Key::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
                          .With("choice", {choice.name}));
     }
   }
   for (const Join& join : AllJoins()) {
     for (const JoinSetting& setting : join.settings) {
-      const auto member = [=](TransitionMethod& m) -> auto& { return m.way.join_settings.*setting.member; };
-      rows.push_back(Row::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
+      const auto member = [=](TransitionMethod & m) -> auto& { return m.way.join_settings.*setting.member; };
+      rows.push_back(Key::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
                          .With("join", {join.name}));
     }
   }
@@ -42,44 +42,44 @@ std::vector<Field<TransitionMethod>> SettingFields() {
 
 const FieldTable<TransitionCondition>& TransitionConditionFields() {
   using Options = TransitionCondition;
-  using Row = Field<Options>;
+  using Key = Field<Options>;
   static const FieldTable<Options> table{
-      {Row::Number("threshold", &Options::threshold, kThresholds,
+      {Key::Number("threshold", &Options::threshold, kThresholds,
                    "Two bridge frames match when their fuzzy distance is below it; for all methods."),
-       Row::Number("wait_s", &Options::wait_s, kWaits_s,
+       Key::Number("wait_s", &Options::wait_s, kWaits_s,
                    "How long after the request a switch may come; for all methods, those outside are told it as "
                    "max_wait_s.")
            .Unit("seconds"),
-       Row::Flag("explain", &Options::explain,
+       Key::Flag("explain", &Options::explain,
                  "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; "
                  "filmed cells are explained in the report anyway."),
-       Row::Name(
+       Key::Name(
            "asked_for", [](auto& o) -> auto& { return o.stage.asks_for_acts; }, {{"any", false}, {"acts", true}},
            "Which clips are asked for: any other one, or, while the other clips play, the coach's acts, where there "
            "are any."),
-       Row::Number(
+       Key::Number(
            "min_clips", [](auto& o) -> auto& { return o.stage.min_clips; }, {1, 1000},
            "In how many clips a bridge frame's ten tags occur together at least."),
-       Row::Number(
+       Key::Number(
            "most_per_class", [](auto& o) -> auto& { return o.stage.most_per_class; }, {0, 100000},
            "Of each clip's frames with the same ten tags, only so many are bridge frames: those most alike to other "
            "clips'; 0: all."),
-       Row::Angle(
+       Key::Angle(
            "head_bend_deg", [](auto& o) -> auto& { return o.stage.head.max_bend; }, {0, 180},
            "A bridge frame's neck is bent by no more."),
-       Row::Angle(
+       Key::Angle(
            "head_turn_dps", [](auto& o) -> auto& { return o.stage.head.max_turn_speed; }, {0, 10000},
            "A bridge frame's neck turns no faster.")
            .Unit("degrees per second"),
-       Row::Angle(
+       Key::Angle(
            "tween_dps", [](auto& o) -> auto& { return o.stage.tween.turn_speed; }, {10, 10000},
            "The fastest that any limb turns in an in-between.")
            .Unit("degrees per second"),
-       Row::Number(
+       Key::Number(
            "tween_s", [](auto& o) -> auto& { return o.stage.tween.shortest_s; }, {0, 10},
            "An in-between takes at least this, however little there is to do.")
            .Unit("seconds"),
-       Row::Angle(
+       Key::Angle(
            "tween_deg", [](auto& o) -> auto& { return o.stage.tween.widest_turn; }, {0, 180},
            "An in-between that would turn a limb by more goes by way of the most frequent pose."),
        FuzzyField<Options>()}};
@@ -87,35 +87,35 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
 }
 
 const FieldTable<TransitionMethod>& TransitionMethodFields() {
-  using Row = Field<TransitionMethod>;
+  using Key = Field<TransitionMethod>;
   static const FieldTable<TransitionMethod> table = [] {
     FieldTable<TransitionMethod> made{
-        {Row::Name(
+        {Key::Name(
              "choice", [](auto& m) -> auto& { return m.way.choice; }, ChoiceNames(), FindChoice,
              "Which frames are switched, and when: paper A's bridge frames, or what one would use otherwise."),
-         Row::Name(
+         Key::Name(
              "join", [](auto& m) -> auto& { return m.way.join; }, JoinNames(), FindJoin,
              "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."),
-         Row::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
+         Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
                    "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two "
                    "judged, by a logistic regression or a genetic algorithm."),
-         Row::Number(
+         Key::Number(
              "threshold", [](auto& m) -> auto& { return m.way.rules.threshold; }, kThresholds,
              "The distance below which two frames match.")
              .WhenAbsent("(the scenario's)")
              .With("choice", FuzzyChoices()),
-         Row::Flag(
+         Key::Flag(
              "within_class", [](auto& m) -> auto& { return m.way.rules.within_class; },
              "Whether only frames with the same ten tags are compared.")
              .With("choice", FuzzyChoices()),
-         Row::Name(
+         Key::Name(
              "pick", [](auto& m) -> auto& { return m.way.rules.pick; },
              {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}, "Which of several matching pairs is taken.")
              .With("choice", {"fuzzy-bridge"}),
-         Row::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a switch may come.")
+         Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a switch may come.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
-    const std::vector<Row> settings = SettingFields();
+    const std::vector<Key> settings = SettingFields();
     made.fields.insert(made.fields.end(), settings.begin(), settings.end());
     return made;
   }();

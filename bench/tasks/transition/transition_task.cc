@@ -51,8 +51,8 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "transition", TransitionMethodFields(), start));
   Stage stage = SetStage(input.clips, condition.stage);
   ASSIGN_OR_RETURN(auto training, GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique));
-  return std::make_unique<TransitionTask>(std::move(methods), condition.wait_s, condition.explain,
-                                          std::move(stage), std::move(training));
+  return std::make_unique<TransitionTask>(std::move(methods), condition.wait_s, condition.explain, std::move(stage),
+                                          std::move(training));
 }
 
 }  // namespace

@@ -29,17 +29,17 @@ struct Weather {
 };
 
 const FieldTable<Weather>& WeatherFields() {
-  using Row = Field<Weather>;
+  using Key = Field<Weather>;
   static const FieldTable<Weather> table{
-      {Row::Number("warmth_c", &Weather::warmth_c, {-60, 60}, "How warm it is.").Unit("degrees"),
-       Row::Number("clouds", &Weather::clouds, {0, 8}, "Eighths of the sky."),
-       Row::Number("rain_mm", &Weather::rain_mm, {0, 1000}, "What fell.").WhenAbsent("(none fell)"),
-       Row::Name("wind", &Weather::wind, {{"none", Wind::kNone}, {"strong", Wind::kStrong}}, "How it blows."),
-       Row::Number("gust", &Weather::gust, {0, 1}, "How suddenly.").With("wind", {"strong"}),
-       Row::Angle("turn_deg", &Weather::turn, {0, 360}, "Whence."),
-       Row::Numbers("tides_m", &Weather::tides_m, "coast", "two of 0…20", {0, 20}, "How high the sea stands."),
-       Row::Flags("oddities", {{"fog", &Weather::fog}, {"hail", &Weather::hail}}, "What else there is."),
-       Row::Text("place", &Weather::place, "a town", "Where.").WhenAbsent("")},
+      {Key::Number("warmth_c", &Weather::warmth_c, {-60, 60}, "How warm it is.").Unit("degrees"),
+       Key::Number("clouds", &Weather::clouds, {0, 8}, "Eighths of the sky."),
+       Key::Number("rain_mm", &Weather::rain_mm, {0, 1000}, "What fell.").WhenAbsent("(none fell)"),
+       Key::Name("wind", &Weather::wind, {{"none", Wind::kNone}, {"strong", Wind::kStrong}}, "How it blows."),
+       Key::Number("gust", &Weather::gust, {0, 1}, "How suddenly.").With("wind", {"strong"}),
+       Key::Angle("turn_deg", &Weather::turn, {0, 360}, "Whence."),
+       Key::Numbers("tides_m", &Weather::tides_m, "coast", "two of 0…20", {0, 20}, "How high the sea stands."),
+       Key::Flags("oddities", {{"fog", &Weather::fog}, {"hail", &Weather::hail}}, "What else there is."),
+       Key::Text("place", &Weather::place, "a town", "Where.").WhenAbsent("")},
       [](Fields& fields, Weather& weather) {
         if (weather.hail && weather.clouds == 0) fields.Complain(fields.node().place, "hail needs a cloud");
       }};
@@ -94,10 +94,11 @@ TEST(FieldTable, TellsItsKeysWithTheDefaultsOfTheStruct) {
   const auto keys = WeatherFields().Describe();
   std::vector<std::string> told;
   for (const KeyInfo& key : keys) told.push_back(key.key + " | " + key.AllowedWhere() + " | " + key.fallback);
-  EXPECT_THAT(told, ElementsAre("warmth_c | -60…60 (degrees) | 20", "clouds | 0…8 | 3", "rain_mm | 0…1000 | (none fell)",
-                                "wind | none, strong | none", "gust | 0…1; with `wind: strong` | 0.5",
-                                "turn_deg | 0…360 | 30", "tides_m | two of 0…20 | [1, 2.5]",
-                                "oddities | a list of: fog, hail | []", "place | a town | "));
+  EXPECT_THAT(
+      told,
+      ElementsAre("warmth_c | -60…60 (degrees) | 20", "clouds | 0…8 | 3", "rain_mm | 0…1000 | (none fell)",
+                  "wind | none, strong | none", "gust | 0…1; with `wind: strong` | 0.5", "turn_deg | 0…360 | 30",
+                  "tides_m | two of 0…20 | [1, 2.5]", "oddities | a list of: fog, hail | []", "place | a town | "));
 }
 
 TEST(FieldTable, TellsEditorsTheSame) {
@@ -122,10 +123,11 @@ struct Tool {
   std::string name;
   std::vector<NumberSetting> settings;
 };
-const std::vector<Tool> kTools = {{"saw", {{"gain", 1, 0, 2, false, "Of the saw."}, {"teeth", 24, 1, 99, true, "How many."}}},
-                                  {"drill", {{"gain", 5, 3, 9, false, "Of the drill."}}},
-                                  {"file", {}},
-                                  {"rasp", {{"teeth", 24, 1, 99, true, "How many."}}}};
+const std::vector<Tool> kTools = {
+    {"saw", {{"gain", 1, 0, 2, false, "Of the saw."}, {"teeth", 24, 1, 99, true, "How many."}}},
+    {"drill", {{"gain", 5, 3, 9, false, "Of the drill."}}},
+    {"file", {}},
+    {"rasp", {{"teeth", 24, 1, 99, true, "How many."}}}};
 
 struct Job {
   std::string tool = "saw";
@@ -157,7 +159,8 @@ TEST(SettingFields, BelongToTheMethodThatIsChosen) {
 }
 
 TEST(SettingFields, AreRefusedElsewhereWithTheNamesOfAllThatHaveThem) {
-  EXPECT_EQ(ToString(ReadJob("{tool: drill, gain: 2}").error()), "j.yaml:1:21: 'gain': 2 is out of range; allowed: 3 to 9");
+  EXPECT_EQ(ToString(ReadJob("{tool: drill, gain: 2}").error()),
+            "j.yaml:1:21: 'gain': 2 is out of range; allowed: 3 to 9");
   EXPECT_EQ(ToString(ReadJob("{gain: 3}").error()), "j.yaml:1:8: 'gain': 3 is out of range; allowed: 0 to 2");
   EXPECT_EQ(ToString(ReadJob("{tool: file, gain: 2}").error()),
             "j.yaml:1:20: tool 'file' has no 'gain'; allowed with tool: saw, drill");
