@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 constexpr const char* kBridgeExamples =
-    "\nA bridge frame is a frame that one may switch at: its pose occurs in several clips, its head is quiet. Two of\n"
+    "\nA bridge frame is a frame fit for a transition: its pose occurs in several clips, its head is quiet. Two of\n"
     "them match when their fuzzy distance is below the threshold. Clips are named as in etude clip --help;\n"
     "docs/bridge-frames.md tells more.\n\n"
     "Try:\n"
@@ -24,7 +24,8 @@ constexpr const char* kBridgeExamples =
 
 void DefineBridge(CLI::App& app, Action& action) {
   auto options = std::make_shared<BridgeOptions>();
-  CLI::App* command = app.add_subcommand("bridge", "Find the frames at which clips can be switched, and tag them");
+  CLI::App* command =
+      app.add_subcommand("bridge", "Find the frames at which one clip can lead into another, and tag them");
   command->add_option("clips", options->clips, "The clips of one library");
   CLI::Option* output = command->add_option("-o,--output", options->output, "The tags file to write (XML)");
   CLI::Option* check =
@@ -46,7 +47,7 @@ void DefineBridge(CLI::App& app, Action& action) {
                        "Keep so many bridge frames per clip and pose, those most like other clips' (0: all)")
           ->check(CLI::Range(0, 1000000))
           ->capture_default_str());
-  add(command->add_option("--wait", options->wait_s, "How long a switch may wait, seconds")
+  add(command->add_option("--wait", options->wait_s, "How long a transition may wait, seconds")
           ->check(NumberWithin(0, 3600, "time in seconds"))
           ->capture_default_str());
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");

@@ -6,15 +6,15 @@
 #include "cli/bridge_library.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
-#include "engine/bridging/tags_file/compare_tags.h"
-#include "engine/bridging/tags_file/tags_file.h"
+#include "engine/transitions/tags_file/compare_tags.h"
+#include "engine/transitions/tags_file/tags_file.h"
 #include "reports/bridges/bridge_summary.h"
 
 namespace etude {
 namespace {
 
 BridgeTags TagsOf(const BridgeLibrary& loaded) {
-  return CollectTags(loaded.library, loaded.sources, loaded.system, loaded.tag_rules, loaded.switch_rules);
+  return CollectTags(loaded.library, loaded.sources, loaded.system, loaded.tag_rules, loaded.match_rules);
 }
 
 /// The file's own rules, so that its clips are tagged as they were.
@@ -81,7 +81,7 @@ int BridgeCommand(const BridgeOptions& options) {
   if (!options.output.empty()) {
     if (auto written = WriteTags(*loaded, options.output); !written) return Complain(written.error());
   }
-  const Coverage coverage(loaded->library.tagged, loaded->switch_rules, options.wait_s);
+  const Coverage coverage(loaded->library.tagged, loaded->match_rules, options.wait_s);
   if (!options.as_json) {
     fmt::print("{}", BridgeSummaryAsText(*loaded, coverage, options.wait_s));
     return kSuccess;

@@ -77,12 +77,12 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options) {
   loaded.tag_rules.weights = loaded.system.weights;
   loaded.tag_rules.min_clips = options.min_clips;
   loaded.tag_rules.most_per_class = options.most_per_class;
-  loaded.switch_rules = {.weights = loaded.system.weights,
-                         .threshold = options.threshold,
-                         .pick = Pick::kFirst,
-                         .within_class = options.within_class};
-  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions, MakePhysique(PoseOf(Controls{}), kJudgedHipHeight),
-                               loaded.tag_rules);
+  loaded.match_rules = {.weights = loaded.system.weights,
+                        .threshold = options.threshold,
+                        .pick = Pick::kFirst,
+                        .within_class = options.within_class};
+  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions,
+                               MakeBodyProportions(PoseOf(Controls{}), kJudgedHipHeight), loaded.tag_rules);
   loaded.library.in_betweens = BuildInBetweens(
       loaded.library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});
   return loaded;

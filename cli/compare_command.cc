@@ -1,7 +1,7 @@
 #include <fmt/core.h>
 
+#include "bench/finished_runs/load.h"
 #include "bench/gate/comparison.h"
-#include "bench/gate/finished_run.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"

@@ -3,9 +3,10 @@
 #include <filesystem>
 
 #include "bench/files/files.h"
+#include "bench/finished_runs/in_process_run.h"
+#include "bench/finished_runs/load.h"
 #include "bench/gate/baseline_file.h"
 #include "bench/gate/gate.h"
-#include "bench/gate/in_process_run.h"
 #include "bench/gate/self_test.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
@@ -34,11 +35,11 @@ int ExitCode(GateVerdict verdict) {
 void PrintReport(const GateReport& report) {
   PrintMoves(report.comparison, "baseline", "now", kMostRows);
   for (const GateExpectation& e : report.expectations) {
-    if (e.result.outcome == Outcome::kMet) continue;
-    fmt::print("{}: {}: {} [{}]\n", OutcomeName(e.result.outcome), e.scenario, e.result.text, e.result.detail);
+    if (e.result.ruling == Ruling::kMet) continue;
+    fmt::print("{}: {}: {} [{}]\n", RulingName(e.result.ruling), e.scenario, e.result.text, e.result.detail);
   }
   for (const RatioResult& ratio : report.ratios) {
-    fmt::print("{}: {}: {} [{}]\n", OutcomeName(ratio.outcome), ratio.scenario, RatioClaim(ratio), RatioDetail(ratio));
+    fmt::print("{}: {}: {} [{}]\n", RulingName(ratio.ruling), ratio.scenario, RatioClaim(ratio), RatioDetail(ratio));
   }
   PrintList("New, not in the baseline:", report.comparison.only_after);
   PrintList("Settings of the method changed in the scenario:", report.comparison.settings_changed);

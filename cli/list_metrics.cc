@@ -19,9 +19,7 @@ int PrintTable() {
 
 int ListMetricsCommand(MetricsFormat format) {
   if (format == MetricsFormat::kTable) return PrintTable();
-  const auto text = format == MetricsFormat::kJson ? MetricsJson() : MetricsPage();
-  if (!text) return Complain(text.error());
-  fmt::print("{}{}", *text, text->ends_with('\n') ? "" : "\n");
+  fmt::print("{}", format == MetricsFormat::kJson ? MetricsJson() + "\n" : MetricsPage());
   return kSuccess;
 }
 

@@ -32,7 +32,7 @@ constexpr const char* kExamples =
     "  etude run scenarios/paper                      what the papers claim, in their own tables and situations\n"
     "  etude list methods                             what a scenario can name; also keys, metrics, clips\n"
     "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
-    "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips can be switched, and how well\n"
+    "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips lead into each other, and how well\n"
     "  etude train 'builtin:*' -o mine.yaml           a fuzzy system learnt from clips, for a scenario's fuzzy: key\n\n"
     "Exit codes: 0 fine, 1 no cell was ok (gate: regression; replay: a difference), 2 bad input (nothing is\n"
     "written), 3 incomplete, 130 interrupted.";

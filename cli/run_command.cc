@@ -65,7 +65,7 @@ void PrintSummary(const RunData& run) {
     fmt::print("\n{} ({}): {}\n", scenario.name, scenario.task, scenario.question);
     PrintTables(scenario, run.rows);
     for (const ExpectationResult& expectation : scenario.expectations) {
-      fmt::print("  {}: {} [{}]\n", OutcomeName(expectation.outcome), expectation.text, expectation.detail);
+      fmt::print("  {}: {} [{}]\n", RulingName(expectation.ruling), expectation.text, expectation.detail);
     }
   }
 }

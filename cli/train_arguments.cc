@@ -10,7 +10,7 @@ namespace etude {
 namespace {
 
 constexpr const char* kTrainExamples =
-    "\nPaper A's distance says that two frames may be switched when d < 0.4. How much each of its ten features\n"
+    "\nPaper A's distance says that two frames match when d < 0.4. How much each of its ten features\n"
     "counts (S), and where its membership functions bend, were chosen by hand. This command learns them: it takes\n"
     "frames of every clip, two clips at a time, calls a pair close when its worst joint is less than 15 cm off\n"
     "(after turning and moving one onto the other on the floor), and looks for the system by which d < 0.4 tells\n"

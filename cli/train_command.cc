@@ -77,7 +77,7 @@ Result<Split> LoadSplit(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
   const BodyPose standing = PoseOf(Controls{});
-  TrainingClips all = SampleClips(names, motions, MakePhysique(standing, StandingHipHeight(standing)));
+  TrainingClips all = SampleClips(names, motions, MakeBodyProportions(standing, StandingHipHeight(standing)));
   Split split;
   for (std::size_t i = 0; i < names.size(); ++i) {
     (held_out[i] ? split.held_out_names : split.learnt_names).push_back(names[i]);

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/files/json.h"
 #include "reports/words/cell_series.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -14,8 +15,6 @@
 
 namespace etude {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // More steps than a screen has room for only make the page heavy.
 constexpr std::size_t kMostSteps = 120;
@@ -42,9 +41,9 @@ bool NeedsLogarithm(const std::vector<double>& values) {
 
 Json OrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
 
-std::string Joined(const std::vector<Setting>& condition, std::string Setting::*part) {
+std::string Joined(const std::vector<SweptValue>& condition, std::string SweptValue::*part) {
   std::string text;
-  for (const Setting& setting : condition) text += (text.empty() ? "" : ", ") + setting.*part;
+  for (const SweptValue& swept : condition) text += (text.empty() ? "" : ", ") + swept.*part;
   return text;
 }
 
@@ -113,7 +112,7 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
   chart.caption = Caption(words.is_share ? "Mean with 95 % interval" : "Median with 95 % interval", words);
   Json groups = Json::array(), methods = Json::array();
   for (const ConditionSummary& condition : scenario.conditions)
-    groups.push_back(Joined(condition.condition, &Setting::value));
+    groups.push_back(Joined(condition.condition, &SweptValue::value));
   std::vector<double> drawn;
   for (const std::string& method : scenario.methods) {
     Json marks = Json::array();
@@ -137,7 +136,7 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
   const bool is_logarithmic = !words.is_share && NeedsLogarithm(drawn);
   Json json{{"kind", "intervals"}, {"label", words.label},          {"suffix", words.suffix},
             {"groups", groups},    {"methods", std::move(methods)}, {"logarithmic", is_logarithmic}};
-  json["groupLabel"] = Joined(scenario.conditions.front().condition, &Setting::key);
+  json["groupLabel"] = Joined(scenario.conditions.front().condition, &SweptValue::key);
   chart.is_wide = !one_condition && scenario.conditions.size() * scenario.methods.size() > kMostMarks;
   chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   return chart;
@@ -146,7 +145,7 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
 std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario) {
   if (scenario.conditions.empty()) return std::nullopt;
   const bool follows_motion = scenario.task == "tracking";
-  const std::vector<Setting>& first = scenario.conditions.front().condition;
+  const std::vector<SweptValue>& first = scenario.conditions.front().condition;
   std::map<std::string, std::string> method_of;
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && (!follows_motion || row.condition == first)) method_of[row.Id()] = row.method;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 #include "reports/words/figures.h"
 
 namespace etude {

@@ -9,14 +9,14 @@
 namespace etude {
 namespace {
 
-Outcome OutcomeOf(const MetricMove& move) {
-  if (IsRegression(move)) return Outcome::kUnmet;
-  return move.movement == Movement::kUnclear ? Outcome::kUndecided : Outcome::kMet;
+Ruling RulingOf(const MetricMove& move) {
+  if (IsRegression(move)) return Ruling::kUnmet;
+  return move.movement == Movement::kUnclear ? Ruling::kUndecided : Ruling::kMet;
 }
 
 JunitCase CaseOf(const MetricMove& move) {
   const GateTableRow row = TableRow(move);
-  return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), OutcomeOf(move),
+  return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move),
           fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before, row.after,
                       row.difference, row.p, row.worlds)};
 }
@@ -27,7 +27,7 @@ std::string WriteGateJunit(const GateReport& report) {
   std::string why;
   for (const std::string& reason : report.incomplete) why += reason + "\n";
   std::vector<JunitSuite> suites = {
-      {"gate", {{"every cell can be judged", report.incomplete.empty() ? Outcome::kMet : Outcome::kUnmet, why}}}};
+      {"gate", {{"every cell can be judged", report.incomplete.empty() ? Ruling::kMet : Ruling::kUnmet, why}}}};
   std::map<std::string, std::size_t> places;
   const auto suite_of = [&](const std::string& scenario) -> JunitSuite& {
     const auto [place, is_new] = places.emplace(scenario, suites.size());
@@ -35,10 +35,10 @@ std::string WriteGateJunit(const GateReport& report) {
     return suites[place->second];
   };
   for (const GateExpectation& e : report.expectations) {
-    suite_of(e.scenario).cases.push_back({e.result.text, e.result.outcome, e.result.detail});
+    suite_of(e.scenario).cases.push_back({e.result.text, e.result.ruling, e.result.detail});
   }
   for (const RatioResult& ratio : report.ratios) {
-    suite_of(ratio.scenario).cases.push_back({RatioClaim(ratio), ratio.outcome, RatioDetail(ratio)});
+    suite_of(ratio.scenario).cases.push_back({RatioClaim(ratio), ratio.ruling, RatioDetail(ratio)});
   }
   for (const MetricMove& move : report.comparison.moves) suite_of(move.identity.scenario).cases.push_back(CaseOf(move));
   return WriteJunitXml(report.suite + " gate", suites);

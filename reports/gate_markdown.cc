@@ -37,14 +37,14 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
 }
 
 /// Expectations and time rules that are not met, or could not be decided.
-std::vector<std::string> ClaimsThatAre(const GateReport& report, Outcome outcome) {
+std::vector<std::string> ClaimsThatAre(const GateReport& report, Ruling ruling) {
   std::vector<std::string> lines;
   for (const GateExpectation& e : report.expectations) {
-    if (e.result.outcome != outcome) continue;
+    if (e.result.ruling != ruling) continue;
     lines.push_back(fmt::format("{}: {} ({})", e.scenario, e.result.text, e.result.detail));
   }
   for (const RatioResult& ratio : report.ratios) {
-    if (ratio.outcome != outcome) continue;
+    if (ratio.ruling != ruling) continue;
     lines.push_back(fmt::format("{}: {} ({})", ratio.scenario, RatioClaim(ratio), RatioDetail(ratio)));
   }
   return lines;
@@ -57,7 +57,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
       fmt::format("## Etude gate of {}: {}\n\n", EscapeMarkdown(report.suite), GateVerdictWords(GateVerdictOf(report)));
   for (const std::string& sentence : GateSentences(report)) text += "- " + EscapeMarkdown(sentence) + "\n";
   text += List("**Incomplete**, so there is no verdict on the whole:", report.incomplete);
-  text += List("**Not met:**", ClaimsThatAre(report, Outcome::kUnmet));
+  text += List("**Not met:**", ClaimsThatAre(report, Ruling::kUnmet));
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
@@ -65,7 +65,7 @@ std::string WriteGateMarkdown(const GateReport& report) {
     text += fmt::format("\n<details><summary>What else moved ({})</summary>\n{}\n</details>\n", others.size(),
                         MoveTable(others));
   }
-  text += List("Could not be decided:", ClaimsThatAre(report, Outcome::kUndecided));
+  text += List("Could not be decided:", ClaimsThatAre(report, Ruling::kUndecided));
   text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);
   text += List("Settings of the method changed in the scenario:", report.comparison.settings_changed);
   if (!report.baseline_file.empty()) {

@@ -54,14 +54,14 @@ std::string MovementCounts(const std::vector<MetricMove>& moves) {
 }
 
 /// "12 expectations: 11 met, 1 unmet", zeros left out; "" when there is none.
-template <typename Items, typename OutcomeOf>
-std::string OutcomeCounts(const Items& items, std::string_view what, OutcomeOf outcome_of) {
+template <typename Items, typename RulingOf>
+std::string RulingCounts(const Items& items, std::string_view what, RulingOf ruling_of) {
   std::string text;
-  for (Outcome outcome : {Outcome::kUnmet, Outcome::kUndecided, Outcome::kMet}) {
+  for (Ruling ruling : {Ruling::kUnmet, Ruling::kUndecided, Ruling::kMet}) {
     const auto count =
-        std::count_if(items.begin(), items.end(), [&](const auto& item) { return outcome_of(item) == outcome; });
+        std::count_if(items.begin(), items.end(), [&](const auto& item) { return ruling_of(item) == ruling; });
     if (count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), OutcomeName(outcome));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", FormatCount(count), RulingName(ruling));
   }
   return text.empty() ? "" : Plural(static_cast<long long>(items.size()), what) + ": " + text;
 }
@@ -127,8 +127,8 @@ std::string CompareSentence(const SnapshotComparison& comparison) {
 
 std::vector<std::string> GateSentences(const GateReport& report) {
   std::vector<std::string> sentences = {
-      OutcomeCounts(report.expectations, "expectation", [](const GateExpectation& e) { return e.result.outcome; }),
-      OutcomeCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.outcome; })};
+      RulingCounts(report.expectations, "expectation", [](const GateExpectation& e) { return e.result.ruling; }),
+      RulingCounts(report.ratios, "time rule", [](const RatioResult& ratio) { return ratio.ruling; })};
   if (report.baseline_file.empty()) {
     sentences.push_back("nothing was compared: no baseline was given");
   } else if (!report.comparison.moves.empty()) {

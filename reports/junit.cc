@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-Outcome MetWhen(bool holds) { return holds ? Outcome::kMet : Outcome::kUnmet; }
+Ruling MetWhen(bool holds) { return holds ? Ruling::kMet : Ruling::kUnmet; }
 
 // A full factorial: every method must have a row in every world that any method has a row in.
 JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) {
@@ -41,7 +41,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
 
 std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenario) {
   std::vector<JunitCase> cases{EveryCellHasARow(run, scenario), NoCellBroke(FindingsOf(run, scenario))};
-  for (const ExpectationResult& e : scenario.expectations) cases.push_back({e.text, e.outcome, e.detail});
+  for (const ExpectationResult& e : scenario.expectations) cases.push_back({e.text, e.ruling, e.detail});
   return cases;
 }
 

@@ -11,12 +11,12 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
   const std::string head =
       fmt::format("    <testcase classname=\"etude.{}\" name=\"{}\"", EscapeMarkup(suite), EscapeMarkup(c.name));
   const std::string detail = EscapeMarkup(c.detail);
-  switch (c.outcome) {
-    case Outcome::kMet:
+  switch (c.ruling) {
+    case Ruling::kMet:
       return head + "/>\n";
-    case Outcome::kUnmet:
+    case Ruling::kUnmet:
       return head + fmt::format("><failure message=\"not met\">{}</failure></testcase>\n", detail);
-    case Outcome::kUndecided:
+    case Ruling::kUndecided:
       break;
   }
   return head + fmt::format("><skipped message=\"{}\"/></testcase>\n", detail);
@@ -31,8 +31,8 @@ std::string WriteJunitXml(const std::string& name, const std::vector<JunitSuite>
     std::size_t failed = 0, skipped = 0;
     std::string cases;
     for (const JunitCase& c : suite.cases) {
-      failed += c.outcome == Outcome::kUnmet;
-      skipped += c.outcome == Outcome::kUndecided;
+      failed += c.ruling == Ruling::kUnmet;
+      skipped += c.ruling == Ruling::kUndecided;
       cases += CaseXml(suite.name, c);
     }
     body += fmt::format(

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 
 /// A case of a JUnit file: met passes, unmet is a failure, undecided is skipped.
 struct JunitCase {
   std::string name;
-  Outcome outcome;
+  Ruling ruling;
   std::string detail;
 };
 

@@ -10,7 +10,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/pose_pairs.h"
-#include "reports/switches/switch_section.h"
+#include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -43,10 +43,10 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
                   findings.answer.Words(), EscapeMarkdown(findings.answer.sentence));
   text += MethodsText(findings) + PosePairsMarkdown(run, scenario) + OverviewTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
-    const std::string_view outcome = e.outcome == Outcome::kMet     ? "met"
-                                     : e.outcome == Outcome::kUnmet ? "**not met**"
-                                                                    : "undecided";
-    text += fmt::format("- {}: {}{}\n", outcome, EscapeMarkdown(e.text),
+    const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"
+                                    : e.ruling == Ruling::kUnmet ? "**not met**"
+                                                                 : "undecided";
+    text += fmt::format("- {}: {}{}\n", ruling, EscapeMarkdown(e.text),
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));
   }
   text += fmt::format("- {}\n", EscapeMarkdown(StatusSentence(findings)));
@@ -56,7 +56,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   }
   const std::string rest = LeftOutWords(findings.reasons.size(), kMostListed, "reasons", "cells.jsonl");
   if (!rest.empty()) text += fmt::format("  - {}\n", EscapeMarkdown(rest));
-  return text + SwitchesMarkdown(SwitchWorldsOf(run, scenario)) + PaperAMarkdown(scenario) +
+  return text + TransitionsMarkdown(RecordedRequestsOf(run, scenario)) + PaperAMarkdown(scenario) +
          PaperBMarkdown(run, scenario) + ComparisonTableMarkdown(scenario);
 }
 

@@ -11,7 +11,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/scenario_card.h"
-#include "reports/switches/switch_worlds.h"
+#include "reports/transitions/recorded_requests.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 
@@ -27,10 +27,10 @@ std::string Styles(const RunData& run) {
   const bool shows_curves = std::ranges::any_of(run.scenarios, [&](const ScenarioSummary& scenario) {
     return ShowsPaperA(scenario) || ShowsPaperB(run, scenario) || ShowsGrowth(scenario);
   });
-  const bool shows_switches = std::ranges::any_of(
-      run.scenarios, [&](const ScenarioSummary& scenario) { return !SwitchWorldsOf(run, scenario).empty(); });
+  const bool shows_transitions = std::ranges::any_of(
+      run.scenarios, [&](const ScenarioSummary& scenario) { return !RecordedRequestsOf(run, scenario).empty(); });
   return std::string(ReportCss()) + std::string(shows_curves ? PaperCss() : "") +
-         std::string(shows_switches ? SwitchesCss() : "");
+         std::string(shows_transitions ? TransitionsCss() : "");
 }
 
 std::string Head(const RunData& run) {

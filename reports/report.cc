@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "bench/files/files.h"
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 #include "reports/comparison_table.h"
 #include "reports/films/media.h"
 #include "reports/junit.h"
@@ -40,7 +40,7 @@ Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folde
   for (const CellRecording& recorded : run.recordings) {
     const auto row = std::ranges::find(run.rows, recorded.cell, &Row::Id);
     if (row == run.rows.end() || row->task != "capture") continue;
-    ASSIGN_OR_RETURN(const auto extras, ReadRecordingExtras(recorded.recording.extras_json));
+    ASSIGN_OR_RETURN(const auto extras, ReadCaptureExtras(recorded.recording.extras_json));
     std::string name = recorded.cell;
     std::ranges::replace(name, '/', '~');
     RETURN_IF_ERROR(WriteFileAtomically(folder / (name + ".bvh"), extras.bvh));

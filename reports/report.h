@@ -2,7 +2,8 @@
 
 #include <filesystem>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
+#include "engine/base/result.h"
 
 namespace etude {
 

@@ -15,7 +15,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/pose_pairs.h"
-#include "reports/switches/switch_section.h"
+#include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/left_out.h"
@@ -69,7 +69,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
   if (scenario.expectations.empty()) return "";
   std::string html = "<ul class=\"expectations\">", figures;
   for (const ExpectationResult& e : scenario.expectations) {
-    const bool met = e.outcome == Outcome::kMet, unmet = e.outcome == Outcome::kUnmet;
+    const bool met = e.ruling == Ruling::kMet, unmet = e.ruling == Ruling::kUnmet;
     html += fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span></li>",
                         met     ? "met"
                         : unmet ? "unmet"
@@ -142,7 +142,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += StatusBar(findings);
   html += PosePairsHtml(run, scenario);
   html += OverviewTableHtml(scenario);
-  html += SwitchesHtml(SwitchWorldsOf(run, scenario));
+  html += TransitionsHtml(RecordedRequestsOf(run, scenario));
   html += PaperAHtml(scenario);
   html += PaperBHtml(run, scenario);
   html += GrowthHtml(run, scenario);

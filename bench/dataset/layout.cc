@@ -20,7 +20,7 @@ bool IsPlain(char c) {
 std::vector<std::string> ConditionFolders(const Scenario& scenario) {
   std::vector<std::string> folders;
   for (const Condition& condition : scenario.conditions) {
-    std::string name = condition.settings.empty() ? "all" : CompactLabel(condition.settings).substr(0, kLongestName);
+    std::string name = condition.swept.empty() ? "all" : CompactLabel(condition.swept).substr(0, kLongestName);
     std::replace_if(
         name.begin(), name.end(), [](char c) { return !IsPlain(c); }, '_');
     std::string unique = name;

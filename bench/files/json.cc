@@ -23,6 +23,8 @@ std::optional<std::string> FindNonFinite(const Json& json) {
 
 }  // namespace
 
+void DeleteJson::operator()(Json* json) const { delete json; }
+
 Result<std::string> WriteJson(const Json& json) {
   if (const auto path = FindNonFinite(json)) return Fail({}, "{} is not a finite number", *path);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

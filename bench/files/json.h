@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -9,6 +10,14 @@
 namespace etude {
 
 using Json = nlohmann::ordered_json;
+
+/// Deletes where the type is known, so that whoever only passes a value on need not read nlohmann's header.
+struct DeleteJson {
+  DeleteJson() = default;
+  DeleteJson(std::default_delete<Json>) {}  // NOLINT: what std::make_unique made is welcome
+  void operator()(Json* json) const;
+};
+using JsonPtr = std::unique_ptr<Json, DeleteJson>;
 
 /// The one way JSON leaves Etude: one line, keys in the order given, shortest digits that read back the
 /// same. Refuses NaN and infinity, which nlohmann would silently write as null, naming their path.

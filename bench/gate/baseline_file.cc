@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bench/files/files.h"
+#include "bench/files/json.h"
 #include "bench/metrics/catalogue.h"
 
 namespace etude {

@@ -21,7 +21,7 @@ Result<void> RequireComparable(const Snapshot& baseline, const Snapshot& now, co
 std::set<std::string> ExactScenarios(const FinishedRun& run) {
   std::set<std::string> exact;
   for (const FinishedScenario& one : run.scenarios) {
-    if (one.scenario.gate.exact) exact.insert(one.scenario.name);
+    if (one.study.gate.exact) exact.insert(one.study.scenario);
   }
   return exact;
 }
@@ -75,7 +75,7 @@ bool IsRegression(const MetricMove& move) {
 
 GateVerdict GateVerdictOf(const GateReport& report) {
   if (!report.incomplete.empty()) return GateVerdict::kNotWhole;
-  const auto unmet = [](const auto& judged) { return judged.outcome == Outcome::kUnmet; };
+  const auto unmet = [](const auto& judged) { return judged.ruling == Ruling::kUnmet; };
   const bool fails = std::any_of(report.comparison.moves.begin(), report.comparison.moves.end(), IsRegression) ||
                      std::any_of(report.ratios.begin(), report.ratios.end(), unmet) ||
                      std::any_of(report.expectations.begin(), report.expectations.end(),

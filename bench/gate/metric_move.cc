@@ -1,5 +1,7 @@
 #include "bench/gate/metric_move.h"
 
+#include <fmt/core.h>
+
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/compare.h"
 #include "bench/statistics/holm.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 

@@ -23,9 +23,6 @@ struct SnapshotCells {
   std::vector<SnapshotValues> metrics;  ///< in the order of SnapshotScenario::metrics
 };
 
-/// A name with what its values depend on: when that differs, so does what the name stands for.
-using NamedDigests = std::vector<std::pair<std::string, std::string>>;
-
 struct SnapshotScenario {
   std::string name;
   std::uint64_t seed = 1;
@@ -49,8 +46,7 @@ char StatusLetter(Status status);
 /// row says nothing about the method that another run could repeat.
 bool DependsOnMachine(char letter);
 
-/// Takes the gated metrics of a whole run. What worlds are digests of leaves out all that does not shape them
-/// (questions, expectations, gate rules, comments), so that editing those keeps a baseline valid.
+/// Takes the gated metrics of a whole run.
 Snapshot TakeSnapshot(const FinishedRun& run);
 
 }  // namespace etude

@@ -25,7 +25,7 @@ std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, 
 }
 
 RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, const TimeRatio& rule) {
-  RatioResult result{scenario.scenario.name, rule, 0, {}, {}, {}, Outcome::kUndecided};
+  RatioResult result{scenario.study.scenario, rule, 0, {}, {}, {}, Ruling::kUndecided};
   const auto over = SecondsOf(run, result.scenario, rule.over);
   std::vector<double> ratios;
   for (const auto& [world, seconds] : SecondsOf(run, result.scenario, rule.of)) {
@@ -34,15 +34,15 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
   result.pairs = static_cast<int>(ratios.size());
   if (ratios.empty()) return result;
   result.median = Quantile(ratios, 0.5);
-  const auto interval = BootstrapInterval(ratios, Aggregate::kMedian, scenario.setup.seed,
+  const auto interval = BootstrapInterval(ratios, Aggregate::kMedian, scenario.seed,
                                           fmt::format("time/{}/{}/{}", result.scenario, rule.of, rule.over));
   if (!interval) return result;
   result.ci_low = interval->low;
   result.ci_high = interval->high;
   if (*result.median <= rule.at_most) {
-    result.outcome = Outcome::kMet;
+    result.ruling = Ruling::kMet;
   } else if (interval->low > rule.at_most) {
-    result.outcome = Outcome::kUnmet;
+    result.ruling = Ruling::kUnmet;
   }
   return result;
 }
@@ -52,7 +52,7 @@ RatioResult Judge(const FinishedRun& run, const FinishedScenario& scenario, cons
 std::vector<RatioResult> JudgeTimeRatios(const FinishedRun& run) {
   std::vector<RatioResult> results;
   for (const FinishedScenario& scenario : run.scenarios) {
-    for (const TimeRatio& rule : scenario.scenario.gate.time_ratios) results.push_back(Judge(run, scenario, rule));
+    for (const TimeRatio& rule : scenario.study.gate.time_ratios) results.push_back(Judge(run, scenario, rule));
   }
   return results;
 }

@@ -16,7 +16,7 @@ struct RatioResult {
   std::optional<double> median, ci_low, ci_high;  ///< of processor time over processor time
   /// Unmet when the whole interval lies above the limit, for a busy machine moves single times; undecided when
   /// only the median does, or when too few worlds have both times.
-  Outcome outcome = Outcome::kUndecided;
+  Ruling ruling = Ruling::kUndecided;
 };
 
 /// Judges the time rules of all scenarios. Both times of a pair come from the same world of the same run.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,16 @@ struct MetricInput {
   std::string meaning;  ///< shape and unit
 };
 
+/// A metric's value for one input, known without this program: what another implementation must agree with.
+struct MetricVector {
+  std::string_view title;          ///< what it is about: "one joint of twenty jumps"
+  std::string_view input_json;     ///< one JSON object, with the keys of MetricInfo::inputs
+  std::optional<double> expected;  ///< nothing: the metric has no value here
+  std::string_view null_reason;    ///< why it has none; "" when it has
+  double tolerance = 0;            ///< absolute, in the metric's unit
+  std::string_view source;         ///< "derived: …" or "published: …"
+};
+
 /// What a metric means: the entry that tables, comparisons and other implementations go by.
 struct MetricInfo {
   std::string id;     ///< unit in the name, e.g. "position_error_cm"
@@ -35,11 +46,12 @@ struct MetricInfo {
   std::string formula;              ///< the definition to the letter: frames, denominators, edge cases
   std::string null_rule;            ///< when it has no value although the method answered
   std::string source;               ///< where the definition comes from
-  std::vector<MetricInput> inputs;  ///< what its test vectors give (bench/metrics/vectors.h)
-  std::string domain = {};          ///< "Inverse kinematics", …: its heading on the page
+  std::vector<MetricInput> inputs;  ///< what its test vectors give
+  std::span<const MetricVector> vectors = {};
+  std::string domain = {};  ///< "Inverse kinematics", …: its heading on the page
 };
 
-/// In the order of tables and of docs/metrics.md.
+/// All files of bench/metrics/catalogue, in the order of tables and of docs/metrics.md.
 std::span<const MetricInfo> AllMetrics();
 /// Null when there is no such metric.
 const MetricInfo* FindMetric(std::string_view id);

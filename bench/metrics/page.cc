@@ -2,7 +2,6 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/metrics/export.h"
-#include "bench/metrics/vectors.h"
 
 namespace etude {
 namespace {
@@ -55,18 +54,19 @@ std::string Facts(const MetricInfo& metric) {
 }
 
 std::string ExpectedText(const MetricVector& vector) {
-  if (!vector.expected) return "null: " + vector.null_reason;
+  if (!vector.expected) return fmt::format("null: {}", vector.null_reason);
   return vector.tolerance > 0 ? fmt::format("{:.9g} ± {:g}", *vector.expected, vector.tolerance)
                               : fmt::format("{:.9g}", *vector.expected);
 }
 
 /// What a table's cell cannot hold: the bar that ends it.
-std::string InTable(std::string text) {
+std::string InTable(std::string_view content) {
+  std::string text(content);
   for (std::size_t at = text.find('|'); at != std::string::npos; at = text.find('|', at + 2)) text.insert(at, "\\");
   return text;
 }
 
-std::string Section(const MetricInfo& metric, const std::vector<MetricVector>& vectors) {
+std::string Section(const MetricInfo& metric) {
   std::string text = fmt::format("\n### `{}`\n\n{}\n\n{}\n\n", metric.id, Facts(metric), metric.definition);
   text += fmt::format("- **Formula.** {}\n- **Null.** {}\n", metric.formula, metric.null_rule);
   text += fmt::format("- **Matters from {} on.** {}\n", Amount(metric.practical, metric.unit), metric.practical_reason);
@@ -75,8 +75,7 @@ std::string Section(const MetricInfo& metric, const std::vector<MetricVector>& v
     text += fmt::format("{} `{}`: {}", &input == &metric.inputs.front() ? "" : ";", input.key, input.meaning);
   }
   text += ".\n\n| vector | value | where from |\n|---|---|---|\n";
-  for (const MetricVector& vector : vectors) {
-    if (vector.metric != metric.id) continue;
+  for (const MetricVector& vector : metric.vectors) {
     text +=
         fmt::format("| {} | {} | {} |\n", InTable(vector.title), InTable(ExpectedText(vector)), InTable(vector.source));
   }
@@ -85,14 +84,13 @@ std::string Section(const MetricInfo& metric, const std::vector<MetricVector>& v
 
 }  // namespace
 
-Result<std::string> MetricsPage() {
-  ASSIGN_OR_RETURN(const auto vectors, AllVectors());
+std::string MetricsPage() {
   std::string page(kIntroduction);
   std::string domain;
   for (const MetricInfo& metric : AllMetrics()) {
     if (metric.domain != domain) page += fmt::format("\n## {}\n", metric.domain);
     domain = metric.domain;
-    page += Section(metric, vectors);
+    page += Section(metric);
   }
   return page;
 }

@@ -14,8 +14,8 @@
 
 #include "bench/micro/bridge_search_data.h"
 #include "bench/micro/search_peers.h"
-#include "engine/bridging/search/grade_index.h"
-#include "engine/bridging/search/partners.h"
+#include "engine/transitions/search/frame_matches.h"
+#include "engine/transitions/search/grade_index.h"
 
 namespace etude {
 namespace {
@@ -194,7 +194,7 @@ void RegisterBuild(Libraries& libraries, int count, const std::string& name, aut
 
 /// Every frame's partners in every other clip, and the matrix.
 void FindAllPartners(benchmark::State& state, const std::vector<std::vector<Grades>>& clips) {
-  std::vector<PartnerClip> partner_clips;
+  std::vector<MatchClip> partner_clips;
   double frames = 0;
   for (const std::vector<Grades>& clip : clips) {
     partner_clips.push_back({.grades = clip});
@@ -204,7 +204,7 @@ void FindAllPartners(benchmark::State& state, const std::vector<std::vector<Grad
   SearchWork work;
   for (auto _ : state) {
     work = {};
-    const PartnerTable table = FindPartners(partner_clips, {}, &work);
+    const MatchTable table = FindMatches(partner_clips, {}, &work);
     shares = 0;
     for (int a = 0; a < table.ClipCount(); ++a) {
       for (int b = 0; b < table.ClipCount(); ++b) shares += table.Share(a, b);

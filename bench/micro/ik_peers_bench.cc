@@ -14,6 +14,7 @@
 #include "bench/micro/ik_trials.h"
 #include "bench/micro/kdl_peer.h"
 #include "bench/micro/simbody_peer.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 constexpr int kTrials = 200;
 constexpr double kJointNoiseDeg = 15;
-constexpr char kOurs[] = "ccd-nullspace";
+constexpr char kOurs[] = "gauss-newton";
 constexpr int kRounds = 5;  // as many for everyone: the best of more would look better
 
 struct Method {
@@ -60,9 +61,9 @@ bool IsSolved(const IkProblem& problem, const std::vector<double>& angles, const
   return FindWorst(errors, problem.targets).Within(goals);
 }
 
-Method Ours(const std::string& solver, int max_iterations, const IkTuning& tuning = {}, std::string name = {}) {
+Method Ours(const std::string& solver, int max_iterations, std::vector<double> settings = {}, std::string name = {}) {
   IkOptions options = Tightly(max_iterations);
-  options.tuning = tuning;
+  options.solver_settings = std::move(settings);
   return {name.empty() ? solver : name, [options, found = FindIkSolver(solver)](const IkProblem& problem) {
             return found->solve(Body(), problem, options).angles;
           }};
@@ -122,14 +123,12 @@ void Measure(benchmark::State& state, const Method& method, double pose_range) {
 }
 
 std::vector<Method> AllMethods() {
-  IkTuning narrow;
-  narrow.first_radius = 1;
   return {
       Ours(kOurs, 200),
       Ours("ccd-anderson", 1000),
       Ours("ccd-hinges", 2000),
-      Ours("ceres-lm", 1000, {}, "ceres-lm/radius 10"),
-      Ours("ceres-lm", 1000, narrow, "ceres-lm/radius 1"),
+      Ours("ceres-lm", 1000, {10}, "ceres-lm/radius 10"),
+      Ours("ceres-lm", 1000, {1}, "ceres-lm/radius 1"),
       Peer("kdl-online", MakeKdlOnline(Body(), {})),
       Peer("kdl-newton", MakeKdlNewton(Body(), {.damping = 0.03, .position_weight = 1})),
       Peer("simbody-assembler", MakeSimbodyAssembler(Body(), {})),

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "bench/micro/ik_trials.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {

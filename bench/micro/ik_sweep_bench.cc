@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/batch_sweep.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "engine/kinematics/solvers/moment_sweep.h"

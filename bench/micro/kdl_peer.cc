@@ -33,7 +33,7 @@ KDL::Tree ToKdl(const KinematicTree& tree) {
   std::vector<KDL::Frame> offsets(tree.joints.size());              // from there to the limb
   for (std::size_t n = 0; n < tree.joints.size(); ++n) {
     const TreeJoint& joint = tree.joints[n];
-    KDL::Frame base(ToRotation(joint.rest), ToVector(joint.offset));
+    KDL::Frame base(ToRotation(joint.R_PJ), ToVector(joint.p_PJ));
     if (joint.parent < 0) {
       offsets[n] = KDL::Frame(ToRotation(rest.root_frame), ToVector(rest.root_position));
       continue;
@@ -44,7 +44,7 @@ KDL::Tree ToKdl(const KinematicTree& tree) {
       KDL::Frame beyond = base;  // where the next segment begins while this angle is zero
       if (axis == joint.dof_count - 1) {
         for (const Effector& effector : tree.effectors) {
-          if (effector.joint == static_cast<int>(n)) beyond = beyond * KDL::Frame(ToVector(effector.offset));
+          if (effector.joint == static_cast<int>(n)) beyond = beyond * KDL::Frame(ToVector(effector.p_LE));
         }
       }
       const KDL::Vector turn = base.M * KDL::Vector(axis == 0, axis == 1, axis == 2);

@@ -1,5 +1,5 @@
-// Planning one switch, by every choice: clips of 1,000 frames (33 s), a second to wait; beside the point-cloud distance
-// computed pair by pair, as its paper writes it down. Both find the same frames, which is checked first.
+// Planning one transition, by every choice: clips of 1,000 frames (33 s), a second to wait; beside the point-cloud
+// distance computed pair by pair, as its paper writes it down. Both find the same frames, which is checked first.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "bench/micro/bridge_search_data.h"
 #include "engine/fuzzy/features.h"
-#include "engine/switching/choices/choice.h"
-#include "engine/switching/choices/diagonal_sums.h"
-#include "engine/switching/choices/pair_rows.h"
+#include "engine/transitions/choices/choice.h"
+#include "engine/transitions/choices/diagonal_sums.h"
+#include "engine/transitions/choices/matching.h"
 #include "sim/choreography/varied_library.h"
 
 namespace etude {
@@ -29,11 +29,11 @@ MotionLibrary MakeClips() {
   }
   const BodyPose& dancer = seeds.front().poses.front();
   return MakeLibrary(std::vector<std::string>(clips.size(), "clip"), clips,
-                     MakePhysique(dancer, StandingHipHeight(dancer)));
+                     MakeBodyProportions(dancer, StandingHipHeight(dancer)));
 }
 
-std::vector<SwitchRequest> Requests(const MotionLibrary& library) {
-  std::vector<SwitchRequest> requests;
+std::vector<TransitionRequest> Requests(const MotionLibrary& library) {
+  std::vector<TransitionRequest> requests;
   const int clips = static_cast<int>(library.motions.size());
   for (int from = 0; from < clips; ++from) {
     requests.push_back({.from = from, .request_frame = 100 * from, .to = (from + 1) % clips});
@@ -72,14 +72,15 @@ struct Pair {
   int from = 0, to = 0;
 };
 
-Pair NearestPairByPair(const MotionLibrary& library, const SwitchRequest& request, const SwitchRules& rules) {
+Pair NearestPairByPair(const MotionLibrary& library, const TransitionRequest& request) {
   const BodyMotion &playing = library.motions[request.from], &next = library.motions[request.to];
-  const PairRange range = AllowedPairs(library, request, rules);
-  const int half = static_cast<int>(std::lround(0.5 * rules.window_s * playing.rate_hz));
+  const PointCloudOptions options;
+  const AllowedFrames allowed = AllowedAnyFrames(library, request, options.least_play_s);
+  const int half = static_cast<int>(std::lround(0.5 * options.window_s * playing.rate_hz));
   Pair best;
   double least = std::numeric_limits<double>::infinity();
-  for (int from = range.leave.first; from <= range.leave.last; ++from) {
-    for (int to = 0; to < range.enter_end; ++to) {
+  for (int from : allowed.leave) {
+    for (int to : allowed.enter) {
       const double distance = CloudDistance(playing, from, next, to, half);
       if (distance >= least) continue;
       least = distance;
@@ -90,21 +91,21 @@ Pair NearestPairByPair(const MotionLibrary& library, const SwitchRequest& reques
 }
 
 void CompareAnswers(const MotionLibrary& library) {
-  for (const SwitchRequest& request : Requests(library)) {
-    const SwitchRecord record = FindChoice("point-cloud")->plan(library, request, {});
-    const Pair pair = NearestPairByPair(library, request, {});
-    if (record.legs.front().last == pair.from && record.legs.back().first == pair.to) continue;
+  for (const TransitionRequest& request : Requests(library)) {
+    const TransitionRecord record = FindChoice("point-cloud")->plan(library, request, {}, {});
+    const Pair pair = NearestPairByPair(library, request);
+    if (record.segments.front().last == pair.from && record.segments.back().first == pair.to) continue;
     std::fprintf(stderr, "pair by pair, other frames are nearest than in rows\n");
     std::exit(1);
   }
 }
 
-/// Plans all switches in turn; the time shown is the mean over them.
+/// Plans all transitions in turn; the time shown is the mean over them.
 void RegisterPlanning(const MotionLibrary& library, const std::string& name, auto plan) {
   benchmark::RegisterBenchmark(("plan/" + name).c_str(), [=, &library](benchmark::State& state) {
-    const std::vector<SwitchRequest> requests = Requests(library);
+    const std::vector<TransitionRequest> requests = Requests(library);
     while (state.KeepRunningBatch(static_cast<std::int64_t>(requests.size()))) {
-      for (const SwitchRequest& request : requests) benchmark::DoNotOptimize(plan(library, request, SwitchRules{}));
+      for (const TransitionRequest& request : requests) benchmark::DoNotOptimize(plan(library, request));
     }
   })->Unit(benchmark::kMicrosecond);
 }
@@ -116,7 +117,11 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   const etude::MotionLibrary library = etude::MakeClips();
   etude::CompareAnswers(library);
-  for (const etude::Choice& choice : etude::AllChoices()) etude::RegisterPlanning(library, choice.name, choice.plan);
+  for (const etude::Choice& choice : etude::AllChoices()) {
+    etude::RegisterPlanning(library, choice.name, [&](const auto& clips, const auto& request) {
+      return choice.plan(clips, request, {}, {});
+    });
+  }
   etude::RegisterPlanning(library, "point-cloud, pair by pair", etude::NearestPairByPair);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/bridging/search/grade_index.h"
 #include "engine/fuzzy/distance.h"
+#include "engine/transitions/search/grade_index.h"
 
 namespace etude {
 

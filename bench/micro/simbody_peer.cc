@@ -9,7 +9,7 @@ std::vector<SimbodyModel::Joint> ToJoints(const KinematicTree& tree) {
   for (const TreeJoint& from : tree.joints) {
     SimbodyModel::Joint& joint = joints.emplace_back();
     joint.parent = from.parent;
-    joint.base = {from.offset, from.rest};
+    joint.base = {from.p_PJ, from.R_PJ};
     if (from.parent < 0) joint.base = {standing.root_position, standing.root_frame};
     joint.dof_count = from.dof_count;
     for (int axis = 0; axis < from.dof_count; ++axis) {
@@ -22,7 +22,7 @@ std::vector<SimbodyModel::Joint> ToJoints(const KinematicTree& tree) {
 
 std::vector<SimbodyModel::Effector> ToEffectors(const KinematicTree& tree) {
   std::vector<SimbodyModel::Effector> effectors;
-  for (const Effector& from : tree.effectors) effectors.push_back({from.joint, from.offset});
+  for (const Effector& from : tree.effectors) effectors.push_back({from.joint, from.p_LE});
   return effectors;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/files/temporary_folder.h"
-#include "bench/tasks/base/task.h"
+#include "bench/model/payload.h"
 
 namespace etude {
 

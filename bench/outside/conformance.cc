@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-constexpr int kEndAllowedMs = 2000;
+constexpr int kLongestEndingMs = 2000;
 
 /// What a method made of a problem, in a form that can be compared: its answer, or why it gave none.
 struct Attempt {
@@ -34,9 +34,9 @@ class Examination {
     CheckOrder();
     CheckSettings();
     CheckLongLines();
-    const std::string end = method_.End(kEndAllowedMs);
+    const std::string end = method_.End(kLongestEndingMs);
     Report("ends when its input ends", end == "exit code 0",
-           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kEndAllowedMs / 1000) : end);
+           end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kLongestEndingMs / 1000) : end);
     return all_passed_;
   }
 
@@ -115,7 +115,7 @@ class Examination {
 
   /// In a new program, from the last problem to the first.
   void CheckOrder() {
-    method_.End(kEndAllowedMs);
+    method_.End(kLongestEndingMs);
     std::string difference;
     for (std::size_t i = first_.size(); i-- > 0 && difference.empty();) {
       difference = Compare(Ask(specimens_[0], specimens_[0].problems[i]), i);
@@ -137,7 +137,7 @@ class Examination {
 
   void CheckLongLines() {
     const SpecimenProblem& problem = specimens_[0].problems[0];
-    Payload shown{std::make_unique<Json>(*problem.problem.json), problem.problem.files};
+    Payload shown = PayloadOf(*problem.problem.json, problem.problem.files);
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
     const std::string id = "a \"long\" one, größer";
     ReportDifference("takes long lines, keys it does not know, and ids of any text",

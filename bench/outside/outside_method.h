@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "bench/files/json.h"
-#include "bench/tasks/base/task.h"
+#include "bench/model/cell_result.h"
+#include "bench/model/payload.h"
 
 namespace etude {
 
@@ -30,7 +31,7 @@ double LongestAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is what it said; else it gave none, and why
   std::string reason;
-  std::unique_ptr<Json> answer;  ///< an object, whose numbers are finite
+  JsonPtr answer;  ///< an object, whose numbers are finite
   double cpu_s = 0;              ///< of the program since its last reply; zero when it ended before it was looked at
   double peak_mb = 0;  ///< the largest resident size seen while it worked on this; looked at 50 times a second
 };

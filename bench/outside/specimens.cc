@@ -1,7 +1,6 @@
 #include "bench/outside/specimens.h"
 
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "bench/tasks/registry.h"
 #include "engine/base/names.h"

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "bench/model/row.h"
 #include "bench/replay/replay.h"
-#include "bench/results/run_data.h"
 
 namespace etude {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "bench/files/json.h"
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kDigestPrefix = "digest_";
 
 /// A swept value as the number it looks like, so that tables can plot against it; else as text.
-Json SettingValue(const std::string& text) {
+Json ValueAsJson(const std::string& text) {
   double number = 0;
   const char* end = text.data() + text.size();
   const auto [stop, status] = std::from_chars(text.data(), end, number);
@@ -21,8 +21,8 @@ Json SettingValue(const std::string& text) {
   return text;
 }
 
-std::vector<Setting> SplitCondition(const std::string& label) {
-  std::vector<Setting> settings;
+std::vector<SweptValue> SplitCondition(const std::string& label) {
+  std::vector<SweptValue> settings;
   for (std::size_t at = 0; at < label.size() && label != "-";) {
     const std::size_t end = std::min(label.find(',', at), label.size());
     const std::size_t equals = label.find('=', at);
@@ -62,9 +62,9 @@ Json EncodeRow(const Row& row) {
   json["scenario"] = row.scenario;
   json["task"] = row.task;
   json["condition"] = CompactLabel(row.condition);
-  for (const Setting& setting : row.condition) {
+  for (const SweptValue& swept : row.condition) {
     // A parameter named like a metric (a transition's wait_s) leaves the column to what was measured.
-    if (FindMetric(setting.key) == nullptr) json[setting.key] = SettingValue(setting.value);
+    if (FindMetric(swept.key) == nullptr) json[swept.key] = ValueAsJson(swept.value);
   }
   json["trial"] = row.trial;
   json["clip"] = row.clip.empty() ? Json(nullptr) : Json(row.clip);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/files/json.h"
-#include "bench/results/run_data.h"
+#include "bench/model/row.h"
 
 namespace etude {
 

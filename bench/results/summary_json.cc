@@ -20,9 +20,9 @@ Enum ByName(const std::string& name, std::string_view (*name_of)(Enum), int coun
   throw Json::other_error::create(501, "unknown name '" + name + "'", nullptr);
 }
 
-Json Encode(const std::vector<Setting>& condition) {
+Json Encode(const std::vector<SweptValue>& condition) {
   Json json = Json::array();
-  for (const Setting& setting : condition) json.push_back({{"key", setting.key}, {"value", setting.value}});
+  for (const SweptValue& swept : condition) json.push_back({{"key", swept.key}, {"value", swept.value}});
   return json;
 }
 
@@ -79,10 +79,10 @@ Json Encode(const Comparison& comparison) {
           {"notes", comparison.notes}};
 }
 
-std::vector<Setting> DecodeCondition(const Json& json) {
-  std::vector<Setting> condition;
-  for (const Json& setting : json) {
-    condition.push_back({setting.at("key").get<std::string>(), setting.at("value").get<std::string>()});
+std::vector<SweptValue> DecodeCondition(const Json& json) {
+  std::vector<SweptValue> condition;
+  for (const Json& swept : json) {
+    condition.push_back({swept.at("key").get<std::string>(), swept.at("value").get<std::string>()});
   }
   return condition;
 }
@@ -162,7 +162,7 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
     Json expectations = Json::array();
     for (const ExpectationResult& expectation : scenario.expectations) {
       expectations.push_back(
-          {{"text", expectation.text}, {"outcome", OutcomeName(expectation.outcome)}, {"detail", expectation.detail}});
+          {{"text", expectation.text}, {"outcome", RulingName(expectation.ruling)}, {"detail", expectation.detail}});
     }
     list.push_back({{"name", scenario.name},
                     {"task", scenario.task},
@@ -196,7 +196,7 @@ Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Pla
       }
       for (const Json& expectation : entry.at("expectations")) {
         scenario.expectations.push_back({expectation.at("text").get<std::string>(),
-                                         ByName<Outcome>(expectation.at("outcome").get<std::string>(), OutcomeName, 3),
+                                         ByName<Ruling>(expectation.at("outcome").get<std::string>(), RulingName, 3),
                                          expectation.at("detail").get<std::string>()});
       }
       scenarios.push_back(std::move(scenario));

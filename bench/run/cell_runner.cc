@@ -125,7 +125,7 @@ CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
     problem_ = std::make_unique<Payload>(std::move(*problem));
   }
   const std::string setting_id =
-      scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].settings);
+      scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
   const std::string problem_id = fmt::format("{}/{}", setting_id, trial_);
   const OutsideReply reply = outside_.at(method).Ask(setting_id, *setting_, problem_id, *problem_);
   usage.cpu_s += reply.cpu_s;

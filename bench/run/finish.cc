@@ -5,6 +5,7 @@
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "bench/run/cell_json.h"
+#include "bench/scenario/study_of.h"
 #include "bench/statistics/summary.h"
 
 namespace etude {
@@ -30,7 +31,7 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable cells
     const Scenario& scenario = prepared.scenario();
     const std::size_t count =
         scenario.conditions.size() * static_cast<std::size_t>(scenario.trials) * scenario.methods.size();
-    summaries.push_back(Summarise(scenario, std::span(rows).subspan(at, count), prepared.setup().seed));
+    summaries.push_back(Summarise(StudyOf(scenario), std::span(rows).subspan(at, count), prepared.setup().seed));
     at += count;
   }
   RETURN_IF_ERROR(SaveResults(folder, rows, summaries));

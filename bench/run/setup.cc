@@ -152,7 +152,7 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   Row row;
   row.scenario = scenario_.name;
   row.task = scenario_.task;
-  row.condition = scenario_.conditions[condition].settings;
+  row.condition = scenario_.conditions[condition].swept;
   row.trial = trial;
   row.clip = tasks_[condition]->ClipOf(KeyOf(trial));
   row.method = scenario_.methods[method].name;

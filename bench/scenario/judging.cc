@@ -29,9 +29,9 @@ std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
   return metrics;
 }
 
-/// The settings of `where`, each of which must be one of the sweep's own.
-std::vector<Setting> ReadWhere(Fields& fields, const Scenario& scenario) {
-  std::vector<Setting> where;
+/// The swept values of `where`, each of which must be one of the sweep's own.
+std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
+  std::vector<SweptValue> where;
   const Node* node = fields.Raw("where");
   if (node == nullptr) return where;
   if (node->kind != Node::Kind::kMapping) {
@@ -40,8 +40,8 @@ std::vector<Setting> ReadWhere(Fields& fields, const Scenario& scenario) {
   }
   std::vector<std::string> known;
   for (const Condition& condition : scenario.conditions) {
-    for (const Setting& setting : condition.settings) {
-      const std::string text = setting.key + ": " + setting.value;
+    for (const SweptValue& swept : condition.swept) {
+      const std::string text = swept.key + ": " + swept.value;
       if (!Contains(known, text)) known.push_back(text);
     }
   }
@@ -55,11 +55,11 @@ std::vector<Setting> ReadWhere(Fields& fields, const Scenario& scenario) {
     where.push_back({entry.key, entry.value.scalar});
   }
   // Values that are stepped through together do not meet in every combination.
-  const auto has = [](const Condition& condition, const Setting& setting) {
-    return std::find(condition.settings.begin(), condition.settings.end(), setting) != condition.settings.end();
+  const auto has = [](const Condition& condition, const SweptValue& swept) {
+    return std::find(condition.swept.begin(), condition.swept.end(), swept) != condition.swept.end();
   };
   const auto is_meant = [&](const Condition& condition) {
-    return std::all_of(where.begin(), where.end(), [&](const Setting& setting) { return has(condition, setting); });
+    return std::all_of(where.begin(), where.end(), [&](const SweptValue& swept) { return has(condition, swept); });
   };
   if (std::none_of(scenario.conditions.begin(), scenario.conditions.end(), is_meant)) {
     fields.Complain(node->place, fmt::format("no condition has {}", ConditionLabel(where)));

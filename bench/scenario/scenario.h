@@ -7,27 +7,15 @@
 #include <vector>
 
 #include "bench/keys/field_table.h"
-#include "bench/results/run_data.h"
+#include "bench/model/study.h"
 #include "bench/tasks/base/task.h"
 #include "engine/document/node.h"
 
 namespace etude {
 
-/// What a scenario says should come out: judged after the run, shown in the report.
-struct Expectation {
-  std::string metric;
-  std::string of;                           ///< the method judged
-  std::string below, above;                 ///< the method it is compared with on the same worlds; at most one is set
-  std::optional<double> at_most, at_least;  ///< or the bound its statistic must keep
-  std::string statistic = "median";         ///< median, mean or p95; for bounds
-  double confidence = 0.95;                 ///< of a comparison: its interval, and 1 − the level of its test
-  std::vector<Setting> where;               ///< judged in these conditions only; empty = in all of them
-  Place place;
-};
-
 /// One value of each swept parameter, and the scenario's mapping with those values put in.
 struct Condition {
-  std::vector<Setting> settings;  ///< empty when nothing is swept
+  std::vector<SweptValue> swept;  ///< empty when nothing is swept
   Node node;
 };
 
@@ -51,20 +39,6 @@ struct MethodEntry {
 struct Limits {
   double time_s = 300;
   double memory_mb = 4096;  ///< resident, of the worker and of the methods outside that it has started, each
-};
-
-/// A ratio of processor times measured in the same run, the only way in which times are judged.
-struct TimeRatio {
-  std::string of, over;  ///< methods
-  double at_most = 1;    ///< of the median of paired ratios
-  Place place;
-};
-
-/// What `etude gate` holds against a baseline, for this scenario.
-struct GateRules {
-  std::vector<std::string> metrics;  ///< the headline metrics when the file names none
-  bool exact = false;                ///< every difference is a regression; else only one that matters (threshold)
-  std::vector<TimeRatio> time_ratios;
 };
 
 /// A question put to several methods on the same worlds (docs/scenarios.md), as its file says it. The keys

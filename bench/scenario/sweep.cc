@@ -29,7 +29,7 @@ bool SamePoint(const Point& a, const Point& b) {
 /// The condition with the keys of `point` set.
 Condition At(Condition condition, const Point& point) {
   for (const Node::Entry& entry : point) {
-    condition.settings.push_back({entry.key, entry.value.scalar});
+    condition.swept.push_back({entry.key, entry.value.scalar});
     std::erase_if(condition.node.entries, [&](const Node::Entry& other) { return other.key == entry.key; });
     condition.node.entries.push_back(entry);
   }
@@ -57,7 +57,7 @@ Result<Axis> ReadAxis(const std::vector<Node::Entry>& parameters) {
     if (point.size() == 1) {
       return Fail(point[0].value.place, "the value '{}' stands here twice", point[0].value.scalar);
     }
-    return Fail(point[0].value.place, "the values '{}' stand here twice", ConditionLabel(At({}, point).settings));
+    return Fail(point[0].value.place, "the values '{}' stand here twice", ConditionLabel(At({}, point).swept));
   }
   return axis;
 }

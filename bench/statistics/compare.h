@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 #include "bench/statistics/interval.h"
 
 namespace etude {

@@ -9,11 +9,10 @@
 namespace etude {
 namespace {
 
-bool Matches(const Condition& condition, const std::vector<Setting>& where) {
-  return std::all_of(where.begin(), where.end(), [&](const Setting& wanted) {
-    return std::any_of(condition.settings.begin(), condition.settings.end(), [&](const Setting& setting) {
-      return setting.key == wanted.key && setting.value == wanted.value;
-    });
+bool Matches(const std::vector<SweptValue>& condition, const std::vector<SweptValue>& where) {
+  return std::all_of(where.begin(), where.end(), [&](const SweptValue& wanted) {
+    return std::any_of(condition.begin(), condition.end(),
+                       [&](const SweptValue& swept) { return swept.key == wanted.key && swept.value == wanted.value; });
   });
 }
 
@@ -33,7 +32,7 @@ std::string Claim(const Expectation& expectation) {
 }
 
 struct Finding {
-  Outcome outcome;
+  Ruling ruling;
   std::string detail;
 };
 
@@ -49,55 +48,55 @@ Finding JudgeComparison(const Expectation& expectation, std::span<const Row* con
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
   if (!found.ci_low)
-    return {Outcome::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
-  const Outcome outcome = found.verdict == Verdict::kBetter         ? Outcome::kMet
-                          : found.verdict == Verdict::kInconclusive ? Outcome::kUndecided
-                                                                    : Outcome::kUnmet;
+    return {Ruling::kUndecided, fmt::format("only {} worlds have both values{}", found.pairs, missing)};
+  const Ruling ruling = found.verdict == Verdict::kBetter         ? Ruling::kMet
+                        : found.verdict == Verdict::kInconclusive ? Ruling::kUndecided
+                                                                  : Ruling::kUnmet;
   std::string detail = fmt::format("difference {:.4g} ({:.4g} % interval {:.4g} to {:.4g}, p = {:.2g}) on {} worlds{}",
                                    *found.difference, 100 * expectation.confidence, *found.ci_low, *found.ci_high,
                                    *found.p_holm, found.pairs, missing);
-  if (found.verdict != of_pairs) return {outcome, detail + "; it does not hold when failing counts as losing"};
+  if (found.verdict != of_pairs) return {ruling, detail + "; it does not hold when failing counts as losing"};
   const double alpha = 1 - expectation.confidence;
-  if (outcome == Outcome::kUndecided && SmallestP(found.differing) > alpha) {
+  if (ruling == Ruling::kUndecided && SmallestP(found.differing) > alpha) {
     detail += fmt::format("; {} of them differ, and {:.4g} % needs at least {}", found.differing,
                           100 * expectation.confidence, PairsNeeded(1, alpha));
   }
-  return {outcome, detail};
+  return {ruling, detail};
 }
 
 Finding JudgeBound(const Expectation& expectation, std::span<const Row* const> rows) {
   int missing = 0;
   const std::vector<double> values = ValuesOf(rows, expectation.of, expectation.metric, missing);
-  if (values.empty()) return {Outcome::kUndecided, "no cell has a value"};
+  if (values.empty()) return {Ruling::kUndecided, "no cell has a value"};
   const double value = expectation.statistic == "mean"  ? Mean(values)
                        : expectation.statistic == "p95" ? Quantile(values, 0.95)
                                                         : Quantile(values, 0.5);
   const bool met = expectation.at_most ? value <= *expectation.at_most : value >= *expectation.at_least;
   std::string detail = fmt::format("{:.4g} over {} worlds", value, values.size());
   if (missing > 0) detail += fmt::format(", {} more have no value", missing);
-  if (met && missing > 0) return {Outcome::kUndecided, detail};
-  return {met ? Outcome::kMet : Outcome::kUnmet, detail};
+  if (met && missing > 0) return {Ruling::kUndecided, detail};
+  return {met ? Ruling::kMet : Ruling::kUnmet, detail};
 }
 
 }  // namespace
 
-ExpectationResult JudgeExpectation(const Expectation& expectation, const Scenario& scenario, std::span<const Row> rows,
+ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, std::span<const Row> rows,
                                    std::uint64_t seed) {
-  ExpectationResult result{Claim(expectation), Outcome::kMet, ""};
+  ExpectationResult result{Claim(expectation), Ruling::kMet, ""};
   const bool wants_lower = !expectation.below.empty();
   const std::string& other = wants_lower ? expectation.below : expectation.above;
-  for (const Condition& condition : scenario.conditions) {
+  for (const std::vector<SweptValue>& condition : study.conditions) {
     if (!Matches(condition, expectation.where)) continue;
-    const auto selected = RowsIn(rows, condition.settings);
-    const std::string purpose = PurposeOf(scenario.name, condition.settings, expectation.metric, other, expectation.of);
+    const auto selected = RowsIn(rows, condition);
+    const std::string purpose = PurposeOf(study.scenario, condition, expectation.metric, other, expectation.of);
     const Finding finding = other.empty() ? JudgeBound(expectation, selected)
                                           : JudgeComparison(expectation, selected, other, wants_lower, seed, purpose);
-    const std::string label = ConditionLabel(condition.settings);
+    const std::string label = ConditionLabel(condition);
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
     // One condition that fails decides; else one that is undecided does.
-    if (finding.outcome == Outcome::kUnmet) result.outcome = Outcome::kUnmet;
-    if (finding.outcome == Outcome::kUndecided && result.outcome == Outcome::kMet) result.outcome = finding.outcome;
+    if (finding.ruling == Ruling::kUnmet) result.ruling = Ruling::kUnmet;
+    if (finding.ruling == Ruling::kUndecided && result.ruling == Ruling::kMet) result.ruling = finding.ruling;
   }
   return result;
 }

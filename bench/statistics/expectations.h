@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "bench/results/run_data.h"
-#include "bench/scenario/scenario.h"
+#include "bench/model/study.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 
@@ -12,7 +12,7 @@ namespace etude {
 /// no difference in one, else undecided. Because every condition must hold, none needs a correction for the others
 /// (intersection–union test, Berger 1982). A bound (at_most, at_least) compares the statistic itself; cells
 /// without a value leave it undecided, for a missing value is never a good one.
-ExpectationResult JudgeExpectation(const Expectation& expectation, const Scenario& scenario, std::span<const Row> rows,
+ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, std::span<const Row> rows,
                                    std::uint64_t seed);
 
 }  // namespace etude

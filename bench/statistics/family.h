@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 

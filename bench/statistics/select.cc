@@ -1,11 +1,13 @@
 #include "bench/statistics/select.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <map>
 
 namespace etude {
 
-std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Setting>& condition) {
+std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<SweptValue>& condition) {
   std::vector<const Row*> selected;
   for (const Row& row : rows) {
     if (row.condition == condition) selected.push_back(&row);
@@ -62,7 +64,7 @@ PairedWorlds PairsOf(std::span<const Row* const> rows, const std::string& baseli
   return paired;
 }
 
-std::string PurposeOf(const std::string& scenario, const std::vector<Setting>& condition, const std::string& metric,
+std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
                       const std::string& baseline, const std::string& method) {
   return fmt::format("{}/{}/{}/{}/{}", scenario, ConditionLabel(condition), metric, baseline, method);
 }

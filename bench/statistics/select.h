@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/row.h"
 #include "bench/statistics/compare.h"
 
 namespace etude {
 
 /// The rows of one condition, in order.
-std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<Setting>& condition);
+std::vector<const Row*> RowsIn(std::span<const Row> rows, const std::vector<SweptValue>& condition);
 
 /// All values of a metric of one method, in order; `missing` counts the cells without one.
 std::vector<double> ValuesOf(std::span<const Row* const> rows, const std::string& method, const std::string& metric,
@@ -29,7 +29,7 @@ PairedWorlds PairsOf(std::span<const Row* const> rows, const std::string& baseli
                      const std::string& metric);
 
 /// What keys the dice of a comparison: stable under adding methods, metrics or conditions.
-std::string PurposeOf(const std::string& scenario, const std::vector<Setting>& condition, const std::string& metric,
+std::string PurposeOf(const std::string& scenario, const std::vector<SweptValue>& condition, const std::string& metric,
                       const std::string& baseline, const std::string& method);
 
 }  // namespace etude

@@ -52,8 +52,8 @@ MetricSummary SummariseMetric(const MetricInfo& metric, std::span<const Row* con
 }
 
 MethodSummary SummariseMethod(const std::string& method, std::span<const Row* const> rows,
-                              std::span<const MetricInfo* const> metrics, const Scenario& scenario,
-                              const Condition& condition, std::uint64_t seed) {
+                              std::span<const MetricInfo* const> metrics, const Study& study,
+                              const std::vector<SweptValue>& condition, std::uint64_t seed) {
   MethodSummary summary;
   summary.method = method;
   for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
@@ -71,7 +71,7 @@ MethodSummary SummariseMethod(const std::string& method, std::span<const Row* co
     summary.ok_high = interval.high;
   }
   for (const MetricInfo* metric : metrics) {
-    const std::string purpose = PurposeOf(scenario.name, condition.settings, metric->id, "", method);
+    const std::string purpose = PurposeOf(study.scenario, condition, metric->id, "", method);
     summary.metrics.push_back(SummariseMetric(*metric, rows, method, seed, purpose));
   }
   return summary;
@@ -83,15 +83,15 @@ struct Asked {
 };
 
 /// All comparisons of one condition, verdicts left open: they depend on the other conditions too.
-std::vector<Asked> CompareAll(const Scenario& scenario, const Condition& condition, std::span<const Row* const> rows,
-                              std::uint64_t seed) {
+std::vector<Asked> CompareAll(const Study& study, const std::vector<SweptValue>& condition,
+                              std::span<const Row* const> rows, std::uint64_t seed) {
   std::vector<Asked> asked;
-  for (const MethodEntry& entry : scenario.methods) {
+  for (const ComparedMethod& entry : study.methods) {
     if (entry.name == entry.against) continue;
-    for (const std::string& id : scenario.metrics) {
+    for (const std::string& id : study.metrics) {
       const MetricInfo& metric = *FindMetric(id);
       const PairedWorlds worlds = PairsOf(rows, entry.against, entry.name, id);
-      const std::string purpose = PurposeOf(scenario.name, condition.settings, id, entry.against, entry.name);
+      const std::string purpose = PurposeOf(study.scenario, condition, id, entry.against, entry.name);
       Comparison comparison = ComparePaired(worlds.pairs, metric, seed, purpose);
       comparison.baseline = entry.against;
       comparison.method = entry.name;
@@ -106,19 +106,19 @@ std::vector<Asked> CompareAll(const Scenario& scenario, const Condition& conditi
 
 }  // namespace
 
-ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed) {
-  ScenarioSummary summary{
-      scenario.name, scenario.task, scenario.question, MethodNames(scenario), scenario.metrics, {}, {}};
+ScenarioSummary Summarise(const Study& study, std::span<const Row> rows, std::uint64_t seed) {
+  ScenarioSummary summary{study.scenario, study.task, study.question, {}, study.metrics, {}, {}};
+  for (const ComparedMethod& entry : study.methods) summary.methods.push_back(entry.name);
   std::vector<std::optional<Comparison>> with_failures;  // of all conditions' comparisons, in order
-  for (const Condition& condition : scenario.conditions) {
-    const std::vector<const Row*> selected = RowsIn(rows, condition.settings);
+  for (const std::vector<SweptValue>& condition : study.conditions) {
+    const std::vector<const Row*> selected = RowsIn(rows, condition);
     const std::vector<const MetricInfo*> metrics = MetricsIn(selected);
     ConditionSummary& part = summary.conditions.emplace_back();
-    part.condition = condition.settings;
-    for (const MethodEntry& entry : scenario.methods) {
-      part.methods.push_back(SummariseMethod(entry.name, selected, metrics, scenario, condition, seed));
+    part.condition = condition;
+    for (const ComparedMethod& entry : study.methods) {
+      part.methods.push_back(SummariseMethod(entry.name, selected, metrics, study, condition, seed));
     }
-    for (Asked& asked : CompareAll(scenario, condition, selected, seed)) {
+    for (Asked& asked : CompareAll(study, condition, selected, seed)) {
       part.comparisons.push_back(std::move(asked.comparison));
       with_failures.push_back(std::move(asked.with_failures));
     }
@@ -131,8 +131,8 @@ ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, s
   }
   JudgeFamily(family);
   summary.family = static_cast<int>(family.size());
-  for (const Expectation& expectation : scenario.expectations) {
-    summary.expectations.push_back(JudgeExpectation(expectation, scenario, rows, seed));
+  for (const Expectation& expectation : study.expectations) {
+    summary.expectations.push_back(JudgeExpectation(expectation, study, rows, seed));
   }
   return summary;
 }

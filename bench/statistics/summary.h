@@ -3,15 +3,15 @@
 #include <span>
 #include <vector>
 
-#include "bench/results/run_data.h"
-#include "bench/scenario/scenario.h"
+#include "bench/model/study.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 
-/// Sums up one scenario's rows: per condition and method the aggregate of every metric with its
+/// Sums up one study's rows: per condition and method the aggregate of every metric with its
 /// interval and its share of cells that are ok, every method against its baseline on the headline metrics, judged
-/// as one family, and the verdict on each expectation. `rows` are the scenario's own, in canonical order. Seeded, so
+/// as one family, and the verdict on each expectation. `rows` are its own, in canonical order. Seeded, so
 /// the same rows give the same bytes.
-ScenarioSummary Summarise(const Scenario& scenario, std::span<const Row> rows, std::uint64_t seed);
+ScenarioSummary Summarise(const Study& study, std::span<const Row> rows, std::uint64_t seed);
 
 }  // namespace etude

@@ -7,6 +7,7 @@
 #include "bench/tasks/search/search_task.h"
 #include "bench/tasks/tracking/tracking_task.h"
 #include "bench/tasks/transition/transition_task.h"
+#include "engine/base/named.h"
 
 namespace etude {
 
@@ -17,11 +18,6 @@ std::span<const TaskKind> AllTaskKinds() {
   return kinds;
 }
 
-const TaskKind* FindTaskKind(std::string_view name) {
-  for (const TaskKind& kind : AllTaskKinds()) {
-    if (kind.name == name) return &kind;
-  }
-  return nullptr;
-}
+const TaskKind* FindTaskKind(std::string_view name) { return FindByName(AllTaskKinds(), name); }
 
 }  // namespace etude

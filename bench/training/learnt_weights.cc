@@ -1,31 +1,22 @@
 #include "bench/training/learnt_weights.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "bench/training/genetic_weights.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, WeightSource>, 3> kSources = {
-    {{"fixed", WeightSource::kFixed}, {"adaptive", WeightSource::kAdaptive}, {"genetic", WeightSource::kGenetic}}};
+constexpr Named<WeightSource> kSources[] = {
+    {"fixed", WeightSource::kFixed}, {"adaptive", WeightSource::kAdaptive}, {"genetic", WeightSource::kGenetic}};
 
 }  // namespace
 
-std::vector<std::string> WeightSourceNames() {
-  std::vector<std::string> names;
-  for (const auto& [name, source] : kSources) names.emplace_back(name);
-  return names;
-}
+std::vector<std::string> WeightSourceNames() { return NamesOf(kSources); }
 
-WeightSource FindWeightSource(std::string_view name) {
-  const auto found =
-      std::find_if(kSources.begin(), kSources.end(), [&](const auto& entry) { return entry.first == name; });
-  assert(found != kSources.end());
-  return found->second;
-}
+WeightSource FindWeightSource(std::string_view name) { return ValueNamed(kSources, name); }
 
 LearntWeights::LearntWeights(TrainingClips training, const FuzzySystem& system)
     : training_(std::move(training)), system_(system) {}

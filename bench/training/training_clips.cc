@@ -21,16 +21,16 @@ std::vector<TrainingFrame> SampleFrames(const BodyMotion& motion, double standin
 }  // namespace
 
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
-                          const Physique& physique) {
+                          const BodyProportions& proportions) {
   TrainingClips training{.identities = std::move(identities), .frames = {}};
   for (const BodyMotion& clip : clips) {
-    training.frames.push_back(SampleFrames(PerformedBy(physique, clip), physique.standing_hip_height));
+    training.frames.push_back(SampleFrames(PerformedBy(proportions, clip), proportions.standing_hip_height));
   }
   return training;
 }
 
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
-                                          const Physique& physique) {
+                                          const BodyProportions& proportions) {
   std::vector<std::string> known;
   std::vector<BodyMotion> all;
   for (const std::string& name : BuiltinMoveNames()) {
@@ -51,7 +51,7 @@ Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, con
     known.push_back(identities[other]);
     all.push_back(clips[other]);
   }
-  return SampleClips(std::move(known), all, physique);
+  return SampleClips(std::move(known), all, proportions);
 }
 
 }  // namespace etude

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/bridging/one_character.h"
 #include "engine/fuzzy/features.h"
+#include "engine/transitions/library/body_proportions.h"
 
 namespace etude {
 
@@ -26,16 +26,16 @@ struct TrainingClips {
 /// all frames of a shorter clip.
 constexpr int kFramesPerClip = 16;
 
-/// Samples clips as they came, after `physique` has danced them.
+/// Samples clips as they came, after `proportions` has danced them.
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
-                          const Physique& physique);
+                          const BodyProportions& proportions);
 
 /// Pairs grow with the square of the clips: more would make learning slow, and teach little.
 constexpr std::size_t kMostTrainingClips = 40;
 
-/// Every built-in move, and those of `clips` that are none, by their identities; all danced by `physique`. Of more than
-/// kMostTrainingClips, evenly chosen ones.
+/// Every built-in move, and those of `clips` that are none, by their identities; all danced by `proportions`. Of more
+/// than kMostTrainingClips, evenly chosen ones.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
-                                          const Physique& physique);
+                                          const BodyProportions& proportions);
 
 }  // namespace etude

@@ -4,22 +4,22 @@
 
 namespace etude {
 
-Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& eye, const glm::dvec3& target) {
-  const glm::dvec3 forward = glm::normalize(target - eye);
-  const glm::dvec3 right = glm::cross(forward, glm::dvec3(0, 1, 0));
+Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& p_WC, const glm::dvec3& p_WT) {
+  const glm::dvec3 z_W = glm::normalize(p_WT - p_WC);
+  const glm::dvec3 right_W = glm::cross(z_W, glm::dvec3(0, 1, 0));
   [[maybe_unused]] constexpr double kVertical = 1e-9;
-  assert(glm::length(right) > kVertical && "a vertical view has no upright picture");
-  const glm::dvec3 x = glm::normalize(right);
-  const glm::dvec3 y = glm::cross(forward, x);
+  assert(glm::length(right_W) > kVertical && "a vertical view has no upright picture");
+  const glm::dvec3 x_W = glm::normalize(right_W);
+  const glm::dvec3 y_W = glm::cross(z_W, x_W);
   // The rows of R_CW are the camera's axes in the world.
-  return {intrinsics, glm::transpose(glm::dmat3(x, y, forward)), eye};
+  return {intrinsics, glm::transpose(glm::dmat3(x_W, y_W, z_W)), p_WC};
 }
 
 ProjectionMatrix MatrixOf(const Camera& camera) {
   const Intrinsics& in = camera.intrinsics;
   const glm::dmat3 K = glm::transpose(glm::dmat3(in.fx, in.skew, in.cx, 0, in.fy, in.cy, 0, 0, 1));
   const glm::dmat3 M = K * camera.R_CW;
-  const glm::dvec3 last = -(M * camera.p_WC);
+  const glm::dvec3 last = -(M * camera.p_WC);  // K p_CW
   ProjectionMatrix matrix;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) matrix.h[row][column] = M[column][row];
@@ -28,11 +28,11 @@ ProjectionMatrix MatrixOf(const Camera& camera) {
   return matrix;
 }
 
-std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& point) {
-  glm::dvec3 p;
+std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ) {
+  glm::dvec3 p;  // (u·w, v·w, w)
   for (int row = 0; row < 3; ++row) {
     const auto& h = matrix.h[row];
-    p[row] = h[0] * point.x + h[1] * point.y + h[2] * point.z + h[3];
+    p[row] = h[0] * p_WQ.x + h[1] * p_WQ.y + h[2] * p_WQ.z + h[3];
   }
   constexpr double kOnThePlane = 1e-9;
   if (!(p.z > kOnThePlane)) return std::nullopt;

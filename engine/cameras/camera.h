@@ -25,19 +25,20 @@ struct Camera {
   glm::dvec3 p_WC{0};  ///< the centre of projection in the world, metres
 };
 
-/// The camera at `eye` looking at `target`, its v axis pointing down as far as possible.
-/// `eye` ≠ `target`, and the view is not vertical.
-Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& eye, const glm::dvec3& target);
+/// The camera at `p_WC` looking at the point T at `p_WT`, its v axis pointing down as far as possible.
+/// T is not at the camera, and the view is not vertical.
+Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& p_WC, const glm::dvec3& p_WT);
 
-/// Paper B's H (section 2.2): (u·w, v·w, w)ᵀ = H (X, Y, Z, 1)ᵀ, defined up to scale.
+/// Paper B's H (section 2.2), from the world to pixels: (u·w, v·w, w)ᵀ = H (X, Y, Z, 1)ᵀ with p_WQ = (X, Y, Z) of a
+/// point Q; defined up to scale.
 struct ProjectionMatrix {
   std::array<std::array<double, 4>, 3> h{};
 };
 
 ProjectionMatrix MatrixOf(const Camera& camera);
 
-/// The pixel that shows `point`; nothing when the point lies on or behind the camera's plane. The sign
-/// of H is taken such that w > 0 in front of the camera (DLT normalises it so).
-std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& point);
+/// The pixel that shows the point Q at `p_WQ`; nothing when it lies on or behind the camera's plane. The sign of H is
+/// taken such that w > 0 in front of the camera (DLT normalises it so).
+std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
 
 }  // namespace etude

@@ -1,13 +1,17 @@
 #include "engine/cameras/dlt.h"
 
 #include <Eigen/Dense>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "engine/base/named.h"
+
 namespace etude {
 namespace {
+
+constexpr Named<Calibration> kCalibrations[] = {{"dlt", Calibration::kDlt},
+                                                {"dlt-normalised", Calibration::kDltNormalised}};
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
@@ -90,12 +94,9 @@ Solution SolveDlt(std::span<const PointPair> pairs, const Normalisation<3>& worl
 
 }  // namespace
 
-std::vector<std::string> CalibrationNames() { return {"dlt", "dlt-normalised"}; }
+std::vector<std::string> CalibrationNames() { return NamesOf(kCalibrations); }
 
-Calibration CalibrationNamed(std::string_view name) {
-  assert(name == "dlt" || name == "dlt-normalised");
-  return name == "dlt" ? Calibration::kDlt : Calibration::kDltNormalised;
-}
+Calibration CalibrationNamed(std::string_view name) { return ValueNamed(kCalibrations, name); }
 
 Result<ProjectionMatrix> Calibrate(std::span<const PointPair> pairs, Calibration calibration) {
   if (const auto reason = ReasonToRefuse(pairs)) return Fail({}, "cannot calibrate a camera: {}", *reason);

@@ -11,9 +11,9 @@
 
 namespace etude {
 
-/// A point whose place in the world was measured (metres), and the pixel that shows it.
+/// A point Q whose place in the world was measured (metres), and the pixel that shows it.
 struct PointPair {
-  glm::dvec3 world{0};
+  glm::dvec3 world{0};  ///< p_WQ
   glm::dvec2 pixel{0};
 };
 

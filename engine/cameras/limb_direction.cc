@@ -1,7 +1,10 @@
 #include "engine/cameras/limb_direction.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace etude {
 namespace {
@@ -10,23 +13,51 @@ namespace {
 constexpr double kSamePixel = 1e-5;
 
 struct LimbPlane {
-  glm::dvec3 ray_a{0};   // unit
-  glm::dvec3 normal{0};  // unit, ray_a × ray_b; zero when the stroke has no length
+  glm::dvec3 ray_a_W;   // unit
+  glm::dvec3 normal_W;  // unit, ray a × ray b
 };
 
-LimbPlane PlaneOf(const ProjectionMatrix& matrix, const PixelSegment& stroke) {
-  const glm::dvec3 a = glm::normalize(ViewingRay(matrix, stroke.a));
-  const glm::dvec3 b = glm::normalize(ViewingRay(matrix, stroke.b));
-  const glm::dvec3 normal = glm::cross(a, b);
-  const double length = glm::length(normal);
-  if (!(length > kSamePixel)) return {};  // also catches NaN
-  return {a, normal / length};
+// The planes of the strokes that have a length.
+std::vector<LimbPlane> PlanesOf(std::span<const LimbSighting> sightings) {
+  std::vector<LimbPlane> planes;
+  for (const LimbSighting& sighting : sightings) {
+    const glm::dvec3 a_W = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.a));
+    const glm::dvec3 b_W = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.b));
+    const glm::dvec3 normal_W = glm::cross(a_W, b_W);
+    const double length = glm::length(normal_W);
+    if (length > kSamePixel) planes.push_back({a_W, normal_W / length});  // not so for NaN
+  }
+  return planes;
+}
+
+double LargestPlaneAngle(std::span<const LimbPlane> planes) {
+  double largest = 0;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    for (std::size_t j = i + 1; j < planes.size(); ++j) {
+      const double between_normals = AngleBetween(planes[i].normal_W, planes[j].normal_W);
+      largest = std::max(largest, std::min(between_normals, kPi - between_normals));
+    }
+  }
+  return largest;
+}
+
+// The unit vector nearest to normal to all normals; its sign means nothing.
+glm::dvec3 LineAlong(std::span<const LimbPlane> planes) {
+  if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
+  Eigen::MatrixX3d normals(planes.size(), 3);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const glm::dvec3& n = planes[i].normal_W;
+    normals.row(static_cast<Eigen::Index>(i)) << n.x, n.y, n.z;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeFullV);
+  const Eigen::Vector3d along_W = svd.matrixV().col(2);
+  return {along_W[0], along_W[1], along_W[2]};
 }
 
 // How far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction =
 // α·a + β·b; a point on ray a moving along it is seen moving towards b exactly when β > 0.
-double Sense(const LimbPlane& plane, const glm::dvec3& direction) {
-  return glm::dot(glm::cross(plane.ray_a, direction), plane.normal);
+double Sense(const LimbPlane& plane, const glm::dvec3& direction_W) {
+  return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }
 
 }  // namespace
@@ -34,24 +65,27 @@ double Sense(const LimbPlane& plane, const glm::dvec3& direction) {
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel) {
   const auto& h = matrix.h;
   const glm::dvec3 h1(h[0][0], h[0][1], h[0][2]), h2(h[1][0], h[1][1], h[1][2]), h3(h[2][0], h[2][1], h[2][2]);
-  const glm::dvec3 ray = glm::cross(h1 - pixel.x * h3, h2 - pixel.y * h3);
-  return glm::dot(h3, ray) < 0 ? -ray : ray;  // w must grow along the ray
+  const glm::dvec3 ray_W = glm::cross(h1 - pixel.x * h3, h2 - pixel.y * h3);
+  return glm::dot(h3, ray_W) < 0 ? -ray_W : ray_W;  // w must grow along the ray
+}
+
+LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle) {
+  const std::vector<LimbPlane> planes = PlanesOf(sightings);
+  LimbDirection limb;
+  limb.plane_angle = LargestPlaneAngle(planes);
+  if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
+
+  const glm::dvec3 along_W = LineAlong(planes);
+  double sense = 0;
+  for (const LimbPlane& plane : planes) sense += Sense(plane, along_W);
+  return {DirectionStatus::kOk, sense < 0 ? -along_W : along_W, limb.plane_angle};
 }
 
 LimbDirection ComputeLimbDirection(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
                                    const ProjectionMatrix& matrix2, const PixelSegment& stroke2,
                                    double smallest_plane_angle) {
-  const LimbPlane plane1 = PlaneOf(matrix1, stroke1);
-  const LimbPlane plane2 = PlaneOf(matrix2, stroke2);
-  LimbDirection limb;
-  if (plane1.normal == glm::dvec3(0) || plane2.normal == glm::dvec3(0)) return limb;
-  const double between_normals = AngleBetween(plane1.normal, plane2.normal);
-  limb.plane_angle = std::min(between_normals, kPi - between_normals);
-  if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
-
-  const glm::dvec3 along = glm::normalize(glm::cross(plane1.normal, plane2.normal));
-  const bool reversed = Sense(plane1, along) + Sense(plane2, along) < 0;
-  return {DirectionStatus::kOk, reversed ? -along : along, limb.plane_angle};
+  const std::array<LimbSighting, 2> sightings = {{{matrix1, stroke1}, {matrix2, stroke2}}};
+  return ComputeLimbDirection(sightings, smallest_plane_angle);
 }
 
 }  // namespace etude

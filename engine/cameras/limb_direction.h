@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 
 #include "engine/base/angles.h"
 #include "engine/cameras/camera.h"
@@ -13,27 +14,40 @@ struct PixelSegment {
   glm::dvec2 b{0};
 };
 
-/// The direction in which the camera sees `pixel`, pointing away from the camera: the cross product of
+/// How one camera sees a limb.
+struct LimbSighting {
+  ProjectionMatrix matrix;
+  PixelSegment stroke;
+};
+
+/// The direction in the world in which the camera sees `pixel`, pointing away from the camera: the cross product of
 /// the two planes through that pixel (paper B, equations 2.4 and 2.5). Of any length.
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
 
 enum class DirectionStatus {
   kOk,
-  kIllConditioned,  ///< a stroke without length, or planes (nearly) parallel: limb in a plane through both cameras
+  /// Fewer than two strokes that have a length, or all planes (nearly) parallel: a limb in a plane through all cameras.
+  kIllConditioned,
 };
 
 struct LimbDirection {
   DirectionStatus status = DirectionStatus::kIllConditioned;
   glm::dvec3 direction{0};  ///< unit, in the world, from a to b; only when kOk
-  /// The angle between the two planes, in [0, π/2]: an error of the strokes is magnified by 1/sin of it.
+  /// The angle between the two planes, in [0, π/2]; of more planes, the largest between any two. An error of two
+  /// strokes is magnified by 1/sin of it.
   double plane_angle = 0;
 };
 
-/// The direction of a limb seen by two cameras (paper B, section 2.3): each stroke and its camera's
-/// centre span a plane with the normal N = ray(a) × ray(b), and the limb lies along N₁ × N₂. Its sign is
-/// such that it runs from a to b in the pictures (ours; the paper is silent); where they disagree, the
-/// picture in which the limb is less foreshortened decides.
-/// @param smallest_plane_angle planes closer to parallel than this are ill-conditioned, radians
+/// The direction of a limb seen by two or more cameras. Each stroke and its camera's centre span a plane with the unit
+/// normal N ~ ray(a) × ray(b), in which the limb lies. With two planes it lies along N₁ × N₂ (paper B, section 2.3).
+/// *Ours*: with more, along the unit vector d with the smallest Σ (Nᵢ·d)²; planes count alike, because the same error
+/// in the pictures of cameras equally far away moves Nᵢ·d alike, however foreshortened the limb is. Strokes without
+/// length are left out. The sign is such that the limb runs from a to b in the pictures (ours; the paper is silent);
+/// where they disagree, those in which the limb is less foreshortened decide.
+/// @param smallest_plane_angle ill-conditioned when no two planes are so far from parallel, radians
+LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle = Radians(3));
+
+/// The same for paper B's two cameras.
 LimbDirection ComputeLimbDirection(const ProjectionMatrix& matrix1, const PixelSegment& stroke1,
                                    const ProjectionMatrix& matrix2, const PixelSegment& stroke2,
                                    double smallest_plane_angle = Radians(3));

@@ -30,13 +30,13 @@ std::string WriteOpenCvCamera(const Camera& camera) {
   constexpr double kOurPixelCentre = 0.5;
   const Intrinsics& in = camera.intrinsics;
   const glm::dmat3& R = camera.R_CW;
-  const glm::dvec3 T = -(R * camera.p_WC);
+  const glm::dvec3 p_CW = -(R * camera.p_WC);
   return fmt::format("%YAML:1.0\n---\nimage_width: {}\nimage_height: {}\n", in.width, in.height) +
          Matrix("camera_matrix", 3, 3,
                 {in.fx, in.skew, in.cx - kOurPixelCentre, 0, in.fy, in.cy - kOurPixelCentre, 0, 0, 1}) +
          Matrix("distortion_coefficients", 5, 1, {0, 0, 0, 0, 0}) +
          Matrix("R", 3, 3, {R[0][0], R[1][0], R[2][0], R[0][1], R[1][1], R[2][1], R[0][2], R[1][2], R[2][2]}) +
-         Matrix("T", 3, 1, {T.x, T.y, T.z});
+         Matrix("T", 3, 1, {p_CW.x, p_CW.y, p_CW.z});
 }
 
 }  // namespace etude

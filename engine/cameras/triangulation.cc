@@ -10,10 +10,10 @@ namespace {
 // off by one the point would be metres off. Two cameras 1° apart give about 10⁻².
 constexpr double kParallel = 1e-3;
 
-double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& point) {
+double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& p_WQ) {
   double squares = 0;
   for (const Sighting& s : sightings) {
-    const auto pixel = Project(s.matrix, point);
+    const auto pixel = Project(s.matrix, p_WQ);
     if (!pixel) return -1;
     squares += glm::dot(*pixel - s.pixel, *pixel - s.pixel);
   }
@@ -43,11 +43,11 @@ TriangulatedPoint Triangulate(std::span<const Sighting> sightings) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
   if (!(svd.singularValues()[2] > kParallel * svd.singularValues()[0])) return point;
   const Eigen::Vector3d V = svd.solve(b);
-  const glm::dvec3 position(V[0], V[1], V[2]);
+  const glm::dvec3 p_WQ(V[0], V[1], V[2]);
   // Behind a camera: no camera can have seen it there.
-  const double residual = ResidualPx(sightings, position);
+  const double residual = ResidualPx(sightings, p_WQ);
   if (residual < 0) return point;
-  return {PointStatus::kOk, position, residual};
+  return {PointStatus::kOk, p_WQ, residual};
 }
 
 }  // namespace etude

@@ -21,12 +21,12 @@ enum class PointStatus {
 
 struct TriangulatedPoint {
   PointStatus status = PointStatus::kTooFewViews;
-  glm::dvec3 position{0};  ///< metres; only when kOk
+  glm::dvec3 position{0};  ///< p_WQ, metres; only when kOk
   double residual_px = 0;  ///< root mean square reprojection distance over the sightings
 };
 
-/// The point seen by two or more cameras (paper B, section 2.4): each sighting gives two linear
-/// equations, and V = (MᵀM)⁻¹ Mᵀb. The rows are divided by |h₃|, so that the arbitrary scale of an H
+/// The point Q seen by two or more cameras (paper B, section 2.4): each sighting gives two linear
+/// equations, and p_WQ = V = (MᵀM)⁻¹ Mᵀb. The rows are divided by |h₃|, so that the arbitrary scale of an H
 /// does not weigh its camera. (The paper prints h₁₄ for h₂₄ in the v rows: misprint.)
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 

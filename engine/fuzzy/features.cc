@@ -1,6 +1,7 @@
 #include "engine/fuzzy/features.h"
 
 #include "engine/base/angles.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
@@ -57,10 +58,8 @@ std::span<const Feature, kFeatureCount> AllFeatures() { return kFeatures; }
 std::string_view FeatureName(Feature feature) { return kFacts[static_cast<std::size_t>(feature)].name; }
 
 const Feature* FindFeature(std::string_view name) {
-  for (const FeatureFacts& facts : kFacts) {
-    if (facts.name == name) return &facts.feature;
-  }
-  return nullptr;
+  const FeatureFacts* facts = FindByName(kFacts, name);
+  return facts != nullptr ? &facts->feature : nullptr;
 }
 
 std::span<const Role> JointsOf(Feature feature) { return kFacts[static_cast<std::size_t>(feature)].joints; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/fields.h"
 #include "engine/fuzzy/features_text.h"
@@ -19,8 +20,6 @@ bool IsPlainName(const std::string& name) {
   };
   return name.size() <= kLongestName && std::ranges::all_of(name, is_plain);
 }
-
-std::string_view NameOf(const EmbeddedText& file) { return file.name.substr(0, file.name.rfind('.')); }
 
 /// Paper A's own. That its file reads is proven by a test.
 const FuzzySystem& PaperSystem() {
@@ -59,15 +58,11 @@ std::string WriteFuzzySystem(const FuzzySystem& system) {
   return text;
 }
 
-std::vector<std::string> BuiltinFuzzySystemNames() {
-  std::vector<std::string> names;
-  for (const EmbeddedText& file : BuiltinFuzzySystemFiles()) names.emplace_back(NameOf(file));
-  return names;
-}
+std::vector<std::string> BuiltinFuzzySystemNames() { return NamesOf(BuiltinFuzzySystemFiles(), StemOf); }
 
 Result<FuzzySystem> LoadBuiltinFuzzySystem(const std::string& name, const Place& place) {
-  const auto file = std::ranges::find(BuiltinFuzzySystemFiles(), name, NameOf);
-  if (file == BuiltinFuzzySystemFiles().end()) {
+  const EmbeddedText* file = FindByName(BuiltinFuzzySystemFiles(), name, StemOf);
+  if (file == nullptr) {
     return Fail(place, "{}", UnknownName("fuzzy system", name, BuiltinFuzzySystemNames()));
   }
   return ReadFuzzySystem(file->text, "scenarios/fuzzy/" + std::string(file->name));

@@ -34,7 +34,7 @@ bool IsATree(const KinematicTree& tree) {
   if (joints == 0 || tree.joints[0].parent >= 0 || tree.joints[0].dof_count != 0) return false;
   for (int n = 1; n < joints; ++n) {
     const TreeJoint& joint = tree.joints[n];
-    if (joint.parent < 0 || joint.parent >= n || !AreAFrame(joint.rest)) return false;
+    if (joint.parent < 0 || joint.parent >= n || !AreAFrame(joint.R_PJ)) return false;
     if (joint.dof_count < 0 || joint.dof_count > 3 || joint.first_dof < 0) return false;
     if (joint.first_dof + joint.dof_count > tree.dof_count()) return false;
   }
@@ -49,10 +49,10 @@ struct FixedPoint {
 };
 
 FixedPoint FixedBy(const KinematicTree& tree, const Effector& effector, const EffectorTarget& target) {
-  FixedPoint point{target.position, {}, glm::length(effector.offset)};
+  FixedPoint point{target.position, {}, glm::length(effector.p_LE)};
   const glm::dvec3& w = target.axis_weights;
   if (w.x > 0 && w.y > 0 && w.z > 0) {  // a whole frame: the limb's upper end is known, too
-    point.place -= target.axes * effector.offset;
+    point.place -= target.axes * effector.p_LE;
     point.last_limb = 0;
   }
   for (int joint = effector.joint; joint >= 0; joint = tree.joints[joint].parent) point.joints.push_back(joint);
@@ -70,7 +70,7 @@ Branch BranchOf(const KinematicTree& tree, const FixedPoint& point, std::span<co
   Branch branch{point.last_limb, -1};
   for (const int joint : point.joints) {
     if (std::ranges::find(shared, joint) != shared.end() || tree.joints[joint].parent < 0) break;
-    branch.length += glm::length(tree.joints[joint].offset);
+    branch.length += glm::length(tree.joints[joint].p_PJ);
     branch.top = joint;
   }
   return branch;
@@ -81,9 +81,9 @@ double LongestBetween(const KinematicTree& tree, const FixedPoint& a, const Fixe
   const Branch to_a = BranchOf(tree, a, b.joints), to_b = BranchOf(tree, b, a.joints);
   if (to_a.top < 0 || to_b.top < 0) return to_a.length + to_b.length;
   // Both branches leave the same limb, which is rigid.
-  const glm::dvec3& at_a = tree.joints[to_a.top].offset;
-  const glm::dvec3& at_b = tree.joints[to_b.top].offset;
-  return to_a.length + to_b.length - glm::length(at_a) - glm::length(at_b) + glm::distance(at_a, at_b);
+  const glm::dvec3& p_PA = tree.joints[to_a.top].p_PJ;
+  const glm::dvec3& p_PB = tree.joints[to_b.top].p_PJ;
+  return to_a.length + to_b.length - glm::length(p_PA) - glm::length(p_PB) + glm::distance(p_PA, p_PB);
 }
 
 }  // namespace
@@ -107,10 +107,10 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
   if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    if (!IsSane(joint.offset) || glm::length(joint.offset) <= 0) return "a limb has no length";
+    if (!IsSane(joint.p_PJ) || glm::length(joint.p_PJ) <= 0) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {
-    if (!IsSane(effector.offset) || glm::length(effector.offset) <= 0) return "a limb has no length";
+    if (!IsSane(effector.p_LE) || glm::length(effector.p_LE) <= 0) return "a limb has no length";
   }
   if (!IsSane(problem.start.root_position) || !AreAFrame(problem.start.root_frame))
     return "the root is no finite frame";

@@ -14,10 +14,10 @@
 
 namespace etude {
 
-/// Where one end effector shall be, and how much each part of that matters.
+/// The pose X_WD that one end effector shall have, and how much each part of that matters.
 struct EffectorTarget {
-  glm::dvec3 position{0};      ///< world, metres
-  glm::dmat3 axes{1};          ///< its three axes in the world, unit columns
+  glm::dvec3 position{0};      ///< p_WD, metres
+  glm::dmat3 axes{1};          ///< R_WD: its three axes in the world, unit columns
   double position_weight = 1;  ///< multiplies the weight rule's w_p; 0 = the position is unknown
   glm::dvec3 axis_weights{1};  ///< multiplies w_o of each axis; (0, 0, 1) when only the limb's direction is known
 };
@@ -30,27 +30,12 @@ struct IkProblem {
   std::vector<AngleRange> limits;       ///< one per degree of freedom, e.g. the tree's own
 };
 
-/// Settings of single solvers; `IkSolver::settings` tells whose they are. The defaults are tuned ones.
-struct IkTuning {
-  /// jacobian-transpose: multiplies the step length that is best to first order.
-  double gain = 1;
-  /// jacobian-pinv: μ of J⁺ = Jᵀ(JJᵀ + μI)⁻¹; 0 is paper B's formula.
-  double pinv_damping = 0;
-  /// damped-least-squares: the damping λ of its first step.
-  double first_damping = 1e-2;
-  /// ccd-anderson: how many former sweeps the extrapolation uses.
-  int memory = 5;
-  /// ccd-nullspace: sweeps before the first Gauss–Newton step. None by default: its damped steps do better from the
-  /// start than from a pose whose angles sweeps have driven into their limits.
-  int first_sweeps = 0;
-  /// ceres-lm: the trust region it begins with.
-  double first_radius = 10;
-};
-
+/// What all solvers can be set by; what only one of them can stands in its own header.
 struct IkOptions {
   WeightRule weights = WeightRule::kAdaptive;  ///< CCD only
   WeightRefresh refresh = WeightRefresh::kSweep;
-  IkTuning tuning;
+  /// For `IkSolver::solve`: the solver's own settings, one value for each of `IkSolver::settings`; none: its defaults.
+  std::vector<double> solver_settings;
   bool limits = true;  ///< paper B, section 3.7.1; off: angles are free
   /// Paper B, section 3.7.2: no angle may leave its start angle by more than this (radians). Empty: no such bound.
   std::optional<double> angle_change_tolerance;

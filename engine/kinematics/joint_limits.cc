@@ -5,9 +5,17 @@
 #include <cassert>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
+
+constexpr Named<LimitSet> kLimitSets[] = {{"adult", LimitSet::kAdult},
+                                          {"aaos", LimitSet::kAaos},
+                                          {"kendall", LimitSet::kKendall},
+                                          {"hoppenfeld", LimitSet::kHoppenfeld},
+                                          {"ama", LimitSet::kAma}};
 
 constexpr double kLargestSideways = 80;  // degrees
 constexpr double kNotGiven = -1;
@@ -96,15 +104,11 @@ double Reach(const Movement& movement, int column, int axis) {
 }  // namespace
 
 const std::vector<std::string>& LimitSetNames() {
-  static const std::vector<std::string> names = {"adult", "aaos", "kendall", "hoppenfeld", "ama"};
+  static const std::vector<std::string> names = NamesOf(kLimitSets);
   return names;
 }
 
-std::optional<LimitSet> FindLimitSet(std::string_view name) {
-  const auto found = std::ranges::find(LimitSetNames(), name);
-  if (found == LimitSetNames().end()) return std::nullopt;
-  return static_cast<LimitSet>(found - LimitSetNames().begin());
-}
+std::optional<LimitSet> FindLimitSet(std::string_view name) { return FindValue(kLimitSets, name); }
 
 std::vector<AngleRange> JointLimits(LimitSet set) {
   const KinematicTree body = MakeBodyTree({});

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
+
 namespace etude {
 namespace {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "engine/kinematics/tree.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/motion/body.h"
 
 namespace etude {

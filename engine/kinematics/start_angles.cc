@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/euler.h"
 
 namespace etude {
@@ -17,37 +18,22 @@ constexpr double kStraight = Radians(3);  // limbs nearer to one line give no no
 constexpr double kSmallestLength = 1e-6;  // metres
 const glm::dvec3 kAlong(0, 0, 1);         // every limb, in its own frame
 
-// The way each limb of the tree runs on the canonical body, in the order of BodyTreeJoint.
-struct LimbRow {
-  Role from, to;
-  // The next limb, when a hinge between the two gives this limb's twist, and which way that hinge bends about X.
-  BodyTreeJoint hinge = kTreeLeftToe;
-  int bends = 0;
+// A hinge at the end of a limb tells the limb's twist.
+struct TwistHinge {
+  BodyTreeJoint limb, hinge;
+  double bends;  // which way about X
 };
-constexpr std::array<LimbRow, kBodyTreeJointCount> kLimbs = {{
-    {kLeftFoot, kLeftAnkle},
-    {kLeftAnkle, kLeftKnee},
-    {kLeftKnee, kLeftHip},
-    {kLeftHip, kRightHip},
-    {kHipCentre, kShoulderCentre},
-    {kLeftShoulder, kLeftElbow, kTreeLeftElbow, +1},
-    {kLeftElbow, kLeftWrist},
-    {kLeftWrist, kLeftHand},
-    {kRightShoulder, kRightElbow, kTreeRightElbow, +1},
-    {kRightElbow, kRightWrist},
-    {kRightWrist, kRightHand},
-    {kShoulderCentre, kHead},
-    {kRightHip, kRightKnee, kTreeRightKnee, -1},
-    {kRightKnee, kRightAnkle},
-    {kRightAnkle, kRightFoot},
-}};
+constexpr std::array<TwistHinge, 3> kTwistHinges = {{{kTreeLeftShoulder, kTreeLeftElbow, +1},
+                                                     {kTreeRightShoulder, kTreeRightElbow, +1},
+                                                     {kTreeRightHip, kTreeRightKnee, -1}}};
 
-using Directions = std::array<glm::dvec3, kBodyTreeJointCount>;
+using Directions = std::array<glm::dvec3, kBodyTreeJointCount>;  // of limbs, in the world, unit vectors
 
 std::optional<Directions> FindDirections(const BodyPose& joints) {
   Directions directions;
-  for (std::size_t i = 0; i < kLimbs.size(); ++i) {
-    const glm::dvec3 limb = joints[kLimbs[i].to] - joints[kLimbs[i].from];
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const BodyTreeLimb& ends = BodyTreeLimbs()[i];
+    const glm::dvec3 limb = joints[ends.to] - joints[ends.from];
     const double length = glm::length(limb);
     if (!std::isfinite(length) || length < kSmallestLength) return std::nullopt;
     directions[i] = limb / length;
@@ -55,7 +41,7 @@ std::optional<Directions> FindDirections(const BodyPose& joints) {
   return directions;
 }
 
-// The left foot's frame, whose X axis is that of the hinges at ankle and knee.
+// R_WL of the left foot, whose X axis is that of the hinges at ankle and knee.
 std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   // Both hinges turn about +X by positive angles from foot to thigh; a cross product weighs each normal by the sine of
   // its angle, which is how well it is known.
@@ -73,34 +59,35 @@ std::optional<glm::dmat3> FindRootFrame(const Directions& directions) {
   return glm::dmat3(x, glm::cross(z, x), z);
 }
 
-// Where the limb's X axis shall point, if anything tells.
+// Where the limb's X axis shall point in the world, if anything tells.
 std::optional<glm::dvec3> FindTwist(int limb, const Directions& directions, const BodyPose& joints) {
+  const auto next = std::ranges::find(kTwistHinges, limb, &TwistHinge::limb);
   glm::dvec3 x(0);
   if (limb == kTreeLeftHip) {
     x = glm::cross(directions[kTreeNavel], directions[kTreeLeftHip]);
   } else if (limb == kTreeNavel) {
     x = joints[kRightShoulder] - joints[kLeftShoulder];
-  } else if (kLimbs[limb].bends != 0) {
-    x = static_cast<double>(kLimbs[limb].bends) * glm::cross(directions[limb], directions[kLimbs[limb].hinge]);
+  } else if (next != kTwistHinges.end()) {
+    x = next->bends * glm::cross(directions[limb], directions[next->hinge]);
   }
   const glm::dvec3 across = glm::cross(directions[limb], x);
-  const bool is_known = glm::length(across) > (kLimbs[limb].bends != 0 ? std::sin(kStraight) : kSmallestLength);
+  const bool is_known = glm::length(across) > (next != kTwistHinges.end() ? std::sin(kStraight) : kSmallestLength);
   if (!is_known) return std::nullopt;
   return x;
 }
 
-// The angles of a joint that turn its limb from `base` into `direction`, its X axis near `x` if it has three.
-glm::dvec3 AnglesTowards(const glm::dmat3& base, int dof_count, const glm::dvec3& direction,
-                         const std::optional<glm::dvec3>& x) {
-  const glm::dvec3 local = glm::transpose(base) * direction;
-  if (dof_count == 1) return {std::atan2(-local.y, local.z), 0, 0};
-  if (dof_count == 2) return {std::atan2(-local.y, local.z), std::asin(std::clamp(local.x, -1.0, 1.0)), 0};
-  glm::dmat3 frame = SmallestRotation(kAlong, local);
-  if (x) {
-    frame[0] = UnitNormalPart(glm::transpose(base) * *x, local);
-    frame = {frame[0], glm::cross(local, frame[0]), local};
+// The angles of a joint that turn its limb into `direction_W`, its X axis near `x_W` if it has three.
+glm::dvec3 AnglesTowards(const glm::dmat3& R_WJ, int dof_count, const glm::dvec3& direction_W,
+                         const std::optional<glm::dvec3>& x_W) {
+  const glm::dvec3 z_J = glm::transpose(R_WJ) * direction_W;
+  if (dof_count == 1) return {std::atan2(-z_J.y, z_J.z), 0, 0};
+  if (dof_count == 2) return {std::atan2(-z_J.y, z_J.z), std::asin(std::clamp(z_J.x, -1.0, 1.0)), 0};
+  glm::dmat3 R_JL = SmallestRotation(kAlong, z_J);
+  if (x_W) {
+    R_JL[0] = UnitNormalPart(glm::transpose(R_WJ) * *x_W, z_J);
+    R_JL = {R_JL[0], glm::cross(z_J, R_JL[0]), z_J};
   }
-  return AnglesXyz(frame);
+  return AnglesXyz(R_JL);
 }
 
 }  // namespace
@@ -114,18 +101,18 @@ std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPos
   if (!root) return std::nullopt;
 
   TreeState state{joints[kLeftFoot], *root, std::vector<double>(limits.size(), 0.0)};
-  std::array<glm::dmat3, kBodyTreeJointCount> frames;
-  frames[kTreeLeftToe] = *root;
+  std::array<glm::dmat3, kBodyTreeJointCount> R_WL;
+  R_WL[kTreeLeftToe] = *root;
   for (int i = 1; i < kBodyTreeJointCount; ++i) {
     const TreeJoint& joint = body.joints[i];
-    const glm::dmat3 base = frames[joint.parent] * joint.rest;
-    glm::dvec3 angles = AnglesTowards(base, joint.dof_count, (*directions)[i], FindTwist(i, *directions, joints));
+    const glm::dmat3 R_WJ = R_WL[joint.parent] * joint.R_PJ;
+    glm::dvec3 angles = AnglesTowards(R_WJ, joint.dof_count, (*directions)[i], FindTwist(i, *directions, joints));
     for (int axis = 0; axis < joint.dof_count; ++axis) {
       const AngleRange& range = limits[joint.first_dof + axis];
       angles[axis] = ClampAngle(angles[axis], range);
       state.angles[joint.first_dof + axis] = angles[axis];
     }
-    frames[i] = base * RotationXyz(angles);
+    R_WL[i] = R_WJ * RotationXyz(angles);
   }
   return state;
 }
@@ -134,12 +121,12 @@ IkProblem MakeImageProblem(const KinematicTree& body, const LimbObservation& obs
   IkProblem problem{start, {}, body.limits};
   const TreeFrames frames = ComputeFrames(body, start);
   for (std::size_t e = 0; e < body.effectors.size(); ++e) {
-    const Role role = body.effectors[e].role;
+    const Role role = BodyTreeLimbs()[body.effectors[e].joint].to;
     const glm::dvec3 seen = glm::normalize(observation.directions[Index(role)]);
-    const glm::dmat3& axes = frames.effectors[e].axes;
+    const glm::dmat3& R_WE = frames.effectors[e].axes;
     EffectorTarget target;
     target.position = observation.ends[role];
-    target.axes = SmallestRotation(axes[2], seen) * axes;
+    target.axes = SmallestRotation(R_WE[2], seen) * R_WE;
     target.axis_weights = {0, 0, 1};
     problem.targets.push_back(target);
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/limb_lengths.h"
 
 namespace etude {
@@ -44,9 +45,9 @@ constexpr std::array<ClipJointRow, 21> kClipJoints = {{
 
 BodyPose ToBodyPose(const KinematicTree& body, const TreeFrames& frames) {
   BodyPose pose;
-  for (std::size_t i = 0; i < body.joints.size(); ++i) pose[body.joints[i].role] = frames.joints[i].position;
+  for (std::size_t i = 0; i < body.joints.size(); ++i) pose[BodyTreeLimbs()[i].from] = frames.joints[i].position;
   for (std::size_t e = 0; e < body.effectors.size(); ++e) {
-    pose[body.effectors[e].role] = frames.effectors[e].position;
+    pose[BodyTreeLimbs()[body.effectors[e].joint].to] = frames.effectors[e].position;
   }
   pose[kSpine] = glm::mix(pose[kHipCentre], pose[kShoulderCentre], kSpineShare);
   return pose;
@@ -71,18 +72,18 @@ Clip ToClip(const KinematicTree& body, std::span<const TreeState> states, double
 
   clip.frames.reserve(states.size());
   TreeFrames frames;
-  std::array<glm::dquat, kClipJoints.size()> turned;  // of each joint, from its rest to now, in the world
+  std::array<glm::dquat, kClipJoints.size()> R_WC;  // of each joint of the clip, whose frame is the world's at rest
   for (const TreeState& state : states) {
     ComputeFrames(body, state, frames);
     LocalPose& pose = clip.frames.emplace_back(kClipJoints.size());
     for (std::size_t i = 0; i < kClipJoints.size(); ++i) {
       const ClipJointRow& row = kClipJoints[i];
-      const glm::dmat3 turn = frames.joints[row.limb].axes * glm::transpose(rest_frames.joints[row.limb].axes);
-      turned[i] = glm::normalize(glm::quat_cast(turn));
+      const glm::dmat3 R_LC = glm::transpose(rest_frames.joints[row.limb].axes);
+      R_WC[i] = glm::normalize(glm::quat_cast(frames.joints[row.limb].axes * R_LC));
       if (row.parent < 0) {
-        pose[i] = {frames.joints[kTreeNavel].position, turned[i]};
+        pose[i] = {frames.joints[kTreeNavel].position, R_WC[i]};
       } else {
-        pose[i] = {clip.skeleton.joints[i].rest.translation, glm::conjugate(turned[row.parent]) * turned[i]};
+        pose[i] = {clip.skeleton.joints[i].rest.translation, glm::conjugate(R_WC[row.parent]) * R_WC[i]};
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
@@ -11,31 +12,30 @@ namespace {
 constexpr double kCmPerMetre = 100;
 constexpr double kPerSquareCm = kCmPerMetre * kCmPerMetre;  // of a weight per cm², in a weight per m²
 
-template <typename Value>
-std::optional<Value> FindIn(const std::vector<std::string>& names, std::string_view name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<Value>(found - names.begin());
-}
+constexpr Named<WeightRule> kRules[] = {{"fixed", WeightRule::kFixed},
+                                        {"fixed-tuned", WeightRule::kFixedTuned},
+                                        {"adaptive", WeightRule::kAdaptive},
+                                        {"adaptive-tuned", WeightRule::kAdaptiveTuned},
+                                        {"adaptive-power", WeightRule::kAdaptivePower},
+                                        {"wang-chen", WeightRule::kWangChen}};
+constexpr Named<WeightRefresh> kRefreshes[] = {
+    {"sweep", WeightRefresh::kSweep}, {"joint", WeightRefresh::kJoint}, {"dof", WeightRefresh::kDof}};
 
 }  // namespace
 
 const std::vector<std::string>& WeightRuleNames() {
-  static const std::vector<std::string> names = {"fixed",          "fixed-tuned",    "adaptive",
-                                                 "adaptive-tuned", "adaptive-power", "wang-chen"};
+  static const std::vector<std::string> names = NamesOf(kRules);
   return names;
 }
 
 const std::vector<std::string>& WeightRefreshNames() {
-  static const std::vector<std::string> names = {"sweep", "joint", "dof"};
+  static const std::vector<std::string> names = NamesOf(kRefreshes);
   return names;
 }
 
-std::optional<WeightRule> FindWeightRule(std::string_view name) { return FindIn<WeightRule>(WeightRuleNames(), name); }
+std::optional<WeightRule> FindWeightRule(std::string_view name) { return FindValue(kRules, name); }
 
-std::optional<WeightRefresh> FindWeightRefresh(std::string_view name) {
-  return FindIn<WeightRefresh>(WeightRefreshNames(), name);
-}
+std::optional<WeightRefresh> FindWeightRefresh(std::string_view name) { return FindValue(kRefreshes, name); }
 
 WeightFormula FormulaOf(WeightRule rule) {
   constexpr double kRoot = 31.622776601683793;  // 100^0.75, of centimetres in a metre

@@ -1,12 +1,15 @@
 #include "engine/recognition/filters.h"
 
-#include <cassert>
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/named.h"
 
 namespace etude {
 namespace {
+
+constexpr Named<FilterKind> kFilters[] = {
+    {"none", FilterKind::kNone}, {"holt", FilterKind::kHolt}, {"one-euro", FilterKind::kOneEuro}};
 
 /// The weight of a new sample in a first-order low-pass (Casiez 2012, equation 5).
 double LowPassWeight(double cutoff_hz, double rate_hz) {
@@ -74,16 +77,11 @@ glm::dvec3 OneEuroFilter::Update(const glm::dvec3& raw) {
 }
 
 const std::vector<std::string>& FilterNames() {
-  static const std::vector<std::string> names = {"none", "holt", "one-euro"};
+  static const std::vector<std::string> names = NamesOf(kFilters);
   return names;
 }
 
-FilterKind FilterOf(std::string_view name) {
-  if (name == "holt") return FilterKind::kHolt;
-  if (name == "one-euro") return FilterKind::kOneEuro;
-  assert(name == "none");
-  return FilterKind::kNone;
-}
+FilterKind FilterOf(std::string_view name) { return ValueNamed(kFilters, name); }
 
 SkeletonStream Smooth(const SkeletonStream& stream, const FilterOptions& options) {
   SkeletonStream smoothed = stream;

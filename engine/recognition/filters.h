@@ -11,13 +11,20 @@ namespace etude {
 
 /// The Kinect SDK's smoothing (TransformSmoothParameters, SDK 1.8 documentation, "Joint Filtering"):
 /// Holt's double exponential smoothing inside a jitter radius, held within a radius of the raw data.
-/// The defaults are the SDK's "some smoothing with little latency … good for gesture recognition".
+/// The defaults are the SDK's "some smoothing with little latency … good for gesture recognition"; it gives two more
+/// sets, for menus and for a very smooth skeleton, which pay for calm with latency.
 struct HoltOptions {
-  double smoothing = 0.5;                ///< in [0, 1]; 0 follows the raw data
-  double correction = 0.5;               ///< in [0, 1]; how fast the trend follows
-  double prediction_frames = 0.5;        ///< ≥ 0; above 0.5 overshoots on quick changes
-  double jitter_radius_m = 0.05;         ///< a step inside it is damped in proportion to its length
-  double max_deviation_radius_m = 0.04;  ///< the output stays this close to the raw position
+  /// In [0, 1]; 0 follows the raw data. Raise it for a sensor that jitters more, at the price of latency.
+  double smoothing = 0.5;
+  /// In [0, 1]: how fast the trend follows. Raise it where joints turn round quickly.
+  double correction = 0.5;
+  /// ≥ 0: how many frames ahead the output is, which makes up for the lag of smoothing. Above 0.5 quick changes
+  /// overshoot.
+  double prediction_frames = 0.5;
+  /// A step inside this radius is damped in proportion to its length. Lower it where small motions matter, 0 for none.
+  double jitter_radius_m = 0.05;
+  /// The output stays this close to the raw position. Raise it for outliers of single frames.
+  double max_deviation_radius_m = 0.04;
 };
 
 /// One joint through the Holt filter.
@@ -38,10 +45,13 @@ class HoltFilter {
 };
 
 /// The 1€ filter (Casiez, Roussel, Vogel 2012): a low-pass whose cut-off rises with speed.
+/// The paper tunes it in two steps: with `beta_per_m` 0 and a joint at rest, lower `min_cutoff_hz` until the jitter is
+/// bearable; then move quickly and raise `beta_per_m` until the lag is.
 struct OneEuroOptions {
-  double min_cutoff_hz = 1.0;         ///< the paper's; lower = less jitter at rest
-  double beta_per_m = 5.0;            ///< cut-off gained per m/s (ours: the paper's pixels do not carry over)
-  double derivative_cutoff_hz = 1.0;  ///< the paper's
+  double min_cutoff_hz = 1.0;  ///< > 0; the paper's; lower = less jitter at rest, more lag in slow motion
+  /// ≥ 0: cut-off gained per m/s (ours: the paper's pixels do not carry over). Raise it for dances quicker than ours.
+  double beta_per_m = 5.0;
+  double derivative_cutoff_hz = 1.0;  ///< > 0; the paper's, which found no need to change it
 };
 
 /// One joint through the 1€ filter, each axis on its own, as in the paper.
@@ -62,9 +72,12 @@ class OneEuroFilter {
 enum class FilterKind { kNone, kHolt, kOneEuro };
 
 struct FilterOptions {
+  /// None: key poses must be held over several frames anyway, and nothing lags. Holt, which Kinect's programmers switch
+  /// on, finds a little more with fewer false alarms (`scenarios/quick/detection.yaml`); 1€ where joints must both rest
+  /// quietly and move quickly.
   FilterKind kind = FilterKind::kNone;
-  HoltOptions holt{};
-  OneEuroOptions one_euro{};
+  HoltOptions holt{};         ///< read with kHolt only
+  OneEuroOptions one_euro{};  ///< read with kOneEuro only
 };
 
 /// "none", "holt", "one-euro".

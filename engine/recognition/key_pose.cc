@@ -86,18 +86,17 @@ Judgement JudgeWindow(std::span<const FeatureFrame> window, const TaughtMove& mo
   Judgement judgement;
   KeyPoseRecogniser recogniser(move, options, static_cast<int>(window.size()));
   for (std::size_t i = 0; i < window.size(); ++i) {
-    const bool right = recogniser.Update(window[i]);
-    if (right && !judgement.right_at) judgement.right_at = static_cast<int>(i);
+    const bool recognised = recogniser.Update(window[i]);
+    if (recognised && !judgement.recognised_at) judgement.recognised_at = static_cast<int>(i);
     judgement.running_score.push_back(recogniser.Score());
   }
   judgement.score = recogniser.Score();
   return judgement;
 }
 
-std::vector<int> FindMove(std::span<const FeatureFrame> frames, const TaughtMove& move, const KeyPoseOptions& options,
-                          int span_frames) {
+std::vector<int> FindMove(std::span<const FeatureFrame> frames, const TaughtMove& move, const KeyPoseOptions& options) {
   std::vector<int> found;
-  KeyPoseRecogniser recogniser(move, options, span_frames);
+  KeyPoseRecogniser recogniser(move, options, move.span_frames);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (recogniser.Update(frames[i])) found.push_back(static_cast<int>(i));
   }

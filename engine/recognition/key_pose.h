@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +26,10 @@ struct TaughtPose {
 struct TaughtMove {
   std::string name;
   std::vector<TaughtPose> poses;  ///< at least one
+  /// From the first pose reached to the last at most so many frames may pass where nobody says when the move is danced
+  /// (FindMove): one performance at the slowest tempo allowed. By default any number, so that poses of two performances
+  /// may be taken for one.
+  int span_frames = std::numeric_limits<int>::max();
 };
 
 /// How much a feature counts.
@@ -33,16 +38,30 @@ enum class Weighting {
   kAdaptive,  ///< by how well its joints are seen (ours)
 };
 
+/// When a key pose counts as reached. Evidence: `scenarios/quick/detection.yaml`, an answer with a sensor's errors.
 struct KeyPoseOptions {
+  /// Fixed, because it is A's. Adaptive where a miss costs more than praise for a mistake, most of all where the body
+  /// hides its own far side: it finds more performances, and pays in precision and false alarms, because what is not
+  /// seen is not counted, mistakes included.
   Weighting weights = Weighting::kFixed;
-  /// The weighted share of satisfied targets from which on a pose counts as reached. At 0.8 (ours) fixed weights
-  /// demand every angle of a pose of up to four, as A does; adaptive ones demand every angle that is seen, and let one
-  /// guessed angle of three or four be off. At 1 the weights decide nothing, unless one of them is 0.
+  /// The weighted share of satisfied targets from which on a pose counts as reached, in (0, 1]. At 0.8 (ours) fixed
+  /// weights demand every angle of a pose of up to four, as A does; adaptive ones demand every angle that is seen, and
+  /// let one guessed angle of three or four be off. Lower for a noisy sensor: 0.75 forgives one angle of four, finds
+  /// most of what twice the noise hides, and gives several times as many false alarms. At 1 the weights decide nothing,
+  /// unless one of them is 0.
   double threshold = 0.8;
-  int hold_frames = 3;  ///< consecutive seen frames, ≥ 1: a pose passed through by noise is none
-  // The adaptive weights:
+  /// For how many seen frames in a row a pose must be met, ≥ 1. Three (ours), 0.1 s at 30 Hz, so that a pose which
+  /// noise passes through is none. Change it with the frame rate; every frame more delays each answer by one, and a
+  /// quick dancer does not hold a pose for long.
+  int hold_frames = 3;
+  /// What an angle counts whose joints are all tracked. The yardstick of the other two: leave it.
   double tracked_weight = 1.0;
+  /// What an angle with an inferred joint counts (adaptive weights), in [0, 1]. At 0.3 (ours) three guessed angles
+  /// cannot outvote one that is seen. Raise it for a sensor whose guesses are good; at 1 adaptive weights are fixed
+  /// ones for whatever is tracked or inferred.
   double inferred_weight = 0.3;
+  /// What an angle with a joint that is not tracked counts (adaptive weights), in [0, 1]. Nothing, because such a joint
+  /// repeats where it was last. Raise it only for a sensor that goes on reporting joints it calls not tracked.
   double not_tracked_weight = 0.0;
 };
 
@@ -88,16 +107,15 @@ class KeyPoseRecogniser {
 
 /// What the coach concludes about one performance it asked for.
 struct Judgement {
-  std::optional<int> right_at;        ///< frame within the window; empty: called wrong
+  std::optional<int> recognised_at;   ///< frame within the window; empty: the move was not recognised
   double score = 0;                   ///< soft, in [0, 1], for ROC curves
   std::vector<double> running_score;  ///< per frame of the window
 };
 
-/// Judges `window`, the frames in which the move was to be danced.
+/// Judges `window`, the frames in which the move was to be danced: its length bounds the performance.
 Judgement JudgeWindow(std::span<const FeatureFrame> window, const TaughtMove& move, const KeyPoseOptions& options);
 
 /// Every frame at which the move was recognised, with the recogniser running all the time.
-std::vector<int> FindMove(std::span<const FeatureFrame> frames, const TaughtMove& move, const KeyPoseOptions& options,
-                          int span_frames);
+std::vector<int> FindMove(std::span<const FeatureFrame> frames, const TaughtMove& move, const KeyPoseOptions& options);
 
 }  // namespace etude

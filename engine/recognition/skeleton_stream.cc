@@ -15,4 +15,14 @@ BodyMotion MotionOf(const SkeletonStream& stream) {
   return motion;
 }
 
+SkeletonStream StreamOf(const BodyMotion& motion) {
+  SkeletonStream stream{.rate_hz = motion.rate_hz, .frames = {}};
+  for (const BodyPose& pose : motion.poses) {
+    SensedFrame& frame = stream.frames.emplace_back();
+    frame.body_seen = true;
+    for (std::size_t i = 0; i < kRoleCount; ++i) frame.joints[i] = {pose.joints[i], TrackingState::kTracked};
+  }
+  return stream;
+}
+
 }  // namespace etude

@@ -38,4 +38,7 @@ struct SkeletonStream {
 BodyPose PoseOf(const SensedFrame& frame);
 BodyMotion MotionOf(const SkeletonStream& stream);
 
+/// What a sensor without errors would deliver: every joint tracked, where it is.
+SkeletonStream StreamOf(const BodyMotion& motion);
+
 }  // namespace etude

@@ -4,11 +4,14 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/named.h"
 #include "engine/vision/components.h"
 #include "engine/vision/hsi.h"
 
 namespace etude {
 namespace {
+
+constexpr Named<Segmenter> kSegmenters[] = {{"hue", Segmenter::kHue}, {"hue-gated", Segmenter::kHueGated}};
 
 // Whether two hues are more than the threshold apart, by the cosine of the angle between them.
 class HueComparison {
@@ -65,12 +68,9 @@ class GatedComparison {
 
 }  // namespace
 
-std::vector<std::string> SegmenterNames() { return {"hue", "hue-gated"}; }
+std::vector<std::string> SegmenterNames() { return NamesOf(kSegmenters); }
 
-Segmenter SegmenterNamed(std::string_view name) {
-  assert(name == "hue" || name == "hue-gated");
-  return name == "hue" ? Segmenter::kHue : Segmenter::kHueGated;
-}
+Segmenter SegmenterNamed(std::string_view name) { return ValueNamed(kSegmenters, name); }
 
 Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
                   const ChangeOptions& options) {

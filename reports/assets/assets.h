@@ -10,7 +10,7 @@ std::string_view ReportCss();
 std::string_view ReportJs();
 /// Only for pages that show what paper_b_section.h makes.
 std::string_view PaperCss();
-/// Only for pages that show what reports/switches makes.
-std::string_view SwitchesCss();
+/// Only for pages that show what reports/transitions makes.
+std::string_view TransitionsCss();
 
 }  // namespace etude

@@ -85,25 +85,26 @@ std::string ClipsAsText(const BridgeLibrary& loaded, const std::vector<ClipSumma
   std::string text;
   const int width = NameWidth(loaded.library);
   text += fmt::format(
-      "\n     {:{}}  frames  bridge frames  poses  leads into  frames with a partner  worst wait  in-between\n", "clip",
+      "\n     {:{}}  frames  bridge frames  poses  leads into  frames with a match  worst wait  in-between\n", "clip",
       width);
   for (std::size_t c = 0; c < clips.size(); ++c) {
     const ClipSummary& clip = clips[c];
     text += fmt::format(
-        "{:>3}  {:{}}  {:>6}  {:>6} ({:>3.0f} %)  {:>5}  {:>3} of {:<3}  {:>19.0f} %  {:>10}  {:>8.0f} %\n", c + 1,
+        "{:>3}  {:{}}  {:>6}  {:>6} ({:>3.0f} %)  {:>5}  {:>3} of {:<3}  {:>17.0f} %  {:>10}  {:>8.0f} %\n", c + 1,
         loaded.library.names[c], width, clip.frames, clip.bridge_frames, Percent(clip.bridge_frames, clip.frames),
         clip.poses, clip.reached, clips.size() - 1, 100 * clip.frame_share,
         clip.worst_wait_s ? fmt::format("{:.1f} s", *clip.worst_wait_s) : "-", 100 * clip.in_between_share);
   }
   text += fmt::format(
-      "\nposes: different sets of ten tags. frames with a partner: of all frames, d < {} to some frame of another\n"
+      "\nposes: different sets of ten tags. frames with a match: of all frames, d < {} to some frame of another\n"
       "clip, mean over the other clips. worst wait: until a bridge frame that leads on, over the clips reached; the\n"
-      "clip starts over at its end. in-between: how often a switch within {} s needs one, mean over the other clips.\n",
-      loaded.switch_rules.threshold, wait_s);
+      "clip starts over at its end. in-between: how often a transition within {} s needs one, mean over the other "
+      "clips.\n",
+      loaded.match_rules.threshold, wait_s);
   return text;
 }
 
-/// Percent of the row's bridge frames with a partner in the column; "." is none at all.
+/// Percent of the row's bridge frames that match one of the column; "." is none at all.
 std::string MatrixAsText(const BridgeLibrary& loaded, const Coverage& coverage) {
   std::string text;
   const int count = coverage.ClipCount(), width = NameWidth(loaded.library);
@@ -148,7 +149,7 @@ std::string BridgeSummaryAsText(const BridgeLibrary& loaded, const Coverage& cov
   text +=
       fmt::format("{} clips, {} frames, {} bridge frames ({:.0f} %); fuzzy system {}, threshold {}{}\n", clips.size(),
                   total.frames, total.bridge_frames, Percent(total.bridge_frames, total.frames), loaded.system.name,
-                  loaded.switch_rules.threshold, loaded.switch_rules.within_class ? ", within the class" : "");
+                  loaded.match_rules.threshold, loaded.match_rules.within_class ? ", within the class" : "");
   text += ClipsAsText(loaded, clips, wait_s);
   if (coverage.ClipCount() <= kWidestMatrix) {
     text += MatrixAsText(loaded, coverage);
@@ -199,8 +200,8 @@ Result<std::string> BridgeSummaryAsJson(const BridgeLibrary& loaded, const Cover
   const MotionLibrary& library = loaded.library;
   return WriteJson({{"schema_version", 1},
                     {"fuzzy_system", loaded.system.name},
-                    {"threshold", loaded.switch_rules.threshold},
-                    {"within_class", loaded.switch_rules.within_class},
+                    {"threshold", loaded.match_rules.threshold},
+                    {"within_class", loaded.match_rules.within_class},
                     {"wait_s", wait_s},
                     {"clips", of_clips},
                     {"pairs", pairs},

@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/bridging/coverage.h"
-#include "engine/bridging/library.h"
-#include "engine/bridging/links.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "engine/transitions/bridge_frames/coverage.h"
+#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/library/library.h"
 
 namespace etude {
 
-/// The clips of `etude bridge`, danced by one body and tagged.
+/// The clips of `etude bridge`, performed by one body and tagged.
 struct BridgeLibrary {
   FuzzySystem system;
   TagRules tag_rules;
-  SwitchRules switch_rules;
+  MatchRules match_rules;
   MotionLibrary library;
   std::vector<std::string> sources;  ///< what opens the clips again
   std::vector<int> corrective;       ///< the clips that every other one must lead into

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "reports/films/look.h"
+#include "reports/transitions/transition_facts.h"
 
 namespace etude {
 namespace {
@@ -91,7 +92,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   const BodyMotion* truth = FindTrack(*cell.recording, "truth");
   const BodyMotion* recovered = FindTrack(*cell.recording, "recovered");
   if (truth == nullptr || recovered == nullptr) return Fail(place, "it lacks the track truth or recovered");
-  ASSIGN_OR_RETURN(auto extras, ReadRecordingExtras(cell.recording->extras_json));
+  ASSIGN_OR_RETURN(auto extras, ReadCaptureExtras(cell.recording->extras_json));
 
   const std::size_t frames = truth->poses.size();
   bool fits =
@@ -139,7 +140,7 @@ View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targe
 
 void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {
   const std::size_t k = static_cast<std::size_t>(frame);
-  const RecordingExtras::View& view = extras_.views[camera];
+  const CaptureExtras::View& view = extras_.views[camera];
   // The whole picture, laid so that its crop covers the canvas; the rest falls off the edge.
   const Box& crop = crops_[camera];
   const double scale = canvas.width() / crop.width;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
 #include "sim/render/renderer.h"
@@ -37,7 +37,7 @@ class CapturePanel {
 
  private:
   BodyMotion truth_, recovered_;
-  RecordingExtras extras_;
+  CaptureExtras extras_;
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
   std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve
   std::optional<double> error_mm_;

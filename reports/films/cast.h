@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "bench/results/run_data.h"
-#include "reports/switches/switch_facts.h"
+#include "bench/model/run_data.h"
+#include "reports/transitions/transition_facts.h"
 
 namespace etude {
 

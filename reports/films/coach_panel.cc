@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "reports/films/distance_bars.h"
 #include "reports/films/followed_way.h"
 #include "reports/films/jump_strip.h"
 #include "reports/films/look.h"
-#include "reports/films/seam_bars.h"
-#include "reports/films/switch_panel.h"
+#include "reports/films/transition_panel.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 
@@ -26,15 +26,15 @@ constexpr double kCoachDetail = 1.5;
 constexpr int kCoachFollowFrames = 30;
 // How close to the room's wall the hips may come.
 constexpr double kNearestToWall = 1.0;
-// How long the change stays marked after the seam, and how long its distances are shown around it.
+// How long the change stays marked after the transition point, and how long its distances are shown around it.
 constexpr int kCoachMarkFrames = 15;
 constexpr int kBarsBefore = 15, kBarsAfter = 60;
 // Beside the feet, above the time line.
 constexpr double kBarsWidth = 320, kBarsLift = 34;
 
-// Turned to face the camera at the seam, in the middle of the room, never behind its wall.
-void PutOnStage(BodyMotion& motion, int seam) {
-  const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(seam)]);
+// Turned to face the camera at the transition point, in the middle of the room, never behind its wall.
+void PutOnStage(BodyMotion& motion, int point) {
+  const FloorMove move = ToOrigin(motion.poses[static_cast<std::size_t>(point)]);
   double backmost = 0;
   for (BodyPose& pose : motion.poses) {
     pose = move.Apply(pose);
@@ -49,9 +49,9 @@ Paint Faded(const Paint& paint) { return {paint.r, paint.g, paint.b, 0.55}; }
 }  // namespace
 
 Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
-  ASSIGN_OR_RETURN(auto facts, ReadSwitchFacts(*cell.recording, cell.row->Id()));
-  if (facts.seam_frames.empty()) {
-    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole seam_frame within the motion");
+  ASSIGN_OR_RETURN(auto facts, ReadTransitionFacts(*cell.recording, cell.row->Id()));
+  if (facts.transition_frames.empty()) {
+    return Fail({.file = "recording " + cell.row->Id()}, "its extras lack a whole transition_frame within the motion");
   }
   CoachPanel panel;
   panel.bear_ = BearCharacter();
@@ -59,7 +59,7 @@ Result<CoachPanel> CoachPanel::Make(const CastCell& cell, int longest) {
   panel.method_ = cell.row->method;
   panel.motion_ = *FindTrack(*cell.recording, "coach");
   panel.CutTo(longest);
-  PutOnStage(panel.motion_, panel.Seam());
+  PutOnStage(panel.motion_, panel.FirstPoint());
   panel.followed_ = FollowedWay(panel.motion_, kCoachFollowFrames);
   return panel;
 }
@@ -68,10 +68,10 @@ void CoachPanel::CutTo(int longest) {
   auto& poses = motion_.poses;
   const int count = static_cast<int>(poses.size());
   if (count <= longest) return;
-  const int first = std::clamp(Seam() - longest / 2, 0, count - longest);
+  const int first = std::clamp(FirstPoint() - longest / 2, 0, count - longest);
   poses = {poses.begin() + first, poses.begin() + first + longest};
-  for (int& seam : facts_.seam_frames) seam -= first;
-  std::erase_if(facts_.seam_frames, [&](int seam) { return seam >= longest; });
+  for (int& point : facts_.transition_frames) point -= first;
+  std::erase_if(facts_.transition_frames, [&](int point) { return point >= longest; });
   if (facts_.request_frame) *facts_.request_frame -= first;
 }
 
@@ -100,45 +100,46 @@ void CoachPanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer, int 
   DrawCaption(canvas, panel, fmt::format("{}  →  {}", facts_.from, facts_.to),
               fmt::format("changes moves by {}{}{}", how, countdown.empty() ? "" : " · ", countdown), 18);
   DrawTimeline(canvas, panel, frame);
-  DrawSeam(canvas, panel, frame);
+  DrawDistances(canvas, panel, frame);
 }
 
 std::string CoachPanel::CountdownAt(int frame) const {
   if (!facts_.request_frame) return "";
   const int request = *facts_.request_frame;
-  return CountdownWords(facts_.to, frame - request, facts_.seam_frames.back() - request, motion_.rate_hz);
+  return CountdownWords(facts_.to, frame - request, facts_.transition_frames.back() - request, motion_.rate_hz);
 }
 
 void CoachPanel::DrawTimeline(Canvas& canvas, const Box& panel, int frame) const {
   const double left = panel.x + 16, width = panel.width - 32, y = panel.y + panel.height - 18;
   const double last = std::max(1, Frames() - 1);
   const auto place = [&](int at) { return left + width * at / last; };
-  const std::vector<int>& seams = facts_.seam_frames;
+  const std::vector<int>& points = facts_.transition_frames;
   double from = left;
-  for (std::size_t leg = 0; leg <= seams.size(); ++leg) {
-    const double to = leg < seams.size() ? place(seams[leg]) : left + width;
-    canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfLeg(facts_, leg)));
+  for (std::size_t segment = 0; segment <= points.size(); ++segment) {
+    const double to = segment < points.size() ? place(points[segment]) : left + width;
+    canvas.DrawLine({from, y}, {to, y}, 4, Faded(PaintOfSegment(facts_, segment)));
     from = to;
   }
-  for (const int seam : seams) canvas.DrawLine({place(seam), y - 8}, {place(seam), y + 8}, 2, kInk);
+  for (const int point : points) canvas.DrawLine({place(point), y - 8}, {place(point), y + 8}, 2, kInk);
   if (facts_.request_frame && *facts_.request_frame >= 0) {
     canvas.DrawRing({place(std::min(*facts_.request_frame, Frames() - 1)), y}, 5, 2, kInk);
   }
-  const auto passed = static_cast<std::size_t>(std::ranges::count_if(seams, [&](int seam) { return seam <= frame; }));
-  canvas.DrawDot({place(frame), y}, 6, PaintOfLeg(facts_, passed));
+  const auto passed =
+      static_cast<std::size_t>(std::ranges::count_if(points, [&](int point) { return point <= frame; }));
+  canvas.DrawDot({place(frame), y}, 6, PaintOfSegment(facts_, passed));
 }
 
-void CoachPanel::DrawSeam(Canvas& canvas, const Box& panel, int frame) const {
-  const std::vector<int>& seams = facts_.seam_frames;
-  const auto is_near = [&](int seam) { return frame >= seam - kBarsBefore && frame < seam + kBarsAfter; };
-  const auto near = std::ranges::find_if(seams.rbegin(), seams.rend(), is_near);
-  if (near == seams.rend()) return;
-  const auto meeting = static_cast<std::size_t>(seams.rend() - near) - 1;
-  const Box bars{panel.x + panel.width - kBarsWidth - 12, panel.y + panel.height - kBarsLift - kSeamBarsHeight,
-                 kBarsWidth, kSeamBarsHeight};
-  if (meeting < facts_.meetings.size() && facts_.meetings[meeting].partials) {
+void CoachPanel::DrawDistances(Canvas& canvas, const Box& panel, int frame) const {
+  const std::vector<int>& points = facts_.transition_frames;
+  const auto is_near = [&](int point) { return frame >= point - kBarsBefore && frame < point + kBarsAfter; };
+  const auto near = std::ranges::find_if(points.rbegin(), points.rend(), is_near);
+  if (near == points.rend()) return;
+  const auto point = static_cast<std::size_t>(points.rend() - near) - 1;
+  const Box bars{panel.x + panel.width - kBarsWidth - 12, panel.y + panel.height - kBarsLift - kDistanceBarsHeight,
+                 kBarsWidth, kDistanceBarsHeight};
+  if (point < facts_.points.size() && facts_.points[point].partials) {
     canvas.FillBox(bars, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
-    DrawSeamBars(canvas, bars, facts_, meeting);
+    DrawDistanceBars(canvas, bars, facts_, point);
   }
   if (frame >= *near && frame < *near + kCoachMarkFrames) DrawMark(canvas, panel, "change");
 }

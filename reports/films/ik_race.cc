@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bench/files/json.h"
 #include "reports/films/cast.h"
 #include "reports/words/figures.h"
 

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
+#include "engine/base/result.h"
 #include "engine/kinematics/ik_problem.h"
 
 namespace etude {

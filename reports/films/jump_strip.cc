@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "reports/films/look.h"
 #include "reports/words/figures.h"
 
@@ -18,11 +18,11 @@ constexpr double kTextSize = 13, kJumpRoom = 184;
 constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
 // The metric jump_cm, as far as it is known at a frame.
-std::optional<double> JumpAtSeams(const SwitchPath& path, int frame) {
+std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
   std::optional<double> most;
-  for (const int seam : path.facts.seam_frames) {
-    const int last = std::min({seam + kSeamReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
-    for (int at = std::max(0, seam - kSeamReach); frame > seam && at <= last; ++at) {
+  for (const int point : path.facts.transition_frames) {
+    const int last = std::min({point + kWindowReach, frame, static_cast<int>(path.jumps_cm.size()) - 1});
+    for (int at = std::max(0, point - kWindowReach); frame > point && at <= last; ++at) {
       most = std::max(most.value_or(0), path.jumps_cm[static_cast<std::size_t>(at)]);
     }
   }
@@ -44,17 +44,17 @@ struct JumpStrip::Frame {
   double Bottom() const { return box.y + box.height; }
 };
 
-const Paint& PaintOfLeg(const SwitchFacts& facts, std::size_t seams_before) {
-  if (seams_before == 0) return kAccent;
-  return seams_before < facts.seam_frames.size() ? kSoftInk : kWarm;
+const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before) {
+  if (points_before == 0) return kAccent;
+  return points_before < facts.transition_frames.size() ? kSoftInk : kWarm;
 }
 
-void JumpStrip::Draw(Canvas& canvas, const Box& box, const SwitchPath& path, int time) const {
+void JumpStrip::Draw(Canvas& canvas, const Box& box, const TransitionPath& path, int time) const {
   const Frame frame{{box.x + kSide, box.y + kStripTop, box.width - 2 * kSide, box.height - kStripTop - kStripBottom},
                     *this};
   const int shown = path.FrameAt(time);
   std::string jump = fmt::format("jump {} cm", FormatFixed(path.jumps_cm[static_cast<std::size_t>(shown)], 1));
-  if (const auto most = JumpAtSeams(path, shown)) jump += fmt::format(", switch {}", FormatFixed(*most, 1));
+  if (const auto most = JumpAtPoints(path, shown)) jump += fmt::format(", worst {}", FormatFixed(*most, 1));
   canvas.DrawText({frame.box.x, box.y + 16}, path.IsRecordedAt(time) ? jump : "jump —", kTextSize, kInk, kJumpRoom);
   if (path.facts.natural_limit_cm) {
     const double y = frame.Y(*path.facts.natural_limit_cm);
@@ -69,10 +69,10 @@ void JumpStrip::Draw(Canvas& canvas, const Box& box, const SwitchPath& path, int
   DrawClips(canvas, frame, path);
   const double x = frame.X(time), y = frame.Bottom() + 8 + kClipHeight / 2;
   canvas.DrawLine({x, frame.box.y}, {x, y}, 1, {0.95, 0.955, 0.96, 0.5});
-  canvas.DrawDot({x, y}, 6, PaintOfLeg(path.facts, path.SeamsBefore(time)));
+  canvas.DrawDot({x, y}, 6, PaintOfSegment(path.facts, path.PointsBefore(time)));
 }
 
-void JumpStrip::DrawCurve(Canvas& canvas, const Frame& frame, const SwitchPath& path, int until,
+void JumpStrip::DrawCurve(Canvas& canvas, const Frame& frame, const TransitionPath& path, int until,
                           const Paint& paint) const {
   std::vector<glm::dvec2> points;
   for (int time = first_; time <= std::min(until, last_); ++time) {
@@ -83,15 +83,15 @@ void JumpStrip::DrawCurve(Canvas& canvas, const Frame& frame, const SwitchPath& 
   if (points.size() > 1) canvas.DrawPath(points, 1.8, paint);
 }
 
-void JumpStrip::DrawClips(Canvas& canvas, const Frame& frame, const SwitchPath& path) const {
+void JumpStrip::DrawClips(Canvas& canvas, const Frame& frame, const TransitionPath& path) const {
   const double y = frame.Bottom() + 8;
   canvas.DrawLine({frame.box.x, frame.Bottom()}, {frame.box.x + frame.box.width, frame.Bottom()}, 1, kFloor);
   double from = frame.box.x;
-  const std::size_t seams = path.facts.seam_frames.size();
-  for (std::size_t leg = 0; leg <= seams; ++leg) {
-    const double to =
-        leg < seams ? frame.X(path.TimeOf(path.facts.seam_frames[leg]) + 0.5) : frame.box.x + frame.box.width;
-    if (to > from) canvas.FillBox({from, y, to - from, kClipHeight}, PaintOfLeg(path.facts, leg));
+  const std::size_t points = path.facts.transition_frames.size();
+  for (std::size_t segment = 0; segment <= points; ++segment) {
+    const double to = segment < points ? frame.X(path.TimeOf(path.facts.transition_frames[segment]) + 0.5)
+                                       : frame.box.x + frame.box.width;
+    if (to > from) canvas.FillBox({from, y, to - from, kClipHeight}, PaintOfSegment(path.facts, segment));
     from = to;
   }
   const double request = frame.X(0), baseline = y + kClipHeight + 15;

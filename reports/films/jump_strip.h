@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/films/canvas.h"
-#include "reports/films/switch_race.h"
+#include "reports/films/transition_race.h"
 
 namespace etude {
 
@@ -12,18 +12,19 @@ class JumpStrip {
   /// Shows the moments `first` … `last`, in frames after the request. Values up to `highest_cm` > 0 fit.
   JumpStrip(int first, int last, double highest_cm) : first_(first), last_(last), highest_cm_(highest_cm) {}
 
-  void Draw(Canvas& canvas, const Box& box, const SwitchPath& path, int time) const;
+  void Draw(Canvas& canvas, const Box& box, const TransitionPath& path, int time) const;
 
  private:
   struct Frame;
-  void DrawClips(Canvas& canvas, const Frame& frame, const SwitchPath& path) const;
-  void DrawCurve(Canvas& canvas, const Frame& frame, const SwitchPath& path, int until, const Paint& paint) const;
+  void DrawClips(Canvas& canvas, const Frame& frame, const TransitionPath& path) const;
+  void DrawCurve(Canvas& canvas, const Frame& frame, const TransitionPath& path, int until, const Paint& paint) const;
 
   int first_, last_;
   double highest_cm_;
 };
 
-/// The colour of what plays after so many of a path's seams: the clip left, an in-between, or the clip wanted.
-const Paint& PaintOfLeg(const SwitchFacts& facts, std::size_t seams_before);
+/// The colour of what plays after so many of a path's transition points: the clip left, an in-between, or the clip
+/// wanted.
+const Paint& PaintOfSegment(const TransitionFacts& facts, std::size_t points_before);
 
 }  // namespace etude

@@ -11,8 +11,8 @@
 #include "reports/films/film.h"
 #include "reports/films/picture_strip.h"
 #include "reports/films/stage_scene.h"
-#include "reports/films/switch_race.h"
-#include "reports/films/switch_scene.h"
+#include "reports/films/transition_race.h"
+#include "reports/films/transition_scene.h"
 #include "reports/words/file_name.h"
 
 namespace etude {
@@ -42,7 +42,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& la
   const auto coach_cell = ChooseCell(run, "transition", "coach");
   const auto capture_cell = ChooseCell(run, "capture", "recovered");
   // A coach alone is seen better beside the other methods.
-  const auto compares = [&](const ScenarioSummary& scenario) { return FindSwitchRace(run, scenario).has_value(); };
+  const auto compares = [&](const ScenarioSummary& scenario) { return FindTransitionRace(run, scenario).has_value(); };
   if (!capture_cell && std::ranges::any_of(run.scenarios, compares)) return;
   if (!coach_cell && !capture_cell) {
     why = "There is no film of coach and cameras: this run kept no recordings of a coach or a capture.";
@@ -119,9 +119,9 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths) {
     if (scenario.task == "ik") {
       film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
                                                  paths.films / FilmName(run, i, "convergence"), renderer);
-    } else if (auto race = FindSwitchRace(run, scenario)) {
-      film = MakeComparingFilm<SwitchScene>(std::move(race), scenario.name, "methods switching",
-                                            paths.films / FilmName(run, i, "switches"), renderer);
+    } else if (auto race = FindTransitionRace(run, scenario)) {
+      film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
+                                                paths.films / FilmName(run, i, "transitions"), renderer);
     } else {
       continue;
     }

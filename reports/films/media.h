@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 
@@ -33,9 +33,10 @@ struct ScenarioFilm {
 /// What the recordings gave to look at, and plain words for what they did not.
 struct Media {
   Film film;  ///< of the run: coach and cameras; empty for tasks without either, and where a scenario's film shows all
-  std::vector<Picture> strip;                ///< moments of the capture: stereo pictures, mask, recovered skeleton
-  std::string strip_scenario;                ///< whose card shows the strip
-  std::vector<ScenarioFilm> scenario_films;  ///< methods side by side: inverse kinematics settling, dancers switching
+  std::vector<Picture> strip;  ///< moments of the capture: stereo pictures, mask, recovered skeleton
+  std::string strip_scenario;  ///< whose card shows the strip
+  std::vector<ScenarioFilm>
+      scenario_films;  ///< methods side by side: inverse kinematics settling, transitions from clip to clip
 };
 
 /// Where files go that stand beside the page.

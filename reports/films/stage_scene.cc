@@ -39,7 +39,7 @@ int StageScene::Frames() const {
 
 // Just after the change of moves.
 int StageScene::PosterFrame() const {
-  return std::min(coach_ ? coach_->Seam() + 4 : capture_->Frames() / 2, Frames() - 1);
+  return std::min(coach_ ? coach_->FirstPoint() + 4 : capture_->Frames() / 2, Frames() - 1);
 }
 
 std::string StageScene::Words() const {

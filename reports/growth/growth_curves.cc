@@ -14,18 +14,18 @@ constexpr const char* kFrames = "frames";
 /// A condition apart into the library's size and everything else.
 struct SizedCondition {
   double frames = 0;
-  std::vector<Setting> rest;
+  std::vector<SweptValue> rest;
 };
 
-std::optional<SizedCondition> TakeApart(const std::vector<Setting>& condition) {
+std::optional<SizedCondition> TakeApart(const std::vector<SweptValue>& condition) {
   SizedCondition taken;
-  for (const Setting& setting : condition) {
-    if (setting.key != kFrames) {
-      taken.rest.push_back(setting);
+  for (const SweptValue& swept : condition) {
+    if (swept.key != kFrames) {
+      taken.rest.push_back(swept);
       continue;
     }
-    const char* const end = setting.value.data() + setting.value.size();
-    if (std::from_chars(setting.value.data(), end, taken.frames).ptr != end) return std::nullopt;
+    const char* const end = swept.value.data() + swept.value.size();
+    if (std::from_chars(swept.value.data(), end, taken.frames).ptr != end) return std::nullopt;
   }
   return taken.frames > 0 ? std::optional(taken) : std::nullopt;
 }

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 

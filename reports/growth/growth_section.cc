@@ -73,7 +73,7 @@ std::string Table(const Growth& growth, const std::vector<std::string>& methods)
 
 bool ShowsGrowth(const ScenarioSummary& scenario) {
   return scenario.task == "search" && std::ranges::any_of(scenario.conditions, [](const ConditionSummary& condition) {
-           return std::ranges::find(condition.condition, "frames", &Setting::key) != condition.condition.end();
+           return std::ranges::find(condition.condition, "frames", &SweptValue::key) != condition.condition.end();
          });
 }
 

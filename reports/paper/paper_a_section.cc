@@ -20,9 +20,9 @@ constexpr std::string_view kFuzzyKey = "fuzzy", kBuiltin = "builtin:";
 std::vector<FuzzySystem> ShownSystems(const ScenarioSummary& scenario) {
   std::vector<FuzzySystem> systems = {FuzzySystem{}};
   for (const ConditionSummary& condition : scenario.conditions) {
-    for (const Setting& setting : condition.condition) {
-      if (setting.key != kFuzzyKey || !setting.value.starts_with(kBuiltin)) continue;
-      auto system = LoadBuiltinFuzzySystem(setting.value.substr(kBuiltin.size()), {});
+    for (const SweptValue& swept : condition.condition) {
+      if (swept.key != kFuzzyKey || !swept.value.starts_with(kBuiltin)) continue;
+      auto system = LoadBuiltinFuzzySystem(swept.value.substr(kBuiltin.size()), {});
       if (system && std::ranges::find(systems, system->name, &FuzzySystem::name) == systems.end()) {
         systems.push_back(*std::move(system));
       }
@@ -96,7 +96,7 @@ constexpr std::string_view kMisprints =
 bool ShowsPaperA(const ScenarioSummary& scenario) {
   if (scenario.task == "transition" && scenario.name == "paper-bridging") return true;
   return std::ranges::any_of(scenario.conditions, [](const ConditionSummary& condition) {
-    return std::ranges::find(condition.condition, kFuzzyKey, &Setting::key) != condition.condition.end();
+    return std::ranges::find(condition.condition, kFuzzyKey, &SweptValue::key) != condition.condition.end();
   });
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 

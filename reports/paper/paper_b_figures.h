@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree.h"
 #include "reports/paper/paper_table.h"
 

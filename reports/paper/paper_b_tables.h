@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 #include "reports/paper/paper_table.h"
 
 namespace etude {
@@ -20,7 +20,7 @@ struct PaperBSet {
 };
 
 struct PaperBCondition {
-  std::vector<Setting> condition;
+  std::vector<SweptValue> condition;
   std::vector<PaperBSet> sets;  ///< the first trial; then, when there are several, all
 };
 

@@ -27,7 +27,7 @@ bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::strin
 }
 
 std::vector<const Row*> RowsUnder(const RunData& run, const ScenarioSummary& scenario,
-                                  const std::vector<Setting>& condition) {
+                                  const std::vector<SweptValue>& condition) {
   std::vector<const Row*> rows;
   for (const Row& row : run.rows) {
     if (row.scenario == scenario.name && row.condition == condition) rows.push_back(&row);

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 
@@ -26,7 +26,7 @@ bool KeepsSeries(const RunData& run, const ScenarioSummary& scenario, std::strin
 
 /// The rows of a scenario under one condition, in order.
 std::vector<const Row*> RowsUnder(const RunData& run, const ScenarioSummary& scenario,
-                                  const std::vector<Setting>& condition);
+                                  const std::vector<SweptValue>& condition);
 
 /// The middle value, or the mean of the middle two. `values` must not be empty.
 double Median(std::vector<double> values);

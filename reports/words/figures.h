@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/results/run_data.h"
+#include "bench/model/summary.h"
 
 namespace etude {
 

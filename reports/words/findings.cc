@@ -13,9 +13,9 @@
 namespace etude {
 namespace {
 
-bool SameCondition(const std::vector<Setting>& a, const std::vector<Setting>& b) {
-  return std::ranges::equal(a, b,
-                            [](const Setting& x, const Setting& y) { return x.key == y.key && x.value == y.value; });
+bool SameCondition(const std::vector<SweptValue>& a, const std::vector<SweptValue>& b) {
+  return std::ranges::equal(
+      a, b, [](const SweptValue& x, const SweptValue& y) { return x.key == y.key && x.value == y.value; });
 }
 
 std::string ExpectationsSentence(const RunFindings& f) {
@@ -87,9 +87,9 @@ RunFindings FindingsOf(const RunData& run) {
   }
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
-      if (expectation.outcome == Outcome::kMet) ++f.met;
-      if (expectation.outcome == Outcome::kUnmet) ++f.unmet;
-      if (expectation.outcome == Outcome::kUndecided) ++f.undecided;
+      if (expectation.ruling == Ruling::kMet) ++f.met;
+      if (expectation.ruling == Ruling::kUnmet) ++f.unmet;
+      if (expectation.ruling == Ruling::kUndecided) ++f.undecided;
     }
   }
   f.sentence = ExpectationsSentence(f);
@@ -115,7 +115,7 @@ std::string StatusSentence(const ScenarioFindings& findings) {
   return text;
 }
 
-std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<Setting>& condition,
+std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric) {
   std::map<std::string, int> counts;
   for (const Row& row : run.rows) {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 
@@ -60,7 +60,7 @@ RunFindings FindingsOf(const RunData& run);
 std::string StatusSentence(const ScenarioFindings& findings);
 
 /// Why values of this metric are missing in these cells: "2 × no effector seen; 1 × timeout".
-std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<Setting>& condition,
+std::string MissingReasons(const RunData& run, const std::string& scenario, const std::vector<SweptValue>& condition,
                            const std::string& method, const std::string& metric);
 
 /// The summary of a metric, or null when the method has none of that name.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/fields.h"
 #include "sim/choreography/builtin_files.h"
@@ -96,17 +97,17 @@ BodyMotion MotionOf(const Move& move) {
   return motion;
 }
 
-std::vector<std::string> BuiltinMoveNames() { return NamesOf(BuiltinMoveFiles()); }
-std::vector<std::string> BuiltinActNames() { return NamesOf(BuiltinActFiles()); }
+std::vector<std::string> BuiltinMoveNames() { return NamesOf(BuiltinMoveFiles(), StemOf); }
+std::vector<std::string> BuiltinActNames() { return NamesOf(BuiltinActFiles(), StemOf); }
 
 Result<Move> LoadBuiltinMove(const std::string& name) {
   const bool is_slow = name.starts_with(kSlowDemonstrationPrefix);
   const std::string_view authored = std::string_view(name).substr(is_slow ? kSlowDemonstrationPrefix.size() : 0);
-  if (const EmbeddedText* file = FindFile(BuiltinMoveFiles(), authored)) {
+  if (const EmbeddedText* file = FindByName(BuiltinMoveFiles(), authored, StemOf)) {
     auto move = ParseMove(file->text, "scenarios/choreography/moves/" + std::string(file->name));
     return move && is_slow ? SlowDemonstration(*move) : move;
   }
-  if (const EmbeddedText* file = FindFile(BuiltinActFiles(), name)) {
+  if (const EmbeddedText* file = FindByName(BuiltinActFiles(), name, StemOf)) {
     return ParseMove(file->text, "scenarios/choreography/acts/" + std::string(file->name));
   }
   std::vector<std::string> known = BuiltinMoveNames();

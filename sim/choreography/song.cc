@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "engine/document/fields.h"
 #include "sim/choreography/builtin_files.h"
@@ -23,7 +24,7 @@ double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1;
 
 /// The part's move as danced to music of that tempo; fails when it does not suit it.
 Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
-  if (FindFile(BuiltinMoveFiles(), part.move) == nullptr) {
+  if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
   }
   const auto move = LoadBuiltinMove(part.move);
@@ -128,10 +129,10 @@ Result<Song> ParseSong(std::string_view yaml, const std::string& file) {
   return song;
 }
 
-std::vector<std::string> BuiltinSongNames() { return NamesOf(BuiltinSongFiles()); }
+std::vector<std::string> BuiltinSongNames() { return NamesOf(BuiltinSongFiles(), StemOf); }
 
 Result<Song> LoadBuiltinSong(const std::string& name) {
-  const EmbeddedText* file = FindFile(BuiltinSongFiles(), name);
+  const EmbeddedText* file = FindByName(BuiltinSongFiles(), name, StemOf);
   if (file == nullptr) return Fail({}, "{}", UnknownName("song", name, BuiltinSongNames()));
   return ParseSong(file->text, "scenarios/choreography/songs/" + std::string(file->name));
 }

@@ -72,7 +72,7 @@ class Errors(EtudeCase):
     def test_settings_of_another_solver(self):
         cases = [
             ("weights: fixed",
-             ":7:28: solver 'ccd-nullspace' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "),
+             ":7:28: solver 'gauss-newton' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "),
             ("solver: ccd, memory: 3", ":7:40: solver 'ccd' has no 'memory'; allowed with solver: ccd-anderson"),
             ("solver: ccd-anderson, memory: 0", ":7:49: 'memory': 0 is out of range; allowed: 1 to 20"),
             ("first_sweeps: 1.5", ":7:33: 'first_sweeps' must be a whole number, found 1.5"),

@@ -95,7 +95,7 @@ class Scenarios(EtudeCase):
     def test_the_list_of_methods_says_what_goes_with_what(self):
         listed = self.etude("list", "methods").stdout
         self.assertIn("  memory: 1…20; with `solver: ccd-anderson`\n", listed)
-        self.assertRegex(listed, r"(?m)^  ccd-nullspace +Gauss-Newton steps .*\(the default\)$")
+        self.assertRegex(listed, r"(?m)^  gauss-newton +Gauss-Newton steps .*\(the default\)$")
 
     def test_the_page_of_keys_is_the_programs(self):
         page = self.etude("list", "keys", "--markdown").stdout

@@ -4,12 +4,15 @@
     guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
     guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
 
-Rules: imports, doors, determinism. Prints how many files it checked, so that a guard that looks at
-nothing cannot pass for one that finds nothing.
+Rules: imports, rooms (rooms.py), doors, determinism. Prints how many files it checked, so that a guard that looks
+at nothing cannot pass for one that finds nothing.
 """
 import pathlib
 import re
 import sys
+
+sys.dont_write_bytecode = True  # the sources stay as they are
+from rooms import MAY_INCLUDE, NEVER_INCLUDES
 
 LAYERS = ["engine", "sim", "bench", "reports", "cli"]
 
@@ -27,8 +30,8 @@ DOORS = {
     "xxhash.h": ["engine/base"],
     "nlohmann/": ["bench", "reports"],
     "boost/": ["bench/statistics"],
-    "hwy/": ["engine/kinematics/solvers", "engine/bridging/search"],
-    "libxml/": ["engine/bridging/tags_file"],
+    "hwy/": ["engine/kinematics/solvers", "engine/transitions/search"],
+    "libxml/": ["engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
     "nanoflann.hpp": ["bench/micro"],
     "ceres/": ["engine/kinematics/solvers"],
@@ -76,6 +79,93 @@ def includes(path):
             yield number, match.group(1)
 
 
+class Rooms:
+    """Which room includes which: each include by itself, and all that a file includes through others."""
+
+    def __init__(self, root):
+        self.root = root
+        self.includes_of = {}
+        self.seen, self.used = set(), set()
+        self.followed = 0
+        if circle := find_circle(MAY_INCLUDE):
+            sys.exit(f"rooms.py: a circle: {' > '.join(circle)}")
+
+    def own_includes(self, file):
+        """What a file of ours includes of ours, with line numbers."""
+        if file not in self.includes_of:
+            found = includes(self.root / file) if (self.root / file).is_file() else []
+            self.includes_of[file] = [(n, target) for n, target in found if target.split("/")[0] in LAYERS]
+        return self.includes_of[file]
+
+    def ways_from(self, file):
+        """Every file that is included at last, with the files on the way to it (breadth first: the shortest way)."""
+        ways, queue = {}, [(file, [])]
+        while queue:
+            here, way = queue.pop(0)
+            for _, target in self.own_includes(here):
+                self.followed += 1
+                if target not in ways:
+                    ways[target] = way + [target]
+                    queue.append((target, ways[target]))
+        return ways
+
+    def check_own(self, room, file):
+        for number, target in self.own_includes(file):
+            other = target.rpartition("/")[0]
+            if other == room:
+                continue
+            self.used.add((room, other))
+            if MAY_INCLUDE[room] != "any" and other not in MAY_INCLUDE[room].split():
+                yield number, f"{room} may not include {target} (rooms.py: {MAY_INCLUDE[room] or 'no other room'})"
+
+    def check_through_others(self, room, file):
+        banned = [other for rooms, others in NEVER_INCLUDES for other in others.split() if lies_in(room, rooms.split())]
+        for target, way in self.ways_from(file).items():
+            if lies_in(target, banned):
+                yield 1, f"{room} may know nothing of what it includes here: {' > '.join(way)}"
+                return
+
+    def __call__(self, relative, _):
+        room, file = relative.parent.as_posix(), relative.as_posix()
+        if room not in MAY_INCLUDE:
+            yield 1, f"the room {room} does not stand in rooms.py"
+            return
+        self.seen.add(room)
+        yield from self.check_own(room, file)
+        yield from self.check_through_others(room, file)
+
+    def unused(self):
+        """What the table allows and nothing needs: it must tell what is, not what was."""
+        for room, others in MAY_INCLUDE.items():
+            if room not in self.seen:
+                yield f"rooms.py has the room {room}, which holds no code"
+            for other in [] if others == "any" else others.split():
+                if (room, other) not in self.used:
+                    yield f"rooms.py lets {room} include {other}, which nothing does"
+
+
+def find_circle(table):
+    """Rooms that include each other in a ring, or nothing."""
+    done = set()
+
+    def follow(room, way):
+        if room in way:
+            return way[way.index(room):] + [room]
+        if room in done or room not in table:
+            return []
+        for other in table[room].split():
+            if circle := follow(other, way + [room]):
+                return circle
+        done.add(room)
+        return []
+
+    return next((circle for room in table if (circle := follow(room, []))), [])
+
+
+def lies_in(path, folders):
+    return any(path == folder or path.startswith(folder + "/") for folder in folders)
+
+
 def check_imports(relative, path):
     layer = relative.parts[0]
     for number, target in includes(path):
@@ -116,7 +206,8 @@ RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_de
 
 
 def main():
-    rule, root = RULES[sys.argv[1]], pathlib.Path(sys.argv[2])
+    root = pathlib.Path(sys.argv[2])
+    rule = Rooms(root) if sys.argv[1] == "rooms" else RULES[sys.argv[1]]
     must_flag = sys.argv[3:] == ["--must-flag"]
     checked, flagged = 0, set()
     for layer in LAYERS:
@@ -129,10 +220,19 @@ def main():
                 flagged.add(path)
                 print(f"{path}:{number}: {message}")
     print(f"{sys.argv[1]}: {checked} files checked, {len(flagged)} flagged")
+    stale = []
+    if isinstance(rule, Rooms):
+        stale = list(rule.unused())
+        print(f"rooms: {len(MAY_INCLUDE)} rooms, {len(rule.used)} pairs of rooms in use, {len(stale)} allowed in vain, "
+              f"{rule.followed} includes followed")
     if checked == 0:
         sys.exit("nothing was checked")
     if must_flag:
+        if isinstance(rule, Rooms) and not (stale and find_circle({"a": "b", "b": "c", "c": "b"})):
+            sys.exit("a table that allows too much, or goes round in a circle, was not noticed")
         sys.exit(0 if len(flagged) == checked else "a file that must be flagged was not")
+    if stale:
+        sys.exit("\n".join(stale))
     sys.exit(1 if flagged else 0)
 
 

@@ -104,7 +104,7 @@ TEST(Page, SurvivesHostileNames) {
   scenario.name = scenario.question = scenario.methods[1] = hostile;
   scenario.conditions[0].methods[1].method = hostile;
   scenario.conditions[0].comparisons[0].method = hostile;
-  scenario.expectations = {{hostile, Outcome::kUnmet, hostile}};
+  scenario.expectations = {{hostile, Ruling::kUnmet, hostile}};
 
   const std::string page = WritePage(run, {});
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
@@ -136,9 +136,9 @@ TEST(Page, SaysWhyThereIsNoFilm) {
 TEST(Page, ExplainsRecordedSwitches) {
   RunData run = ExampleRun();
   EXPECT_THAT(WritePage(run, {}), Not(HasSubstr("Partial distances")));
-  AddSwitches(run);
+  AddTransitions(run);
   const std::string page = WritePage(run, {});
-  EXPECT_THAT(page, HasSubstr("Why each switch went where it went: clap → side kick, trial 7"));
+  EXPECT_THAT(page, HasSubstr("Why each transition went where it went: clap → side kick, trial 7"));
   EXPECT_THAT(page, HasSubstr(".partials"));
 }
 

@@ -2,7 +2,7 @@
 
 namespace etude {
 
-const IkSolver* DefaultIkSolver() { return FindIkSolver("ccd-nullspace"); }
+const IkSolver* DefaultIkSolver() { return FindIkSolver("gauss-newton"); }
 
 IkOptions IkBudget(int most_steps) {
   IkOptions options;
@@ -16,6 +16,12 @@ std::vector<std::string> WeighingSolvers() {
     if (solver.uses_weights) names.push_back(solver.name);
   }
   return names;
+}
+
+void RefuseFormerName(Fields& method) {
+  const Node* solver = method.Raw("solver");
+  const std::string_view now = solver == nullptr ? "" : NewNameOfIkSolver(solver->scalar);
+  if (!now.empty()) method.Complain(solver->place, fmt::format("solver '{}' was renamed to '{}'", solver->scalar, now));
 }
 
 void ReadIkGoals(Fields& condition, IkOptions& options) {

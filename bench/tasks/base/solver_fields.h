@@ -1,15 +1,13 @@
 #pragma once
 
-#include <variant>
 #include <vector>
 
-#include "bench/keys/field_table.h"
-#include "engine/base/names.h"
+#include "bench/keys/setting_fields.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 
-/// What a method has that names none: ccd-nullspace.
+/// What a method has that names none: gauss-newton.
 const IkSolver* DefaultIkSolver();
 
 /// The defaults of a solver, but at most so many steps.
@@ -17,6 +15,9 @@ IkOptions IkBudget(int most_steps);
 
 /// The names of the solvers that have `weights` and `refresh`.
 std::vector<std::string> WeighingSolvers();
+
+/// Complains of a solver that has another name now, and says which.
+void RefuseFormerName(Fields& method);
 
 /// A method's `solver` and what that solver can be set by: `weights`, `refresh`, its own settings.
 template <typename Method>
@@ -32,17 +33,12 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
           "refresh", [=](Method & m) -> auto& { return (m.*options).refresh; }, WeightRefreshNames(), FindWeightRefresh,
           "When errors are measured anew for weights that follow them.")
           .With("solver", WeighingSolvers())};
-  for (const IkSolver& each : AllIkSolvers()) {
-    for (const IkSetting& setting : each.settings) {
-      const auto add = [&](auto member) {
-        rows.push_back(Key::Number(
-                           setting.key, [=](Method & m) -> auto& { return (m.*options).tuning.*member; },
-                           {setting.lowest, setting.largest}, setting.meaning)
-                           .With("solver", {each.name}));
-      };
-      std::visit(add, setting.member);
-    }
-  }
+  rows.front().read = [read = rows.front().read](Fields& fields, Method& method) {
+    RefuseFormerName(fields);
+    read(fields, method);
+  };
+  const auto settings = [=](Method& m) -> auto& { return (m.*options).solver_settings; };
+  for (const auto& setting : SettingFields<Method>("solver", AllIkSolvers(), settings)) rows.push_back(setting);
   return rows;
 }
 

@@ -2,28 +2,6 @@
 
 namespace etude {
 
-std::string_view StatusName(Status status) {
-  switch (status) {
-    case Status::kOk:
-      return "ok";
-    case Status::kUnsolved:
-      return "unsolved";
-    case Status::kFailed:
-      return "failed";
-    case Status::kTimeout:
-      return "timeout";
-    case Status::kCrashed:
-      return "crashed";
-    case Status::kOutOfMemory:
-      return "out_of_memory";
-    case Status::kBadOutput:
-      return "bad_output";
-    case Status::kSkipped:
-      return "skipped";
-  }
-  return "failed";
-}
-
 std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion) {
   const std::unique_ptr<TaskWorld> world = task.MakeWorld(key, keeps_motion);
   const std::optional<std::string> why_skipped = world->WhySkipped();

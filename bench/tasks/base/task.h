@@ -10,79 +10,13 @@
 #include "bench/clips/clip_library.h"
 #include "bench/files/json.h"
 #include "bench/keys/key_info.h"
+#include "bench/model/cell_result.h"
+#include "bench/model/payload.h"
 #include "engine/document/fields.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "sim/random/stream.h"
 
 namespace etude {
-
-/// How a cell (world × method) ended. Every cell becomes a row with one of these.
-enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
-
-std::string_view StatusName(Status status);
-
-/// One measured value of a cell; a missing value says why, and never counts as zero.
-struct MetricValue {
-  std::string id;  ///< an id of bench/metrics, unit in the name
-  std::optional<double> value;
-  std::string null_reason;  ///< only when `value` is empty
-};
-
-/// A curve of a cell: one value per frame or iteration, e.g. the error of each frame.
-struct Series {
-  std::string name;  ///< e.g. "mpjpe_mm"
-  std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
-  std::vector<double> values;
-};
-
-/// A named motion of a recording.
-struct Track {
-  std::string name;  ///< "truth", "recovered", "coach", …
-  BodyMotion motion;
-};
-
-/// Everything needed to show a cell again without rerunning it: what a video draws.
-struct Recording {
-  std::vector<Track> tracks;
-  /// Free-form facts for the viewer, as JSON text written by the task (cameras, masks, captions).
-  std::string extras_json;
-};
-
-/// What one method did in one world.
-struct CellResult {
-  Status status = Status::kFailed;
-  std::string reason = "the task did not fill this cell";
-  std::vector<MetricValue> metrics;
-  /// Fingerprint of each stage's output, in order: the first one that differs names the culprit.
-  std::vector<std::pair<std::string, std::string>> digests;
-  std::vector<Series> series;
-  std::optional<Recording> recording;
-
-  /// A cell that ended without measurements.
-  static CellResult Ended(Status status, std::string reason) {
-    CellResult result;
-    result.status = status;
-    result.reason = std::move(reason);
-    return result;
-  }
-  void Measure(std::string id, double value) { metrics.push_back({std::move(id), value, ""}); }
-  void MeasureOr(std::string id, std::optional<double> value, std::string why_missing) {
-    value ? Measure(std::move(id), *value) : Missing(std::move(id), std::move(why_missing));
-  }
-  void Missing(std::string id, std::string why) { metrics.push_back({std::move(id), std::nullopt, std::move(why)}); }
-};
-
-/// A file that goes with a problem or its truth, such as a picture.
-struct Attachment {
-  std::string name;  ///< as the JSON beside it names it: a plain file name
-  std::string bytes;
-};
-
-/// What a method outside the program is given of a world, or what is true about it (docs/outside-methods.md).
-struct Payload {
-  std::unique_ptr<Json> json;  ///< never null
-  std::vector<Attachment> files;
-};
 
 /// One world, built once, in which methods run one after the other. What a method answers depends on the
 /// world and on the method, never on which others ran before; stages that methods share are computed once.

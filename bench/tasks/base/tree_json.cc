@@ -37,13 +37,13 @@ Json DescribeBodyTree(const KinematicTree& tree) {
     }
     joints.push_back({{"name", joint.name},
                       {"parent", joint.parent < 0 ? Json(nullptr) : Json(joint.parent)},
-                      {"offset_m", ToJson(joint.offset)},
-                      {"rest", ToJson(joint.rest)},
+                      {"offset_m", ToJson(joint.p_PJ)},
+                      {"rest", ToJson(joint.R_PJ)},
                       {"first_angle", joint.first_dof},
                       {"axes", std::move(axes)}});
   }
   for (const Effector& effector : tree.effectors) {
-    effectors.push_back({{"name", effector.name}, {"joint", effector.joint}, {"offset_m", ToJson(effector.offset)}});
+    effectors.push_back({{"name", effector.name}, {"joint", effector.joint}, {"offset_m", ToJson(effector.p_LE)}});
   }
   return {{"joints", std::move(joints)}, {"angles", std::move(angles)}, {"effectors", std::move(effectors)}};
 }

@@ -1,13 +1,13 @@
 #include "bench/tasks/capture/capture_task.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "bench/tasks/base/read_methods.h"
-#include "bench/tasks/capture/capture_cell.h"
-#include "bench/tasks/capture/capture_options.h"
-#include "bench/tasks/capture/capture_stages.h"
 #include "bench/tasks/capture/exchange.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/run.h"
+#include "bench/tasks/capture/score.h"
+#include "bench/tasks/capture/stages.h"
 
 namespace etude {
 namespace {
@@ -30,7 +30,11 @@ class CaptureTaskWorld : public TaskWorld {
 
   void PrepareShared() override { (void)stages_.GetTake(); }  // a failure is told by every cell
 
-  CellResult Run(std::size_t method) override { return RunCaptureCell(stages_, study_.methods[method], keeps_motion_); }
+  CellResult Run(std::size_t method) override {
+    const auto run = RunCapture(stages_, study_.methods[method]);
+    if (!run) return CellResult::Ended(Status::kFailed, run.error().message);
+    return ScoreCaptureRun(stages_.world(), *run, keeps_motion_);
+  }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
   Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
@@ -57,7 +61,7 @@ class CaptureTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Payload> Setting() const override { return Payload{std::make_unique<Json>(DescribeStudio()), {}}; }
+  Result<Payload> Setting() const override { return DescribeStudio(); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     if (metric == "frames_recovered") return 0;

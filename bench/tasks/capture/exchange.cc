@@ -83,7 +83,7 @@ Json PartNumbers() {
 
 }  // namespace
 
-Json DescribeStudio() {
+Payload DescribeStudio() {
   const Intrinsics camera;
   Json setting = {{"rate_hz", kJudgedRateHz}, {"image_width", camera.width}, {"image_height", camera.height}};
   setting.update(DescribeBody());
@@ -91,7 +91,7 @@ Json DescribeStudio() {
     setting["strokes"].push_back({{"from", RoleName(mark.from)}, {"to", RoleName(mark.to)}});
   }
   for (const EffectorMark& mark : EffectorMarks()) setting["discs"].push_back(RoleName(mark.role));
-  return setting;
+  return PayloadOf(std::move(setting));
 }
 
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
@@ -101,7 +101,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
 
   std::vector<PersonSource> sources;
   for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
-  Payload problem{std::make_unique<Json>(), {}};
+  Payload problem = PayloadOf({});
   Json cameras = Json::array();
   for (const std::vector<PointPair>& pairs : world.calibration_pairs) {
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
@@ -131,7 +131,7 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
 
-  Payload truth{std::make_unique<Json>(), {}};
+  Payload truth = PayloadOf({});
   *truth.json = {{"poses", EncodePoses(world.truth)}, {"labels", PartNumbers()}};
   const BodyMotion motion{kJudgedRateHz, world.truth};
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/capture/capture_stages.h"
+#include "bench/tasks/capture/stages.h"
 
 namespace etude {
 
@@ -19,7 +19,7 @@ namespace etude {
 ///      "strokes": [{"from": "left_hip", "to": "left_knee"}, …], "discs": ["left_foot", …]}
 ///
 /// `strokes` are the thirteen limbs that the human marks with a line, `discs` the five ends marked with a point.
-Json DescribeStudio();
+Payload DescribeStudio();
 
 /// Problem: who is filmed, and per camera its calibration points (a place in the world and the pixel clicked on for
 /// it), the empty stage, and a picture per frame; pictures are files that lie beside.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 #include "engine/base/digest.h"
 #include "sim/body/shape.h"
 #include "sim/sensors/annotator.h"

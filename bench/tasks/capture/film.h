@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/metrics/segmentation.h"
-#include "bench/tasks/capture/capture_world.h"
+#include "bench/tasks/capture/world.h"
 #include "engine/vision/strokes.h"
 #include "sim/render/renderer.h"
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <map>
 
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"
-#include "bench/tasks/detection/scoring.h"
-#include "bench/tasks/detection/task_world.h"
+#include "bench/tasks/detection/run.h"
+#include "bench/tasks/detection/score.h"
 #include "bench/tasks/detection/world.h"
 
 namespace etude {
@@ -29,6 +29,53 @@ class UnlabelledWorld final : public TaskWorld {
 
  private:
   std::string reason_;
+};
+
+/// One session, and the methods run and judged in it.
+class DetectionTaskWorld final : public TaskWorld {
+ public:
+  /// `methods` and `repertoire` must outlive this.
+  DetectionTaskWorld(const std::vector<DetectionMethod>& methods, const Repertoire& repertoire, DetectionWorld world,
+                     bool keeps_motion)
+      : methods_(methods), repertoire_(repertoire), world_(std::move(world)), keeps_motion_(keeps_motion) {}
+
+  CellResult Run(std::size_t index) override {
+    const DetectionMethod& method = methods_[index];
+    const auto verdict = JudgeSession(world_, SeenBy(method), repertoire_, method);
+    return verdict ? Score(*verdict) : CellResult::Ended(Status::kFailed, ToString(verdict.error()));
+  }
+
+  Result<Payload> MakeProblem() override { return SessionPayload(world_); }
+  Result<Payload> MakeTruth() override { return TruthPayload(world_); }
+
+  Result<CellResult> Judge(const Json& answer) override {
+    ASSIGN_OR_RETURN(const auto verdict, ReadSessionAnswer(answer, world_, repertoire_));
+    return Score(verdict);
+  }
+
+ private:
+  const SeenStream& SeenBy(const DetectionMethod& method) {
+    const auto [seen, is_new] = seen_.try_emplace({method.filter.kind, method.sees_truth});
+    if (is_new) seen->second = SeeSession(world_, method);
+    return seen->second;
+  }
+
+  CellResult Score(const SessionVerdict& verdict) const {
+    CellResult result = CellResult::Ended(Status::kOk, "");
+    ScoreSession(world_, verdict, result);
+    result.digests = world_digests_;
+    for (auto& stage : VerdictDigests(verdict)) result.digests.push_back(std::move(stage));
+    result.series.push_back(ScoreSeries(world_, verdict));
+    if (keeps_motion_) result.recording = RecordSession(world_, verdict);
+    return result;
+  }
+
+  const std::vector<DetectionMethod>& methods_;
+  const Repertoire& repertoire_;
+  const DetectionWorld world_;
+  const StageDigests world_digests_ = WorldDigests(world_);
+  const bool keeps_motion_;
+  std::map<std::pair<FilterKind, bool>, SeenStream> seen_;  ///< by filter and oracle: methods share them
 };
 
 class DetectionTask final : public Task {

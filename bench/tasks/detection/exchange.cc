@@ -6,7 +6,8 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
+#include "engine/base/named.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/trc.h"
 #include "engine/motion/from_body.h"
@@ -39,10 +40,10 @@ Json DescribeMove(const Move& move) {
           {"file", FileOf(move)}};
 }
 
-Judgement ReadEvent(AnswerFields& fields, const Window& window) {
+Judgement ReadEvent(AnswerFields& fields, const FrameWindow& window) {
   Judgement judgement;
   const auto right_at = fields.NullableInteger("right_at_frame", window.begin, window.end - 1);
-  if (right_at) judgement.right_at = *right_at - window.begin;
+  if (right_at) judgement.recognised_at = *right_at - window.begin;
   judgement.score = fields.Number("score", kScores);
   judgement.running_score.assign(static_cast<std::size_t>(window.end - window.begin), judgement.score);
   return judgement;
@@ -51,7 +52,7 @@ Judgement ReadEvent(AnswerFields& fields, const Window& window) {
 }  // namespace
 
 Payload MovesPayload(const Repertoire& repertoire) {
-  Payload setting{std::make_unique<Json>(DescribeBody()), {}};
+  Payload setting = PayloadOf(DescribeBody());
   Json& moves = (*setting.json)["moves"] = Json::array();
   for (const Move& move : repertoire.moves) {
     moves.push_back(DescribeMove(move));
@@ -67,19 +68,19 @@ Payload SessionPayload(const DetectionWorld& world) {
         {{"pose", EncodePose(PoseOf(frame))}, {"states", StateLetters(frame)}, {"body_seen", frame.body_seen}});
   }
   for (const SessionEvent& event : world.session.events) {
-    const Window window = WindowOf(event, world.stream);
+    const FrameWindow window = WindowOf(event, world.stream);
     events.push_back({{"move", event.move}, {"begin_frame", window.begin}, {"end_frame", window.end}});
   }
   const char* file = "stream.trc";
   Json json = {
       {"rate_hz", world.stream.rate_hz}, {"frames", std::move(frames)}, {"events", std::move(events)}, {"file", file}};
-  return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(MotionOf(world.stream), file)}}};
+  return PayloadOf(std::move(json), {{file, WriteTrc(MotionOf(world.stream), file)}});
 }
 
 Payload TruthPayload(const DetectionWorld& world) {
   Json events = Json::array();
   for (const SessionEvent& event : world.session.events) {
-    const Window window = WindowOf(event, world.stream);
+    const FrameWindow window = WindowOf(event, world.stream);
     Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultName(event.fault)},
                  {"danced", event.danced}, {"begin_frame", window.begin}, {"end_frame", window.end}};
     if (event.first_right_s) told["first_right_s"] = *event.first_right_s;
@@ -89,7 +90,7 @@ Payload TruthPayload(const DetectionWorld& world) {
   const char* file = "truth.trc";
   Json json = {
       {"rate_hz", motion.rate_hz}, {"poses", EncodePoses(motion.poses)}, {"events", std::move(events)}, {"file", file}};
-  return {std::make_unique<Json>(std::move(json)), {{file, WriteTrc(motion, file)}}};
+  return PayloadOf(std::move(json), {{file, WriteTrc(motion, file)}});
 }
 
 Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorld& world,
@@ -106,8 +107,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
     if (auto done = event.Finish(); !done) fields.Note(done.error());
   }
 
-  std::vector<std::string> moves;
-  for (const auto& [move, taught] : repertoire.taught) moves.push_back(move);
+  const std::vector<std::string> moves = NamesOf(repertoire.taught);
   const int frames = static_cast<int>(world.stream.frames.size());
   std::set<std::pair<std::string, int>> alarms;  // by move, then by time; said twice is said once
   const Json& said = fields.List("alarms", 0, moves.size() * world.stream.frames.size());

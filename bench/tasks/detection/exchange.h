@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/detection/judge.h"
+#include "bench/tasks/detection/run.h"
 #include "bench/tasks/detection/world.h"
 
 namespace etude {

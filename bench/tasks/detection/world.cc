@@ -1,16 +1,25 @@
 #include "bench/tasks/detection/world.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "bench/metrics/detection.h"
 #include "engine/base/angles.h"
+#include "engine/base/named.h"
 #include "sim/sensors/skeleton_sensor.h"
 
 namespace etude {
 namespace {
 
+/// One performance at the taught tempo, and half a second for the slow.
+int SpanFrames(const Move& move) {
+  const double seconds = 60.0 * move.beats / move.tempo_bpm + 0.5;
+  return static_cast<int>(std::ceil(seconds * kJudgedRateHz));
+}
+
 TaughtMove Teach(const Move& move) {
-  TaughtMove taught{.name = move.name, .poses = {}};
+  TaughtMove taught{.name = move.name, .poses = {}, .span_frames = SpanFrames(move)};
   for (const KeyPose& key_pose : move.key_poses) {
     TaughtPose& pose = taught.poses.emplace_back();
     for (const KeyPose::Target& target : key_pose.targets) {
@@ -22,22 +31,16 @@ TaughtMove Teach(const Move& move) {
   return taught;
 }
 
-/// One performance at the taught tempo, and half a second for the slow.
-int SpanFrames(const Move& move) {
-  const double seconds = 60.0 * move.beats / move.tempo_bpm + 0.5;
-  return static_cast<int>(std::ceil(seconds * kJudgedRateHz));
-}
-
 }  // namespace
 
 Repertoire RepertoireOf(const ClipLibrary& library) {
   Repertoire repertoire;
   for (const LibraryClip& clip : library.clips) {
-    if (!clip.move || clip.move->key_poses.empty() || repertoire.taught.contains(clip.move->name)) continue;
-    repertoire.taught[clip.move->name] = Teach(*clip.move);
-    repertoire.span_frames[clip.move->name] = SpanFrames(*clip.move);
+    if (!clip.move || clip.move->key_poses.empty() || FindByName(repertoire.moves, clip.move->name)) continue;
     repertoire.moves.push_back(*clip.move);
+    repertoire.taught.push_back(Teach(*clip.move));
   }
+  std::ranges::sort(repertoire.taught, {}, &TaughtMove::name);
   return repertoire;
 }
 
@@ -56,6 +59,19 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
   errors.strength = options.noise;
   world.stream = SenseSkeleton(world.session.motion, sensor, errors, key);
   return world;
+}
+
+FrameWindow WindowOf(const SessionEvent& event, const SkeletonStream& stream) {
+  return FramesBetween(event.start_s, event.WindowEnd(), stream);
+}
+
+bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world) {
+  std::vector<MoveWindow> windows;
+  for (const SessionEvent& event : world.session.events) {
+    const FrameWindow window = WindowOf(event, world.stream);
+    windows.push_back({event.move, event.danced, window.begin, window.end});
+  }
+  return !IsFalseAlarm(move, frame, windows);
 }
 
 }  // namespace etude

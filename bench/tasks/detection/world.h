@@ -1,13 +1,11 @@
 #pragma once
 
-#include <map>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/clips/clip_library.h"
 #include "bench/tasks/detection/options.h"
-#include "engine/recognition/key_pose.h"
-#include "engine/recognition/skeleton_stream.h"
+#include "engine/recognition/recognise.h"
 #include "sim/performer/session.h"
 
 namespace etude {
@@ -15,9 +13,7 @@ namespace etude {
 /// What may be danced, and what recognisers were taught of it.
 struct Repertoire {
   std::vector<Move> moves;
-  std::map<std::string, TaughtMove> taught;  ///< by the move's name
-  /// The longest that each move's window may be, in frames: how far apart its key poses may lie.
-  std::map<std::string, int> span_frames;
+  std::vector<TaughtMove> taught;  ///< sorted by name
 };
 
 /// The labelled clips of the library, each move once. Empty when there are none.
@@ -30,5 +26,12 @@ struct DetectionWorld {
 };
 
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
+
+/// The frames in which an event is judged: first beat to half a second after the last.
+FrameWindow WindowOf(const SessionEvent& event, const SkeletonStream& stream);
+
+/// Whether the frame lies in a window in which the move was asked for or danced: taking it for danced is no false
+/// alarm there.
+bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world);
 
 }  // namespace etude

@@ -16,22 +16,22 @@ std::optional<int> ReadCount(AnswerFields& fields, const char* key) {
 
 }  // namespace
 
-Json DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, const IkTrialOptions& trial) {
+Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, const IkTrialOptions& trial) {
   Json setting = DescribeBodyTree(tree);
   setting.update(DescribeGoals(options));
   Json& asked = setting["asked"] = Json::array();
   if (trial.asks_positions) asked.push_back("position");
   if (trial.asks_axes) asked.push_back("orientation");
-  return setting;
+  return PayloadOf(std::move(setting));
 }
 
-Json DescribeProblem(const KinematicTree& tree, const IkProblem& problem) {
-  return {{"root", DescribeRoot(problem.start)},
-          {"start_angles_deg", InDegrees(problem.start.angles)},
-          {"targets", DescribeTargets(tree, problem.targets)}};
+Payload DescribeProblem(const KinematicTree& tree, const IkProblem& problem) {
+  return PayloadOf({{"root", DescribeRoot(problem.start)},
+                    {"start_angles_deg", InDegrees(problem.start.angles)},
+                    {"targets", DescribeTargets(tree, problem.targets)}});
 }
 
-Json DescribeTruth(const IkWorld& world) { return {{"angles_deg", InDegrees(world.truth.angles)}}; }
+Payload DescribeTruth(const IkWorld& world) { return PayloadOf({{"angles_deg", InDegrees(world.truth.angles)}}); }
 
 Result<IkAnswer> ReadIkAnswer(const Json& json, const KinematicTree& tree) {
   AnswerFields fields(json);

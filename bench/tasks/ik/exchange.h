@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/files/json.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/world.h"
 
 namespace etude {
 
@@ -18,7 +18,7 @@ namespace etude {
 ///      "asked": ["position", "orientation"]}
 ///
 /// `asked` is what effectors are to meet of their targets, one of them or both; the answer is judged by that alone.
-Json DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, const IkTrialOptions& trial);
+Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, const IkTrialOptions& trial);
 
 /// Problem: where the root is, where to begin, and where each effector shall be, in the setting's order:
 ///
@@ -29,13 +29,13 @@ Json DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, cons
 /// Asked for are angles that bring every effector to its target (or to `asked` of it): the distance below
 /// `position_goal_cm`, and the mean of the angles between its three axes (the columns of its rotation) and the target's
 /// below `orientation_goal_deg`.
-Json DescribeProblem(const KinematicTree& tree, const IkProblem& problem);
+Payload DescribeProblem(const KinematicTree& tree, const IkProblem& problem);
 
 /// Truth: the angles that the targets were made with; itself a perfect answer, unless the scenario disturbs the targets
 /// or pulls them out of reach.
 ///
 ///     {"angles_deg": [twenty-nine numbers]}
-Json DescribeTruth(const IkWorld& world);
+Payload DescribeTruth(const IkWorld& world);
 
 /// What a method outside answers:
 ///

@@ -1,11 +1,11 @@
 #include "bench/tasks/ik/ik_task.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/ik/exchange.h"
-#include "bench/tasks/ik/ik_cell.h"
-#include "bench/tasks/ik/ik_options.h"
-#include "bench/tasks/ik/ik_world.h"
+#include "bench/tasks/ik/options.h"
+#include "bench/tasks/ik/run.h"
+#include "bench/tasks/ik/score.h"
+#include "bench/tasks/ik/world.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {
@@ -16,8 +16,6 @@ struct IkStudy {
   IkCondition condition;
   std::vector<IkMethod> methods;
 };
-
-Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 class IkTaskWorld : public TaskWorld {
  public:
@@ -30,13 +28,12 @@ class IkTaskWorld : public TaskWorld {
     return RunIkCell(study_.tree, world_, study_.methods[method], records_);
   }
 
-  Result<Payload> MakeProblem() override { return Show(DescribeProblem(study_.tree, world_.problem)); }
-  Result<Payload> MakeTruth() override { return Show(DescribeTruth(world_)); }
+  Result<Payload> MakeProblem() override { return DescribeProblem(study_.tree, world_.problem); }
+  Result<Payload> MakeTruth() override { return DescribeTruth(world_); }
 
   Result<CellResult> Judge(const Json& json) override {
-    const auto answer = ReadIkAnswer(json, study_.tree);
-    if (!answer) return tl::unexpected(answer.error());
-    return ScoreIkAnswer(study_.tree, world_, *answer, study_.condition.common.max_iterations, records_);
+    ASSIGN_OR_RETURN(const auto answer, ReadIkAnswer(json, study_.tree));
+    return ScoreIkAnswer(study_.tree, world_, answer, study_.condition.common.max_iterations, records_);
   }
 
  private:
@@ -56,7 +53,7 @@ class IkTask : public Task {
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
   Result<Payload> Setting() const override {
-    return Show(DescribeIkSetting(study_.tree, study_.condition.common, study_.condition.trial));
+    return DescribeIkSetting(study_.tree, study_.condition.common, study_.condition.trial);
   }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {

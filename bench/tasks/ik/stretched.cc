@@ -7,9 +7,7 @@
 namespace etude {
 namespace {
 
-double LengthOf(const KinematicTree& tree, BodyTreeJoint upper_end) {
-  return glm::length(tree.joints[upper_end].offset);
-}
+double LengthOf(const KinematicTree& tree, BodyTreeJoint upper_end) { return glm::length(tree.joints[upper_end].p_PJ); }
 
 /// Bends both legs in their plane: the shanks lean forward by `shank`, the thighs backward by `thigh`.
 void BendLegs(const KinematicTree& tree, double shank, double thigh, std::vector<double>& angles) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/kinematics/tree.h"
+#include "engine/kinematics/body_tree.h"
 #include "sim/random/stream.h"
 
 namespace etude {

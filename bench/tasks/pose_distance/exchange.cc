@@ -10,24 +10,22 @@ namespace {
 
 constexpr double kLargestDistance = 1e9;
 
-Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
-
 }  // namespace
 
-Payload BodyPayload() { return Show(DescribeBody()); }
+Payload BodyPayload() { return PayloadOf(DescribeBody()); }
 
 Payload PairsPayload(const PairWorld& world) {
   Json pairs = Json::array();
   for (const SeenPair& pair : world.pairs) {
     pairs.push_back({{"a", EncodePose(pair.a.pose)}, {"b", EncodePose(pair.b.pose)}});
   }
-  return Show({{"pairs", std::move(pairs)}});
+  return PayloadOf({{"pairs", std::move(pairs)}});
 }
 
 Payload GapsPayload(const PairWorld& world) {
   Json gaps = Json::array();
   for (const SeenPair& pair : world.pairs) gaps.push_back(100 * pair.gap_m);
-  return Show({{"name", world.name}, {"pose_gap_cm", std::move(gaps)}});
+  return PayloadOf({{"name", world.name}, {"pose_gap_cm", std::move(gaps)}});
 }
 
 Result<PairVerdict> ReadPairAnswer(const Json& answer, const PairWorld& world) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/pose_distance/pose_distances.h"
+#include "bench/tasks/pose_distance/run.h"
 
 namespace etude {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/keys/field_table.h"
-#include "bench/tasks/pose_distance/pose_distances.h"
+#include "bench/tasks/pose_distance/run.h"
 
 namespace etude {
 

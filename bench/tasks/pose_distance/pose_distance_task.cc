@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/pose_distance/blind_spots.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
-#include "bench/tasks/pose_distance/scoring.h"
+#include "bench/tasks/pose_distance/score.h"
 #include "bench/training/training_clips.h"
 
 namespace etude {
@@ -81,7 +79,7 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
                 "'pairs: frames' of task pose-distance needs 'clips', two different ones at least, such as "
                 "['builtin:*']");
   }
-  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.physique));
+  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.proportions));
   return std::make_unique<PoseDistanceTask>(PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
                                                       LearntWeights(std::move(training), input.fuzzy)});
 }

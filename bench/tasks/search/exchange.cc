@@ -52,16 +52,16 @@ Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question) {
             {"query", QuestionName(question)},
             {"threshold", problem.threshold},
             {"file", kFile}};
-  return {std::make_unique<Json>(std::move(json)), {{kFile, BytesOf(problem.library.frames)}}};
+  return PayloadOf(std::move(json), {{kFile, BytesOf(problem.library.frames)}});
 }
 
-Json DescribeQueries(std::span<const Grades> queries) {
+Payload DescribeQueries(std::span<const Grades> queries) {
   Json list = Json::array();
   for (const Grades& query : queries) list.push_back(query);
-  return {{"queries", std::move(list)}};
+  return PayloadOf({{"queries", std::move(list)}});
 }
 
-Json DescribeFound(const std::vector<FoundFrames>& found) { return {{"found", found}}; }
+Payload DescribeFound(const std::vector<FoundFrames>& found) { return PayloadOf({{"found", found}}); }
 
 Result<SearchAnswer> ReadSearchAnswer(const Json& json, const SearchProblem& problem, std::size_t queries,
                                       SearchQuestion question) {

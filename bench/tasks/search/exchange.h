@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/search/find.h"
+#include "bench/tasks/search/run.h"
 
 namespace etude {
 
@@ -23,12 +23,12 @@ Payload LibraryPayload(const SearchProblem& problem, SearchQuestion question);
 /// Asked for is per query a list of frames of the library (their numbers, from 0): for `first` the one of smallest
 /// number whose distance is below the threshold, or none; for `within` all of these, by number; for `nearest` and
 /// `nearest-10` the one, or ten, of smallest distance, by distance, those of equal distance by number.
-Json DescribeQueries(std::span<const Grades> queries);
+Payload DescribeQueries(std::span<const Grades> queries);
 
 /// Truth, and itself a perfect answer; also what a method outside answers:
 ///
 ///     {"found": [[4711], …]}
-Json DescribeFound(const std::vector<FoundFrames>& found);
+Payload DescribeFound(const std::vector<FoundFrames>& found);
 
 /// Refuses what is not as told above: another number of lists, and frames that the library does not have or that stand
 /// twice in a list.

@@ -1,15 +1,14 @@
 #include "bench/tasks/search/search_task.h"
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/search/exchange.h"
-#include "bench/tasks/search/find.h"
-#include "bench/tasks/search/library.h"
-#include "bench/tasks/search/scoring.h"
-#include "bench/tasks/search/search_options.h"
+#include "bench/tasks/search/options.h"
+#include "bench/tasks/search/run.h"
+#include "bench/tasks/search/score.h"
+#include "bench/tasks/search/world.h"
 
 namespace etude {
 namespace {
@@ -44,11 +43,9 @@ class SearchWorld final : public TaskWorld {
     return Score(find(problem_, queries_, method.question));
   }
 
-  Result<Payload> MakeProblem() override { return Payload{std::make_unique<Json>(DescribeQueries(queries_)), {}}; }
+  Result<Payload> MakeProblem() override { return DescribeQueries(queries_); }
 
-  Result<Payload> MakeTruth() override {
-    return Payload{std::make_unique<Json>(DescribeFound(TruthOf(study_.options.question))), {}};
-  }
+  Result<Payload> MakeTruth() override { return DescribeFound(TruthOf(study_.options.question)); }
 
   Result<CellResult> Judge(const Json& json) override {
     ASSIGN_OR_RETURN(const auto answer, ReadSearchAnswer(json, problem_, queries_.size(), study_.options.question));

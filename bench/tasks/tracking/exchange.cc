@@ -8,13 +8,13 @@
 
 namespace etude {
 
-Json DescribeTrackingSetting(const TrackingOptions& options, const IkOptions& common) {
+Payload DescribeTrackingSetting(const TrackingOptions& options, const IkOptions& common) {
   Json setting = DescribeGoals(common);
   setting["rate_hz"] = options.rate_hz;
-  return setting;
+  return PayloadOf(std::move(setting));
 }
 
-Json DescribeMotion(const TrackingWorld& world) {
+Payload DescribeMotion(const TrackingWorld& world) {
   Json problem = DescribeBodyTree(world.tree);
   problem["start_angles_deg"] = InDegrees(world.first_angles);
   Json& frames = problem["frames"] = Json::array();
@@ -22,13 +22,13 @@ Json DescribeMotion(const TrackingWorld& world) {
     frames.push_back(
         {{"root", DescribeRoot(world.truth[k])}, {"targets", DescribeTargets(world.tree, world.targets[k])}});
   }
-  return problem;
+  return PayloadOf(std::move(problem));
 }
 
-Json DescribeTrueAngles(const TrackingWorld& world) {
+Payload DescribeTrueAngles(const TrackingWorld& world) {
   Json frames = Json::array();
   for (const TreeState& state : world.truth) frames.push_back(InDegrees(state.angles));
-  return {{"angles_deg", std::move(frames)}};
+  return PayloadOf({{"angles_deg", std::move(frames)}});
 }
 
 Result<TrackingAnswer> ReadTrackingAnswer(const Json& json, const TrackingWorld& world) {

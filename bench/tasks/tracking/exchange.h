@@ -1,8 +1,8 @@
 #pragma once
 
 #include "bench/files/json.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/world.h"
 
 namespace etude {
 
@@ -12,7 +12,7 @@ namespace etude {
 /// Setting, what built-in solvers stop at in each frame, and how far frames are apart:
 ///
 ///     {"rate_hz": 30, "max_steps": 20, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}
-Json DescribeTrackingSetting(const TrackingOptions& options, const IkOptions& common);
+Payload DescribeTrackingSetting(const TrackingOptions& options, const IkOptions& common);
 
 /// Problem: the body, where to begin, and per frame its root and targets:
 ///
@@ -21,13 +21,13 @@ Json DescribeTrackingSetting(const TrackingOptions& options, const IkOptions& co
 ///
 /// Asked for are angles for every frame as if the frames came one by one: nothing keeps a method from looking ahead but
 /// its author's honesty.
-Json DescribeMotion(const TrackingWorld& world);
+Payload DescribeMotion(const TrackingWorld& world);
 
 /// Truth: the angles of the motion, per frame; itself a perfect answer unless targets are disturbed. Beside it lies
 /// `truth.bvh`, the same for other programs.
 ///
 ///     {"angles_deg": [[twenty-nine numbers], …]}
-Json DescribeTrueAngles(const TrackingWorld& world);
+Payload DescribeTrueAngles(const TrackingWorld& world);
 
 /// What a method outside answers, one entry per frame:
 ///

@@ -1,13 +1,11 @@
 #include "bench/tasks/tracking/tracking_task.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/tracking/exchange.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/scoring.h"
-#include "bench/tasks/tracking/tracking_options.h"
-#include "bench/tasks/tracking/tracking_world.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/score.h"
+#include "bench/tasks/tracking/options.h"
+#include "bench/tasks/tracking/world.h"
 #include "engine/formats/bvh.h"
 #include "engine/kinematics/tree_to_body.h"
 
@@ -20,8 +18,6 @@ struct TrackingStudy {
   std::vector<TrackingMethod> methods;
   ClipLibrary clips;
 };
-
-Payload Show(Json json) { return {std::make_unique<Json>(std::move(json)), {}}; }
 
 class TrackingTaskWorld : public TaskWorld {
  public:
@@ -39,9 +35,9 @@ class TrackingTaskWorld : public TaskWorld {
     return ScoreTracking(*world_, study_.options.rate_hz, *answer, keeps_motion_);
   }
 
-  Result<Payload> MakeProblem() override { return Show(DescribeMotion(*world_)); }
+  Result<Payload> MakeProblem() override { return DescribeMotion(*world_); }
   Result<Payload> MakeTruth() override {
-    Payload truth = Show(DescribeTrueAngles(*world_));
+    Payload truth = DescribeTrueAngles(*world_);
     const Clip clip = ToClip(world_->tree, world_->truth, study_.options.rate_hz, "truth");
     truth.files.push_back({"truth.bvh", WriteBvh(clip)});
     return truth;
@@ -69,7 +65,7 @@ class TrackingTask : public Task {
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
   Result<Payload> Setting() const override {
-    return Show(DescribeTrackingSetting(study_.options, study_.options.common));
+    return DescribeTrackingSetting(study_.options, study_.options.common);
   }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
 #include "engine/formats/bvh.h"
@@ -20,7 +20,7 @@ constexpr std::size_t kMostThrough = 16;
 constexpr std::size_t kLongestExcuse = 300;
 constexpr double kLimbTolerance = 0.02;  // metres
 
-Result<void> CheckLimbs(const BodyPose& pose, const Physique& character, const std::string& path) {
+Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, const std::string& path) {
   for (const Bone& bone : AllBones()) {
     const double length = BoneLength(pose, bone), own = character.limb_lengths[Index(bone.child)];
     if (std::abs(length - own) <= kLimbTolerance) continue;
@@ -31,32 +31,34 @@ Result<void> CheckLimbs(const BodyPose& pose, const Physique& character, const s
 }
 
 /// A pose that the character can take; complaints go to `fields`.
-BodyPose ReadOwnPose(const Json& json, const std::string& path, const Physique& character, AnswerFields& fields) {
+BodyPose ReadOwnPose(const Json& json, const std::string& path, const BodyProportions& character,
+                     AnswerFields& fields) {
   const auto pose = ReadPose(json, path);
   const auto fits = pose ? CheckLimbs(*pose, character, path) : tl::unexpected(pose.error());
   if (!fits) fields.Note(fits.error());
   return pose.value_or(BodyPose{});
 }
 
-/// Frames of the method's own making. Frame 0 of the leg is its version of the frame left, which is not shown.
-std::optional<Leg> ReadBetween(AnswerFields& fields, const Physique& character) {
+/// Frames of the method's own making. Frame 0 of the segment is its version of the frame left, which is not shown.
+std::optional<Segment> ReadBetween(AnswerFields& fields, const BodyProportions& character) {
   const Json& entries = fields.List("between", 0, kMostBetween);
-  Leg leg{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
+  Segment segment{.first = 0, .last = static_cast<int>(entries.size()), .own = {BodyPose{}}, .in_place = true};
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    leg.own.push_back(ReadOwnPose(entries[i], fields.PathOf("between", i), character, fields));
+    segment.own.push_back(ReadOwnPose(entries[i], fields.PathOf("between", i), character, fields));
   }
   const Json* start = fields.Raw("between_start");
   if (entries.empty()) {
     if (start != nullptr) fields.Note({{}, "between_start: only together with 'between'"});
     return std::nullopt;
   }
-  leg.own.front() = start != nullptr ? ReadOwnPose(*start, "between_start", character, fields)
-                                     : FrameBefore(leg.own[1], leg.own[std::min<std::size_t>(2, entries.size())]);
-  return leg;
+  segment.own.front() = start != nullptr
+                            ? ReadOwnPose(*start, "between_start", character, fields)
+                            : FrameBefore(segment.own[1], segment.own[std::min<std::size_t>(2, entries.size())]);
+  return segment;
 }
 
 /// The clips played on the way.
-void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Leg>& legs) {
+void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Segment>& segments) {
   const Json& entries = fields.List("through", 0, kMostThrough);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     AnswerFields entry(entries[i], fields.PathOf("through", i));
@@ -64,23 +66,23 @@ void ReadThrough(AnswerFields& fields, const Stage& stage, std::vector<Leg>& leg
     const int last = stage.library.tagged[clip].FrameCount() - 1;
     const int entered = entry.Integer("enter_frame", 0, last - 1);
     const int left = entry.Integer("leave_frame", entered + 1, last);
-    legs.push_back({.clip = clip, .first = entered, .last = left, .own = {}});
+    segments.push_back({.clip = clip, .first = entered, .last = left, .own = {}});
     if (auto done = entry.Finish(); !done) fields.Note(done.error());
   }
 }
 
-SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRequest& request) {
-  SwitchAnswer answer;
+TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const TransitionRequest& request) {
+  TransitionAnswer answer;
   const int last_of_from = stage.library.tagged[request.from].FrameCount() - 1;
   const int last_of_to = stage.library.tagged[request.to].FrameCount() - 1;
   const int left = fields.Integer("leave_frame", request.request_frame, last_of_from);
-  answer.legs.push_back({.clip = request.from, .first = request.request_frame, .last = left, .own = {}});
-  ReadThrough(fields, stage, answer.legs);
+  answer.segments.push_back({.clip = request.from, .first = request.request_frame, .last = left, .own = {}});
+  ReadThrough(fields, stage, answer.segments);
   const int entered = fields.Integer("enter_frame", 0, last_of_to - 1);  // a frame must follow
-  std::optional<Leg> between = ReadBetween(fields, stage.library.physique);
-  if (between && answer.legs.size() > 1) fields.Note({{}, "through: not together with 'between'"});
-  if (between) answer.legs.push_back(*std::move(between));
-  answer.legs.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
+  std::optional<Segment> between = ReadBetween(fields, stage.library.proportions);
+  if (between && answer.segments.size() > 1) fields.Note({{}, "through: not together with 'between'"});
+  if (between) answer.segments.push_back(*std::move(between));
+  answer.segments.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   answer.matched = fields.Boolean("matched", false);
   return answer;
@@ -89,7 +91,7 @@ SwitchAnswer ReadSwitch(AnswerFields& fields, const Stage& stage, const SwitchRe
 }  // namespace
 
 Payload StagePayload(const Stage& stage) {
-  Payload setting{std::make_unique<Json>(Json{{"rate_hz", kJudgedRateHz}}), {}};
+  Payload setting = PayloadOf({{"rate_hz", kJudgedRateHz}});
   setting.json->update(DescribeBody());
   Json& clips = (*setting.json)["clips"] = Json::array();
   for (std::size_t clip = 0; clip < stage.library.names.size(); ++clip) {
@@ -101,24 +103,25 @@ Payload StagePayload(const Stage& stage) {
   return setting;
 }
 
-Payload RequestPayload(const SwitchRequest& request, double max_wait_s) {
+Payload RequestPayload(const TransitionRequest& request, double max_wait_s) {
   const Json json = {
       {"from", request.from}, {"to", request.to}, {"request_frame", request.request_frame}, {"max_wait_s", max_wait_s}};
-  return {std::make_unique<Json>(json), {}};
+  return PayloadOf(std::move(json));
 }
 
-Payload NaturePayload(const Stage& stage, const SwitchRequest& request) {
+Payload NaturePayload(const Stage& stage, const TransitionRequest& request) {
   const double limit = NaturalLimitCm(NaturalJumpsOf(stage, request.from, request.to));
-  return {std::make_unique<Json>(Json{{"natural_limit_cm", limit}}), {}};
+  return PayloadOf({{"natural_limit_cm", limit}});
 }
 
-Result<SwitchAnswer> ReadSwitchAnswer(const Json& answer, const Stage& stage, const SwitchRequest& request) {
+Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& stage,
+                                              const TransitionRequest& request) {
   AnswerFields fields(answer);
-  SwitchAnswer read;
+  TransitionAnswer read;
   if (fields.Has("unsolved")) {
     read.unsolved = fields.Text("unsolved", kLongestExcuse);
   } else {
-    read = ReadSwitch(fields, stage, request);
+    read = ReadTransition(fields, stage, request);
   }
   RETURN_IF_ERROR(fields.Finish());
   return read;

@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "bench/tasks/base/task.h"
-#include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/switching/joins/splice.h"
+#include "bench/tasks/transition/world.h"
+#include "engine/transitions/joins/splice.h"
 
 namespace etude {
 
 /// What methods outside the program are told about transitions, and what they answer. Clips are named by their
 /// index in the setting, frames by theirs in the clip; a pose is sixty numbers (EncodePose).
 ///
-/// Setting, the clips as built-in methods see them, danced by one character:
+/// Setting, the clips as built-in methods see them, performed by one body:
 ///
 ///     {"rate_hz": 30, "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
 ///      "clips": [{"name": "builtin:clap", "poses": [[x, y, z, …], …], "file": "clip-0.bvh"}, …]}
@@ -26,14 +26,14 @@ Payload StagePayload(const Stage& stage);
 ///
 ///     {"from": 0, "to": 3, "request_frame": 41, "max_wait_s": 1}
 ///
-/// `max_wait_s` is the scenario's `wait_s`: how long the caller would like to wait at most. A later switch is
+/// `max_wait_s` is the scenario's `wait_s`: how long the caller would like to wait at most. A later transition is
 /// allowed and costs `wait_s`, as that of the built-in `wait-for-end` does.
-Payload RequestPayload(const SwitchRequest& request, double max_wait_s);
+Payload RequestPayload(const TransitionRequest& request, double max_wait_s);
 
 /// Truth: the largest jump that still counts in `natural_share`.
 ///
 ///     {"natural_limit_cm": 3.1}
-Payload NaturePayload(const Stage& stage, const SwitchRequest& request);
+Payload NaturePayload(const Stage& stage, const TransitionRequest& request);
 
 /// How a method outside gets from one clip into the other:
 ///
@@ -47,23 +47,22 @@ Payload NaturePayload(const Stage& stage, const SwitchRequest& request);
 /// - `"join"`: any of the built-in ones, `cut` by default, with what it is set by left at its defaults.
 /// - `"between": [[x, y, z, …], …]`: frames of the method's own making, shown after `leave_frame` in the place and
 ///   heading of clip `from` as the setting has it. Then clip `to` is laid on the last of them, so that one should be
-///   the method's version of `enter_frame`. They are danced by the same character: a limb more than 2 cm longer or
+///   the method's version of `enter_frame`. They are performed by the same body: a limb more than 2 cm longer or
 ///   shorter than in the clips is refused. At most 300. Not together with `through`.
 /// - `"between_start": [x, y, z, …]`: beside `between`, the method's version of `leave_frame`: not shown, but the gaps
-/// at
-///   the seam are those to it. When left out, the frames between are taken to begin at a steady speed.
+///   at the transition point are those to it. When left out, the frames between are taken to begin at a steady speed.
 /// - `"matched": true`: the frames left and entered were chosen because they are alike. Then `false_smooth` is
 ///   measured, which is missing else.
 ///
 /// A method that finds no way answers `{"unsolved": "why"}`, like a built-in one that finds no match.
-struct SwitchAnswer {
+struct TransitionAnswer {
   std::optional<std::string> unsolved;  ///< why; the rest is then empty
-  std::vector<Leg> legs;                ///< as in a SwitchRecord
-  const Join* join = nullptr;           ///< never null when there are legs; its settings are the defaults
+  std::vector<Segment> segments;        ///< as in a TransitionRecord
+  const Join* join = nullptr;           ///< never null when there are segments; its settings are the defaults
   bool matched = false;
 };
 
 /// Refuses what is not as told above, naming where in the answer.
-Result<SwitchAnswer> ReadSwitchAnswer(const Json& answer, const Stage& stage, const SwitchRequest& request);
+Result<TransitionAnswer> ReadTransitionAnswer(const Json& answer, const Stage& stage, const TransitionRequest& request);
 
 }  // namespace etude

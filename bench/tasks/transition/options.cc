@@ -1,5 +1,6 @@
 #include "bench/tasks/transition/options.h"
 
+#include "bench/keys/setting_fields.h"
 #include "bench/tasks/base/fuzzy_key.h"
 
 namespace etude {
@@ -17,28 +18,14 @@ std::vector<std::string> FuzzyChoices() {
   return names;
 }
 
-/// What the choices and joins can be set by.
-std::vector<Field<TransitionMethod>> SettingFields() {
-  using Key = Field<TransitionMethod>;
-  std::vector<Key> rows;
-  for (const Choice& choice : AllChoices()) {
-    for (const RuleSetting& setting : choice.settings) {
-      const auto member = [=](TransitionMethod & m) -> auto& { return m.way.rules.*setting.member; };
-      rows.push_back(Key::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
-                         .With("choice", {choice.name}));
-    }
-  }
-  for (const Join& join : AllJoins()) {
-    for (const JoinSetting& setting : join.settings) {
-      const auto member = [=](TransitionMethod & m) -> auto& { return m.way.join_settings.*setting.member; };
-      rows.push_back(Key::Number(setting.key, member, {setting.lowest, setting.largest}, setting.meaning)
-                         .With("join", {join.name}));
-    }
-  }
-  return rows;
-}
-
 }  // namespace
+
+TransitionWay DefaultWay() {
+  TransitionWay way;
+  way.choice = &AllChoices().front();
+  way.join = &AllJoins().front();
+  return way;
+}
 
 const FieldTable<TransitionCondition>& TransitionConditionFields() {
   using Options = TransitionCondition;
@@ -115,8 +102,14 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
          Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a switch may come.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
-    const std::vector<Key> settings = SettingFields();
-    made.fields.insert(made.fields.end(), settings.begin(), settings.end());
+    for (const Key& key : SettingFields<TransitionMethod>(
+             "choice", AllChoices(), [](auto& m) -> auto& { return m.way.choice_settings; })) {
+      made.fields.push_back(key);
+    }
+    for (const Key& key : SettingFields<TransitionMethod>(
+             "join", AllJoins(), [](auto& m) -> auto& { return m.way.join_settings; })) {
+      made.fields.push_back(key);
+    }
     return made;
   }();
   return table;

@@ -5,17 +5,20 @@
 #include "bench/keys/field_table.h"
 #include "bench/tasks/transition/stage.h"
 #include "bench/training/learnt_weights.h"
-#include "engine/switching/switch_clips.h"
+#include "engine/transitions/transition.h"
 
 namespace etude {
 
-/// One way to switch, as a scenario names it.
+/// Paper A's.
+TransitionWay DefaultWay();
+
+/// One method, as a scenario names it.
 ///
 ///     - {name: fuzzy, choice: fuzzy-bridge, join: cut, weights: adaptive, threshold: 0.4, pick: first}
 struct TransitionMethod {
   std::string name;
   /// Its weights are paper A's; learnt ones depend on the world.
-  SwitchMethod way = {.choice = &AllChoices().front(), .join = &AllJoins().front(), .rules = {}, .join_settings = {}};
+  TransitionWay way = DefaultWay();
   WeightSource weights = WeightSource::kFixed;
   double wait_s = 1;  ///< the budget of its requests
 };

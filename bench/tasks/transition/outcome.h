@@ -1,23 +1,32 @@
 #pragma once
 
-#include "engine/bridging/links.h"
-#include "engine/switching/joins/splice.h"
+#include "engine/transitions/base/match_rules.h"
+#include "engine/transitions/bridge_frames/transition_points.h"
+#include "engine/transitions/joins/splice.h"
 
 namespace etude {
 
+struct Stage;
+struct TransitionAnswer;
+
 /// What one method did in one world.
-struct SwitchOutcome {
-  SwitchRequest request;
+struct TransitionOutcome {
+  TransitionRequest request;
   bool matched = false;  ///< it chose the frames left and entered because they are alike
-  SwitchRules rules;     ///< those that its distances go by
-  SwitchRecord record;
+  MatchRules rules;      ///< those that its distances go by
+  TransitionRecord record;
   Splice splice;  ///< empty when the record found no way
 };
 
-/// The frames of a splice from so long before its first seam to so long after its last, as far as the motion goes.
-FrameWindow AroundSeams(const Splice& splice, double seconds);
+/// Does what a method outside answered, which must have a way: the clips spliced, or its own frames put between them.
+/// The distances are by the fixed weights, whatever the method went by.
+TransitionOutcome FollowAnswer(const TransitionAnswer& answer, const Stage& stage, const TransitionRequest& request);
 
-/// The meeting of a switch with legs that the fuzzy distance thinks worst.
-const FuzzyDistance& WorstMeeting(const SwitchRecord& record);
+/// The frames of a splice from so long before its first transition point to so long after its last, as far as the
+/// motion goes.
+FrameWindow AroundPoints(const Splice& splice, double seconds);
+
+/// The largest distance at a transition point of a record that has segments.
+const FuzzyDistance& WorstDistance(const TransitionRecord& record);
 
 }  // namespace etude

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
 
@@ -51,8 +51,8 @@ Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
                       .min_clips = rules.min_clips,
                       .most_per_class = rules.most_per_class,
                       .weights = rules.fuzzy.weights};
-  const Physique physique = MakePhysique(PoseOf(Controls{}), kJudgedHipHeight);
-  stage.library = MakeLibrary(std::move(names), clips, physique, tags, rules.tween);
+  const BodyProportions proportions = MakeBodyProportions(PoseOf(Controls{}), kJudgedHipHeight);
+  stage.library = MakeLibrary(std::move(names), clips, proportions, tags, rules.tween);
   for (const BodyMotion& motion : stage.library.motions) stage.natural_jumps_cm.push_back(NaturalJumpsCm(motion));
   CastClips(library, rules.asks_for_acts, stage);
   return stage;

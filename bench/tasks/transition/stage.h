@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
-#include "engine/bridging/library.h"
 #include "engine/fuzzy/fuzzy_system.h"
+#include "engine/transitions/library/library.h"
 
 namespace etude {
 
-/// How a library is made ready for switching.
+/// How a library is made ready for transitions.
 struct StageRules {
   FuzzySystem fuzzy;
   HeadRule head;
@@ -19,11 +19,11 @@ struct StageRules {
   bool asks_for_acts = false;  ///< the coach's acts are asked for while other clips play, where there are both
 };
 
-/// A library of clips made ready for switching: all danced by one character whose hips stand at
+/// A library of clips made ready for transitions: all performed by one body whose hips stand at
 /// 0.90 m, tagged, and each with nature's own jumps to be compared with.
 struct Stage {
   MotionLibrary library;                ///< its names are as rows and videos show them
-  std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
+  std::vector<std::string> identities;  ///< equal for equal clips: what opens the clip
   std::vector<std::vector<double>> natural_jumps_cm;
   FuzzySystem fuzzy;         ///< by which they are tagged
   std::vector<int> playing;  ///< the clips that play when another is asked for: all, unless acts are
@@ -33,8 +33,8 @@ struct Stage {
 /// Shorter clips have no unbroken window of eleven frames to be judged by.
 constexpr int kShortestClip = 13;
 
-/// What a switch between these two clips is compared with, in centimetres (docs/metrics.md): the clips asked for set
-/// the standard, not one played in between.
+/// What a transition between these two clips is compared with, in centimetres (docs/metrics.md): the clips asked for
+/// set the standard, not one played in between.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
 
 Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});

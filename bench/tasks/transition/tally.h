@@ -2,15 +2,11 @@
 
 #include "bench/metrics/matching.h"
 #include "bench/tasks/transition/stage.h"
-#include "engine/bridging/switch_record.h"
-#include "engine/switching/choices/choice.h"
+#include "engine/transitions/transition.h"
 
 namespace etude {
 
-/// What the rules of a fuzzy choice make of the pairs of frames that it may take: those of AllowedPairs, or, of a
-/// choice that goes by bridge frames, a bridge frame of the playing clip within the budget and one of the wanted clip
-/// but its last, after which nothing would follow.
-MatchTally TallyMatches(const Stage& stage, const SwitchRequest& request, const Choice& choice,
-                        const SwitchRules& rules);
+/// What the rules of a fuzzy choice make of all pairs of frames that it may take.
+MatchTally TallyMatches(const Stage& stage, const TransitionRequest& request, const TransitionWay& way);
 
 }  // namespace etude

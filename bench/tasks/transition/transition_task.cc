@@ -1,10 +1,8 @@
 #include "bench/tasks/transition/transition_task.h"
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/transition/exchange.h"
-#include "bench/tasks/transition/transition_world.h"
+#include "bench/tasks/transition/run.h"
 #include "bench/training/training_clips.h"
 
 namespace etude {
@@ -22,7 +20,7 @@ class TransitionTask final : public Task {
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
     const TransitionBasis basis{methods_, stage_, learnt_, max_wait_s_, explain_};
-    return std::make_unique<TransitionWorld>(basis, DrawRequest(stage_, key), keeps_motion);
+    return std::make_unique<TransitionRun>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
   std::string ClipOf(const WorldKey& key) const override {
@@ -31,7 +29,9 @@ class TransitionTask final : public Task {
 
   Result<Payload> Setting() const override { return StagePayload(stage_); }
 
-  std::optional<double> ValueOfFailure(std::string_view metric) const override { return SwitchFailureValue(metric); }
+  std::optional<double> ValueOfFailure(std::string_view metric) const override {
+    return TransitionFailureValue(metric);
+  }
 
  private:
   const std::vector<TransitionMethod> methods_;
@@ -50,7 +50,8 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
   start.wait_s = condition.wait_s;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "transition", TransitionMethodFields(), start));
   Stage stage = SetStage(input.clips, condition.stage);
-  ASSIGN_OR_RETURN(auto training, GatherTrainingClips(stage.library.motions, stage.identities, stage.library.physique));
+  ASSIGN_OR_RETURN(auto training,
+                   GatherTrainingClips(stage.library.motions, stage.identities, stage.library.proportions));
   return std::make_unique<TransitionTask>(std::move(methods), condition.wait_s, condition.explain, std::move(stage),
                                           std::move(training));
 }

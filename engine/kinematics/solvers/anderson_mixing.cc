@@ -10,7 +10,7 @@ namespace {
 constexpr double kNewPart = 1e-10;
 
 double Dot(std::span<const double> a, std::span<const double> b) {
-  double sums[4] = {};  // one alone would wait for itself at every step
+  double sums[4] = {};  // independent, so that additions overlap
   std::size_t i = 0;
   for (; i + 4 <= a.size(); i += 4) {
     for (int k = 0; k < 4; ++k) sums[k] += a[i + k] * b[i + k];
@@ -38,7 +38,7 @@ AndersonMixing::AndersonMixing(int size, int memory)
       shares_(memory) {}
 
 void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out) {
-  TakeIn(x, g);
+  RecordPair(x, g);
   std::ranges::copy(g, out.begin());
 
   // Gram–Schmidt, newest difference first: what f has along each new direction is taken off f at once, which keeps the
@@ -68,7 +68,7 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
 }
 
 // The newest pair, and how it differs from the one before.
-void AndersonMixing::TakeIn(std::span<const double> x, std::span<const double> g) {
+void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
     // The oldest difference makes room for the newest.
     std::ranges::rotate(df_, df_.end() - 1);
@@ -86,7 +86,7 @@ void AndersonMixing::TakeIn(std::span<const double> x, std::span<const double> g
   has_last_ = true;
 }
 
-void AndersonMixing::Forget() {
+void AndersonMixing::Discard() {
   differences_ = 0;
   has_last_ = false;
 }

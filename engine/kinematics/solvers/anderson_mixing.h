@@ -15,16 +15,16 @@ class AndersonMixing {
   /// For vectors of `size` numbers, looking back by `memory` ≥ 0 pairs.
   AndersonMixing(int size, int memory);
 
-  /// Takes in the pair x, g = g(x) and writes the extrapolation to `out`; g itself when no pair came before.
+  /// Records the pair x, g = g(x) and writes the extrapolation to `out`; g itself when no pair came before.
   void Extrapolate(std::span<const double> x, std::span<const double> g, std::span<double> out);
 
-  /// Begins anew, as after a jump that g did not make.
-  void Forget();
+  /// Discards all pairs: to be called after a jump that g did not make.
+  void Discard();
 
  private:
   using Vector = std::vector<double>;
 
-  void TakeIn(std::span<const double> x, std::span<const double> g);
+  void RecordPair(std::span<const double> x, std::span<const double> g);
 
   const int memory_;
   bool has_last_ = false;

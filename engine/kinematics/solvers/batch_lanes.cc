@@ -132,8 +132,8 @@ class Batch {
     std::int64_t last_sweep = 0;
   };
 
-  /// Puts problems into lanes that have none. Whether any lane has one now; a lane without goes on with its last one,
-  /// which nobody looks at.
+  /// Puts problems into lanes that have none. Whether any lane has one now; an idle lane goes on with its last one,
+  /// unused.
   bool FillLanes() {
     if (!has_idle_lanes_) return true;
     has_idle_lanes_ = false;

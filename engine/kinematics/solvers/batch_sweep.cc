@@ -14,7 +14,7 @@ namespace {
 // What a sweep in floats may still move when it has arrived: the last bit of an angle.
 constexpr double kFloatStall = 2e-7;
 
-// A problem in a lane, with the books that `SolveCcdHinges` keeps.
+// A problem in a lane, with the records that `SolveCcdHinges` keeps.
 struct Seat {
   Seat(const KinematicTree& tree, const SweepTree& sweep_tree, const IkProblem& problem, const IkOptions& options)
       : run(tree, problem, options), numbers(sweep_tree, problem, run.ranges()), state(problem.start) {
@@ -45,7 +45,7 @@ class Batch final : public LaneQueue {
         continue;
       }
       seats_[n] = std::make_unique<Seat>(tree_, sweep_tree_, problems_[n], options_);
-      if (Note(n)) return static_cast<int>(n);
+      if (Record(n)) return static_cast<int>(n);
     }
     return -1;
   }
@@ -58,19 +58,19 @@ class Batch final : public LaneQueue {
     for (std::size_t d = 0; d < seat.state.angles.size(); ++d) {
       seat.state.angles[d] = seat.numbers.Angle(static_cast<int>(d), cosines[d], sines[d]);
     }
-    if (sweeps > 1) seat.run.NoteMisses(sweeps - 1);
+    if (sweeps > 1) seat.run.RecordMisses(sweeps - 1);
     if (has_stalled) seat.run.Stall();
-    return Note(problem);
+    return Record(problem);
   }
 
   std::vector<IkSolution> TakeSolutions() { return std::move(solutions_); }
 
  private:
   /// Judges the present angles in double. Whether to go on; if not, the problem is done.
-  bool Note(std::size_t n) {
+  bool Record(std::size_t n) {
     Seat& seat = *seats_[n];
     ComputeFrames(tree_, seat.state, frames_);
-    seat.run.NoteFrames(frames_, seat.state.angles);
+    seat.run.RecordFrames(frames_, seat.state.angles);
     if (seat.run.MustGoOn()) return true;
     solutions_[n] = seat.run.Finish(std::move(seat.state.angles));
     seats_[n].reset();

@@ -12,10 +12,10 @@ IkSolution Solve(const KinematicTree& tree, const IkProblem& problem, const IkOp
   if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
   IkRun run(tree, problem, options);
   CcdSweep ccd(tree, problem, options, joint_kind);
-  run.Note(ccd.errors(), ccd.angles());
+  run.Record(ccd.errors(), ccd.angles());
   while (run.MustGoOn()) {
     const double change = ccd.Sweep();
-    run.Note(ccd.errors(), ccd.angles());
+    run.Record(ccd.errors(), ccd.angles());
     if (change < options.stall_change) run.Stall();
   }
   return run.Finish({ccd.angles().begin(), ccd.angles().end()});
@@ -29,9 +29,7 @@ IkSolution SolveCcd(const KinematicTree& tree, const IkProblem& problem, const I
 
 IkSolution SolveCcdHinges(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
   if (!MomentSweep::CanServe(options)) return Solve(tree, problem, options, CcdJoint::kHinges);
-  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  MomentSweep sweep(tree, problem, options);
-  return RunSweeps(tree, problem, options, sweep, [&](IkRun&) { return sweep.Sweep(); });
+  return RunSweeps<MomentSweep>(tree, problem, options, [](MomentSweep& sweep, IkRun&) { return sweep.Sweep(); });
 }
 
 }  // namespace etude

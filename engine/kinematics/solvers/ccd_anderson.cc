@@ -34,7 +34,7 @@ class AngleSweep {
   double Turn() { return sweep_.Turn(); }
   void Measure() { sweep_.Measure(); }
   double Merit() const { return sweep_.Merit(); }
-  bool MissesGoals() const { return false; }  // where sweeps cost that much, errors need not be spared
+  bool MissesGoals() const { return false; }  // sweeps from effector to effector measure errors anyway
   std::vector<double> Angles() const { return {sweep_.angles().begin(), sweep_.angles().end()}; }
 
   void ReadHalfTangents(std::span<double> out) const {
@@ -52,26 +52,28 @@ class AngleSweep {
   std::vector<double> middles_, angles_;
 };
 
-// Sweeps, each followed by what the last ones foretell.
+// Sweeps, each followed by an extrapolation from the last ones.
 template <class Sweep>
 class Accelerated {
  public:
-  Accelerated(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)
+  Accelerated(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+              const CcdAndersonOptions& own)
       : sweep_(tree, problem, options),
-        mixing_(tree.dof_count(), options.tuning.memory),
+        mixing_(tree.dof_count(), own.memory),
         now_(tree.dof_count()),
         swept_(tree.dof_count()),
         mixed_(tree.dof_count()) {}
 
-  const Sweep& sweep() const { return sweep_; }
+  bool MissesGoals() const { return sweep_.MissesGoals(); }
+  std::vector<double> Angles() const { return sweep_.Angles(); }
 
-  /// Returns the largest turn of the sweep itself. The caller books one forward-kinematics pass, this any other.
+  /// Returns the largest turn of the sweep itself. The caller counts one forward-kinematics pass, this any other.
   double Step(IkRun& run) {
     sweep_.ReadHalfTangents(now_);
     const double change = sweep_.Turn();
     sweep_.ReadHalfTangents(swept_);
     if (!AreFarFromPole(now_) || !AreFarFromPole(swept_)) {
-      mixing_.Forget();
+      mixing_.Discard();
       sweep_.Measure();
       return change;
     }
@@ -93,18 +95,13 @@ class Accelerated {
   std::vector<double> now_, swept_, mixed_;
 };
 
-template <class Sweep>
-IkSolution Solve(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  Accelerated<Sweep> accelerated(tree, problem, options);
-  return RunSweeps(tree, problem, options, accelerated.sweep(), [&](IkRun& run) { return accelerated.Step(run); });
-}
-
 }  // namespace
 
-IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  return MomentSweep::CanServe(options) ? Solve<MomentSweep>(tree, problem, options)
-                                        : Solve<AngleSweep>(tree, problem, options);
+IkSolution SolveCcdAnderson(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                            const CcdAndersonOptions& own) {
+  const auto step = [](auto& sweep, IkRun& run) { return sweep.Step(run); };
+  return MomentSweep::CanServe(options) ? RunSweeps<Accelerated<MomentSweep>>(tree, problem, options, step, own)
+                                        : RunSweeps<Accelerated<AngleSweep>>(tree, problem, options, step, own);
 }
 
 }  // namespace etude

@@ -9,16 +9,16 @@
 namespace etude {
 namespace {
 
-// R · rotation, R the rotation by `angle` about a coordinate axis.
-glm::dmat3 TurnedAbout(int axis, double angle, glm::dmat3 rotation) {
+// R · R_JL, R the rotation by `angle` about J's coordinate axis `axis`.
+glm::dmat3 TurnedAbout(int axis, double angle, glm::dmat3 R_JL) {
   const double c = std::cos(angle), s = std::sin(angle);
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   for (int column = 0; column < 3; ++column) {
-    const double x = rotation[column][i], y = rotation[column][j];
-    rotation[column][i] = c * x - s * y;
-    rotation[column][j] = s * x + c * y;
+    const double x = R_JL[column][i], y = R_JL[column][j];
+    R_JL[column][i] = c * x - s * y;
+    R_JL[column][j] = s * x + c * y;
   }
-  return rotation;
+  return R_JL;
 }
 
 }  // namespace
@@ -93,26 +93,27 @@ void CcdSweep::UpdateWeightsBelow(int joint) {
   }
 }
 
-HingeGain CcdSweep::GainAbout(const glm::dvec3& axis, int joint) const {
-  const glm::dvec3& pivot = frames_.joints[joint].position;
+HingeGain CcdSweep::GainAbout(const glm::dvec3& axis_W, int joint) const {
+  const glm::dvec3& p_WJ = frames_.joints[joint].position;
   HingeGain gain;
   for (int e : effectors_below_[joint]) {
     const EffectorTarget& target = problem_.targets[e];
-    const glm::dvec3 current = frames_.effectors[e].position - pivot, desired = target.position - pivot;
+    const glm::dvec3 p_JE_W = frames_.effectors[e].position - p_WJ, p_JD_W = target.position - p_WJ;
     double position_weight = weights_[e].position * target.position_weight;
-    if (options_.weights == WeightRule::kWangChen) position_weight *= WangChenFactor(current, desired);
-    gain.Add(position_weight, current, desired, axis);
+    if (options_.weights == WeightRule::kWangChen) position_weight *= WangChenFactor(p_JE_W, p_JD_W);
+    gain.Add(position_weight, p_JE_W, p_JD_W, axis_W);
     const glm::dvec3 axis_weights = weights_[e].axes * target.axis_weights;
-    for (int k = 0; k < 3; ++k) gain.Add(axis_weights[k], frames_.effectors[e].axes[k], target.axes[k], axis);
+    for (int k = 0; k < 3; ++k) gain.Add(axis_weights[k], frames_.effectors[e].axes[k], target.axes[k], axis_W);
   }
   return gain;
 }
 
+// By a rotation of the world.
 void CcdSweep::TurnBelow(int joint, const glm::dmat3& rotation) {
-  const glm::dvec3& pivot = frames_.joints[joint].position;
+  const glm::dvec3& p_WJ = frames_.joints[joint].position;
   for (int e : effectors_below_[joint]) {
-    LimbFrame& effector = frames_.effectors[e];
-    effector = {pivot + rotation * (effector.position - pivot), rotation * effector.axes};
+    LimbFrame& X_WE = frames_.effectors[e];
+    X_WE = {p_WJ + rotation * (X_WE.position - p_WJ), rotation * X_WE.axes};
   }
 }
 
@@ -121,12 +122,12 @@ double CcdSweep::TurnHinge(int joint, int axis) {
   if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
   const int dof = tree_.joints[joint].first_dof + axis;
   double& angle = state_.angles[dof];
-  const glm::dvec3& world_axis = frames_.dof_axes[dof];  // nothing that carries it has turned since the last FK
+  const glm::dvec3& axis_W = frames_.dof_axes[dof];  // nothing that carries it has turned since the last FK
   const AngleRange left{ranges_[dof].lower - angle, ranges_[dof].upper - angle};
-  const double turn = GainAbout(world_axis, joint).OptimumWithin(left);
+  const double turn = GainAbout(axis_W, joint).OptimumWithin(left);
   // (upper − angle) + angle may miss upper by a rounding.
   angle = std::clamp(angle + turn, ranges_[dof].lower, ranges_[dof].upper);
-  TurnBelow(joint, AxisRotation(world_axis, turn));
+  TurnBelow(joint, AxisRotation(axis_W, turn));
   return std::abs(turn);
 }
 
@@ -141,22 +142,22 @@ double CcdSweep::TurnAsHinges(int joint) {
 
 double CcdSweep::TurnWhole(int joint) {
   const TreeJoint& limb = tree_.joints[joint];
-  const glm::dmat3& base = frames_.bases[joint];
+  const glm::dmat3& R_WJ = frames_.R_WJ[joint];
   glm::dvec3 angles = JointAngles(limb, state_.angles);
   const glm::dvec3 before = angles;
-  glm::dmat3 rotation = RotationXyz(angles);
+  glm::dmat3 R_JL = RotationXyz(angles);
   for (int axis = 0; axis < limb.dof_count; ++axis) {
     if (options_.refresh == WeightRefresh::kDof) UpdateWeightsBelow(joint);
-    const double turn = GainAbout(base[axis], joint).Optimum();
-    const glm::dmat3 wanted = TurnedAbout(axis, turn, rotation);
-    const glm::dvec3 wanted_angles = AnglesXyz(wanted);
+    const double turn = GainAbout(R_WJ[axis], joint).Optimum();
+    const glm::dmat3 best_R_JL = TurnedAbout(axis, turn, R_JL);
+    const glm::dvec3 best_angles = AnglesXyz(best_R_JL);
     for (int k = 0; k < 3; ++k) {
       const int dof = limb.first_dof + k;
-      angles[k] = k < limb.dof_count ? ClampAngle(wanted_angles[k], ranges_[dof]) : 0;
+      angles[k] = k < limb.dof_count ? ClampAngle(best_angles[k], ranges_[dof]) : 0;
     }
-    const glm::dmat3 clipped = angles == wanted_angles ? wanted : RotationXyz(angles);
-    TurnBelow(joint, base * clipped * glm::transpose(rotation) * glm::transpose(base));
-    rotation = clipped;
+    const glm::dmat3 new_R_JL = angles == best_angles ? best_R_JL : RotationXyz(angles);
+    TurnBelow(joint, R_WJ * new_R_JL * glm::transpose(R_JL) * glm::transpose(R_WJ));
+    R_JL = new_R_JL;
   }
   double largest = 0;
   for (int k = 0; k < limb.dof_count; ++k) {

@@ -42,7 +42,7 @@ class CcdSweep {
 
  private:
   void UpdateWeightsBelow(int joint);
-  HingeGain GainAbout(const glm::dvec3& axis, int joint) const;
+  HingeGain GainAbout(const glm::dvec3& axis_W, int joint) const;
   void TurnBelow(int joint, const glm::dmat3& rotation);
   double TurnHinge(int joint, int axis);
   double TurnAsHinges(int joint);

@@ -21,14 +21,14 @@ constexpr double kSmallestCostChange = 1e-9;
 // More than Ceres's 5: at limits, ways out often lead uphill at first.
 constexpr int kMostStepsUphill = 20;
 
-// The rotation that is missing from `now` to `wanted`, the short way round.
-glm::dquat MissingTurn(const glm::dmat3& now, const glm::dmat3& wanted) {
-  const glm::dquat turn = glm::quat_cast(wanted * glm::transpose(now));
+// The rotation of the world that takes an effector's axes E to the desired ones D, the short way round.
+glm::dquat MissingTurn(const glm::dmat3& R_WE, const glm::dmat3& R_WD) {
+  const glm::dquat turn = glm::quat_cast(R_WD * glm::transpose(R_WE));
   return turn.w < 0 ? -turn : turn;
 }
 
 // The residuals of all effectors as functions of those angles that can move. A position has three. Three axes of one
-// weight w have three together, 2 √(2w) · (vector part of the quaternion between now and wanted), whose squares add up
+// weight w have three together, 2 √(2w) · (vector part of the quaternion between E and D), whose squares add up
 // to just Σ w |u_d − u_c|²; otherwise every axis with weight has its own three.
 class Residuals final : public ceres::CostFunction {
  public:
@@ -70,7 +70,7 @@ class Residuals final : public ceres::CostFunction {
     int row = 0;
     for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
       const EffectorTarget& target = problem_.targets[e];
-      const LimbFrame& now = frames.effectors[e];
+      const LimbFrame& X_WE = frames.effectors[e];
       // Writes three rows; `change` gives what they gain from a move by `shift` and a turn by `turn`.
       const auto write = [&](const glm::dvec3& residual, const auto& change) {
         for (int k = 0; k < 3; ++k) residuals[row + k] = residual[k];
@@ -83,12 +83,12 @@ class Residuals final : public ceres::CostFunction {
       };
       if (target.position_weight > 0) {
         const double scale = std::sqrt(target.position_weight) / kPositionScale;
-        write(scale * (now.position - target.position),
+        write(scale * (X_WE.position - target.position),
               [&](const glm::dvec3& shift, const glm::dvec3&) { return scale * shift; });
       }
       if (IsWholeFrame(target)) {
         const double scale = std::sqrt(2 * target.axis_weights.x);
-        const glm::dquat missing = MissingTurn(now.axes, target.axes);
+        const glm::dquat missing = MissingTurn(X_WE.axes, target.axes);
         const glm::dvec3 v(missing.x, missing.y, missing.z);
         write(-2 * scale * v, [&](const glm::dvec3&, const glm::dvec3& turn) {
           return scale * (missing.w * turn + glm::cross(v, turn));
@@ -98,8 +98,8 @@ class Residuals final : public ceres::CostFunction {
       for (int k = 0; k < 3; ++k) {
         if (target.axis_weights[k] <= 0) continue;
         const double scale = std::sqrt(target.axis_weights[k]);
-        write(scale * (now.axes[k] - target.axes[k]),
-              [&](const glm::dvec3&, const glm::dvec3& turn) { return scale * glm::cross(turn, now.axes[k]); });
+        write(scale * (X_WE.axes[k] - target.axes[k]),
+              [&](const glm::dvec3&, const glm::dvec3& turn) { return scale * glm::cross(turn, X_WE.axes[k]); });
       }
     }
     return true;
@@ -119,15 +119,15 @@ class Residuals final : public ceres::CostFunction {
   mutable TreeJacobian moves_;
 };
 
-// Books every step and stops Ceres by our goals.
-class Booking final : public ceres::IterationCallback {
+// Records every step and stops Ceres by our goals.
+class Recorder final : public ceres::IterationCallback {
  public:
-  Booking(IkRun& run, const Residuals& residuals, const std::vector<double>& x, double stall_change)
+  Recorder(IkRun& run, const Residuals& residuals, const std::vector<double>& x, double stall_change)
       : run_(run), residuals_(residuals), x_(x), stall_change_(stall_change) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
-    if (step.iteration == 0) return ceres::SOLVER_CONTINUE;  // the start is booked
-    run_.NoteFrames(residuals_.FramesAt(x_.data()), residuals_.angles());
+    if (step.iteration == 0) return ceres::SOLVER_CONTINUE;  // the start is recorded
+    run_.RecordFrames(residuals_.FramesAt(x_.data()), residuals_.angles());
     if (step.step_is_successful && step.step_norm < stall_change_) run_.Stall();
     return run_.MustGoOn() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
@@ -140,7 +140,7 @@ class Booking final : public ceres::IterationCallback {
 };
 
 // Ceres's best for this kind of problem; every choice was measured against its alternatives.
-ceres::Solver::Options TunedOptions(const IkOptions& options) {
+ceres::Solver::Options TunedOptions(const IkOptions& options, const CeresLmOptions& own) {
   ceres::Solver::Options tuned;
   tuned.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
   // Some 24 demands on 29 angles: so few that Eigen does not block by the sizes of caches, which would differ between
@@ -151,8 +151,8 @@ ceres::Solver::Options TunedOptions(const IkOptions& options) {
   tuned.jacobi_scaling = false;
   tuned.min_lm_diagonal = 1;
   tuned.max_lm_diagonal = 1;
-  tuned.initial_trust_region_radius = options.tuning.first_radius;
-  tuned.max_trust_region_radius = std::max(kLargestRadius, options.tuning.first_radius);
+  tuned.initial_trust_region_radius = own.first_radius;
+  tuned.max_trust_region_radius = std::max(kLargestRadius, own.first_radius);
   tuned.use_nonmonotonic_steps = true;
   tuned.max_consecutive_nonmonotonic_steps = kMostStepsUphill;
   tuned.max_num_line_search_step_size_iterations = 0;  // steps are cut at the bounds, not searched along
@@ -169,7 +169,8 @@ ceres::Solver::Options TunedOptions(const IkOptions& options) {
 
 }  // namespace
 
-IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                        const CeresLmOptions& own) {
   if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
   FLAGS_minloglevel = google::GLOG_FATAL;  // what it has to say is in the status
 
@@ -181,7 +182,7 @@ IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, con
   std::vector<double> x;
   for (const int i : moving) x.push_back(run.start_angles()[i]);
   Residuals residuals(tree, problem, run.start_angles(), moving);
-  run.NoteFrames(residuals.FramesAt(x.data()), run.start_angles());
+  run.RecordFrames(residuals.FramesAt(x.data()), run.start_angles());
   if (moving.empty()) run.Stall();
 
   if (run.MustGoOn()) {
@@ -194,9 +195,9 @@ IkSolution SolveCeresLm(const KinematicTree& tree, const IkProblem& problem, con
       sum.SetParameterLowerBound(x.data(), i, run.ranges()[moving[i]].lower);
       sum.SetParameterUpperBound(x.data(), i, run.ranges()[moving[i]].upper);
     }
-    Booking booking(run, residuals, x, options.stall_change);
-    ceres::Solver::Options tuned = TunedOptions(options);
-    tuned.callbacks.push_back(&booking);
+    Recorder recorder(run, residuals, x, options.stall_change);
+    ceres::Solver::Options tuned = TunedOptions(options, own);
+    tuned.callbacks.push_back(&recorder);
     tuned.update_state_every_iteration = true;
     ceres::Solver::Summary summary;
     ceres::Solve(tuned, &sum, &summary);

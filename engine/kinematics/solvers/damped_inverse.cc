@@ -19,9 +19,9 @@ void DampedInverse::Build(const LinearTargets& linear) {
   Eigen::Map<Eigen::MatrixXd>(gram_.data(), rows_, rows_).selfadjointView<Eigen::Lower>().rankUpdate(jacobian);
 }
 
-bool DampedInverse::Step(double damping, std::span<const double> wish, std::vector<double>& step) {
-  step.assign(wish.begin(), wish.end());
-  if (rows_ == 0) return true;  // nothing is asked for but the wish
+bool DampedInverse::Step(double damping, std::span<const double> preferred, std::vector<double>& step) {
+  step.assign(preferred.begin(), preferred.end());
+  if (rows_ == 0) return true;  // no target: only the preferred posture counts
   damped_ = gram_;
   Eigen::Map<Eigen::MatrixXd> damped(damped_.data(), rows_, rows_);
   damped.diagonal().array() += damping;
@@ -32,7 +32,7 @@ bool DampedInverse::Step(double damping, std::span<const double> wish, std::vect
   const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
   const Eigen::Map<const Eigen::VectorXd> residuals(residuals_.data(), rows_);
   Eigen::Map<Eigen::VectorXd> out(step.data(), columns_);
-  // J⁺e + (I − J⁺J) wish = wish + J⁺ (e − J wish)
+  // J⁺e + (I − J⁺J) z = z + J⁺ (e − J z)
   const Eigen::VectorXd multipliers = factor.solve(residuals - jacobian * out);
   out.noalias() += jacobian.transpose() * multipliers;
   return true;

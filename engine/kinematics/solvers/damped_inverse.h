@@ -14,9 +14,10 @@ class DampedInverse {
   /// Takes J and e of `linear`, for steps with any damping.
   void Build(const LinearTargets& linear);
 
-  /// Sets `step` to J⁺e + (I − J⁺J) wish (equation 3.7), one number per degree of freedom. False, and `step` is of no
-  /// use, when JJᵀ + μI is singular: its smallest pivot not above 10⁻¹² of its largest.
-  bool Step(double damping, std::span<const double> wish, std::vector<double>& step);
+  /// Sets `step` to J⁺e + (I − J⁺J) preferred (equation 3.7; `preferred` leads to the preferred posture), one number
+  /// per degree of freedom. False, and `step` is of no use, when JJᵀ + μI is singular: its smallest pivot not above
+  /// 10⁻¹² of its largest.
+  bool Step(double damping, std::span<const double> preferred, std::vector<double>& step);
 
  private:
   int rows_ = 0, columns_ = 0;

@@ -17,45 +17,40 @@ constexpr double kSmallestGain = 1e-6;
 
 }  // namespace
 
-IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  IkRun run(tree, problem, options);
-  TreeState state = problem.start;
-  state.angles = run.start_angles();
-  TreeFrames frames = ComputeFrames(tree, state);
-  run.NoteFrames(frames, state.angles);
-
-  LinearTargets linear(tree, problem.targets);
-  DampedInverse inverse;
-  const std::vector<double> no_wish(state.angles.size(), 0.0);
-  std::vector<double> step;
-  linear.Build(frames);
-  inverse.Build(linear);
-  double cost = linear.Cost(frames);
-  double damping = options.tuning.first_damping;
-  TreeState trial = state;
-  TreeFrames trial_frames = frames;
-  while (run.MustGoOn()) {
-    while (!inverse.Step(damping, no_wish, step)) damping *= kDampingStep;
-    for (double& turn : step) turn = std::clamp(turn, -kLargestTurn, kLargestTurn);
-    const double largest = MoveWithin(run.ranges(), state.angles, step, trial.angles);
-    ComputeFrames(tree, trial, trial_frames);
-    const double trial_cost = linear.Cost(trial_frames);
-    if (largest < options.stall_change || damping > kLargestDamping) run.Stall();
-    if (trial_cost < cost) {
-      if (cost - trial_cost < kSmallestGain * cost) run.Stall();
-      std::swap(state, trial);
-      std::swap(frames, trial_frames);
-      cost = trial_cost;
-      damping = std::max(damping / kDampingStep, kSmallestDamping);
-      linear.Build(frames);
-      inverse.Build(linear);
-    } else {
-      damping *= kDampingStep;
+IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                                   const DampedLeastSquaresOptions& own) {
+  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
+    LinearTargets linear(tree, problem.targets);
+    DampedInverse inverse;
+    const std::vector<double> none_preferred(state.angles.size(), 0.0);
+    std::vector<double> step;
+    linear.Build(frames);
+    inverse.Build(linear);
+    double cost = linear.Cost(frames);
+    double damping = own.first_damping;
+    TreeState trial = state;
+    TreeFrames trial_frames = frames;
+    while (run.MustGoOn()) {
+      while (!inverse.Step(damping, none_preferred, step)) damping *= kDampingStep;
+      for (double& turn : step) turn = std::clamp(turn, -kLargestTurn, kLargestTurn);
+      const double largest = MoveWithin(run.ranges(), state.angles, step, trial.angles);
+      ComputeFrames(tree, trial, trial_frames);
+      const double trial_cost = linear.Cost(trial_frames);
+      if (largest < options.stall_change || damping > kLargestDamping) run.Stall();
+      if (trial_cost < cost) {
+        if (cost - trial_cost < kSmallestGain * cost) run.Stall();
+        std::swap(state, trial);
+        std::swap(frames, trial_frames);
+        cost = trial_cost;
+        damping = std::max(damping / kDampingStep, kSmallestDamping);
+        linear.Build(frames);
+        inverse.Build(linear);
+      } else {
+        damping *= kDampingStep;
+      }
+      run.RecordFrames(frames, state.angles);
     }
-    run.NoteFrames(frames, state.angles);
-  }
-  return run.Finish(std::move(state.angles));
+  });
 }
 
 }  // namespace etude

@@ -39,19 +39,19 @@ class Follower {
   // laid.
   void TurnJoint(int j, std::span<const int> judged, std::vector<double>& angles) {
     const TreeJoint& joint = tree_.joints[j];
-    const glm::dmat3 base = limbs_[joint.parent].axes * joint.rest;
-    const glm::dvec3 pivot = limbs_[j].position;
+    const glm::dmat3 R_WJ = limbs_[joint.parent].axes * joint.R_PJ;
+    const glm::dvec3 p_WJ = limbs_[j].position;
     for (int axis = 0; axis < joint.dof_count; ++axis) {
-      const glm::dvec3 turn = DofAxis(joint, base, angles, axis);
+      const glm::dvec3 axis_W = DofAxis(joint, R_WJ, angles, axis);
       HingeGain gain;
       double lever = 0;
       for (const int limb : judged) {
-        const LimbFrame& now = limbs_[limb];
-        const LimbFrame& laid = pass_.limbs()[limb];
+        const LimbFrame& X_WL = limbs_[limb];
+        const LimbFrame& X_WD = pass_.limbs()[limb];  // as it was laid
         for (const FabrikPass::Tip& tip : pass_.tips(limb)) {
-          const glm::dvec3 from = now.position + now.axes * tip.offset - pivot;
-          gain.Add(1, from, laid.position + laid.axes * tip.offset - pivot, turn);
-          lever = std::max(lever, glm::length(glm::cross(turn, from)));
+          const glm::dvec3 p_JT_W = X_WL.position + X_WL.axes * tip.p_LT - p_WJ;
+          gain.Add(1, p_JT_W, X_WD.position + X_WD.axes * tip.p_LT - p_WJ, axis_W);
+          lever = std::max(lever, glm::length(glm::cross(axis_W, p_JT_W)));
         }
       }
       if (lever < kSmallestLever) continue;  // it moves none of them
@@ -60,9 +60,9 @@ class Follower {
       const double best = angle + gain.OptimumWithin({range.lower - angle, range.upper - angle});
       const double turned = std::clamp(best, range.lower, range.upper) - angle;
       angle += turned;
-      const glm::dmat3 rotation = AxisRotation(turn, turned);
+      const glm::dmat3 rotation = AxisRotation(axis_W, turned);
       for (const int limb : led_[j]) {
-        limbs_[limb].position = pivot + rotation * (limbs_[limb].position - pivot);
+        limbs_[limb].position = p_WJ + rotation * (limbs_[limb].position - p_WJ);
         limbs_[limb].axes = rotation * limbs_[limb].axes;
       }
     }
@@ -78,27 +78,23 @@ class Follower {
 }  // namespace
 
 IkSolution SolveFabrik(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  IkRun run(tree, problem, options);
-  TreeState state = problem.start;
-  state.angles = run.start_angles();
-  TreeFrames frames = ComputeFrames(tree, state);
-  run.NoteFrames(frames, state.angles);
-
-  FabrikPass pass(tree, problem.targets);
-  Follower follower(tree, run.ranges(), pass);
-  std::vector<double> before;
-  while (run.MustGoOn()) {
-    before = state.angles;
-    pass.Run(frames);
-    follower.Follow(frames, state.angles);
-    double largest = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) largest = std::max(largest, std::abs(state.angles[i] - before[i]));
-    if (largest < options.stall_change) run.Stall();
-    ComputeFrames(tree, state, frames);
-    run.NoteFrames(frames, state.angles);
-  }
-  return run.Finish(std::move(state.angles));
+  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
+    FabrikPass pass(tree, problem.targets);
+    Follower follower(tree, run.ranges(), pass);
+    std::vector<double> before;
+    while (run.MustGoOn()) {
+      before = state.angles;
+      pass.Run(frames);
+      follower.Follow(frames, state.angles);
+      double largest = 0;
+      for (std::size_t i = 0; i < before.size(); ++i) {
+        largest = std::max(largest, std::abs(state.angles[i] - before[i]));
+      }
+      if (largest < options.stall_change) run.Stall();
+      ComputeFrames(tree, state, frames);
+      run.RecordFrames(frames, state.angles);
+    }
+  });
 }
 
 }  // namespace etude

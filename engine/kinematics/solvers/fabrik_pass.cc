@@ -45,14 +45,14 @@ glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3
 }
 
 FabrikPass::FabrikPass(const KinematicTree& tree, std::span<const EffectorTarget> targets)
-    : tree_(tree), targets_(targets), tips_(tree.joints.size()), wanted_bases_(tree.joints.size()) {
+    : tree_(tree), targets_(targets), tips_(tree.joints.size()), desired_bases_(tree.joints.size()) {
   for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
     if (targets[e].position_weight <= 0) continue;
-    tips_[tree.effectors[e].joint].push_back({tree.effectors[e].offset, -1, static_cast<int>(e)});
+    tips_[tree.effectors[e].joint].push_back({tree.effectors[e].p_LE, -1, static_cast<int>(e)});
   }
   // Children stand after their parents: when a limb's turn comes, all its tips are known.
   for (int limb = static_cast<int>(tree.joints.size()) - 1; limb > 0; --limb) {
-    if (!tips_[limb].empty()) tips_[tree.joints[limb].parent].push_back({tree.joints[limb].offset, limb, -1});
+    if (!tips_[limb].empty()) tips_[tree.joints[limb].parent].push_back({tree.joints[limb].p_PJ, limb, -1});
   }
 }
 
@@ -61,8 +61,9 @@ void FabrikPass::Run(const TreeFrames& frames) {
   for (int limb = static_cast<int>(limbs_.size()) - 1; limb > 0; --limb) LayBackward(limb);
   for (int limb = 1; limb < static_cast<int>(limbs_.size()); ++limb) {
     const int above = tree_.joints[limb].parent;
-    limbs_[limb].position = limbs_[above].position + limbs_[above].axes * tree_.joints[limb].offset;
+    limbs_[limb].position = limbs_[above].position + limbs_[above].axes * tree_.joints[limb].p_PJ;
     if (tips_[limb].empty()) {
+      // R_WL = R_WP R_PL, R_PL as it was.
       limbs_[limb].axes = limbs_[above].axes * glm::transpose(frames.joints[above].axes) * frames.joints[limb].axes;
     } else {
       LayForward(limb);
@@ -70,27 +71,27 @@ void FabrikPass::Run(const TreeFrames& frames) {
   }
 }
 
-glm::dvec3 FabrikPass::Wanted(const Tip& tip) const {
-  return tip.effector >= 0 ? targets_[tip.effector].position : wanted_bases_[tip.limb];
+glm::dvec3 FabrikPass::DesiredPosition(const Tip& tip) const {
+  return tip.effector >= 0 ? targets_[tip.effector].position : desired_bases_[tip.limb];
 }
 
 void FabrikPass::LayBackward(int limb) {
   const std::vector<Tip>& tips = tips_[limb];
   if (tips.empty()) return;
-  glm::dvec3 middle(0), wanted_middle(0);
+  glm::dvec3 middle(0), desired_middle(0);
   for (const Tip& tip : tips) {
-    middle += tip.offset / static_cast<double>(tips.size());
-    wanted_middle += Wanted(tip) / static_cast<double>(tips.size());
+    middle += tip.p_LT / static_cast<double>(tips.size());
+    desired_middle += DesiredPosition(tip) / static_cast<double>(tips.size());
   }
   LimbFrame& frame = limbs_[limb];
   from_.assign(1, frame.axes * -middle);
-  to_.assign(1, frame.position - wanted_middle);
+  to_.assign(1, frame.position - desired_middle);
   for (const Tip& tip : tips) {
-    from_.push_back(frame.axes * (tip.offset - middle));
-    to_.push_back(Wanted(tip) - wanted_middle);
+    from_.push_back(frame.axes * (tip.p_LT - middle));
+    to_.push_back(DesiredPosition(tip) - desired_middle);
   }
   frame.axes = BestTurn(from_, to_) * frame.axes;
-  wanted_bases_[limb] = wanted_middle - frame.axes * middle;
+  desired_bases_[limb] = desired_middle - frame.axes * middle;
 }
 
 void FabrikPass::LayForward(int limb) {
@@ -98,8 +99,8 @@ void FabrikPass::LayForward(int limb) {
   from_.clear();
   to_.clear();
   for (const Tip& tip : tips_[limb]) {
-    from_.push_back(frame.axes * tip.offset);
-    to_.push_back(Wanted(tip) - frame.position);
+    from_.push_back(frame.axes * tip.p_LT);
+    to_.push_back(DesiredPosition(tip) - frame.position);
   }
   frame.axes = BestTurn(from_, to_) * frame.axes;
 }

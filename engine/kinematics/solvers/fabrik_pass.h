@@ -10,19 +10,19 @@ namespace etude {
 
 /// FABRIK's two passes (Aristidou and Lasenby 2011) over a tree of rigid limbs, on places alone. A limb has a base (its
 /// joint) and tips (the joints below it, the effectors at its end). With one tip this is the paper's rule to the
-/// letter: the tip goes where it is wanted, the base follows on the line to where it was. With several tips the paper
+/// letter: the tip goes to its desired place, the base follows on the line to where it was. With several tips the paper
 /// takes their joint (its sub-base) for the mean of what the chains below want, and has no rule for tips that are rigid
 /// among themselves, like shoulders and neck. *Ours*: such a limb is laid through its tips by least squares:
-/// - backward, tips to root: the mean of the tips goes to the mean of where they are wanted; the limb is turned about
+/// - backward, tips to root: the mean of the tips goes to the mean of their desired places; the limb is turned about
 ///   it to suit the tips and, counted like one more tip, the old place of its base;
 /// - forward, root to tips: the base stands where the limb above ends; the limb is turned about it to suit the tips.
 /// Both turn no further than they must: never about the line of a limb whose points are in line. What leads to no
 /// target moves along with the limb above.
 class FabrikPass {
  public:
-  /// A point of a limb that leads to a target.
+  /// A point T of a limb that leads to a target.
   struct Tip {
-    glm::dvec3 offset;  ///< in the limb's frame
+    glm::dvec3 p_LT;    ///< T in the frame of the limb L, metres
     int limb = -1;      ///< whose base it is, or
     int effector = -1;  ///< what it is the end of
   };
@@ -40,13 +40,13 @@ class FabrikPass {
  private:
   void LayBackward(int limb);
   void LayForward(int limb);
-  glm::dvec3 Wanted(const Tip& tip) const;
+  glm::dvec3 DesiredPosition(const Tip& tip) const;
 
   const KinematicTree& tree_;
   std::span<const EffectorTarget> targets_;
   std::vector<std::vector<Tip>> tips_;  ///< of each limb
   std::vector<LimbFrame> limbs_;
-  std::vector<glm::dvec3> wanted_bases_;
+  std::vector<glm::dvec3> desired_bases_;
   std::vector<glm::dvec3> from_, to_;
 };
 

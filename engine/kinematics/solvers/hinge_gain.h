@@ -13,7 +13,7 @@ namespace etude {
 struct HingeGain {
   double k1 = 0, k2 = 0, k3 = 0;
 
-  /// Adds one pair of vectors, as they are now and as they are wanted, both from the joint: a position of the effector
+  /// Adds one pair of vectors, current and desired, both from the joint: a position of the effector
   /// or one of its axes. All in one frame; `axis` is the hinge's, of unit length.
   void Add(double weight, const glm::dvec3& current, const glm::dvec3& desired, const glm::dvec3& axis) {
     k1 += weight * (glm::dot(desired, axis) * glm::dot(current, axis));

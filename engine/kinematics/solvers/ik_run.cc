@@ -15,7 +15,7 @@ IkRun::IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOption
   }
 }
 
-void IkRun::Book(std::span<const EffectorError> errors, int fk_evaluations) {
+void IkRun::RecordErrors(std::span<const EffectorError> errors, int fk_evaluations) {
   if (has_begun_) ++solution_.iterations;
   has_begun_ = true;
   solution_.fk_evaluations += fk_evaluations;
@@ -28,13 +28,13 @@ bool IkRun::MissesByFar(const TreeFrames& frames) const {
   const double farthest = options_.position_goal * options_.position_goal;
   for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
     const EffectorTarget& target = problem_.targets[e];
-    const LimbFrame& now = frames.effectors[e];
-    const glm::dvec3 gap = target.position - now.position;
+    const LimbFrame& X_WE = frames.effectors[e];
+    const glm::dvec3 gap = target.position - X_WE.position;
     if (target.position_weight > 0 && glm::dot(gap, gap) >= farthest) return true;
     double chords = 0, sum_goal = 0;
     for (int k = 0; k < 3; ++k) {
       if (target.axis_weights[k] <= 0) continue;
-      const glm::dvec3 chord = target.axes[k] - now.axes[k];
+      const glm::dvec3 chord = target.axes[k] - X_WE.axes[k];
       chords += glm::dot(chord, chord);
       sum_goal += options_.axis_goal;
     }
@@ -43,19 +43,19 @@ bool IkRun::MissesByFar(const TreeFrames& frames) const {
   return false;
 }
 
-void IkRun::NoteMisses(int count) {
+void IkRun::RecordMisses(int count) {
   solution_.iterations += has_begun_ ? count : count - 1;
   has_begun_ = true;
   solution_.fk_evaluations += count;
-  ForgetErrors();
+  ClearErrors();
 }
 
-void IkRun::Forget() {
-  ForgetErrors();
+void IkRun::DiscardErrors() {
+  ClearErrors();
   ++solution_.fk_evaluations;
 }
 
-void IkRun::ForgetErrors() {
+void IkRun::ClearErrors() {
   solution_.errors.clear();
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   worst_ = {kUnknown, kUnknown};

@@ -12,18 +12,8 @@ namespace etude {
 /// The errors of all effectors at these frames.
 void MeasureErrors(const TreeFrames& frames, std::span<const EffectorTarget> targets, std::vector<EffectorError>& out);
 
-/// The book-keeping that all solvers share: the ranges of the angles, when to stop, the trace and the status. `tree`
-/// and `problem` must be free of faults (`FindFault`) and outlive this.
-///
-///     if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-///     IkRun run(tree, problem, options);
-///     … run.start_angles() … run.Note(errors, angles);          // the start
-///     while (run.MustGoOn()) {
-///       … one iteration …
-///       run.Note(errors, angles);
-///       if (nothing moved) run.Stall();
-///     }
-///     return run.Finish(angles);
+/// The records that all solvers keep: the ranges of the angles, when to stop, the trace and the status. `tree` and
+/// `problem` must be free of faults (`FindFault`) and outlive this. See `RunFromStart` for its use.
 class IkRun {
  public:
   IkRun(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
@@ -32,12 +22,12 @@ class IkRun {
   /// The problem's start angles, moved into their ranges.
   const std::vector<double>& start_angles() const { return start_angles_; }
 
-  /// Books the start, at the first call, and then the outcome of each iteration: errors by forward kinematics of
+  /// Records the start, at the first call, and then the outcome of each iteration: errors by forward kinematics of
   /// `angles`, a list or a function that makes one, which is called for a trace only. `fk_evaluations`: how many
   /// passes led here.
   template <class Angles>
-  void Note(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
-    Book(errors, fk_evaluations);
+  void Record(std::span<const EffectorError> errors, const Angles& angles, int fk_evaluations = 1) {
+    RecordErrors(errors, fk_evaluations);
     if (!Traces()) return;
     IkTraceEntry& entry = solution_.trace.emplace_back();
     entry.worst_position = worst_.position;
@@ -50,45 +40,45 @@ class IkRun {
     }
   }
 
-  /// The same by the frames of `angles`, for solvers that do not look at errors themselves: these are worked out only
-  /// where somebody sees them, in a trace, near the goals and at the end.
+  /// The same by the frames of `angles`, for solvers that do not look at errors themselves: these are computed only
+  /// where they are needed: in a trace, near the goals and at the end.
   template <class Angles>
-  void NoteFrames(const TreeFrames& frames, const Angles& angles) {
+  void RecordFrames(const TreeFrames& frames, const Angles& angles) {
     if (!Traces() && MissesByFar(frames)) {
-      NoteMisses();
+      RecordMisses();
       return;
     }
     MeasureErrors(frames, problem_.targets, errors_);
-    Note(errors_, angles);
+    Record(errors_, angles);
   }
 
-  /// Whether the trace takes in what is noted next.
+  /// Whether the trace takes in what is recorded next.
   bool Traces() const { return options_.trace && std::ssize(solution_.trace) < options_.longest_trace; }
 
-  /// Books iterations that certainly miss the goals and whose errors nobody will see: not while it traces.
-  void NoteMisses(int count = 1);
+  /// Records iterations that certainly miss the goals and whose errors are not needed: not while it traces.
+  void RecordMisses(int count = 1);
 
-  /// Books a forward-kinematics pass beyond the one of each iteration.
+  /// Counts a forward-kinematics pass beyond the one of each iteration.
   void CountPass() { ++solution_.fk_evaluations; }
   /// The angles cannot move any further.
   void Stall() { has_stalled_ = true; }
 
-  /// The solution is not the state booked last: its errors take a pass of their own.
-  void Forget();
+  /// The solution is not the state recorded last: its errors take a pass of their own.
+  void DiscardErrors();
 
   bool HasConverged() const { return worst_.Within(options_); }
   bool MustGoOn() const { return !HasConverged() && !has_stalled_ && solution_.iterations < options_.max_iterations; }
-  /// The largest errors of the state booked last, if it was booked with its errors.
+  /// The largest errors of the state recorded last, if it was recorded with its errors.
   const WorstError& worst() const { return worst_; }
   std::span<const EffectorError> errors() const { return solution_.errors; }
   int iterations() const { return solution_.iterations; }
 
-  /// The solution with these angles, which were booked last. Ends the run.
+  /// The solution with these angles, which were recorded last. Ends the run.
   IkSolution Finish(std::vector<double> angles);
 
  private:
-  void Book(std::span<const EffectorError> errors, int fk_evaluations);
-  void ForgetErrors();
+  void RecordErrors(std::span<const EffectorError> errors, int fk_evaluations);
+  void ClearErrors();
   bool MissesByFar(const TreeFrames& frames) const;
 
   const KinematicTree& tree_;
@@ -105,5 +95,27 @@ class IkRun {
 
 /// What every solver answers to a faulty problem.
 IkSolution BadInput(const KinematicTree& tree);
+
+/// What solvers share that go from pose to pose. `iterate(run, state, frames)` begins at the start, which is recorded,
+/// and leaves the angles that it has found in `state`:
+///
+///     while (run.MustGoOn()) {
+///       … one iteration: new state.angles …
+///       if (nothing moved) run.Stall();
+///       ComputeFrames(tree, state, frames);
+///       run.RecordFrames(frames, state.angles);
+///     }
+template <class Iterate>
+IkSolution RunFromStart(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                        const Iterate& iterate) {
+  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
+  IkRun run(tree, problem, options);
+  TreeState state = problem.start;
+  state.angles = run.start_angles();
+  TreeFrames frames = ComputeFrames(tree, state);
+  run.RecordFrames(frames, state.angles);
+  iterate(run, state, frames);
+  return run.Finish(std::move(state.angles));
+}
 
 }  // namespace etude

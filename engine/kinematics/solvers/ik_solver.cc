@@ -1,67 +1,95 @@
 #include "engine/kinematics/solvers/ik_solver.h"
 
+#include <array>
+#include <utility>
+
 #include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/ccd_anderson.h"
 #include "engine/kinematics/solvers/ceres_lm.h"
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/fabrik.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/jacobian_pinv.h"
 #include "engine/kinematics/solvers/jacobian_transpose.h"
-#include "engine/kinematics/solvers/null_space.h"
 
 namespace etude {
 
+namespace {
+
+// What solvers were called in former versions, and what they are called now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 1> kRenamed = {{{"ccd-nullspace", "gauss-newton"}}};
+
+template <typename Own>
+using SolveWithOwn = IkSolution (*)(const KinematicTree&, const IkProblem&, const IkOptions&, const Own&);
+
+// A solver with options of its own: `table` tells which of them can be set, by which key, in which range.
+template <typename Own>
+IkSolver WithSettings(IkSolver solver, SolveWithOwn<Own> solve, const SettingTable<Own>& table) {
+  solver.settings = table.Describe();
+  solver.solve = [solve, table](const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+    return solve(tree, problem, options, table.Apply(options.solver_settings));
+  };
+  return solver;
+}
+
+}  // namespace
+
+// A new solver is one row here. Its options, if it has any, are a struct in its own header.
 std::span<const IkSolver> AllIkSolvers() {
   static const std::vector<IkSolver> solvers = {
       {.name = "ccd",
        .description = "cyclic coordinate descent, joints taken apart as paper B does",
        .uses_weights = true,
        .step = "sweeps",
-       .settings = {},
        .solve = SolveCcd},
       {.name = "ccd-hinges",
        .description = "cyclic coordinate descent, every joint a row of hinges",
        .uses_weights = true,
        .step = "sweeps",
-       .settings = {},
        .solve = SolveCcdHinges},
-      {.name = "ccd-anderson",
-       .description = "the sweeps of ccd-hinges, extrapolated from the last ones",
-       .uses_weights = true,
-       .step = "sweeps",
-       .settings = {{"memory", &IkTuning::memory, 1, 20, "How many former sweeps the extrapolation uses."}},
-       .solve = SolveCcdAnderson},
-      {.name = "ccd-nullspace",
-       .description = "Gauss-Newton steps that stay near the start, sweeps where they get stuck (the default)",
-       .step = "steps",
-       .settings = {{"first_sweeps", &IkTuning::first_sweeps, 0, 100, "Sweeps before the first Gauss-Newton step."}},
-       .solve = SolveNullSpace},
-      {.name = "ceres-lm",
-       .description = "the Levenberg-Marquardt method of Ceres Solver, limits as bounds",
-       .step = "steps",
-       .settings = {{"first_radius", &IkTuning::first_radius, 1e-6, 1e12, "The trust region it begins with."}},
-       .solve = SolveCeresLm},
-      {.name = "damped-least-squares",
-       .description = "damped Gauss-Newton steps, limits by clamping",
-       .step = "steps",
-       .settings = {{"damping", &IkTuning::first_damping, 1e-9, 1e6, "The damping of the first step."}},
-       .solve = SolveDampedLeastSquares},
+      WithSettings<CcdAndersonOptions>(
+          {.name = "ccd-anderson",
+           .description = "the sweeps of ccd-hinges, extrapolated from the last ones",
+           .uses_weights = true,
+           .step = "sweeps"},
+          SolveCcdAnderson,
+          {{{"memory", &CcdAndersonOptions::memory, 1, 20, "How many former sweeps the extrapolation uses."}}}),
+      WithSettings<GaussNewtonOptions>(
+          {.name = "gauss-newton",
+           .description = "Gauss-Newton steps that stay near the start, sweeps where they get stuck (the default)",
+           .step = "steps"},
+          SolveGaussNewton,
+          {{{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100,
+             "Sweeps before the first Gauss-Newton step."}}}),
+      WithSettings<CeresLmOptions>(
+          {.name = "ceres-lm",
+           .description = "the Levenberg-Marquardt method of Ceres Solver, limits as bounds",
+           .step = "steps"},
+          SolveCeresLm,
+          {{{"first_radius", &CeresLmOptions::first_radius, 1e-6, 1e12, "The trust region it begins with."}}}),
+      WithSettings<DampedLeastSquaresOptions>(
+          {.name = "damped-least-squares",
+           .description = "damped Gauss-Newton steps, limits by clamping",
+           .step = "steps"},
+          SolveDampedLeastSquares,
+          {{{"damping", &DampedLeastSquaresOptions::first_damping, 1e-9, 1e6, "The damping of the first step."}}}),
       {.name = "fabrik",
        .description = "joints as points that reach forward and backward, positions only",
        .uses_axes = false,
        .step = "passes",
-       .settings = {},
        .solve = SolveFabrik},
-      {.name = "jacobian-pinv",
-       .description = "the Jacobian's pseudo-inverse, and the start pose as a wish in its null space",
-       .step = "steps",
-       .settings = {{"pinv_damping", &IkTuning::pinv_damping, 0, 100, "Damping of the inverse; 0 is paper B's."}},
-       .solve = SolveJacobianPinv},
-      {.name = "jacobian-transpose",
-       .description = "the Jacobian's transpose, steps of the length that is best to first order",
-       .step = "steps",
-       .settings = {{"gain", &IkTuning::gain, 0.01, 2, "Multiplies the length of every step."}},
-       .solve = SolveJacobianTranspose},
+      WithSettings<JacobianPinvOptions>(
+          {.name = "jacobian-pinv",
+           .description = "the Jacobian's pseudo-inverse, and the start as preferred posture in its null space",
+           .step = "steps"},
+          SolveJacobianPinv,
+          {{{"pinv_damping", &JacobianPinvOptions::damping, 0, 100, "Damping of the inverse; 0 is paper B's."}}}),
+      WithSettings<JacobianTransposeOptions>(
+          {.name = "jacobian-transpose",
+           .description = "the Jacobian's transpose, steps of the length that is best to first order",
+           .step = "steps"},
+          SolveJacobianTranspose,
+          {{{"gain", &JacobianTransposeOptions::gain, 0.01, 2, "Multiplies the length of every step."}}}),
   };
   return solvers;
 }
@@ -77,6 +105,13 @@ const IkSolver* FindIkSolver(std::string_view name) {
     if (solver.name == name) return &solver;
   }
   return nullptr;
+}
+
+std::string_view NewNameOfIkSolver(std::string_view name) {
+  for (const auto& [former, now] : kRenamed) {
+    if (former == name) return now;
+  }
+  return {};
 }
 
 }  // namespace etude

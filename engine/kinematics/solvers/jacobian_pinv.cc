@@ -6,31 +6,23 @@
 
 namespace etude {
 
-IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  IkRun run(tree, problem, options);
-  TreeState state = problem.start;
-  state.angles = run.start_angles();
-  TreeFrames frames = ComputeFrames(tree, state);
-  run.NoteFrames(frames, state.angles);
-
-  LinearTargets linear(tree, problem.targets);
-  DampedInverse inverse;
-  std::vector<double> wish(state.angles.size()), step;
-  while (run.MustGoOn()) {
-    linear.Build(frames);
-    inverse.Build(linear);
-    for (std::size_t i = 0; i < wish.size(); ++i) wish[i] = run.start_angles()[i] - state.angles[i];
-    if (!inverse.Step(options.tuning.pinv_damping, wish, step)) {
-      run.Stall();
-      break;
+IkSolution SolveJacobianPinv(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                             const JacobianPinvOptions& own) {
+  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
+    LinearTargets linear(tree, problem.targets);
+    DampedInverse inverse;
+    std::vector<double> to_preferred(state.angles.size()), step;
+    while (run.MustGoOn()) {
+      linear.Build(frames);
+      inverse.Build(linear);
+      for (std::size_t i = 0; i < to_preferred.size(); ++i) to_preferred[i] = run.start_angles()[i] - state.angles[i];
+      if (!inverse.Step(own.damping, to_preferred, step)) return run.Stall();
+      Shorten(step);
+      if (MoveWithin(run.ranges(), state.angles, step, state.angles) < options.stall_change) run.Stall();
+      ComputeFrames(tree, state, frames);
+      run.RecordFrames(frames, state.angles);
     }
-    Shorten(step);
-    if (MoveWithin(run.ranges(), state.angles, step, state.angles) < options.stall_change) run.Stall();
-    ComputeFrames(tree, state, frames);
-    run.NoteFrames(frames, state.angles);
-  }
-  return run.Finish(std::move(state.angles));
+  });
 }
 
 }  // namespace etude

@@ -26,26 +26,21 @@ void ComputeStep(const LinearTargets& linear, std::span<const double> angles, st
 
 }  // namespace
 
-IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  if (!FindFault(tree, problem, options).empty()) return BadInput(tree);
-  IkRun run(tree, problem, options);
-  TreeState state = problem.start;
-  state.angles = run.start_angles();
-  TreeFrames frames = ComputeFrames(tree, state);
-  run.NoteFrames(frames, state.angles);
-
-  LinearTargets linear(tree, problem.targets);
-  Eigen::VectorXd step;
-  while (run.MustGoOn()) {
-    linear.Build(frames);
-    ComputeStep(linear, state.angles, run.ranges(), options.tuning.gain, step);
-    const std::span<double> turns(step.data(), static_cast<std::size_t>(step.size()));
-    Shorten(turns);
-    if (MoveWithin(run.ranges(), state.angles, turns, state.angles) < options.stall_change) run.Stall();
-    ComputeFrames(tree, state, frames);
-    run.NoteFrames(frames, state.angles);
-  }
-  return run.Finish(std::move(state.angles));
+IkSolution SolveJacobianTranspose(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                                  const JacobianTransposeOptions& own) {
+  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
+    LinearTargets linear(tree, problem.targets);
+    Eigen::VectorXd step;
+    while (run.MustGoOn()) {
+      linear.Build(frames);
+      ComputeStep(linear, state.angles, run.ranges(), own.gain, step);
+      const std::span<double> turns(step.data(), static_cast<std::size_t>(step.size()));
+      Shorten(turns);
+      if (MoveWithin(run.ranges(), state.angles, turns, state.angles) < options.stall_change) run.Stall();
+      ComputeFrames(tree, state, frames);
+      run.RecordFrames(frames, state.angles);
+    }
+  });
 }
 
 }  // namespace etude

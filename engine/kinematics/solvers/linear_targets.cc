@@ -14,11 +14,11 @@ void LinearTargets::Build(const TreeFrames& frames) {
   residuals_.clear();
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const EffectorTarget& target = targets_[e];
-    const LimbFrame& now = frames.effectors[e];
+    const LimbFrame& X_WE = frames.effectors[e];
     const int first = TreeJacobian::kPerEffector * static_cast<int>(e);
     if (target.position_weight > 0) {
       const double scale = std::sqrt(target.position_weight) / kPositionScale;
-      const glm::dvec3 gap = scale * (target.position - now.position);
+      const glm::dvec3 gap = scale * (target.position - X_WE.position);
       for (int k = 0; k < 3; ++k) {
         glm::dvec3 along(0);
         along[k] = scale;
@@ -30,12 +30,12 @@ void LinearTargets::Build(const TreeFrames& frames) {
     const glm::dvec3& w = target.axis_weights;
     const glm::dvec3 weight(w.y + w.z, w.x + w.z, w.x + w.y);
     glm::dvec3 pull(0);
-    for (int k = 0; k < 3; ++k) pull += w[k] * glm::cross(now.axes[k], target.axes[k]);
+    for (int k = 0; k < 3; ++k) pull += w[k] * glm::cross(X_WE.axes[k], target.axes[k]);
     for (int k = 0; k < 3; ++k) {
       if (weight[k] <= 0) continue;
       const double scale = std::sqrt(weight[k]);
-      picked_.push_back({first + 3, scale * now.axes[k]});
-      residuals_.push_back(glm::dot(now.axes[k], pull) / scale);
+      picked_.push_back({first + 3, scale * X_WE.axes[k]});
+      residuals_.push_back(glm::dot(X_WE.axes[k], pull) / scale);
     }
   }
 

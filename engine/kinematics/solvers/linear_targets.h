@@ -35,7 +35,7 @@ class LinearTargets {
   double Cost(const TreeFrames& frames) const;
 
  private:
-  /// One row: along or about which vector of the world an effector shall move.
+  /// One row: along or about which vector of the world an effector moves.
   struct Row {
     int first = 0;  ///< of three rows of the tree's Jacobian: an effector's position, or its rotation vector
     glm::dvec3 along{0};

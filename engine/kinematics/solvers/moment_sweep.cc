@@ -70,10 +70,10 @@ void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
   for (std::size_t i = 0; i < half_tangents.size(); ++i) {
     lanes::HingeOf<double>& hinge = state_->sweep.hinges[i];
     const double t = half_tangents[i], scale = 1 / (1 + t * t);
-    const double wanted_c = (1 - t * t) * scale, wanted_s = 2 * t * scale;  // from the middle
-    const bool is_inside = wanted_c >= hinge.cos_half;
-    const double c = is_inside ? wanted_c : hinge.cos_half;
-    const double s = is_inside ? wanted_s : std::copysign(hinge.sin_half, t);
+    const double free_c = (1 - t * t) * scale, free_s = 2 * t * scale;  // from the middle, without limits
+    const bool is_inside = free_c >= hinge.cos_half;
+    const double c = is_inside ? free_c : hinge.cos_half;
+    const double s = is_inside ? free_s : std::copysign(hinge.sin_half, t);
     hinge.c = c * hinge.cos_middle - s * hinge.sin_middle;
     hinge.s = s * hinge.cos_middle + c * hinge.sin_middle;
   }

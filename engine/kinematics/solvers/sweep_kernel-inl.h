@@ -2,15 +2,16 @@
 // effectors beyond it is carried from joint to joint as one 4×4 matrix, so the cost does not depend on how many there
 // are, and angles are kept as (cos, sin), so the loop holds no trigonometry.
 //
-// For the vectors v of every effector beyond a joint, as they are now (v_c) and as they are wanted (v_d),
-//     M = Σ w_p (P_c, 1)(P_d, 1)ᵀ + Σ_k w_ok (u_kc, 0)(u_kd, 0)ᵀ,
-// rows in the frame of the limb, columns in the world. A hinge that turns axis i towards axis j by the angle q gains
+// For the current vectors of every effector E beyond a joint and the desired ones, of its target D,
+//     M = Σ w_p (p_LE, 1)(p_WD, 1)ᵀ + Σ_k w_ok (u_kE_L, 0)(u_kD_W, 0)ᵀ,
+// rows in the frame of the limb L, columns in the world W. A hinge that turns axis i of L towards axis j by the angle q
+// gains
 //     x cos q + y sin q,   x = M_i·ê_i + M_j·ê_j,   y = M_i·ê_j − M_j·ê_i,
-// where M_i is a row and ê = (e, −p·e) an axis of the frame before the hinge, with the joint's place p: M_i·ê_j sums
-// what is, along i, times what is wanted, along j, both from the joint. So the best angle has the direction (x, y)
+// where M_i is a row and ê = (e_W, −p_WJ·e_W) an axis of the frame before the hinge: M_i·ê_j sums the current
+// components along i times the desired ones along j, both from the joint J. So the best angle has the direction (x, y)
 // (paper B's equations 3.10–3.13 for several effectors). A turn by it mixes the rows i and j; a step to the parent's
-// joint, away by t, adds t_r times the last row to the row r. Columns never change. Likewise ê is enough to place
-// limbs: a turn mixes two of them, and a step by t takes t_k off the last number of ê_k.
+// joint, away by p_PJ, adds p_PJ[r] times the last row to the row r. Columns never change. Likewise ê is enough to
+// place limbs: a turn mixes two of them, and a step by p_PJ takes p_PJ[k] off the last number of ê_k.
 //
 // Everything is written for a value V that has + − * / and, found by its type, Sqrt, Select, AtLeast, Any and SetLane:
 // a double, or one lane each of many problems on the same tree. No operation mixes lanes and none is fused, so that a
@@ -56,8 +57,8 @@ struct MomentsOf {
 
 template <class V>
 struct GoalOf {
-  Quad<V> axes[3];   ///< (u_kd, 0)
-  Quad<V> position;  ///< (P_d, 1)
+  Quad<V> axes[3];   ///< (u_kD_W, 0)
+  Quad<V> position;  ///< (p_WD, 1)
   V position_weight, axis_weights[3];
   V position_share, axis_shares[3];
   // Of the present angles, and the weights of a sweep.
@@ -147,7 +148,7 @@ void MeasureGoals(const SweepTree& tree, SweepState<V>& state) {
     goal.squared_distance = V(0.0);
     for (int k = 0; k < 3; ++k) {
       const Quad<V>& axis = state.axes[joint.axes[k]];
-      const V gap = Sum(axis * goal.position) - V(effector.offset[k]);
+      const V gap = Sum(axis * goal.position) - V(effector.p_LE[k]);
       goal.squared_distance = goal.squared_distance + gap * gap;
       const Quad<V> chord = axis - goal.axes[k];
       goal.squared_chords[k] = SumOfThree(chord * chord);
@@ -172,15 +173,15 @@ void PlaceLimbs(const SweepTree& tree, SweepState<V>& state) {
     if (joint.is_aligned) {
       for (int k = 0; k < 3; ++k) {
         if (joint.base[k] == above[k]) continue;  // the very same axis
-        state.axes[joint.base[k]] = LessLast(state.axes[above[k]], V(joint.offset[k]));
+        state.axes[joint.base[k]] = LessLast(state.axes[above[k]], V(joint.p_PJ[k]));
       }
       continue;
     }
-    const double(&rest)[3][3] = joint.rest;
-    const Quad<V> x = LessLast(state.axes[above[0]], V(joint.offset[0]));
-    const Quad<V> y = LessLast(state.axes[above[1]], V(joint.offset[1]));
-    const Quad<V> z = LessLast(state.axes[above[2]], V(joint.offset[2]));
-    for (int c = 0; c < 3; ++c) state.axes[joint.base[c]] = Mix(x, rest[0][c], y, rest[1][c], z, rest[2][c]);
+    const double(&R_PJ)[3][3] = joint.R_PJ;
+    const Quad<V> x = LessLast(state.axes[above[0]], V(joint.p_PJ[0]));
+    const Quad<V> y = LessLast(state.axes[above[1]], V(joint.p_PJ[1]));
+    const Quad<V> z = LessLast(state.axes[above[2]], V(joint.p_PJ[2]));
+    for (int c = 0; c < 3; ++c) state.axes[joint.base[c]] = Mix(x, R_PJ[0][c], y, R_PJ[1][c], z, R_PJ[2][c]);
   }
   MeasureGoals(tree, state);
 }
@@ -228,7 +229,7 @@ template <class V>
 void AddEffector(const SweepTree::Effector& effector, const GoalOf<V>& goal, MomentsOf<V>& moments) {
   const Quad<V> pull = goal.position * goal.position_pull;
   for (int r = 0; r < 3; ++r) {
-    AddRow(effector.is_first, goal.axes[r] * goal.axis_pulls[r] + pull * V(effector.offset[r]), moments.rows[r]);
+    AddRow(effector.is_first, goal.axes[r] * goal.axis_pulls[r] + pull * V(effector.p_LE[r]), moments.rows[r]);
   }
   AddRow(effector.is_first, pull, moments.rows[3]);
 }
@@ -238,13 +239,13 @@ void AddEffector(const SweepTree::Effector& effector, const GoalOf<V>& goal, Mom
 template <class V>
 void HandOn(const SweepTree::Joint& joint, MomentsOf<V>& child, MomentsOf<V>& parent) {
   if (!joint.is_aligned) {
-    const double(&rest)[3][3] = joint.rest;
+    const double(&R_PJ)[3][3] = joint.R_PJ;
     const Quad<V> x = child.rows[0], y = child.rows[1], z = child.rows[2];
-    for (int r = 0; r < 3; ++r) child.rows[r] = Mix(x, rest[r][0], y, rest[r][1], z, rest[r][2]);
+    for (int r = 0; r < 3; ++r) child.rows[r] = Mix(x, R_PJ[r][0], y, R_PJ[r][1], z, R_PJ[r][2]);
   }
   const Quad<V> last = child.rows[3];
   for (int r = 0; r < 3; ++r) {
-    if (joint.offset[r] != 0) child.rows[r] = child.rows[r] + last * V(joint.offset[r]);
+    if (joint.p_PJ[r] != 0) child.rows[r] = child.rows[r] + last * V(joint.p_PJ[r]);
   }
   if (joint.is_first) return;
   for (int r = 0; r < 4; ++r) parent.rows[r] = parent.rows[r] + child.rows[r];
@@ -304,7 +305,7 @@ V SweepHinges(const SweepTree& tree, const WeightFormula& formula, SweepState<V>
       const V chord = TurnHinge(state.axes[step.from], state.axes[step.towards], state.hinges[step.hinge],
                                 moments.rows[step.i], moments.rows[step.j]);
       largest = Select(AtLeast(chord, largest), chord, largest);
-    } else if (joint.parent > 0) {  // the root does not turn: nobody asks for its moments
+    } else if (joint.parent > 0) {  // the root does not turn and needs no moments
       HandOn(joint, moments, state.moments[tree.joints[joint.parent].moments]);
     }
   }

@@ -58,7 +58,7 @@ NamedAxis NameOf(const glm::dvec3& axis) {
   return {name, axis[name]};
 }
 
-// A step and how many others wait for it, one for another: those for which the most wait come first.
+// A step and how many others depend on it, one after another: those on which the most depend come first.
 struct PlacedStep {
   SweepTree::Step step;
   int depth = 0;
@@ -99,32 +99,32 @@ SweepTree::SweepTree(const KinematicTree& tree) : steps(StepsOf(tree)) {
 }
 
 void SweepTree::NameAxes(const KinematicTree& tree) {
-  std::vector<glm::dmat3> frames;  // of the sweep's limbs, in the tree's
+  std::vector<glm::dmat3> R_LS;  // of each limb: the sweep's frame in the tree's
   for (const TreeJoint& from : tree.joints) {
     Joint& joint = joints.emplace_back();
     joint.parent = from.parent;
-    const glm::dmat3 into_parent = from.parent < 0 ? glm::dmat3(1) : glm::transpose(frames[from.parent]);
-    const glm::dmat3 rest = into_parent * from.rest;
-    joint.is_aligned = SwapsAxes(rest);
-    frames.push_back(joint.is_aligned && from.parent >= 0 ? glm::transpose(rest) : glm::dmat3(1));
-    Copy(into_parent * from.offset, joint.offset);
+    const glm::dmat3 R_SP = from.parent < 0 ? glm::dmat3(1) : glm::transpose(R_LS[from.parent]);
+    const glm::dmat3 R_SJ = R_SP * from.R_PJ;
+    joint.is_aligned = SwapsAxes(R_SJ);
+    R_LS.push_back(joint.is_aligned && from.parent >= 0 ? glm::transpose(R_SJ) : glm::dmat3(1));
+    Copy(R_SP * from.p_PJ, joint.p_PJ);
     for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) joint.rest[r][c] = rest[c][r];
+      for (int c = 0; c < 3; ++c) joint.R_PJ[r][c] = R_SJ[c][r];
     }
   }
   for (Step& step : steps) {
     if (step.hinge < 0 || !joints[step.joint].is_aligned) continue;
-    const NamedAxis i = NameOf(glm::transpose(frames[step.joint])[step.i]);
-    const NamedAxis j = NameOf(glm::transpose(frames[step.joint])[step.j]);
+    const NamedAxis i = NameOf(glm::transpose(R_LS[step.joint])[step.i]);
+    const NamedAxis j = NameOf(glm::transpose(R_LS[step.joint])[step.j]);
     step.i = i.sign * j.sign > 0 ? i.name : j.name;  // the way round of a turn follows its axes' signs
     step.j = i.sign * j.sign > 0 ? j.name : i.name;
   }
   for (const etude::Effector& from : tree.effectors) {
     Effector& effector = effectors.emplace_back();
     effector.joint = from.joint;
-    Copy(glm::transpose(frames[from.joint]) * from.offset, effector.offset);
+    Copy(glm::transpose(R_LS[from.joint]) * from.p_LE, effector.p_LE);
     for (int k = 0; k < 3; ++k) {
-      const NamedAxis axis = NameOf(frames[from.joint][k]);
+      const NamedAxis axis = NameOf(R_LS[from.joint][k]);
       effector.names[k] = axis.name;
       effector.signs[k] = axis.sign;
     }
@@ -139,7 +139,7 @@ void SweepTree::PlaceAxes() {
     Joint& joint = joints[step.joint];
     if (step.hinge < 0) {
       for (int k = 0; k < 3; ++k) {
-        const bool is_parents = joint.is_aligned && joint.offset[k] == 0;
+        const bool is_parents = joint.is_aligned && joint.p_PJ[k] == 0;
         joint.base[k] = is_parents ? joints[joint.parent].axes[k] : axis_count++;
         joint.axes[k] = joint.base[k];
       }

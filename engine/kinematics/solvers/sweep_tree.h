@@ -9,24 +9,25 @@
 namespace etude {
 
 /// A tree as a sweep reads it (sweep_kernel-inl.h): plain numbers and a list of steps, the same for every problem.
-/// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Where a limb's
-/// rest frame is its parent's with axes swapped, as everywhere on the body, the sweep names the limb's axes after the
-/// parent's, so that nothing is left to do from limb to limb.
+/// Forwards, the steps are a sweep from the leaves to the root; backwards, they are forward kinematics. Its limbs have
+/// frames S of their own: where R_PJ of the tree only swaps axes, as everywhere on the body, the sweep names the limb's
+/// axes after the parent's, so that R_PJ is the identity here and nothing is left to do from limb to limb. P, J and L
+/// below are limbs in the sweep's frames.
 struct SweepTree {
   struct Joint {
     int parent = -1;
     int moments = -1;         ///< where the moments of its limb are
     bool is_first = false;    ///< its limb hands its moments on to its parent's, which has none before that
-    bool is_aligned = false;  ///< `rest` is the identity
+    bool is_aligned = false;  ///< `R_PJ` is the identity
     int base[3] = {};         ///< where its axes are before the joint turns: the parent's own where they are the same
     int axes[3] = {};         ///< where the limb's axes are
-    double rest[3][3] = {};   ///< rows: from the limb's frame into the parent limb's, when all angles are zero
-    double offset[3] = {};    ///< from the parent's joint, in the parent limb's frame
+    double R_PJ[3][3] = {};   ///< rows
+    double p_PJ[3] = {};
   };
   struct Effector {
     int joint = 0;
     bool is_first = false;  ///< of its limb
-    double offset[3] = {};
+    double p_LE[3] = {};
     int names[3] = {};     ///< of each axis of the sweep's: which of the tree's it is
     double signs[3] = {};  ///< and whether it points the same way, ±1
   };

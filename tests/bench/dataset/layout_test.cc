@@ -8,9 +8,9 @@ namespace {
 
 using testing::ElementsAre;
 
-Scenario Swept(std::initializer_list<std::vector<Setting>> conditions) {
+Scenario Swept(std::initializer_list<std::vector<SweptValue>> conditions) {
   Scenario scenario;
-  for (const std::vector<Setting>& settings : conditions) scenario.conditions.push_back({settings, {}});
+  for (const std::vector<SweptValue>& settings : conditions) scenario.conditions.push_back({settings, {}});
   return scenario;
 }
 

@@ -172,8 +172,8 @@ TEST(Snapshots, AreNotComparableWithOtherSeedsTrialsClipsOrMetricVersions) {
   EXPECT_EQ(complaint([](SnapshotScenario& s) { s.trials = 23; }), "s: trials 24 and 23");
   EXPECT_EQ(complaint([](SnapshotScenario& s) { s.metrics[0].second = 9; }),
             "s: position_error_cm in versions 1 and 9");
-  FinishedRun other_clip = ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); });
-  other_clip.scenarios[0].clip_digests = {"another"};
+  const FinishedRun other_clip =
+      ExampleRun([](int trial, const std::string&) { return ExampleResult(trial); }, "", "another");
   EXPECT_EQ(WhyNotComparable(Reference(), TakeSnapshot(other_clip)).size(), 2u);
 }
 

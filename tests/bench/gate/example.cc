@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/finished_runs/finish_scenario.h"
+
 namespace etude {
 
 constexpr int kTrials = 24;
@@ -13,7 +15,7 @@ CellResult ExampleResult(int trial, double shift) {
   return result;
 }
 
-FinishedRun ExampleRun(const MakeResult& make, const std::string& extra) {
+FinishedRun ExampleRun(const MakeResult& make, const std::string& extra, const std::string& clip_digest) {
   const SourceTexts texts = {{"s.yaml",
                               "scenario: s\nquestion: q?\ntask: ik\ntrials: 24\nsweep: {joint_noise_deg: [1, 2]}\n"
                               "methods: [{name: a, solver: ccd}, {name: b, solver: ccd}]\n"
@@ -28,11 +30,11 @@ FinishedRun ExampleRun(const MakeResult& make, const std::string& extra) {
   setup.name = "s";
   setup.seed = 5;
   setup.trials = kTrials;
-  run.scenarios.push_back({scenarios->front(), setup, {"clip"}});
+  run.scenarios.push_back(FinishScenario(scenarios->front(), setup, std::span(&clip_digest, 1)));
   for (const Condition& condition : scenarios->front().conditions) {
     for (int trial = 0; trial < kTrials; ++trial) {
       for (const char* method : {"a", "b"}) {
-        run.data.rows.push_back({"s", "ik", condition.settings, trial, "", method, make(trial, method)});
+        run.data.rows.push_back({"s", "ik", condition.swept, trial, "", method, make(trial, method)});
       }
     }
   }

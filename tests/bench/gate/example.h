@@ -11,8 +11,8 @@ namespace etude {
 using MakeResult = std::function<CellResult(int trial, const std::string& method)>;
 
 /// A scenario "s" of task ik with the conditions noise=1 and noise=2, the methods "a" and "b", and 24 trials.
-/// `extra` are more lines of its file.
-FinishedRun ExampleRun(const MakeResult& make, const std::string& extra = "");
+/// `extra` are more lines of its file; the worlds were made of one clip of that digest.
+FinishedRun ExampleRun(const MakeResult& make, const std::string& extra = "", const std::string& clip_digest = "clip");
 
 /// 10 + trial for either method, plus `shift`.
 CellResult ExampleResult(int trial, double shift = 0);

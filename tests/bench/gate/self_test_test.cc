@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/gate/in_process_run.h"
 #include "sim/random/stream.h"
 #include "tests/bench/gate/example.h"
 
@@ -73,16 +72,6 @@ TEST(SelfTest, SaysWhenAScenarioGivesItNothingToInjectInto) {
       },
       1);
   EXPECT_THAT(ToString(report.error()), HasSubstr("no gated metric is a median with a direction"));
-}
-
-TEST(Rehearsal, RunsItsBuiltInScenarioTheSameWayTwice) {
-  const auto rehearsal = ReadRehearsal("", 4);
-  ASSERT_TRUE(rehearsal) << ToString(rehearsal.error());
-  const auto report = RunSelfTest([&](std::uint64_t seed) { return RunInProcess(*rehearsal, seed); }, 2);
-  ASSERT_TRUE(report) << ToString(report.error());
-  EXPECT_EQ(report->rerun_alarms.count, 0);
-  EXPECT_EQ(report->rerun_alarms.of, 2);
-  EXPECT_FALSE(ReadRehearsal("no-such-file.yaml", {}));
 }
 
 }  // namespace

@@ -181,12 +181,13 @@ class Metrics(EtudeCase):
     def test_the_row_schema_knows_exactly_the_metrics_of_the_catalogue(self):
         properties = load_schema("row.schema.json")["properties"]
         measured = [key for key, value in properties.items() if value == {"$ref": "#/$defs/measured"}]
-        self.assertEqual(measured, [metric["id"] for metric in self.catalogue["metrics"]])
+        self.assertEqual(measured, [metric["id"] for metric in self.catalogue["metrics"]],
+                         "write it anew: scripts/docs")
 
     def test_the_page_is_the_programs(self):
         page = self.etude("list", "metrics", "--markdown").stdout
         self.assertEqual((ROOT / "docs" / "metrics.md").read_text(), page,
-                         "write it anew: etude list metrics --markdown > docs/metrics.md")
+                         "write it anew: scripts/docs")
 
     def test_the_table_names_every_metric(self):
         lines = self.etude("list", "metrics").stdout.splitlines()

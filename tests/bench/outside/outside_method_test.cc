@@ -17,9 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-Payload Show(Json json, std::vector<Attachment> files = {}) {
-  return {std::make_unique<Json>(std::move(json)), std::move(files)};
-}
+Payload Show(Json json, std::vector<Attachment> files = {}) { return PayloadOf(std::move(json), std::move(files)); }
 
 OutsideOptions Behaving(const std::string& behaviour) {
   OutsideOptions options;

@@ -9,7 +9,7 @@ using testing::HasSubstr;
 std::vector<std::string> Labels(const std::string& sweep) {
   std::vector<std::string> labels;
   for (const Condition& condition : ParseOne(kHead + kMethods + "sweep: " + sweep + "\n").conditions) {
-    labels.push_back(ConditionLabel(condition.settings));
+    labels.push_back(ConditionLabel(condition.swept));
   }
   return labels;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/scenario/study_of.h"
 #include "bench/statistics/expectations.h"
 #include "tests/bench/scenario/parse.h"
 
@@ -25,12 +26,12 @@ expect:
 )";
 
 /// Method b is 2 cm better than a in every world; trial 9 of b has no value.
-std::vector<Row> Rows(const Scenario& scenario) {
+std::vector<Row> Rows(const Study& study) {
   std::vector<Row> rows;
-  for (const Condition& condition : scenario.conditions) {
+  for (const std::vector<SweptValue>& condition : study.conditions) {
     for (int trial = 0; trial < 10; ++trial) {
       for (const char* method : {"a", "b"}) {
-        Row row{"s", "ik", condition.settings, trial, "", method, {}};
+        Row row{"s", "ik", condition, trial, "", method, {}};
         row.result.status = Status::kOk;
         if (method[0] == 'b' && trial == 9) {
           row.result = CellResult::Ended(Status::kCrashed, "its worker ended");
@@ -48,9 +49,9 @@ std::vector<Row> Rows(const Scenario& scenario) {
 
 class SummaryTest : public testing::Test {
  protected:
-  Scenario scenario = ParseOne(kYaml);
-  std::vector<Row> rows = Rows(scenario);
-  ScenarioSummary summary = Summarise(scenario, rows, 1);
+  Study study = StudyOf(ParseOne(kYaml));
+  std::vector<Row> rows = Rows(study);
+  ScenarioSummary summary = Summarise(study, rows, 1);
 };
 
 TEST_F(SummaryTest, KeepsFailuresInTheCount) {
@@ -96,7 +97,7 @@ TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
-  const ScenarioSummary skipped = Summarise(scenario, rows, 1);
+  const ScenarioSummary skipped = Summarise(study, rows, 1);
   EXPECT_EQ(skipped.conditions[0].comparisons[0].only_baseline, 0);
   EXPECT_EQ(skipped.conditions[0].comparisons[0].neither, 0);
   EXPECT_TRUE(skipped.conditions[0].comparisons[0].notes.empty());
@@ -104,7 +105,7 @@ TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
 }
 
 TEST_F(SummaryTest, DependsOnNoOtherMethodNorCondition) {
-  Scenario smaller = scenario;
+  Study smaller = study;
   smaller.conditions.pop_back();
   const ScenarioSummary alone = Summarise(smaller, std::span(rows).first(20), 1);
   const Comparison &a = alone.conditions[0].comparisons[0], &b = summary.conditions[0].comparisons[0];
@@ -125,16 +126,16 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
-  EXPECT_EQ(Summarise(scenario, rows, 1).conditions[0].comparisons[0].verdict, Verdict::kBetter);
+  EXPECT_EQ(Summarise(study, rows, 1).conditions[0].comparisons[0].verdict, Verdict::kBetter);
 }
 
 TEST_F(SummaryTest, JudgesExpectations) {
   ASSERT_EQ(summary.expectations.size(), 5u);
-  EXPECT_EQ(summary.expectations[0].outcome, Outcome::kMet) << summary.expectations[0].detail;
-  EXPECT_EQ(summary.expectations[1].outcome, Outcome::kUnmet) << summary.expectations[1].detail;
-  EXPECT_EQ(summary.expectations[2].outcome, Outcome::kMet) << summary.expectations[2].detail;
-  EXPECT_EQ(summary.expectations[3].outcome, Outcome::kUnmet) << summary.expectations[3].detail;
-  EXPECT_EQ(summary.expectations[4].outcome, Outcome::kUndecided) << summary.expectations[4].detail;
+  EXPECT_EQ(summary.expectations[0].ruling, Ruling::kMet) << summary.expectations[0].detail;
+  EXPECT_EQ(summary.expectations[1].ruling, Ruling::kUnmet) << summary.expectations[1].detail;
+  EXPECT_EQ(summary.expectations[2].ruling, Ruling::kMet) << summary.expectations[2].detail;
+  EXPECT_EQ(summary.expectations[3].ruling, Ruling::kUnmet) << summary.expectations[3].detail;
+  EXPECT_EQ(summary.expectations[4].ruling, Ruling::kUndecided) << summary.expectations[4].detail;
 }
 
 TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
@@ -145,21 +146,21 @@ TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
       row.result = CellResult::Ended(status, "why");
       row.result.Missing("position_error_cm", "why");
     }
-    Scenario alone = scenario;
+    Study alone = study;
     alone.conditions.pop_back();
     alone.metrics = {"position_error_cm"};
     const ScenarioSummary judged = Summarise(alone, std::span(fewer).first(20), 1);
-    return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].outcome);
+    return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].ruling);
   };
-  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, Outcome::kUndecided));
-  EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, Outcome::kMet));
+  EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, Ruling::kUndecided));
+  EXPECT_EQ(verdict_when_b_ends(Status::kOk), std::pair(Verdict::kBetter, Ruling::kMet));
 }
 
 TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
-  Expectation below = scenario.expectations[0];
+  Expectation below = study.expectations[0];
   below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
-  const ExpectationResult result = JudgeExpectation(below, scenario, rows, 1);
-  EXPECT_EQ(result.outcome, Outcome::kUndecided);
+  const ExpectationResult result = JudgeExpectation(below, study, rows, 1);
+  EXPECT_EQ(result.ruling, Ruling::kUndecided);
   EXPECT_THAT(result.detail, testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
   EXPECT_THAT(result.detail, testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
 }
@@ -169,7 +170,7 @@ TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
   bound.metric = "position_error_cm";
   bound.of = "b";
   bound.at_most = 100;
-  EXPECT_EQ(JudgeExpectation(bound, scenario, rows, 1).outcome, Outcome::kUndecided);
+  EXPECT_EQ(JudgeExpectation(bound, study, rows, 1).ruling, Ruling::kUndecided);
 }
 
 }  // namespace

@@ -10,12 +10,12 @@
 namespace etude {
 namespace {
 
-TrainingClips BuiltinClips() { return *GatherTrainingClips({}, {}, MakePhysique(PoseOf(Controls{}), 0.9)); }
+TrainingClips BuiltinClips() { return *GatherTrainingClips({}, {}, MakeBodyProportions(PoseOf(Controls{}), 0.9)); }
 
 TEST(TrainingClips, AreEveryBuiltInMoveOnceAndWhatElseTheLibraryHas) {
   const BodyMotion clips[] = {LoadBuiltinMove("clap")->motion, LoadBuiltinMove("sway")->motion};
-  const Physique physique = MakePhysique(PoseOf(Controls{}), 0.9);
-  const auto training = GatherTrainingClips(clips, {"builtin:clap", "mine.bvh"}, physique);
+  const BodyProportions proportions = MakeBodyProportions(PoseOf(Controls{}), 0.9);
+  const auto training = GatherTrainingClips(clips, {"builtin:clap", "mine.bvh"}, proportions);
   ASSERT_TRUE(training);
   std::vector<std::string> expected;
   for (const std::string& name : BuiltinMoveNames()) expected.push_back("builtin:" + name);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/engine/bridging/test_clips.h"
+#include "tests/engine/transitions/test_clips.h"
 
 namespace etude {
 namespace {
@@ -41,13 +41,13 @@ TEST(TrainingPairs, AcrossClipsLeaveOutThoseWithinOne) {
 }
 
 TEST(TrainingClips, SampleLongClipsEvenly) {
-  const Physique physique = MakePhysique(PosedBody().Pose(), PosedBody::kStandingHipHeight);
+  const BodyProportions proportions = MakeBodyProportions(PosedBody().Pose(), PosedBody::kStandingHipHeight);
   const BodyMotion clips[] = {WavingClip(1000), WavingClip(7)};
-  const TrainingClips training = SampleClips({"long", "short"}, clips, physique);
+  const TrainingClips training = SampleClips({"long", "short"}, clips, proportions);
   ASSERT_EQ(training.frames.size(), 2u);
   EXPECT_EQ(training.frames[0].size(), 16u);
   EXPECT_EQ(training.frames[1].size(), 7u);
-  const BodyMotion danced = PerformedBy(physique, clips[0]);
+  const BodyMotion danced = PerformedBy(proportions, clips[0]);
   EXPECT_EQ(training.frames[0][0].pose.joints, danced.poses[31].joints) << "the middle of the first sixteenth";
   EXPECT_EQ(training.frames[0][15].pose.joints, danced.poses[968].joints);
 }

@@ -14,7 +14,7 @@ TrainingClips SomeClips() {
   std::vector<BodyMotion> motions;
   std::vector<std::string> names = {"clap", "sway", "boxing", "stretch", "bird"};
   for (const std::string& name : names) motions.push_back(LoadBuiltinMove(name)->motion);
-  return SampleClips(names, motions, MakePhysique(PoseOf(Controls{}), 0.9));
+  return SampleClips(names, motions, MakeBodyProportions(PoseOf(Controls{}), 0.9));
 }
 
 TEST(MembershipGenes, OfOneHalfChangeNothing) {

@@ -22,6 +22,13 @@ TEST(Camera, ShowsWhatIsHigherFurtherUpAndWhatIsToItsRightFurtherRight) {
   EXPECT_NEAR(Project(matrix, {0, 1.5, 0})->y, 240 - 75, 1e-9);
 }
 
+TEST(Camera, LooksThroughTheMiddleOfItsPictureUnlessToldOtherwise) {
+  const Intrinsics in;
+  EXPECT_EQ(in.cx, in.width / 2.0);
+  EXPECT_EQ(in.cy, in.height / 2.0);
+  EXPECT_EQ(in.fx, in.fy) << "square pixels";
+}
+
 TEST(Camera, HasARotationInsideNotAReflection) {
   const Camera camera = LookAt({}, {-2, 1.5, 3}, {0, 1, 0});
   EXPECT_NEAR(glm::determinant(camera.R_CW), 1, 1e-12);

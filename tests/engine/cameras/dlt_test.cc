@@ -91,6 +91,16 @@ TEST_P(Dlt, RefusesPointsOnOneLine) {
 
 TEST_P(Dlt, RefusesOnePointRepeated) { EXPECT_FALSE(Calibrate(std::vector<PointPair>(8, Pairs(1)[0]), GetParam())); }
 
+TEST_P(Dlt, RefusesPairsThatNoCameraHasInFrontOfIt) {
+  // Points on both sides of the camera's plane: the equations do not tell w from −w.
+  std::vector<PointPair> pairs = Pairs(10);
+  const glm::dvec3 eye(2.2, 1.4, 3.1);
+  for (std::size_t i = 5; i < pairs.size(); ++i) pairs[i].world = 2.0 * eye - pairs[i].world;  // the same ray, behind
+  const auto found = Calibrate(pairs, GetParam());
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().message, HasSubstr("in front of it"));
+}
+
 TEST_P(Dlt, RefusesNumbersThatAreNotFinite) {
   std::vector<PointPair> pairs = Pairs(8);
   pairs[2].pixel.x = std::numeric_limits<double>::quiet_NaN();

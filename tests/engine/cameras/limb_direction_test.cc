@@ -55,6 +55,24 @@ TEST(LimbDirection, TurnsRoundWhenTheStrokesDo) {
   EXPECT_LT(Degrees(AngleBetween(limb.direction, from - to)), 1e-6);
 }
 
+TEST(LimbDirection, BelievesThePictureInWhichTheLimbIsLessForeshortened) {
+  // A limb that almost points at one camera is a stroke of few pixels there, which noise can turn round. Only that
+  // one is turned here, so the limb's true direction is the exact answer, whichever camera it is.
+  for (double foreshortened_at : {-40.0, 40.0}) {
+    const ProjectionMatrix short_view = CameraAt(foreshortened_at), full_view = CameraAt(-foreshortened_at);
+    const double a = Radians(foreshortened_at);
+    const glm::dvec3 eye(3.8 * std::sin(a), 1.4, 3.8 * std::cos(a)), from(0.1, 1.1, 0.05);
+    const glm::dvec3 to = from + 0.3 * glm::normalize(glm::normalize(eye - from) + glm::dvec3(0.02, 0.03, -0.01));
+    const PixelSegment turned = StrokeOf(short_view, to, from), seen = StrokeOf(full_view, from, to);
+    ASSERT_LT(glm::distance(turned.a, turned.b), 0.2 * glm::distance(seen.a, seen.b));
+    for (const LimbDirection& limb : {ComputeLimbDirection(short_view, turned, full_view, seen),
+                                      ComputeLimbDirection(full_view, seen, short_view, turned)}) {
+      ASSERT_EQ(limb.status, DirectionStatus::kOk);
+      EXPECT_LT(Degrees(AngleBetween(limb.direction, to - from)), 1e-6);
+    }
+  }
+}
+
 TEST(LimbDirection, ReportsTheAngleBetweenThePlanes) {
   // Seen from ±40° at its own height, an upright limb on the axis lies in planes 80° apart.
   auto level = [](double degrees) {
@@ -76,6 +94,27 @@ TEST(LimbDirection, IsIllConditionedForALimbInAPlaneThroughBothCameras) {
   EXPECT_EQ(limb.status, DirectionStatus::kIllConditioned);
   EXPECT_LT(Degrees(limb.plane_angle), 1e-6);
   EXPECT_EQ(limb.direction, glm::dvec3(0));
+}
+
+TEST(LimbDirection, NeedsPlanesThatAreFartherFromParallelThanAsked) {
+  // Level cameras at ±half see an upright limb on the axis in planes that are twice that apart.
+  auto status_at = [](double half, double smallest) {
+    auto level = [](double degrees) {
+      const double a = Radians(degrees);
+      return MatrixOf(LookAt({}, {4 * std::sin(a), 1, 4 * std::cos(a)}, {0, 1, 0}));
+    };
+    const glm::dvec3 from(0, 0.8, 0), to(0, 1.2, 0);
+    const ProjectionMatrix left = level(-half), right = level(half);
+    const PixelSegment in_left = StrokeOf(left, from, to), in_right = StrokeOf(right, from, to);
+    return smallest > 0 ? ComputeLimbDirection(left, in_left, right, in_right, Radians(smallest)).status
+                        : ComputeLimbDirection(left, in_left, right, in_right).status;
+  };
+  EXPECT_EQ(status_at(4.9, 10), DirectionStatus::kIllConditioned);
+  EXPECT_EQ(status_at(5.1, 10), DirectionStatus::kOk);
+  EXPECT_EQ(status_at(90 - 4.9, 10), DirectionStatus::kIllConditioned) << "the cameras face each other";
+  EXPECT_EQ(status_at(90 - 5.1, 10), DirectionStatus::kOk);
+  EXPECT_EQ(status_at(1.4, 0), DirectionStatus::kIllConditioned) << "3 degrees unless asked";
+  EXPECT_EQ(status_at(1.6, 0), DirectionStatus::kOk);
 }
 
 TEST(LimbDirection, IsIllConditionedForAStrokeWithoutLengthOrNotFinite) {

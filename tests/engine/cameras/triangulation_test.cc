@@ -61,6 +61,26 @@ TEST(Triangulation, SaysWhenOneCameraIsNotEnough) {
   EXPECT_EQ(Triangulate(std::vector{SightingOf(CameraAt(0), {0, 1, 0})}).status, PointStatus::kTooFewViews);
 }
 
+TEST(Triangulation, RefusesAPointBehindACamera) {
+  // Rays that diverge meet behind both cameras: eyes half a metre apart that look outwards.
+  const ProjectionMatrix left = MatrixOf(LookAt({}, {-0.25, 1, 0}, {-1.25, 1, -4}));
+  const ProjectionMatrix right = MatrixOf(LookAt({}, {0.25, 1, 0}, {1.25, 1, -4}));
+  const TriangulatedPoint found = Triangulate(std::vector<Sighting>{{left, {320, 240}}, {right, {320, 240}}});
+  EXPECT_EQ(found.status, PointStatus::kIllConditioned);
+  const glm::dvec3 before(0, 1, -3);
+  EXPECT_EQ(Triangulate(std::vector{SightingOf(left, before), SightingOf(right, before)}).status, PointStatus::kOk)
+      << "the control: the same cameras, a point before them";
+}
+
+TEST(Triangulation, NeedsMoreThanAHundredthOfADegreeBetweenItsRays) {
+  const glm::dvec3 point(0, 1, 0);
+  auto status_at = [&](double degrees) {
+    return Triangulate(std::vector{SightingOf(CameraAt(0), point), SightingOf(CameraAt(degrees), point)}).status;
+  };
+  EXPECT_EQ(status_at(0.01), PointStatus::kIllConditioned);
+  EXPECT_EQ(status_at(1), PointStatus::kOk);
+}
+
 TEST(Triangulation, SaysWhenTheRaysAreParallelOrNotFinite) {
   const glm::dvec3 point(0.1, 1, 0);
   const Sighting once = SightingOf(CameraAt(20), point);

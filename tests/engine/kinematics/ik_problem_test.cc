@@ -7,12 +7,7 @@
 namespace etude {
 namespace {
 
-constexpr int kRightFoot = 0, kLeftHand = 1, kRightHand = 2, kHead = 3;  // the body's effectors
-
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
+constexpr int kEndRightFoot = 0, kEndLeftHand = 1, kEndRightHand = 2, kEndHead = 3;  // effectors
 
 // The targets that a standing body meets, of which only `effectors` count, and only their positions.
 IkProblem PositionsOf(std::initializer_list<int> effectors) {
@@ -35,22 +30,22 @@ TEST(OutOfReach, NoPoseOfTheTreeIs) {
 constexpr double kRootToHead = 0.18 + 0.42 + 0.43 + 0.09 + 0.50 + 0.25;
 
 TEST(OutOfReach, IsWhatLiesBeyondAllLimbsFromTheRoot) {
-  IkProblem problem = PositionsOf({kHead});
-  problem.targets[kHead].position = {0, 0, kRootToHead - 1e-6};
+  IkProblem problem = PositionsOf({kEndHead});
+  problem.targets[kEndHead].position = {0, 0, kRootToHead - 1e-6};
   EXPECT_FALSE(IsOutOfReach(Body(), problem));
-  problem.targets[kHead].position = {0, 0, kRootToHead + 1e-6};
+  problem.targets[kEndHead].position = {0, 0, kRootToHead + 1e-6};
   EXPECT_TRUE(IsOutOfReach(Body(), problem));
-  problem.targets[kHead].position_weight = 0;
+  problem.targets[kEndHead].position_weight = 0;
   EXPECT_FALSE(IsOutOfReach(Body(), problem)) << "a position that does not count cannot be out of reach";
 }
 
 TEST(OutOfReach, CountsAWholeFramesLimbInItsOwnDirection) {
-  IkProblem problem = PositionsOf({kHead});
-  problem.targets[kHead].position = {0, 0, kRootToHead - 1e-6};
-  problem.targets[kHead].axis_weights = glm::dvec3(1);
-  problem.targets[kHead].axes = glm::dmat3(1);
+  IkProblem problem = PositionsOf({kEndHead});
+  problem.targets[kEndHead].position = {0, 0, kRootToHead - 1e-6};
+  problem.targets[kEndHead].axis_weights = glm::dvec3(1);
+  problem.targets[kEndHead].axes = glm::dmat3(1);
   EXPECT_FALSE(IsOutOfReach(Body(), problem)) << "the neck points away from the root";
-  problem.targets[kHead].axes = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1);
+  problem.targets[kEndHead].axes = glm::dmat3(1, 0, 0, 0, -1, 0, 0, 0, -1);
   EXPECT_TRUE(IsOutOfReach(Body(), problem)) << "the neck's base is asked to be beyond the head";
 }
 
@@ -59,19 +54,19 @@ constexpr double kHandToHand = 2 * (0.18 + 0.25 + 0.29) + 0.36;
 
 TEST(OutOfReach, AreHandsFartherFromEachOtherThanTheArmsAreLong) {
   for (const double beyond : {-1e-6, 1e-6}) {
-    IkProblem problem = PositionsOf({kLeftHand, kRightHand});
+    IkProblem problem = PositionsOf({kEndLeftHand, kEndRightHand});
     const double half = 0.5 * (kHandToHand + beyond);
-    problem.targets[kLeftHand].position = {-half, 1, 0};
-    problem.targets[kRightHand].position = {half, 1, 0};
+    problem.targets[kEndLeftHand].position = {-half, 1, 0};
+    problem.targets[kEndRightHand].position = {half, 1, 0};
     EXPECT_EQ(IsOutOfReach(Body(), problem), beyond > 0);
     // Either alone is near enough to the root.
-    problem.targets[kRightHand].position_weight = 0;
+    problem.targets[kEndRightHand].position_weight = 0;
     EXPECT_FALSE(IsOutOfReach(Body(), problem));
   }
 }
 
 TEST(AllowedRanges, AreTheLimitsAndTheToleranceAroundTheStart) {
-  IkProblem problem = PositionsOf({kHead});
+  IkProblem problem = PositionsOf({kEndHead});
   problem.start.angles.assign(29, 0.0);
   problem.limits.assign(29, {-0.5, 1.0});
   problem.start.angles[1] = 0.9;
@@ -92,14 +87,14 @@ TEST(AllowedRanges, AreTheLimitsAndTheToleranceAroundTheStart) {
 }
 
 TEST(Faults, AreAxesThatAreNoRotation) {
-  const IkProblem sound = PositionsOf({kRightFoot});
+  const IkProblem sound = PositionsOf({kEndRightFoot});
   EXPECT_EQ(FindFault(Body(), sound, {}), "");
   IkProblem mirrored = sound;
-  mirrored.targets[kRightFoot].axes[0] *= -1.0;
+  mirrored.targets[kEndRightFoot].axes[0] *= -1.0;
   EXPECT_NE(FindFault(Body(), mirrored, {}), "");
   IkProblem sheared = sound;
-  sheared.targets[kRightFoot].axes[0] =
-      glm::normalize(sheared.targets[kRightFoot].axes[0] + 0.1 * sheared.targets[kRightFoot].axes[1]);
+  sheared.targets[kEndRightFoot].axes[0] =
+      glm::normalize(sheared.targets[kEndRightFoot].axes[0] + 0.1 * sheared.targets[kEndRightFoot].axes[1]);
   EXPECT_NE(FindFault(Body(), sheared, {}), "");
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/random_tree.h"
 
 namespace etude {
@@ -16,7 +17,7 @@ class Screws {
  public:
   Screws(const KinematicTree& tree, const TreeState& state) : tree_(tree), angles_(state.angles) {
     for (const TreeJoint& joint : tree.joints) {
-      const glm::dmat4 local = glm::translate(glm::dmat4(1), joint.offset) * glm::dmat4(joint.rest);
+      const glm::dmat4 local = glm::translate(glm::dmat4(1), joint.p_PJ) * glm::dmat4(joint.R_PJ);
       at_zero_.push_back(joint.parent >= 0
                              ? at_zero_[joint.parent] * local
                              : glm::translate(glm::dmat4(1), state.root_position) * glm::dmat4(state.root_frame));
@@ -83,7 +84,7 @@ TEST(Jacobian, FramesAgreeWithProductsOfExponentials) {
       EXPECT_LT(Gap(frames.joints[j], screws.LimbFrame(static_cast<int>(j))), 1e-12);
     }
     for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
-      const glm::dmat4 tip = glm::translate(screws.LimbFrame(tree.effectors[e].joint), tree.effectors[e].offset);
+      const glm::dmat4 tip = glm::translate(screws.LimbFrame(tree.effectors[e].joint), tree.effectors[e].p_LE);
       EXPECT_LT(Gap(frames.effectors[e], tip), 1e-12);
     }
   }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/euler.h"
 
 namespace etude {

@@ -4,18 +4,13 @@
 
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/observed_tree.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
-
-double LargestGap(const BodyPose& a, const BodyPose& b) {
-  double largest = 0;
-  for (Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
-  return largest;
-}
 
 void ExpectLengths(const BodyPose& pose, const LimbLengths& lengths) {
   const LimbLengths found = MeasureLimbLengths(std::span(&pose, 1));

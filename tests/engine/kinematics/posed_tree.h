@@ -3,11 +3,18 @@
 #include <algorithm>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 #include "sim/random/stream.h"
 
 namespace etude {
+
+/// Paper B's body of default lengths.
+inline const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
 
 /// A pose of `tree` uniform in `share` of every joint's range about its middle, standing somewhere, turned somehow.
 inline TreeState RandomPose(const KinematicTree& tree, int trial, double share) {

@@ -15,20 +15,19 @@ inline KinematicTree RandomTree(int trial, int joints) {
   const auto below = [&](int count) { return static_cast<int>(random.IndexBelow(static_cast<std::uint64_t>(count))); };
   KinematicTree tree;
   tree.standing_root = turn();
-  tree.joints.push_back({.name = "root", .role = Role::kHipCentre});
+  tree.joints.push_back({.name = "root"});
   for (int i = 1; i < joints; ++i) {
     const int dofs = below(4);
     tree.joints.push_back({.name = "joint",
-                           .role = Role::kHipCentre,
                            .parent = below(i),
-                           .offset = random.Normal3(),
-                           .rest = turn(),
+                           .p_PJ = random.Normal3(),
+                           .R_PJ = turn(),
                            .first_dof = tree.dof_count(),
                            .dof_count = dofs});
     tree.limits.insert(tree.limits.end(), static_cast<std::size_t>(dofs), AngleRange{-kPi, kPi});
   }
   for (const int joint : {joints - 1, joints / 2, below(joints), 1}) {
-    tree.effectors.push_back({"tip", Role::kHead, joint, random.Normal3()});
+    tree.effectors.push_back({"tip", joint, random.Normal3()});
   }
   return tree;
 }

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/observed_tree.h"
 
@@ -13,12 +14,6 @@ namespace {
 using enum Role;
 
 std::vector<AngleRange> NoLimits() { return std::vector<AngleRange>(29, AngleRange{-2 * kPi, 2 * kPi}); }
-
-double LargestGap(const BodyPose& a, const BodyPose& b) {
-  double largest = 0;
-  for (Role role : AllRoles()) largest = std::max(largest, glm::distance(a[role], b[role]));
-  return largest;
-}
 
 TEST(StartAngles, ReproduceEveryPoseOfTheTree) {
   const KinematicTree tree = MakeBodyTree({});

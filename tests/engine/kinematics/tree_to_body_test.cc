@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/formats/bvh.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/retargeting/joint_map.h"
 #include "tests/engine/kinematics/observed_tree.h"
 

@@ -6,8 +6,9 @@ namespace etude {
 namespace {
 
 /// "Right arm up, then down", each within 20°.
-TaughtMove UpAndDown() {
-  return {.name = "up-down", .poses = {{{{Feature::kRH, 180, 20}}}, {{{Feature::kRH, 0, 20}}}}};
+TaughtMove UpAndDown(int span_frames = 1000) {
+  return {
+      .name = "up-down", .poses = {{{{Feature::kRH, 180, 20}}}, {{{Feature::kRH, 0, 20}}}}, .span_frames = span_frames};
 }
 
 FeatureFrame ArmAt(double degrees, TrackingState state = TrackingState::kTracked) {
@@ -26,27 +27,27 @@ std::vector<FeatureFrame> Arm(const std::vector<double>& degrees) {
 
 TEST(KeyPoseRecogniser, AnswersInTheFrameThatHoldsTheLastPoseLongEnough) {
   const auto frames = Arm({90, 170, 170, 170, 90, 10, 10, 10, 10});
-  EXPECT_EQ(JudgeWindow(frames, UpAndDown(), {.hold_frames = 3}).right_at, 7);
-  EXPECT_EQ(JudgeWindow(frames, UpAndDown(), {.hold_frames = 1}).right_at, 5);
-  EXPECT_FALSE(JudgeWindow(frames, UpAndDown(), {.hold_frames = 4}).right_at);
+  EXPECT_EQ(JudgeWindow(frames, UpAndDown(), {.hold_frames = 3}).recognised_at, 7);
+  EXPECT_EQ(JudgeWindow(frames, UpAndDown(), {.hold_frames = 1}).recognised_at, 5);
+  EXPECT_FALSE(JudgeWindow(frames, UpAndDown(), {.hold_frames = 4}).recognised_at);
 }
 
 TEST(KeyPoseRecogniser, DemandsTheTaughtOrder) {
-  EXPECT_FALSE(JudgeWindow(Arm({10, 10, 10, 90, 170, 170, 170}), UpAndDown(), {.hold_frames = 3}).right_at);
+  EXPECT_FALSE(JudgeWindow(Arm({10, 10, 10, 90, 170, 170, 170}), UpAndDown(), {.hold_frames = 3}).recognised_at);
 }
 
 TEST(KeyPoseRecogniser, SkipsFramesWithoutABodyAndBreaksOnFramesWithAWrongPose) {
   auto lost = Arm({170, 170, 170, 170, 10, 10, 10, 10});
   lost[1].body_seen = false;
-  EXPECT_EQ(JudgeWindow(lost, UpAndDown(), {.hold_frames = 3}).right_at, 6);
+  EXPECT_EQ(JudgeWindow(lost, UpAndDown(), {.hold_frames = 3}).recognised_at, 6);
   auto broken = Arm({170, 170, 90, 170, 10, 10, 10, 10});
-  EXPECT_FALSE(JudgeWindow(broken, UpAndDown(), {.hold_frames = 3}).right_at);
+  EXPECT_FALSE(JudgeWindow(broken, UpAndDown(), {.hold_frames = 3}).recognised_at);
 }
 
 TEST(KeyPoseRecogniser, CountsToleranceInclusively) {
   const TaughtMove move{.name = "up", .poses = {{{{Feature::kRH, 180, 20}}}}};
-  EXPECT_TRUE(JudgeWindow(Arm({160, 160, 160}), move, {.hold_frames = 3}).right_at);
-  EXPECT_FALSE(JudgeWindow(Arm({159.9, 159.9, 159.9}), move, {.hold_frames = 3}).right_at);
+  EXPECT_TRUE(JudgeWindow(Arm({160, 160, 160}), move, {.hold_frames = 3}).recognised_at);
+  EXPECT_FALSE(JudgeWindow(Arm({159.9, 159.9, 159.9}), move, {.hold_frames = 3}).recognised_at);
 }
 
 /// Both arms up; the left one is at 0°, thus wrong, and seen as `state`.
@@ -114,13 +115,13 @@ TEST(Score, EqualsTheBruteForceSearchOverAllPassages) {
 
 TEST(FindMove, FiresOncePerPassageHoweverLongTheLastPoseIsHeld) {
   const auto frames = Arm({170, 170, 10, 10, 10, 10, 10, 170, 170, 170, 10, 10, 10});
-  EXPECT_EQ(FindMove(frames, UpAndDown(), {.hold_frames = 2}, 20), (std::vector<int>{3, 11}));
+  EXPECT_EQ(FindMove(frames, UpAndDown(20), {.hold_frames = 2}), (std::vector<int>{3, 11}));
 }
 
 TEST(FindMove, ForgetsAFirstPoseThatIsTooLongAgo) {
   const auto frames = Arm({170, 170, 90, 90, 90, 90, 90, 10, 10});
-  EXPECT_EQ(FindMove(frames, UpAndDown(), {.hold_frames = 2}, 7), (std::vector<int>{8}));
-  EXPECT_TRUE(FindMove(frames, UpAndDown(), {.hold_frames = 2}, 6).empty());
+  EXPECT_EQ(FindMove(frames, UpAndDown(7), {.hold_frames = 2}), (std::vector<int>{8}));
+  EXPECT_TRUE(FindMove(frames, UpAndDown(6), {.hold_frames = 2}).empty());
 }
 
 TEST(SeeFeatures, TakesTheWorstStateAmongAFeaturesJoints) {

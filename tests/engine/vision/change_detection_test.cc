@@ -57,6 +57,62 @@ TEST(DetectChange, TakesGreyForRedAsThePaperDoesUnlessGated) {
   EXPECT_FALSE(Differs({121, 120, 120}, {120, 121, 121}, Segmenter::kHueGated));
 }
 
+TEST(DetectChange, TrustsNoHueInTheDarkWhenGated) {
+  // Opposite hues and saturated by 14 % and 8 %, but four levels from grey: as much as noise does.
+  const Rgb8 reddish{12, 8, 8}, bluish{8, 12, 12};
+  EXPECT_TRUE(Differs(reddish, bluish, Segmenter::kHue));
+  EXPECT_FALSE(Differs(reddish, bluish, Segmenter::kHueGated));
+  const Rgb8 red{80, 8, 8}, blue{8, 50, 50};
+  EXPECT_TRUE(Differs(red, blue, Segmenter::kHueGated)) << "the control: equally dark, but far from grey";
+}
+
+// The rules of `kHueGated` in their documented words, with hue and saturation as Hsi has them.
+bool DiffersByTheRules(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
+  struct Tone {
+    Hsi hsi;
+    bool has_hue;
+  };
+  auto tone_of = [&](Rgb8 c) {
+    const Hsi hsi = ToHsi(c);
+    const double r = c.r, g = c.g, b = c.b;
+    const double from_grey = std::sqrt(r * r + g * g + b * b - r * g - g * b - b * r);
+    return Tone{hsi, hsi.saturation > o.min_saturation && from_grey > o.min_chroma};
+  };
+  const Tone b = tone_of(background), p = tone_of(pixel);
+  if (b.has_hue && p.has_hue && std::abs(std::remainder(b.hsi.hue - p.hsi.hue, 2 * kPi)) > o.hue_threshold) return true;
+  if (b.has_hue != p.has_hue && std::abs(b.hsi.saturation - p.hsi.saturation) > o.saturation_threshold) return true;
+  return p.hsi.intensity < o.darkest_shadow * b.hsi.intensity || p.hsi.intensity > o.brightest_light * b.hsi.intensity;
+}
+
+TEST(DetectChange, FollowsTheRulesOfTheGateForColoursOfEveryKind) {
+  // Thresholds that no colour meets exactly, so that both computations agree on either side of them.
+  const ChangeOptions options{.hue_threshold = Radians(20.123),
+                              .min_saturation = 0.10007,
+                              .min_chroma = 14.03,
+                              .saturation_threshold = 0.18003,
+                              .darkest_shadow = 0.45007,
+                              .brightest_light = 1.30007};
+  int changed = 0, checked = 0;
+  for (int i = 0; i < 40000; ++i) {
+    // From near black to bright; the second colour is near the first one, so that light alone seldom decides.
+    auto noise = [&](int k, int range) { return (i * 7919 + k * 104729 + i * k * 31 + i / 7 * k) % range; };
+    auto level = [&](int k) { return std::min(255, noise(4, 180) + noise(k, 60)); };
+    const Rgb8 a{static_cast<std::uint8_t>(level(1)), static_cast<std::uint8_t>(level(2)),
+                 static_cast<std::uint8_t>(level(3))};
+    auto near = [&](int k, std::uint8_t from) {
+      return static_cast<std::uint8_t>(std::clamp(from + noise(k, 49) - 24, 0, 255));
+    };
+    const Rgb8 b{near(5, a.r), near(6, a.g), near(7, a.b)};
+    const bool expected = DiffersByTheRules(a, b, options);
+    const Mask mask = DetectChange(ColourImage(1, 1, a), ColourImage(1, 1, b), Segmenter::kHueGated, options);
+    ASSERT_EQ(mask.pixels[0] != 0, expected) << i;
+    changed += expected ? 1 : 0;
+    ++checked;
+  }
+  EXPECT_GT(changed, checked / 10);
+  EXPECT_LT(changed, 9 * checked / 10);
+}
+
 TEST(DetectChange, FallsBackToLightWhereBothAreGrey) {
   EXPECT_FALSE(Differs(kGreyWall, Scaled(kGreyWall, 0.6), Segmenter::kHueGated)) << "a shadow";
   EXPECT_TRUE(Differs(kGreyWall, Scaled(kGreyWall, 0.2), Segmenter::kHueGated)) << "black trousers";

@@ -76,6 +76,36 @@ TEST(Components, EqualAFloodFillOnManyMasks) {
   EXPECT_EQ(checked, 400);
 }
 
+TEST(Components, KnowOfEveryPieceItsColourItsSizeAndWhetherItTouchesTheBorder) {
+  std::uint32_t state = 7;
+  int inside = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    Mask mask(4 + trial % 9, 4 + trial % 7);
+    for (auto& pixel : mask.pixels) {
+      state = state * 1664525u + 1013904223u;
+      pixel = (state >> 16) % 2;
+    }
+    const Image<std::int32_t> labels = FloodFill(mask, Connectivity::kEight);
+    const Components components = LabelComponents(mask, Connectivity::kEight);
+    std::vector<Components::Piece> expected(components.pieces.size());
+    for (int y = 0; y < mask.height; ++y) {
+      for (int x = 0; x < mask.width; ++x) {
+        auto& piece = expected.at(static_cast<std::size_t>(labels.At(x, y)));
+        piece.set = mask.At(x, y) != 0;
+        ++piece.size;
+        piece.touches_border |= x == 0 || y == 0 || x == mask.width - 1 || y == mask.height - 1;
+      }
+    }
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      ASSERT_EQ(components.pieces[i].set, expected[i].set) << trial << ", " << i;
+      ASSERT_EQ(components.pieces[i].size, expected[i].size) << trial << ", " << i;
+      ASSERT_EQ(components.pieces[i].touches_border, expected[i].touches_border) << trial << ", " << i;
+      inside += expected[i].touches_border ? 0 : 1;
+    }
+  }
+  EXPECT_GT(inside, 50);
+}
+
 TEST(Components, JoinAtCornersOnlyWithEight) {
   const Mask mask = FromRows({"#.", ".#"});
   auto count_set = [&](Connectivity connectivity) {
@@ -92,6 +122,8 @@ TEST(LargestComponent, DropsEverythingElse) {
   const Mask expected = FromRows({"......", "......", "..###.", "..#..#"});
   EXPECT_EQ(LargestComponent(mask).pixels, expected.pixels);
   EXPECT_EQ(LargestComponent(FromRows({"...", "..."})).pixels, Mask(3, 2).pixels);
+  EXPECT_EQ(LargestComponent(FromRows({"#..", "..#"})).pixels, FromRows({"#..", "..."}).pixels)
+      << "the first of equals";
 }
 
 TEST(FillHoles, FillsSmallHolesAndLeavesLargeOnesAndOpenBays) {

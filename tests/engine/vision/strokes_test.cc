@@ -3,9 +3,25 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
 
 namespace etude {
 namespace {
+
+// A straight stroke of a round pen, its halves in the mark's two shades: every pixel whose centre the pen covers.
+void DrawStroke(ColourImage& picture, const StrokeMark& mark, const glm::dvec2& from, const glm::dvec2& to) {
+  const glm::dvec2 along = to - from;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::dvec2 pixel(x + 0.5, y + 0.5);
+      const double share = glm::dot(pixel - from, along) / glm::dot(along, along);
+      const double distance = glm::distance(pixel, from + std::clamp(share, 0.0, 1.0) * along);
+      if (distance < kStrokeWidth / 2) picture.At(x, y) = share < 0.5 ? mark.first_half : mark.second_half;
+    }
+  }
+}
 
 TEST(Strokes, HaveNoTwoEqualColoursAndNoBlackOne) {
   std::vector<Rgb8> palette = {Rgb8{}};
@@ -30,6 +46,104 @@ TEST(ReadMarks, ReadsAStrokeAlongARowFromItsFirstHalfToItsSecond) {
   EXPECT_NEAR(marks.strokes[3]->b.y, 7.5, 1e-9);
   EXPECT_NEAR(marks.strokes[3]->a.x, 28.5, 0.51);
   EXPECT_NEAR(marks.strokes[3]->b.x, 11.5, 0.51);
+}
+
+TEST(ReadMarks, FindsTheEndsOfALimbNotThoseOfThePen) {
+  // The pen reaches beyond the limb at both ends. Pixels round each reading, but not their mean.
+  constexpr int kDirections = 180;
+  double beyond_a = 0, beyond_b = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * kPi * i / kDirections;
+    const glm::dvec2 along(std::cos(angle), std::sin(angle));
+    const glm::dvec2 middle(40 + 0.37 * (i % 7), 40 + 0.23 * (i % 11)), from = middle - 15.0 * along;
+    const glm::dvec2 to = middle + 15.0 * along;
+    ColourImage picture(80, 80);
+    DrawStroke(picture, StrokeMarks()[5], from, to);
+    const Marks marks = ReadMarks(picture);
+    ASSERT_TRUE(marks.strokes[5]);
+    EXPECT_LT(glm::distance(marks.strokes[5]->a, from), 1) << i;
+    EXPECT_LT(glm::distance(marks.strokes[5]->b, to), 1) << i;
+    beyond_a += glm::dot(from - marks.strokes[5]->a, along) / kDirections;
+    beyond_b += glm::dot(marks.strokes[5]->b - to, along) / kDirections;
+  }
+  EXPECT_NEAR(beyond_a, 0, 0.25);
+  EXPECT_NEAR(beyond_b, 0, 0.25);
+}
+
+// Every pixel whose centre is in the disc, as long as it is left of `cover` (something else stands before the rest).
+int DrawDisc(ColourImage& picture, const EffectorMark& mark, const glm::dvec2& centre, double cover) {
+  int drawn = 0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const glm::dvec2 pixel(x + 0.5, y + 0.5);
+      if (glm::distance(pixel, centre) >= kDiscRadius || pixel.x >= cover) continue;
+      picture.At(x, y) = mark.colour;
+      ++drawn;
+    }
+  }
+  return drawn;
+}
+
+TEST(ReadMarks, FindsTheCentreOfADiscWhereverItsPixelsFall) {
+  for (int i = 0; i < 100; ++i) {
+    const glm::dvec2 centre(20 + 0.1 * (i % 10), 20 + 0.1 * (i / 10));
+    ColourImage picture(40, 40);
+    DrawDisc(picture, EffectorMarks()[2], centre, 40);
+    const auto found = ReadMarks(picture).effectors[2];
+    ASSERT_TRUE(found);
+    EXPECT_LT(glm::distance(*found, centre), 0.2) << i;
+  }
+}
+
+TEST(ReadMarks, FindsTheCentreOfADiscThatIsPartlyCovered) {
+  // Enough of the rim is left to tell where the centre is; the middle of what is left is far from it.
+  for (double covered_from : {2.0, 1.0, 0.0}) {
+    double error = 0, error_of_mean = 0;
+    for (int i = 0; i < 100; ++i) {
+      const glm::dvec2 centre(20 + 0.1 * (i % 10), 20 + 0.1 * (i / 10));
+      ColourImage picture(40, 40);
+      const int drawn = DrawDisc(picture, EffectorMarks()[2], centre, centre.x + covered_from);
+      glm::dvec2 mean(0);
+      for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 40; ++x) {
+          if (picture.At(x, y) == EffectorMarks()[2].colour) mean += glm::dvec2(x + 0.5, y + 0.5) / (1.0 * drawn);
+        }
+      }
+      const auto found = ReadMarks(picture).effectors[2];
+      ASSERT_TRUE(found);
+      error += glm::distance(*found, centre) / 100;
+      error_of_mean += glm::distance(mean, centre) / 100;
+    }
+    EXPECT_LT(error, 0.35) << covered_from;
+    EXPECT_GT(error_of_mean, 2 * error) << "the control, " << covered_from;
+  }
+}
+
+TEST(ReadMarks, ReadsEveryMarkOfThePalette) {
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    ColourImage picture(60, 20);
+    DrawStroke(picture, StrokeMarks()[i], {15, 10}, {45, 10});
+    const Marks marks = ReadMarks(picture);
+    for (std::size_t j = 0; j < kStrokeCount; ++j) EXPECT_EQ(marks.strokes[j].has_value(), i == j) << i << ", " << j;
+    EXPECT_LT(marks.strokes[i]->a.x, marks.strokes[i]->b.x);
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    ColourImage picture(20, 20);
+    DrawDisc(picture, EffectorMarks()[i], {10, 10}, 20);
+    const Marks marks = ReadMarks(picture);
+    for (std::size_t j = 0; j < kEffectorCount; ++j)
+      EXPECT_EQ(marks.effectors[j].has_value(), i == j) << i << ", " << j;
+  }
+}
+
+TEST(ReadMarks, GivesAShortStrokeSomeLength) {
+  // Shorter than the pen is wide: cut back at both ends, it must not turn round.
+  ColourImage picture(20, 20);
+  picture.At(5, 5) = StrokeMarks()[0].first_half;
+  picture.At(6, 5) = StrokeMarks()[0].second_half;
+  const Marks marks = ReadMarks(picture);
+  ASSERT_TRUE(marks.strokes[0]);
+  EXPECT_NEAR(marks.strokes[0]->b.x - marks.strokes[0]->a.x, 0.5, 1e-9) << "half of the pixels' distance";
 }
 
 TEST(ReadMarks, ReportsWhatIsNotThereAsMissing) {

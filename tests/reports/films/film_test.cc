@@ -93,7 +93,7 @@ TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
   RunData run = ExampleRun();
   AddRecordings(run);
   run.recordings.front().recording.extras_json =
-      R"({"seam_frame": 80, "seam_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
+      R"({"transition_frame": 80, "transition_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
   const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500);
   ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
   EXPECT_EQ(panel->Seam(), 80);
@@ -106,7 +106,7 @@ TEST(CoachPanel, RefusesARecordingWithoutASeam) {
   run.recordings.front().recording.extras_json = R"({"from": "clap"})";
   const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 60);
   ASSERT_FALSE(panel.has_value());
-  EXPECT_THAT(ToString(panel.error()), HasSubstr("seam_frame"));
+  EXPECT_THAT(ToString(panel.error()), HasSubstr("transition_frame"));
 }
 
 TEST(CapturePanel, RefusesMasksThatDoNotFitTheMotion) {

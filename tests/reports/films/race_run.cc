@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree_to_body.h"
 
 namespace etude {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 #include "engine/base/angles.h"
 
 namespace etude {
@@ -75,7 +75,7 @@ void AddCells(RunData& run, const ScenarioSummary& scenario, const ConditionSumm
   }
 }
 
-void AddCondition(RunData& run, ScenarioSummary& scenario, std::vector<Setting> condition,
+void AddCondition(RunData& run, ScenarioSummary& scenario, std::vector<SweptValue> condition,
                   const std::vector<MethodPlan>& plans, const std::vector<Verdict>& verdicts,
                   const std::string& failure) {
   ConditionSummary summary;
@@ -125,8 +125,8 @@ void AddIk(RunData& run) {
                  {Verdict::kBetter, Verdict::kBetter, Verdict::kBetter}, "");
   }
   scenario.expectations = {
-      {"orientation_error_deg of adaptive below fixed", Outcome::kMet, "median −11.8°, 99 % CI −13.0 to −10.4"},
-      {"position_error_cm of adaptive at most 1.0 (p95)", Outcome::kUnmet, "p95 is 1.31"}};
+      {"orientation_error_deg of adaptive below fixed", Ruling::kMet, "median −11.8°, 99 % CI −13.0 to −10.4"},
+      {"position_error_cm of adaptive at most 1.0 (p95)", Ruling::kUnmet, "p95 is 1.31"}};
   const double rates[] = {0.02, 0.06, 0.05, 0.09};
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;
@@ -158,7 +158,7 @@ void AddTransition(RunData& run) {
                 {"gate-inertialised", 6.4, 0.7}},
                {Verdict::kInconclusive, Verdict::kBetter, Verdict::kBetter, Verdict::kBetter},
                "no bridge frame of “sway” has a partner, not even through the in-between clip");
-  scenario.expectations = {{"jump_cm of fuzzy-bridge below now", Outcome::kMet, "median −19.1 cm, CI −24.0 to −13.2"}};
+  scenario.expectations = {{"jump_cm of fuzzy-bridge below now", Ruling::kMet, "median −19.1 cm, CI −24.0 to −13.2"}};
   run.scenarios.push_back(std::move(scenario));
 }
 
@@ -172,9 +172,8 @@ void AddDetection(RunData& run) {
                            {},
                            2};
   AddCondition(run, scenario, {}, {{"fixed", 0.81, 0.03}, {"adaptive", 0.815, 0.03}}, {Verdict::kNoDifference}, "");
-  scenario.expectations = {
-      {"f1 of adaptive at least 0.7", Outcome::kMet, "median 0.815"},
-      {"latency_s of adaptive below fixed", Outcome::kUndecided, "half of the values are missing"}};
+  scenario.expectations = {{"f1 of adaptive at least 0.7", Ruling::kMet, "median 0.815"},
+                           {"latency_s of adaptive below fixed", Ruling::kUndecided, "half of the values are missing"}};
   run.scenarios.push_back(std::move(scenario));
 }
 
@@ -235,7 +234,7 @@ Recording CoachRecording() {
   }
   return {
       {{"coach", coach}},
-      R"({"seam_frame": 80, "from": "clap", "to": "side kick", "branch": "matched in the front half", "distance": 0.31})"};
+      R"({"transition_frame": 80, "from": "clap", "to": "side kick", "branch": "matched in the front half", "distance": 0.31})"};
 }
 
 /// A coach who dances as one clip does until `first`, as an in-between until `second`, and then as the wanted clip.
@@ -260,16 +259,17 @@ std::string Partials(double unit) {
 }
 
 Recording Explained(int first, int second, const std::string& rest) {
-  return {{{"coach", Switching(first, second)}},
-          fmt::format(R"({{"request_frame": 60, "seam_frame": {}, "from": "builtin:clap", "to": "builtin:side_kick",)"
-                      R"( "threshold": 0.4, "natural_limit_cm": 4.5, "weights": {}, {}}})",
-                      first, kWeights, rest)};
+  return {
+      {{"coach", Switching(first, second)}},
+      fmt::format(R"({{"request_frame": 60, "transition_frame": {}, "from": "builtin:clap", "to": "builtin:side_kick",)"
+                  R"( "threshold": 0.4, "natural_limit_cm": 4.5, "weights": {}, {}}})",
+                  first, kWeights, rest)};
 }
 
 Recording CaptureRecording(std::vector<double>& errors) {
   constexpr int kFrames = 60;
   BodyMotion truth, recovered;
-  RecordingExtras extras;
+  CaptureExtras extras;
   extras.texture_seed = 7;
   for (const double x : {-1.1, 1.1}) {
     extras.views.push_back({LookAt(Intrinsics{}, {x, 1.3, 3.6}, {0, 0.95, 0}), {}});
@@ -300,7 +300,7 @@ Recording CaptureRecording(std::vector<double>& errors) {
       view.masks.push_back(std::move(mask));
     }
   }
-  return {{{"truth", truth}, {"recovered", recovered}}, WriteRecordingExtras(extras)};
+  return {{{"truth", truth}, {"recovered", recovered}}, WriteCaptureExtras(extras)};
 }
 
 std::string CellOf(const RunData& run, const std::string& scenario, const std::string& method, int trial) {
@@ -335,7 +335,7 @@ void AddRecordings(RunData& run) {
   run.series.push_back({capture, {{"mpjpe_mm", "frame", std::move(errors)}}});
 }
 
-void AddSwitches(RunData& run) {
+void AddTransitions(RunData& run) {
   constexpr int kTrial = 7;
   const auto add = [&](const std::string& method, Recording recording) {
     run.recordings.push_back({CellOf(run, "transition", method, kTrial), std::move(recording)});
@@ -347,23 +347,24 @@ void AddSwitches(RunData& run) {
   add("fuzzy-bridge",
       Explained(
           70, 85,
-          fmt::format(R"("seam_frames": [70, 85], "branch": "in-between", "wait_s": 0.8333, "pairs_seen": 40,)"
-                      R"( "pairs_matched": 0, "why": "No pair was close enough, so it goes through an in-between.",)"
-                      R"( "switches": [{{"from": "builtin:clap", "from_frame": 30, "to": "in-between", "to_frame": 0,)"
-                      R"( "distance": 0.3, "partials": {}}}, {{"from": "in-between", "from_frame": 14,)"
-                      R"( "to": "builtin:side_kick", "to_frame": 2, "distance": 0.35, "partials": {}}}])",
-                      Partials(0.036), Partials(0.049))));
+          fmt::format(
+              R"("transition_frames": [70, 85], "branch": "in-between", "wait_s": 0.8333, "pairs_seen": 40,)"
+              R"( "pairs_matched": 0, "why": "No pair was close enough, so it goes through an in-between.",)"
+              R"( "transition_points": [{{"from": "builtin:clap", "from_frame": 30, "to": "in-between", "to_frame": 0,)"
+              R"( "distance": 0.3, "partials": {}}}, {{"from": "in-between", "from_frame": 14,)"
+              R"( "to": "builtin:side_kick", "to_frame": 2, "distance": 0.35, "partials": {}}}])",
+              Partials(0.036), Partials(0.049))));
   add("gate-inertialised",
       Explained(
           68, 68,
           fmt::format(
               R"("branch": "front half", "wait_s": 0.2667, "why": "Of 3 pairs, it is the nearest.",)"
-              R"( "pairs_seen": 120, "pairs_matched": 3, "cost_unit": "cm", "switches": [{{"from": "builtin:clap",)"
+              R"( "pairs_seen": 120, "pairs_matched": 3, "cost_unit": "cm", "transition_points": [{{"from": "builtin:clap",)"
               R"( "from_frame": 28, "to": "builtin:side_kick", "to_frame": 4, "distance": 0.2, "partials": {}}}],)"
               R"( "candidates": [{{"from_frame": 27, "to_frame": 3, "distance": 0.25, "partials": {}, "cost": 14.5,)"
-              R"( "fate": "worse"}}, {{"from_frame": 28, "to_frame": 4, "distance": 0.2, "partials": {},)"
-              R"( "cost": 9.25, "fate": "taken"}}, {{"from_frame": 29, "to_frame": 4, "distance": 0.5,)"
-              R"( "partials": {}, "cost": null, "fate": "too far"}}])",
+              R"( "outcome": "worse"}}, {{"from_frame": 28, "to_frame": 4, "distance": 0.2, "partials": {},)"
+              R"( "cost": 9.25, "outcome": "taken"}}, {{"from_frame": 29, "to_frame": 4, "distance": 0.5,)"
+              R"( "partials": {}, "cost": null, "outcome": "too far"}}])",
               Partials(0.016), Partials(0.025), Partials(0.016), Partials(0.1))));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/results/run_data.h"
+#include "bench/model/run_data.h"
 
 namespace etude {
 
@@ -14,6 +14,6 @@ void AddRecordings(RunData& run);
 
 /// Adds one request of the scenario "transition" as three methods recorded it, with everything that explains a switch:
 /// "now" cuts, "fuzzy-bridge" goes through an in-between, "gate-inertialised" takes the best of its candidates.
-void AddSwitches(RunData& run);
+void AddTransitions(RunData& run);
 
 }  // namespace etude

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/start_angles.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"

@@ -109,3 +109,24 @@ def over_images(given, part, whole):
         if total > 0:
             shares.append(sum(part(*pixel) for pixel in pixels) / total)
     return common.mean(shares)
+
+
+METRICS = {
+    "mpjpe_mm": mpjpe,
+    "mpjpe_before_ik_mm": lambda g: mpjpe(g, "before_ik"),
+    "pa_mpjpe_mm": pa_mpjpe,
+    "pck_50mm": lambda g: joint_share(g, lambda error: error < PCK_MM),
+    "auc_200mm": lambda g: joint_share(g, lambda error: max(0, 1 - error / AUC_MM)),
+    "bone_length_error_cm": bone_length_error,
+    "limb_direction_error_deg": limb_direction_error,
+    "limb_direction_coverage": lambda g: coverage(g["limbs"]),
+    "triangulation_error_mm": triangulation_error,
+    "triangulation_coverage": lambda g: coverage(g["ends_m"]),
+    "reprojection_rms_px": reprojection,
+    "frames_recovered": lambda g: common.share(g["recovered"]),
+    "iou": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f or t),
+    "mask_precision": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f),
+    "mask_recall": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: t),
+    "mask_f1": lambda g: over_images(g, lambda f, t, s: 2 * (f and t), lambda f, t, s: f + t),
+    "shadow_error": lambda g: over_images(g, lambda f, t, s: f and s, lambda f, t, s: s),
+}

@@ -52,3 +52,13 @@ def false_alarms(given):
                    window["begin_frame"] <= call["frame"] < window["end_frame"] for window in given["windows"])
     alarms = sum(not excused(call) for call in given["calls"])
     return alarms / (given["frames"] / given["rate_hz"] / 60)
+
+
+METRICS = {
+    "precision": precision,
+    "recall": recall,
+    "f1": f1,
+    "roc_auc": roc_auc,
+    "latency_s": latency,
+    "false_alarms_per_min": false_alarms,
+}

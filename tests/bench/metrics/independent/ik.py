@@ -40,3 +40,20 @@ def angle_difference(given, other):
 
 def penalised(given, spent, limit):
     return given[spent] if given["solved"] and given[spent] <= given[limit] else PENALTY * given[limit]
+
+
+METRICS = {
+    "position_error_cm": lambda g: common.mean(effector_positions_cm(g)),
+    "position_error_max_cm": lambda g: common.worst(effector_positions_cm(g)),
+    "orientation_error_deg": lambda g: common.mean(effector_angles_deg(g)),
+    "orientation_error_max_deg": lambda g: common.worst(effector_angles_deg(g)),
+    "hidden_angle_error_deg": lambda g: angle_difference(g, "true_deg"),
+    "hidden_angle_change_deg": lambda g: angle_difference(g, "start_deg"),
+    "solved_practical": lambda g: solved(g, PRACTICAL),
+    "solved_tight": lambda g: solved(g, TIGHT),
+    "limit_violations": limit_violations,
+    "iterations": lambda g: g["iterations"],
+    "fk_evaluations": lambda g: g["fk_evaluations"],
+    "iterations_par2": lambda g: penalised(g, "iterations", "max_iterations"),
+    "fk_evaluations_par2": lambda g: penalised(g, "fk_evaluations", "max_fk_evaluations"),
+}

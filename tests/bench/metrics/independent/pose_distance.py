@@ -35,3 +35,11 @@ def f1(given):
     called = [alike(given, pair) for pair in given["pairs"]]
     either = sum(close) + sum(called)
     return 2 * sum(a and b for a, b in zip(close, called)) / either if either else None
+
+
+METRICS = {
+    "called_alike": called_alike,
+    "joint_distance_cm": joint_distance,
+    "close_auc": auc,
+    "close_f1": f1,
+}

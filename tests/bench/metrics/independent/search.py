@@ -12,3 +12,11 @@ def matches(given):
 
 def counted(given, key):
     return None if given[key] is None else common.mean(given[key])
+
+
+METRICS = {
+    "search_agreement": lambda g: agreement(g),
+    "matches_per_query": matches,
+    "distances_per_query": lambda g: counted(g, "distances"),
+    "boxes_per_query": lambda g: counted(g, "boxes"),
+}

@@ -37,3 +37,12 @@ def jerk_ratio(given):
     frames = given["true_frames_deg"]
     truth, count = jerk(frames), max(0, len(frames) - JERK_ORDER) * len(frames[0])
     return jerk(given["found_frames_deg"]) / truth if truth > math.degrees(ROUNDING_RAD) * count else None
+
+
+METRICS = {
+    "frames_solved": lambda g: frames_solved(g, ik.PRACTICAL),
+    "frames_solved_tight": lambda g: frames_solved(g, ik.TIGHT),
+    "iterations_per_frame": lambda g: common.mean(g["frame_iterations"]),
+    "iterations_per_frame_p95": percentile,
+    "angle_jerk_ratio": jerk_ratio,
+}

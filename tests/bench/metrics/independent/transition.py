@@ -215,3 +215,24 @@ def false_smooth_share(given):
     if given["threshold"] is None or not matching(given):
         return None
     return sum(pair["pose_gap_cm"] > FALSE_SMOOTH_CM for pair in matching(given)) / len(matching(given))
+
+
+METRICS = {
+    "jump_cm": jump,
+    "mean_joint_jump_cm": mean_jump,
+    "rotation_step_change_deg": rotation_step_change,
+    "jerk_peak_mps3": jerk,
+    "foot_slide_cmps": foot_slide,
+    "pose_gap_cm": pose_gap,
+    "velocity_gap_cmps": velocity_gap,
+    "false_smooth": false_smooth,
+    "natural_share": natural,
+    "wait_s": wait,
+    "fuzzy_distance": fuzzy_distance,
+    "sparc": sparc,
+    "ldlj": ldlj,
+    "direct_match": direct_match,
+    "matching_share": matching_share,
+    "false_smooth_share": false_smooth_share,
+    "in_between": in_between,
+}

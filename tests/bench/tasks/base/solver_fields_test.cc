@@ -8,6 +8,7 @@
 namespace etude {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -32,7 +33,7 @@ Reading Read(const std::string& method) {
 }
 
 TEST(SolverFields, TakeTheDefaultOfThePageOfKeys) {
-  EXPECT_EQ(Read("{}").solver, DefaultIkSolver()->name);
+  EXPECT_EQ(Read("{}").solver, "gauss-newton");
   EXPECT_EQ(Read("{}").solver, IkSolverFields(&Method::solver, &Method::options).front().info.fallback);
 }
 
@@ -41,18 +42,23 @@ TEST(SolverFields, ReadTheSettingsOfASolver) {
   EXPECT_THAT(weighing.complaint, IsEmpty());
   EXPECT_EQ(weighing.options.weights, WeightRule::kFixedTuned);
   EXPECT_EQ(weighing.options.refresh, WeightRefresh::kJoint);
-  EXPECT_EQ(weighing.options.tuning.memory, 3);
+  EXPECT_THAT(weighing.options.solver_settings, ElementsAre(3));
   const Reading by_default = Read("{first_sweeps: 4}");
   EXPECT_THAT(by_default.complaint, IsEmpty());
-  EXPECT_EQ(by_default.options.tuning.first_sweeps, 4);
+  EXPECT_THAT(by_default.options.solver_settings, ElementsAre(4));
 }
 
 TEST(SolverFields, RefuseWhatASolverDoesNotHaveAndSayWhichOnesDo) {
   EXPECT_EQ(Read("{weights: fixed}").complaint,
-            "m.yaml:1:11: solver 'ccd-nullspace' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "
+            "m.yaml:1:11: solver 'gauss-newton' (the default) has no 'weights'; allowed with solver: ccd, ccd-hinges, "
             "ccd-anderson");
   EXPECT_EQ(Read("{solver: ccd, memory: 3}").complaint,
             "m.yaml:1:23: solver 'ccd' has no 'memory'; allowed with solver: ccd-anderson");
+}
+
+TEST(SolverFields, RefuseAFormerNameAndSayTheNewOne) {
+  EXPECT_EQ(Read("{solver: ccd-nullspace}").complaint,
+            "m.yaml:1:10: solver 'ccd-nullspace' was renamed to 'gauss-newton'");
 }
 
 TEST(SolverFields, RefuseValuesThatNoSolverTakes) {

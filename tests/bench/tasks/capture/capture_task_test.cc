@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/tasks/capture/recording_extras.h"
+#include "bench/recordings/capture_extras.h"
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
@@ -89,7 +89,7 @@ TEST(CaptureTask, RecordsWhatAVideoAndABvhFileNeed) {
   EXPECT_EQ(cells[0].recording->tracks[0].name, "truth");
   EXPECT_EQ(cells[0].recording->tracks[1].name, "recovered");
   EXPECT_EQ(cells[0].recording->tracks[1].motion.poses.size(), 3u);
-  const auto extras = ReadRecordingExtras(cells[0].recording->extras_json);
+  const auto extras = ReadCaptureExtras(cells[0].recording->extras_json);
   ASSERT_TRUE(extras) << ToString(extras.error());
   ASSERT_EQ(extras->views.size(), 2u);
   EXPECT_EQ(extras->views[0].masks.size(), 3u);

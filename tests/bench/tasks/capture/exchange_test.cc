@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/recordings/capture_extras.h"
+#include "bench/metrics/measurement.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/capture/capture_cell.h"
 #include "bench/tasks/capture/capture_task.h"
-#include "bench/tasks/capture/recording_extras.h"
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
 #include "sim/sensors/image_files.h"
@@ -71,10 +71,11 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   // The limb directions that the told marks give are those of the built-in method, whose cameras are true.
   const CaptureWorld truth =
       MakeCaptureWorld({.duration_s = 0.1, .mark_every = 2}, LoadClips({"builtin:boxing"}, {})->clips[0], kKey);
+  const std::vector<ProjectionMatrix> cameras = {MatrixOf(truth.cameras[0]), MatrixOf(truth.cameras[1])};
   std::vector<Sighted> limbs;
   for (std::size_t k : {0u, 2u}) {
-    const FrameMeasurement seen = MeasureFrame(MarksOf(marks[0][k]), MatrixOf(truth.cameras[0]), MarksOf(marks[1][k]),
-                                               MatrixOf(truth.cameras[1]));
+    const std::vector<std::vector<Marks>> told = {{MarksOf(marks[0][k])}, {MarksOf(marks[1][k])}};
+    const FrameMeasurement seen = MeasureFrames({.cameras = cameras, .marks = told}).at(0);
     const FrameMeasurement true_frame = TrueMeasurement(truth.truth[k]);
     for (std::size_t i = 0; i < kRoleCount; ++i) limbs.push_back({seen.directions[i], true_frame.directions[i]});
   }
@@ -97,7 +98,7 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
   EXPECT_EQ(ValueOf(*cell, "iou"), std::nullopt);
   EXPECT_EQ(cell->series.size(), 1u);
   ASSERT_TRUE(cell->recording);
-  EXPECT_TRUE(ReadRecordingExtras(cell->recording->extras_json));
+  EXPECT_TRUE(ReadCaptureExtras(cell->recording->extras_json));
 
   const auto clip = ReadBvh(Find(*truth, "truth.bvh")->bytes, "truth.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());

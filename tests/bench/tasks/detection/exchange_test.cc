@@ -6,7 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/detection/scoring.h"
+#include "bench/tasks/detection/score.h"
+#include "engine/base/named.h"
 #include "tests/bench/tasks/base/mutate_json.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
 
@@ -75,7 +76,7 @@ TEST_F(DetectionExchange, TeachesWhatBuiltInRecognisersAreTaught) {
   for (std::size_t i = 0; i < repertoire.moves.size(); ++i) {
     const Json& told = (*setting.json)["moves"][i];
     const Move& move = repertoire.moves[i];
-    const std::vector<TaughtPose>& taught = repertoire.taught.at(move.name).poses;
+    const std::vector<TaughtPose>& taught = FindByName(repertoire.taught, move.name)->poses;
     EXPECT_EQ(told["name"], move.name);
     EXPECT_EQ(told["poses"].size(), move.motion.poses.size());
     EXPECT_EQ(told["file"], setting.files[i].name);

@@ -5,9 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/ik/ik_cell.h"
 #include "bench/tasks/ik/ik_task.h"
+#include "bench/tasks/ik/run.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 #include "tests/bench/tasks/base/cell_values.h"
 

@@ -5,9 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/tracking/scoring.h"
+#include "bench/tasks/tracking/score.h"
 #include "bench/tasks/tracking/tracking_task.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/base/mutate_json.h"
 #include "tests/bench/tasks/tracking/some_clips.h"

@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "bench/metrics/catalogue.h"
-#include "bench/tasks/tracking/follow.h"
-#include "bench/tasks/tracking/scoring.h"
+#include "bench/tasks/tracking/run.h"
+#include "bench/tasks/tracking/score.h"
 #include "engine/base/angles.h"
+#include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
 
@@ -158,7 +159,7 @@ TEST(Follow, AMotionIsNotLostForGoodWhereStepsAreFew) {
   for (const char* clip : {"builtin:fast_sway", "builtin:side_stretch", "builtin:jump"}) {
     const auto world = MakeTrackingWorld({}, BuiltinClipOf(clip), kWorld);
     ASSERT_TRUE(world);
-    TrackingMethod method{.name = "few", .solver = FindIkSolver("ccd-nullspace"), .options = {}};
+    TrackingMethod method{.name = "few", .solver = FindIkSolver("gauss-newton"), .options = {}};
     for (const auto& [steps, at_least] : {std::pair(5, 0.8), {10, 0.9}, {20, 0.95}}) {
       method.options.max_iterations = steps;
       const CellResult cell = ScoreTracking(*world, kJudgedRateHz, *Follow(*world, method), false);

@@ -6,11 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "bench/metrics/seam.h"
+#include "bench/metrics/transition_smoothness.h"
 #include "bench/tasks/base/pose_json.h"
-#include "bench/tasks/transition/follow.h"
-#include "engine/bridging/alignment.h"
-#include "engine/switching/choices/choice.h"
+#include "bench/tasks/transition/outcome.h"
+#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/base/mutate_json.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
@@ -40,15 +40,15 @@ class TransitionExchange : public TransitionFixture {
   static Json Facts(const CellResult& cell) { return Json::parse(cell.recording->extras_json); }
 
   /// What a method outside would say that found what this built-in one finds.
-  Json AnswerOf(const SwitchRecord& record, const Choice& choice, const std::string& join) const {
-    if (record.legs.empty()) return {{"unsolved", record.why}};
-    Json answer = {{"leave_frame", record.legs.front().last},
-                   {"enter_frame", record.legs.back().first},
+  Json AnswerOf(const TransitionRecord& record, const Choice& choice, const std::string& join) const {
+    if (record.segments.empty()) return {{"unsolved", record.why}};
+    Json answer = {{"leave_frame", record.segments.front().last},
+                   {"enter_frame", record.segments.back().first},
                    {"join", join},
                    {"matched", choice.matches_poses && record.branch != Branch::kForced}};
-    if (record.legs.size() == 2) return answer;
-    EXPECT_EQ(record.legs.size(), 3u);
-    const Leg &before = record.legs[0], &own = record.legs[1];
+    if (record.segments.size() == 2) return answer;
+    EXPECT_EQ(record.segments.size(), 3u);
+    const Segment &before = record.segments[0], &own = record.segments[1];
     const FloorMove place =
         own.in_place ? FloorMove{}
                      : AlignOnFloor(own.own[own.first], stage_.library.motions[before.clip].poses[before.last]);
@@ -64,9 +64,10 @@ class TransitionExchange : public TransitionFixture {
     return id == "direct_match" || id == "matching_share" || id == "false_smooth_share";
   }
 
-  double PoseGapAtFirstSeam(const Json& answer, const SwitchRequest& request) const {
-    const Seam seam = FollowAnswer(*ReadSwitchAnswer(answer, stage_, request), stage_, request).splice.seams.front();
-    return PoseGapCm(seam.leaving, seam.arriving);
+  double PoseGapAtFirstPoint(const Json& answer, const TransitionRequest& request) const {
+    const PlacedPoint point =
+        FollowAnswer(*ReadTransitionAnswer(answer, stage_, request), stage_, request).splice.points.front();
+    return PoseGapCm(point.leaving, point.arriving);
   }
 
   /// Judged after a way through text, as from a program.
@@ -101,12 +102,12 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
   int unsolved = 0, direct = 0, between = 0;
   for (int trial = 0; trial < 4; ++trial) {
     const auto world = task_->MakeWorld(Trial(trial), true);
-    SwitchRequest request = *DrawRequest(stage_, Trial(trial));
+    TransitionRequest request = *DrawRequest(stage_, Trial(trial));
     request.budget_s = 0.5;
     std::size_t method = 0;
     for (const Choice& choice : AllChoices()) {
-      const SwitchRecord record = choice.plan(stage_.library, request, {});
-      record.legs.empty() ? ++unsolved : record.legs.size() > 2 ? ++between : ++direct;
+      const TransitionRecord record = choice.plan(stage_.library, request, {}, {});
+      record.segments.empty() ? ++unsolved : record.segments.size() > 2 ? ++between : ++direct;
       const bool answers = choice.name != "unbroken";  // a yardstick: it stays in the clip
       for (const auto& join : AllJoins()) {
         SCOPED_TRACE(testing::Message() << "trial " << trial << ", " << choice.name << ", " << join.name);
@@ -138,7 +139,7 @@ TEST_F(TransitionExchange, JudgesABuiltInMethodsPlanAsTheMethodItself) {
 
 TEST_F(TransitionExchange, PlaysAClipOnTheWayLikeItsFramesPutBetween) {
   const auto world = task_->MakeWorld(Trial(3), true);
-  const SwitchRequest request = *DrawRequest(stage_, Trial(3));
+  const TransitionRequest request = *DrawRequest(stage_, Trial(3));
   const int way = (request.to + 1) % static_cast<int>(library_.clips.size());
   const std::vector<BodyPose>& on_the_way = stage_.library.motions[way].poses;
   const int leave = request.request_frame + 1;
@@ -165,7 +166,7 @@ TEST_F(TransitionExchange, PlaysAClipOnTheWayLikeItsFramesPutBetween) {
 
 TEST_F(TransitionExchange, TakesFramesBetweenToBeginAtASteadySpeedUnlessToldWhere) {
   const auto world = task_->MakeWorld(Trial(0), true);
-  const SwitchRequest request = *DrawRequest(stage_, Trial(0));
+  const TransitionRequest request = *DrawRequest(stage_, Trial(0));
   const BodyPose left = stage_.library.motions[request.from].poses[request.request_frame];
   const auto moved = [&](double metres) {
     BodyPose pose = left;
@@ -173,10 +174,10 @@ TEST_F(TransitionExchange, TakesFramesBetweenToBeginAtASteadySpeedUnlessToldWher
     return EncodePose(pose);
   };
   Json answer = {{"leave_frame", request.request_frame}, {"enter_frame", 0}, {"between", {moved(0.5), moved(0.6)}}};
-  EXPECT_EQ(Facts(*world->Judge(answer))["seam_frames"].size(), 2u);
-  const double steady = PoseGapAtFirstSeam(answer, request);
+  EXPECT_EQ(Facts(*world->Judge(answer))["transition_frames"].size(), 2u);
+  const double steady = PoseGapAtFirstPoint(answer, request);
   answer["between_start"] = moved(0);
-  const double told = PoseGapAtFirstSeam(answer, request);
+  const double told = PoseGapAtFirstPoint(answer, request);
   EXPECT_NEAR(steady, 40, 1e-9);
   EXPECT_NEAR(told, 0, 1e-9);
 }

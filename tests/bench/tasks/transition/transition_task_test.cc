@@ -7,10 +7,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/tasks/transition/request.h"
 #include "bench/tasks/transition/stage.h"
 #include "bench/tasks/transition/tally.h"
-#include "engine/switching/choices/choice.h"
+#include "bench/tasks/transition/world.h"
+#include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
 
 namespace etude {
@@ -67,8 +67,8 @@ TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {
   EXPECT_EQ(ValueOf(never, "matching_share"), 0);
   const Json facts = Json::parse(never.recording->extras_json);
   EXPECT_EQ(facts["branch"], "forced");
-  EXPECT_EQ(facts["switches"].size(), 2u);
-  EXPECT_EQ(facts["switches"][0]["to"], "in-between");
+  EXPECT_EQ(facts["transition_points"].size(), 2u);
+  EXPECT_EQ(facts["transition_points"][0]["to"], "in-between");
 }
 
 TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
@@ -77,18 +77,20 @@ TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
   const Choice& choice = *FindChoice("fuzzy-bridge");
   int looser = 0;
   for (int trial = 0; trial < 6; ++trial) {
-    const SwitchRequest request = *DrawRequest(stage, Trial(trial));
+    const TransitionRequest request = *DrawRequest(stage, Trial(trial));
     const TaggedClip &from = stage.library.tagged[request.from], &to = stage.library.tagged[request.to];
     std::int64_t pairs = 0;
     for (int leave : from.bridge_frames) {
       if (leave < request.request_frame || leave > request.request_frame + 30) continue;
       for (int enter : to.bridge_frames) pairs += enter < to.FrameCount() - 1 ? 1 : 0;
     }
-    const auto tally = [&](double threshold) { return TallyMatches(stage, request, choice, {.threshold = threshold}); };
+    const auto tally = [&](double threshold) {
+      return TallyMatches(stage, request, {.choice = &choice, .rules = {.threshold = threshold}});
+    };
     EXPECT_EQ(tally(0).matching, 0);
     EXPECT_EQ(tally(6).matching, pairs) << "no distance is larger";
     EXPECT_EQ(tally(0.4).pairs, pairs);
-    EXPECT_EQ(tally(0.4).matching > 0, choice.plan(stage.library, request, {}).legs.size() == 2);
+    EXPECT_EQ(tally(0.4).matching > 0, choice.plan(stage.library, request, {}, {}).segments.size() == 2);
     looser += tally(0.8).matching > tally(0.4).matching ? 1 : 0;
   }
   EXPECT_GT(looser, 0);
@@ -110,7 +112,7 @@ TEST_F(TransitionTaskTest, AsksForActsWhileMovesPlay) {
   const Stage any = SetStage(none, {.fuzzy = {}, .head = {}, .tween = {}, .asks_for_acts = true});
   std::vector<int> wanted(library.clips.size());
   for (int trial = 0; trial < 20; ++trial) {
-    const SwitchRequest request = *DrawRequest(acts, Trial(trial));
+    const TransitionRequest request = *DrawRequest(acts, Trial(trial));
     EXPECT_EQ(request.from, 1 + trial % 2);
     ++wanted[request.to];
     EXPECT_NE(DrawRequest(any, Trial(trial))->from, DrawRequest(any, Trial(trial))->to) << "no acts: any clip";
@@ -152,10 +154,10 @@ TEST_F(TransitionTaskTest, KeepsEveryCellsExplanationWhenAsked) {
     ASSERT_EQ(plain[m].series.size(), 1u);
     if (told[m].status != Status::kOk) continue;
     ASSERT_EQ(told[m].series.size(), 8u);
-    const Series &meetings = told[m].series[1], &distances = told[m].series[5], &partials = told[m].series[7];
-    EXPECT_EQ(meetings.name, "meeting_partials");
+    const Series &points = told[m].series[1], &distances = told[m].series[5], &partials = told[m].series[7];
+    EXPECT_EQ(points.name, "point_partials");
     double worst = 0;
-    for (auto ten = meetings.values.begin(); ten != meetings.values.end(); ten += kFeatureCount) {
+    for (auto ten = points.values.begin(); ten != points.values.end(); ten += kFeatureCount) {
       worst = std::max(worst, std::sqrt(std::accumulate(ten, ten + kFeatureCount, 0.0)));
     }
     EXPECT_NEAR(worst, ValueOf(told[m], "fuzzy_distance"), 1e-12);
@@ -164,7 +166,7 @@ TEST_F(TransitionTaskTest, KeepsEveryCellsExplanationWhenAsked) {
   }
 }
 
-TEST_F(TransitionTaskTest, RecordsTheSwitchWithWhatExplainsIt) {
+TEST_F(TransitionTaskTest, RecordsTheTransitionWithWhatExplainsIt) {
   const ClipLibrary library = SmallLibrary();
   const auto cells = CellsOf(**Make(kMethods, library), 0, true);
   ASSERT_TRUE(cells[0].recording);
@@ -180,14 +182,14 @@ TEST_F(TransitionTaskTest, RecordsTheSwitchWithWhatExplainsIt) {
   EXPECT_FALSE(facts["why"].get<std::string>().empty());
   for (const CellResult& cell : cells) {
     const Json told = Json::parse(cell.recording->extras_json);
-    for (const Json& change : told["switches"]) {
+    for (const Json& change : told["transition_points"]) {
       double sum = 0;
       for (const auto& [feature, part] : change["partials"].items()) sum += part.get<double>();
       EXPECT_NEAR(std::sqrt(sum), change["distance"], 1e-12);
     }
     for (const Json& candidate : told["candidates"]) {
       EXPECT_EQ(candidate["partials"].size(), kFeatureCount);
-      EXPECT_LT(candidate["meeting"], told["switches"].size());
+      EXPECT_LT(candidate["point"], told["transition_points"].size());
       EXPECT_TRUE(candidate["cost"].is_number() == !told["cost_unit"].get<std::string>().empty());
     }
     double weights = 0;

@@ -78,11 +78,11 @@ TEST(AndersonMixing, TakesNothingFromPairsThatSayTheSameTwice) {
   EXPECT_EQ(Extrapolate(mixing, x2, g2), once) << "a difference of zero changes nothing";
 }
 
-TEST(AndersonMixing, BeginsAnewAfterForgetting) {
+TEST(AndersonMixing, BeginsAnewAfterDiscarding) {
   AndersonMixing mixing(2, 3);
   const Eigen::Vector2d x(1, 2), g(1.5, 2), x2(1.5, 2), g2(1.75, 2);
   EXPECT_EQ(Extrapolate(mixing, x, g), g);
-  mixing.Forget();
+  mixing.Discard();
   EXPECT_EQ(Extrapolate(mixing, x2, g2), g2);
 }
 

@@ -13,19 +13,18 @@ namespace etude {
 /// of Y and Z, where positive angles turn Z towards −Y.
 inline KinematicTree Arm(const std::vector<double>& lengths, int dofs) {
   KinematicTree arm;
-  arm.joints = {{.name = "root", .role = Role::kShoulderCentre}};
+  arm.joints = {{.name = "root"}};
   double above = 1;
   for (const double length : lengths) {
     arm.joints.push_back({.name = "joint",
-                          .role = Role::kLeftElbow,
                           .parent = static_cast<int>(arm.joints.size()) - 1,
-                          .offset = {0, 0, above},
+                          .p_PJ = {0, 0, above},
                           .first_dof = arm.dof_count(),
                           .dof_count = dofs});
     arm.limits.insert(arm.limits.end(), static_cast<std::size_t>(dofs), {-kPi, kPi});
     above = length;
   }
-  arm.effectors = {{"tip", Role::kLeftHand, static_cast<int>(lengths.size()), {0, 0, above}}};
+  arm.effectors = {{"tip", static_cast<int>(lengths.size()), {0, 0, above}}};
   return arm;
 }
 

@@ -15,11 +15,6 @@ namespace {
 constexpr WeightRule kServedRules[] = {WeightRule::kFixed, WeightRule::kFixedTuned, WeightRule::kAdaptive,
                                        WeightRule::kAdaptiveTuned, WeightRule::kAdaptivePower};
 
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
-
 std::vector<IkProblem> SomeProblems(int count) {
   std::vector<IkProblem> problems;
   for (int trial = 0; trial < count; ++trial) {

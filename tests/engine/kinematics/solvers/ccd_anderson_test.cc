@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {
 namespace {
-
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
 
 IkProblem Problem(int trial, double noise_deg = 15) {
   return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, noise_deg);
@@ -28,17 +24,17 @@ IkOptions Options(WeightRule rule) {
   return options;
 }
 
-template <class Solve>
-int MedianSweeps(Solve solve, const IkOptions& options) {
+template <class Solve, class... Own>
+int MedianSweeps(Solve solve, const IkOptions& options, const Own&... own) {
   std::vector<int> sweeps;
-  for (int trial = 0; trial < 15; ++trial) sweeps.push_back(solve(Body(), Problem(trial), options).iterations);
+  for (int trial = 0; trial < 15; ++trial) sweeps.push_back(solve(Body(), Problem(trial), options, own...).iterations);
   std::ranges::sort(sweeps);
   return sweeps[sweeps.size() / 2];
 }
 
 TEST(CcdAnderson, NeedsFarFewerSweepsThanPlainOnes) {
   const auto ratio = [](const IkOptions& options) {
-    return 1.0 * MedianSweeps(SolveCcdHinges, options) / MedianSweeps(SolveCcdAnderson, options);
+    return 1.0 * MedianSweeps(SolveCcdHinges, options) / MedianSweeps(SolveCcdAnderson, options, CcdAndersonOptions());
   };
   EXPECT_GT(ratio(Options(WeightRule::kFixedTuned)), 4);
   EXPECT_GT(ratio(Options(WeightRule::kAdaptivePower)), 3);
@@ -50,11 +46,10 @@ TEST(CcdAnderson, NeedsFarFewerSweepsThanPlainOnes) {
 }
 
 TEST(CcdAnderson, GainsFromMemory) {
-  IkOptions options = Options(WeightRule::kFixedTuned);
-  options.tuning.memory = 1;
-  const int little = MedianSweeps(SolveCcdAnderson, options);
-  options.tuning.memory = 5;
-  EXPECT_LT(MedianSweeps(SolveCcdAnderson, options), little);
+  const auto sweeps = [](int memory) {
+    return MedianSweeps(SolveCcdAnderson, Options(WeightRule::kFixedTuned), CcdAndersonOptions{.memory = memory});
+  };
+  EXPECT_LT(sweeps(5), sweeps(1));
 }
 
 /// The largest turn of a plain sweep from these angles.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/euler.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
@@ -127,9 +128,8 @@ TEST(Ccd, TheMeritOfASweepIsThePenaltyByItsWeights) {
 
 TEST(Ccd, AWholeJointPushedBeyondHalfATurnStaysAtItsNearerLimit) {
   KinematicTree arm;
-  arm.joints = {{.name = "root", .role = Role::kShoulderCentre},
-                {.name = "ball", .role = Role::kLeftShoulder, .parent = 0, .offset = {0, 0, 1}, .dof_count = 3}};
-  arm.effectors = {{"tip", Role::kLeftElbow, 1, {0, 0, 0.5}}};
+  arm.joints = {{.name = "root"}, {.name = "ball", .parent = 0, .p_PJ = {0, 0, 1}, .dof_count = 3}};
+  arm.effectors = {{"tip", 1, {0, 0, 0.5}}};
   arm.limits = {{Radians(-50), Radians(170)}, {Radians(-80), Radians(80)}, {Radians(-70), Radians(70)}};
   TreeState truth = StandingState(arm);
   truth.angles[0] = Radians(200);

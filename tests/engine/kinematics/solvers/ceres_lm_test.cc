@@ -4,18 +4,14 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {
 namespace {
 
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
-
-IkProblem Problem(int trial, double noise_deg) {
+IkProblem PosedProblem(int trial, double noise_deg) {
   return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, noise_deg);
 }
 
@@ -43,7 +39,7 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
     IkOptions options;
     options.position_goal = options.axis_goal = 1e-9;
     for (int trial = 0; trial < 5; ++trial) {
-      IkProblem problem = Problem(trial, 5);
+      IkProblem problem = PosedProblem(trial, 5);
       for (EffectorTarget& target : problem.targets) {
         target.axis_weights = weights;
         target.position_weight = 2;
@@ -57,7 +53,7 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
 
 TEST(CeresLm, FindsTheMinimumThatDampedLeastSquaresFindsWhereTargetsContradict) {
   for (const glm::dvec3& weights : {glm::dvec3(1), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
-    IkProblem problem = Problem(1, 3);
+    IkProblem problem = PosedProblem(1, 3);
     for (EffectorTarget& target : problem.targets) target.axis_weights = weights;
     problem.targets[0].position.y -= 0.10;
     problem.targets[3].position.y += 0.40;
@@ -72,7 +68,7 @@ TEST(CeresLm, FindsTheMinimumThatDampedLeastSquaresFindsWhereTargetsContradict) 
 }
 
 TEST(CeresLm, LeavesAnglesThatCannotMove) {
-  IkProblem problem = Problem(2, 3);
+  IkProblem problem = PosedProblem(2, 3);
   const int knee = Body().joints[kTreeRightKnee].first_dof;
   problem.limits[knee].lower = problem.limits[knee].upper = problem.start.angles[knee];
   const IkSolution solution = SolveCeresLm(Body(), problem, {});
@@ -87,7 +83,7 @@ TEST(CeresLm, LeavesAnglesThatCannotMove) {
 }
 
 TEST(CeresLm, BeginsWithinTheLimits) {
-  IkProblem problem = Problem(3, 3);
+  IkProblem problem = PosedProblem(3, 3);
   for (double& angle : problem.start.angles) angle += 4;
   IkOptions options;
   options.trace = true;
@@ -100,15 +96,16 @@ TEST(CeresLm, SaysNothing) {
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   IkOptions options;
-  options.tuning.first_radius = 1e16;  // next to no damping: Ceres fails to take steps, and says so
   options.position_goal = 1e-12;
-  for (int trial = 0; trial < 5; ++trial) SolveCeresLm(Body(), Problem(trial, 60), options);
+  // Next to no damping: Ceres fails to take steps, and says so.
+  for (int trial = 0; trial < 5; ++trial)
+    SolveCeresLm(Body(), PosedProblem(trial, 60), options, {.first_radius = 1e16});
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
 TEST(CeresLm, AnswersTheSameEveryTime) {
-  const IkProblem problem = Problem(4, 30);
+  const IkProblem problem = PosedProblem(4, 30);
   EXPECT_EQ(SolveCeresLm(Body(), problem, {}).angles, SolveCeresLm(Body(), problem, {}).angles);
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 struct Linearised {
   Eigen::MatrixXd jacobian;
-  Eigen::VectorXd residuals, wish, step;
+  Eigen::VectorXd residuals, preferred, step;
 };
 
 // The step and what it is made of, at a random pose of the body.
@@ -26,11 +27,11 @@ Linearised StepAt(int trial, double noise_deg, double damping) {
                   Eigen::Map<const Eigen::VectorXd>(linear.residuals().data(), linear.rows()),
                   Eigen::VectorXd(linear.columns()),
                   {}};
-  for (int i = 0; i < linear.columns(); ++i) made.wish[i] = std::sin(3 * i + trial);
+  for (int i = 0; i < linear.columns(); ++i) made.preferred[i] = std::sin(3 * i + trial);
   DampedInverse inverse;
   inverse.Build(linear);
   std::vector<double> step;
-  EXPECT_TRUE(inverse.Step(damping, {made.wish.data(), 29}, step));
+  EXPECT_TRUE(inverse.Step(damping, {made.preferred.data(), 29}, step));
   made.step = Eigen::Map<const Eigen::VectorXd>(step.data(), 29);
   return made;
 }
@@ -44,13 +45,13 @@ TEST(DampedInverse, StepsAsThePseudoInverseBySingularValuesDoes) {
       inverse += svd.matrixV().col(i) * svd.matrixU().col(i).transpose() / svd.singularValues()[i];
     }
     const Eigen::MatrixXd null_space = Eigen::MatrixXd::Identity(29, 29) - inverse * made.jacobian;
-    const Eigen::VectorXd expected = inverse * made.residuals + null_space * made.wish;
+    const Eigen::VectorXd expected = inverse * made.residuals + null_space * made.preferred;
     EXPECT_LT((made.step - expected).norm(), 1e-7 * expected.norm()) << trial;
-    EXPECT_GT((null_space * made.wish).norm(), 0.1) << "five degrees of freedom are left to the wish";
+    EXPECT_GT((null_space * made.preferred).norm(), 0.1) << "five degrees of freedom are left to the preferred posture";
   }
 }
 
-TEST(DampedInverse, TheWishMovesNoEffector) {
+TEST(DampedInverse, ThePreferredPostureMovesNoEffector) {
   for (int trial = 0; trial < 10; ++trial) {
     const Linearised at_target = StepAt(trial, 0, 0);
     ASSERT_LT(at_target.residuals.norm(), 1e-12);
@@ -63,13 +64,13 @@ TEST(DampedInverse, TheWishMovesNoEffector) {
 
 TEST(DampedInverse, DampingShortensTheWayToTheTargets) {
   const Linearised free = StepAt(4, 15, 0), damped = StepAt(4, 15, 1);
-  EXPECT_LT((damped.step - damped.wish).norm(), (free.step - free.wish).norm());
+  EXPECT_LT((damped.step - damped.preferred).norm(), (free.step - free.preferred).norm());
   EXPECT_GT((damped.jacobian * damped.step - damped.residuals).norm(), 1e-3);
 }
 
 TEST(DampedInverse, SaysWhenThereIsNone) {
   const KinematicTree arm = Arm({0.5, 0.4}, 3);
-  const std::vector<double> no_wish(6, 0.0);
+  const std::vector<double> none_preferred(6, 0.0);
   std::vector<double> step;
   const auto has_step = [&](double elbow, double damping) {
     const IkProblem problem = Reach(arm, {0, 0, 0, elbow, 0, 0}, {0, 0, 1.5});
@@ -77,7 +78,7 @@ TEST(DampedInverse, SaysWhenThereIsNone) {
     linear.Build(ComputeFrames(arm, problem.start));
     DampedInverse inverse;
     inverse.Build(linear);
-    return inverse.Step(damping, no_wish, step);
+    return inverse.Step(damping, none_preferred, step);
   };
   EXPECT_FALSE(has_step(0, 0)) << "a stretched arm cannot move its tip along itself";
   EXPECT_TRUE(has_step(0.1, 0));

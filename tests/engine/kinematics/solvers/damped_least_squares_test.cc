@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
@@ -30,8 +31,7 @@ TEST(DampedLeastSquares, ItsFirstStepSolvesTheNormalEquations) {
     IkOptions options;
     options.limits = false;
     options.max_iterations = 1;
-    options.tuning.first_damping = 0.1;
-    const IkSolution solution = SolveDampedLeastSquares(tree, problem, options);
+    const IkSolution solution = SolveDampedLeastSquares(tree, problem, options, {.first_damping = 0.1});
 
     // The other way round: (JᵀJ + λI) Δq = Jᵀe, of 29 unknowns.
     LinearTargets linear(tree, problem.targets);
@@ -52,9 +52,8 @@ TEST(DampedLeastSquares, TurnsAHingeByDampedStepsOfBoundedLength) {
   const auto angle_after = [&](double target, double first_damping, int steps) {
     IkOptions options;
     options.max_iterations = steps;
-    options.tuning.first_damping = first_damping;
     const IkProblem problem = Reach(arm, {0}, {0, -0.5 * std::sin(target), 1 + 0.5 * std::cos(target)});
-    return SolveDampedLeastSquares(arm, problem, options).angles[0];
+    return SolveDampedLeastSquares(arm, problem, options, {.first_damping = first_damping}).angles[0];
   };
   const double first = a * std::sin(0.5) / (a + 2);
   EXPECT_NEAR(angle_after(0.5, 2, 1), first, 1e-12);

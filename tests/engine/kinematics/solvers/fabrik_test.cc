@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/euler.h"
 #include "engine/kinematics/solvers/fabrik_pass.h"
 #include "tests/engine/kinematics/posed_tree.h"
@@ -45,7 +46,7 @@ TEST(FabrikPass, DoesToAChainWhatThePaperWrites) {
       EXPECT_LT(glm::distance(pass.limbs()[i + 1].position, p[i]), 1e-12) << round << " point " << i;
     }
     frames.joints.assign(pass.limbs().begin(), pass.limbs().end());
-    EXPECT_LT(glm::distance(p[4], frames.joints[4].position + frames.joints[4].axes * arm.effectors[0].offset), 1e-12);
+    EXPECT_LT(glm::distance(p[4], frames.joints[4].position + frames.joints[4].axes * arm.effectors[0].p_LE), 1e-12);
   }
 }
 

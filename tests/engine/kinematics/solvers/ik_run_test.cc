@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {
@@ -21,9 +22,9 @@ std::vector<EffectorError> ErrorsOf(double position, double axis) {
 TEST(IkRun, CountsTheStartAsNoIteration) {
   const Trial trial;
   IkRun run(trial.tree, trial.problem, trial.options);
-  run.Note(ErrorsOf(0.5, 0.5), run.start_angles());
+  run.Record(ErrorsOf(0.5, 0.5), run.start_angles());
   EXPECT_EQ(run.iterations(), 0);
-  run.Note(ErrorsOf(0.4, 0.5), run.start_angles(), 3);
+  run.Record(ErrorsOf(0.4, 0.5), run.start_angles(), 3);
   const IkSolution solution = run.Finish(run.start_angles());
   EXPECT_EQ(solution.iterations, 1);
   EXPECT_EQ(solution.fk_evaluations, 4);
@@ -33,11 +34,11 @@ TEST(IkRun, CountsTheStartAsNoIteration) {
 TEST(IkRun, GoesOnUntilBothGoalsAreReached) {
   const Trial trial;
   IkRun run(trial.tree, trial.problem, trial.options);
-  run.Note(ErrorsOf(0.5, 0.5), run.start_angles());
+  run.Record(ErrorsOf(0.5, 0.5), run.start_angles());
   EXPECT_TRUE(run.MustGoOn());
-  run.Note(ErrorsOf(1e-4, 0.5), run.start_angles());
+  run.Record(ErrorsOf(1e-4, 0.5), run.start_angles());
   EXPECT_TRUE(run.MustGoOn()) << "the axes are off";
-  run.Note(ErrorsOf(1e-4, 1e-4), run.start_angles());
+  run.Record(ErrorsOf(1e-4, 1e-4), run.start_angles());
   EXPECT_FALSE(run.MustGoOn());
   EXPECT_EQ(run.Finish(run.start_angles()).status, IkStatus::kConverged);
 }
@@ -46,13 +47,13 @@ TEST(IkRun, TellsAStallFromAnExhaustedBudget) {
   Trial trial;
   trial.options.max_iterations = 1;
   IkRun spent(trial.tree, trial.problem, trial.options);
-  spent.Note(ErrorsOf(0.5, 0.5), spent.start_angles());
-  spent.Note(ErrorsOf(0.5, 0.5), spent.start_angles());
+  spent.Record(ErrorsOf(0.5, 0.5), spent.start_angles());
+  spent.Record(ErrorsOf(0.5, 0.5), spent.start_angles());
   EXPECT_FALSE(spent.MustGoOn());
   EXPECT_EQ(spent.Finish({}).status, IkStatus::kIterationLimit);
 
   IkRun stalled(trial.tree, trial.problem, trial.options);
-  stalled.Note(ErrorsOf(0.5, 0.5), stalled.start_angles());
+  stalled.Record(ErrorsOf(0.5, 0.5), stalled.start_angles());
   stalled.Stall();
   EXPECT_FALSE(stalled.MustGoOn());
   EXPECT_EQ(stalled.Finish({}).status, IkStatus::kStalled);
@@ -62,7 +63,7 @@ TEST(IkRun, CallsAFailureUnreachableWhenNoPoseCouldReach) {
   Trial trial;
   trial.problem.targets[3].position += glm::dvec3(0, 5, 0);
   IkRun run(trial.tree, trial.problem, trial.options);
-  run.Note(ErrorsOf(5, 0.5), run.start_angles());
+  run.Record(ErrorsOf(5, 0.5), run.start_angles());
   run.Stall();
   EXPECT_EQ(run.Finish({}).status, IkStatus::kUnreachable);
 }
@@ -83,13 +84,13 @@ TEST(IkRun, AsksForAnglesOnlyWhenTheyAreTraced) {
     return trial.problem.start.angles;
   };
   IkRun untraced(trial.tree, trial.problem, trial.options);
-  untraced.Note(ErrorsOf(0.5, 0.5), angles);
+  untraced.Record(ErrorsOf(0.5, 0.5), angles);
   EXPECT_TRUE(untraced.Finish({}).trace.empty());
   EXPECT_EQ(asked, 0);
 
   trial.options.trace = true;
   IkRun traced(trial.tree, trial.problem, trial.options);
-  traced.Note(ErrorsOf(0.5, 0.25), angles);
+  traced.Record(ErrorsOf(0.5, 0.25), angles);
   const IkSolution solution = traced.Finish({});
   EXPECT_EQ(asked, 1);
   ASSERT_EQ(solution.trace.size(), 1u);
@@ -106,7 +107,7 @@ TEST(IkRun, TracesNoMoreThanIsAskedFor) {
   IkRun run(trial.tree, trial.problem, trial.options);
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(run.Traces(), i < 2);
-    run.Note(ErrorsOf(0.5 - 0.1 * i, 0.5), run.start_angles());
+    run.Record(ErrorsOf(0.5 - 0.1 * i, 0.5), run.start_angles());
   }
   const IkSolution solution = run.Finish(run.start_angles());
   ASSERT_EQ(solution.trace.size(), 2u);
@@ -126,8 +127,8 @@ TEST(IkRun, ComesToTheSameByFramesAsByErrors) {
       std::vector<EffectorError> errors;
       MeasureErrors(frames, trial.problem.targets, errors);
       IkRun by_errors(trial.tree, trial.problem, trial.options), by_frames(trial.tree, trial.problem, trial.options);
-      by_errors.Note(errors, state.angles);
-      by_frames.NoteFrames(frames, state.angles);
+      by_errors.Record(errors, state.angles);
+      by_frames.RecordFrames(frames, state.angles);
       (by_errors.HasConverged() ? near : far) += 1;
       EXPECT_EQ(by_frames.HasConverged(), by_errors.HasConverged()) << off;
       const IkSolution a = by_errors.Finish(state.angles), b = by_frames.Finish(state.angles);

@@ -6,16 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {
 namespace {
-
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
-}
 
 // A near pose: noise that every solver gets rid of.
 IkProblem NearProblem(int trial) { return DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 3); }
@@ -186,7 +182,7 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].parent = kTreeLeftHip; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNavel].parent = -1; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeRightAnkle].first_dof = 28; },
-      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].rest[1].y = kNaN; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].R_PJ[1].y = kNaN; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[2].joint = kBodyTreeJointCount; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles[5] = kNaN; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles.pop_back(); },
@@ -200,8 +196,8 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.targets.pop_back(); },
       [](KinematicTree&, IkProblem& p, IkOptions&) { std::swap(p.limits[3].lower, p.limits[3].upper); },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.limits[3].upper = kNaN; },
-      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].offset = glm::dvec3(0); },
-      [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[1].offset.z = kNaN; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].p_PJ = glm::dvec3(0); },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[1].p_LE.z = kNaN; },
       [](KinematicTree&, IkProblem&, IkOptions& o) { o.angle_change_tolerance = -0.1; },
       [](KinematicTree&, IkProblem&, IkOptions& o) { o.max_iterations = 0; },
   };
@@ -220,9 +216,8 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
 
 TEST_P(EverySolver, EndsOnATreeThatCannotMove) {
   KinematicTree rod;
-  rod.joints = {{.name = "root", .role = Role::kLeftShoulder},
-                {.name = "fixed", .role = Role::kLeftElbow, .parent = 0, .offset = {0, 0, 1}}};
-  rod.effectors = {{"tip", Role::kLeftWrist, 1, {0, 0, 0.5}}};
+  rod.joints = {{.name = "root"}, {.name = "fixed", .parent = 0, .p_PJ = {0, 0, 1}}};
+  rod.effectors = {{"tip", 1, {0, 0, 0.5}}};
   IkProblem problem = DisturbedProblem(rod, StandingState(rod), 0, 0);
   if (!FindIkSolver(GetParam())->uses_axes) problem.targets[0].axis_weights = glm::dvec3(0);
   EXPECT_EQ(FindIkSolver(GetParam())->solve(rod, problem, IkOptions{}).status, IkStatus::kConverged);
@@ -240,9 +235,35 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()
 });
 
 TEST(Solvers, AreFoundByName) {
-  EXPECT_THAT(IkSolverNames(), testing::IsSupersetOf({"ccd", "ccd-hinges", "ccd-nullspace", "damped-least-squares",
+  EXPECT_THAT(IkSolverNames(), testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "damped-least-squares",
                                                       "jacobian-pinv", "jacobian-transpose", "fabrik"}));
   EXPECT_EQ(FindIkSolver("cdc"), nullptr);
+}
+
+TEST(Solvers, TellTheNewNameOfOneThatWasRenamed) {
+  EXPECT_EQ(FindIkSolver("ccd-nullspace"), nullptr);
+  EXPECT_EQ(NewNameOfIkSolver("ccd-nullspace"), "gauss-newton");
+  EXPECT_NE(FindIkSolver(NewNameOfIkSolver("ccd-nullspace")), nullptr);
+  EXPECT_EQ(NewNameOfIkSolver("gauss-newton"), "");
+}
+
+TEST(Solvers, TakeTheirSettingsInTheOrderInWhichTheyAreDescribed) {
+  int settings = 0;
+  for (const IkSolver& solver : AllIkSolvers()) {
+    IkOptions by_default = PatientOptions(), described = by_default;
+    by_default.max_iterations = described.max_iterations = 8;
+    for (const NumberSetting& setting : solver.settings) described.solver_settings.push_back(setting.fallback);
+    const std::vector<double> angles = solver.solve(Body(), FarProblem(1), by_default).angles;
+    EXPECT_EQ(solver.solve(Body(), FarProblem(1), described).angles, angles) << solver.name;
+    for (std::size_t i = 0; i < solver.settings.size(); ++i, ++settings) {
+      const NumberSetting& setting = solver.settings[i];
+      EXPECT_TRUE(setting.fallback >= setting.lowest && setting.fallback <= setting.largest) << setting.key;
+      IkOptions changed = described;
+      changed.solver_settings[i] = setting.fallback == setting.largest ? setting.lowest : setting.largest;
+      EXPECT_NE(solver.solve(Body(), FarProblem(1), changed).angles, angles) << solver.name << ", " << setting.key;
+    }
+  }
+  EXPECT_EQ(settings, 6);
 }
 
 }  // namespace

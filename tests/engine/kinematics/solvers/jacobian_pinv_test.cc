@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
 
@@ -30,8 +31,7 @@ TEST(JacobianPinv, NeedsDampingWhereLimbsCannotLeaveAPlane) {
   const IkProblem problem = Reach(arm, {0.5, 1.4}, TwoHingeTip(0.5, 0.4, 0.7, 1.2));
   IkOptions options;
   EXPECT_EQ(SolveJacobianPinv(arm, problem, options).status, IkStatus::kStalled);
-  options.tuning.pinv_damping = 1e-6;
-  EXPECT_EQ(SolveJacobianPinv(arm, problem, options).status, IkStatus::kConverged);
+  EXPECT_EQ(SolveJacobianPinv(arm, problem, options, {.damping = 1e-6}).status, IkStatus::kConverged);
 }
 
 TEST(JacobianPinv, StallsWhereTheInverseDoesNotExist) {
@@ -39,9 +39,7 @@ TEST(JacobianPinv, StallsWhereTheInverseDoesNotExist) {
   const KinematicTree arm = Arm({0.5, 0.4}, 3);
   const IkProblem problem = Reach(arm, std::vector<double>(6, 0.0), {0, 0, 1.5});
   for (const double damping : {0.0, 0.1}) {
-    IkOptions options;
-    options.tuning.pinv_damping = damping;
-    const IkSolution solution = SolveJacobianPinv(arm, problem, options);
+    const IkSolution solution = SolveJacobianPinv(arm, problem, {}, {.damping = damping});
     EXPECT_EQ(solution.status, IkStatus::kStalled);
     EXPECT_EQ(solution.angles, problem.start.angles);
     EXPECT_EQ(solution.iterations, damping > 0 ? 1 : 0);
@@ -50,11 +48,11 @@ TEST(JacobianPinv, StallsWhereTheInverseDoesNotExist) {
   EXPECT_EQ(SolveJacobianPinv(arm, Reach(arm, {0, 0, 0, 0.3, 0, 0}, {0, 0, 1.5}), {}).status, IkStatus::kConverged);
 }
 
-TEST(JacobianPinv, StaysNearerToTheStartThanStepsWithoutAWish) {
+TEST(JacobianPinv, StaysNearerToTheStartThanStepsWithoutAPreferredPosture) {
   const KinematicTree tree = MakeBodyTree({});
   IkOptions options;
   options.limits = false;
-  double with_wish = 0, without = 0;
+  double with_posture = 0, without = 0;
   for (int trial = 0; trial < 10; ++trial) {
     const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.5), trial, 15);
     const auto square = [&](const std::vector<double>& angles) {
@@ -64,7 +62,7 @@ TEST(JacobianPinv, StaysNearerToTheStartThanStepsWithoutAWish) {
     };
     const IkSolution solution = SolveJacobianPinv(tree, problem, options);
     ASSERT_EQ(solution.status, IkStatus::kConverged) << trial;
-    with_wish += square(solution.angles);
+    with_posture += square(solution.angles);
     // The same steps, each starting afresh.
     IkProblem problem_now = problem;
     IkOptions one_step = options;
@@ -74,7 +72,7 @@ TEST(JacobianPinv, StaysNearerToTheStartThanStepsWithoutAWish) {
     }
     without += square(problem_now.start.angles);
   }
-  EXPECT_LT(with_wish, without);
+  EXPECT_LT(with_posture, without);
 }
 
 }  // namespace

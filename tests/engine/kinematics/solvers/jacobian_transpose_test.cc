@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/arms.h"
@@ -13,11 +14,11 @@ namespace etude {
 namespace {
 
 // The sum of squares after every iteration.
-std::vector<double> Costs(const KinematicTree& tree, const IkProblem& problem, IkOptions options) {
+std::vector<double> Costs(const KinematicTree& tree, const IkProblem& problem, IkOptions options, double gain = 1) {
   options.trace = true;
   const LinearTargets linear(tree, problem.targets);
   std::vector<double> costs;
-  for (const IkTraceEntry& entry : SolveJacobianTranspose(tree, problem, options).trace) {
+  for (const IkTraceEntry& entry : SolveJacobianTranspose(tree, problem, options, {.gain = gain}).trace) {
     TreeState state = problem.start;
     state.angles = entry.angles;
     costs.push_back(linear.Cost(ComputeFrames(tree, state)));
@@ -31,9 +32,9 @@ TEST(JacobianTranspose, OneHingeTurnsByItsTorqueOverTheSquareOfItsLever) {
   for (const double gain : {1.0, 0.25}) {
     IkOptions options;
     options.max_iterations = 1;
-    options.tuning.gain = gain;
     // J is the lever, 0.5 m across the limb; of dX only what lies along J counts: 0.5 m times the sine of 0.2 rad.
-    EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options).angles[0], 0.3 + gain * std::sin(0.2), 1e-12);
+    EXPECT_NEAR(SolveJacobianTranspose(arm, problem, options, {.gain = gain}).angles[0], 0.3 + gain * std::sin(0.2),
+                1e-12);
   }
 }
 
@@ -79,8 +80,7 @@ TEST(JacobianTranspose, TooLongStepsRaiseTheSumOfSquares) {
   IkOptions options;
   options.limits = false;
   options.max_iterations = 100;
-  options.tuning.gain = 2.5;
-  const std::vector<double> costs = Costs(tree, DisturbedProblem(tree, RandomPose(tree, 0, 0.5), 0, 3), options);
+  const std::vector<double> costs = Costs(tree, DisturbedProblem(tree, RandomPose(tree, 0, 0.5), 0, 3), options, 2.5);
   EXPECT_GT(*std::max_element(costs.begin() + 1, costs.end()), costs[0]) << "else monotony proves nothing";
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/euler.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
@@ -43,10 +44,10 @@ TEST(MomentSweep, TurnsEveryAngleLikeTheSweepThatGoesFromEffectorToEffector) {
 
 TEST(MomentSweep, KnowsTreesWhoseLimbsRestAskewAndCarryEffectorsAnywhere) {
   KinematicTree tree = MakeBodyTree({});
-  for (TreeJoint& joint : tree.joints) joint.rest *= RotationXyz({0.3, -0.4, 0.2});
-  tree.effectors.push_back({"left_palm", Role::kLeftHand, kTreeLeftWrist, {0.05, 0.02, 0.1}});
-  tree.effectors.push_back({"chest", Role::kShoulderCentre, kTreeNavel, {0, 0.1, 0.4}});
-  tree.effectors.push_back({"elbow", Role::kRightElbow, kTreeRightElbow, {0.03, 0, 0.01}});
+  for (TreeJoint& joint : tree.joints) joint.R_PJ *= RotationXyz({0.3, -0.4, 0.2});
+  tree.effectors.push_back({"left_palm", kTreeLeftWrist, {0.05, 0.02, 0.1}});
+  tree.effectors.push_back({"chest", kTreeNavel, {0, 0.1, 0.4}});
+  tree.effectors.push_back({"elbow", kTreeRightElbow, {0.03, 0, 0.01}});
   for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kAdaptivePower}) {
     EXPECT_LT(LargestDifference(tree, rule, true, 10), 1e-9) << WeightRuleNames()[static_cast<int>(rule)];
   }

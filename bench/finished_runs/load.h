@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "bench/gate/finished_run.h"
+
+namespace etude {
+
+/// Reads a result folder with its scenarios and times. A run that is under way or was interrupted has no data,
+/// only the reason. Fails like LoadRun, and when cells.jsonl holds a row twice or one that the manifest has not.
+Result<FinishedRun> LoadFinishedRun(const std::filesystem::path& folder);
+
+}  // namespace etude

@@ -1,0 +1,27 @@
+#include "bench/model/cell_result.h"
+
+namespace etude {
+
+std::string_view StatusName(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return "ok";
+    case Status::kUnsolved:
+      return "unsolved";
+    case Status::kFailed:
+      return "failed";
+    case Status::kTimeout:
+      return "timeout";
+    case Status::kCrashed:
+      return "crashed";
+    case Status::kOutOfMemory:
+      return "out_of_memory";
+    case Status::kBadOutput:
+      return "bad_output";
+    case Status::kSkipped:
+      return "skipped";
+  }
+  return "failed";
+}
+
+}  // namespace etude

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/files/json.h"
+
+namespace etude {
+
+/// A file that goes with a problem or its truth, such as a picture.
+struct Attachment {
+  std::string name;  ///< as the JSON beside it names it: a plain file name
+  std::string bytes;
+};
+
+/// What a method outside the program is given of a world, or what is true about it (docs/outside-methods.md).
+struct Payload {
+  JsonPtr json;  ///< never null
+  std::vector<Attachment> files;
+};
+
+Payload PayloadOf(Json json, std::vector<Attachment> files = {});
+
+}  // namespace etude

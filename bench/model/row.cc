@@ -1,0 +1,34 @@
+#include "bench/model/row.h"
+
+#include <fmt/core.h>
+
+namespace etude {
+namespace {
+
+std::string LabelOf(const std::vector<SweptValue>& condition, std::string_view separator) {
+  std::string label;
+  for (const SweptValue& swept : condition) {
+    if (!label.empty()) label += separator;
+    label += swept.key + "=" + swept.value;
+  }
+  return label;
+}
+
+}  // namespace
+
+std::string CompactLabel(const std::vector<SweptValue>& condition) {
+  return condition.empty() ? "-" : LabelOf(condition, ",");
+}
+
+std::string ConditionLabel(const std::vector<SweptValue>& condition) { return LabelOf(condition, ", "); }
+
+std::string Row::Id() const { return fmt::format("{}/{}/{:03}/{}", scenario, CompactLabel(condition), trial, method); }
+
+std::optional<double> ValueOf(const Row& row, std::string_view metric) {
+  for (const MetricValue& value : row.result.metrics) {
+    if (value.id == metric) return value.value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace etude

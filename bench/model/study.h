@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/model/row.h"
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// What a scenario says should come out: judged after the run, shown in the report.
+struct Expectation {
+  std::string metric;
+  std::string of;                           ///< the method judged
+  std::string below, above;                 ///< the method it is compared with on the same worlds; at most one is set
+  std::optional<double> at_most, at_least;  ///< or the bound its statistic must keep
+  std::string statistic = "median";         ///< median, mean or p95; for bounds
+  double confidence = 0.95;                 ///< of a comparison: its interval, and 1 − the level of its test
+  std::vector<SweptValue> where;            ///< judged in these conditions only; empty = in all of them
+  Place place;
+};
+
+/// A ratio of processor times measured in the same run, the only way in which times are judged.
+struct TimeRatio {
+  std::string of, over;  ///< methods
+  double at_most = 1;    ///< of the median of paired ratios
+  Place place;
+};
+
+/// What `etude gate` holds against a baseline, for one scenario.
+struct GateRules {
+  std::vector<std::string> metrics;  ///< the headline metrics when the file names none
+  bool exact = false;                ///< every difference is a regression; else only one that matters (threshold)
+  std::vector<TimeRatio> time_ratios;
+};
+
+/// One of the methods compared.
+struct ComparedMethod {
+  std::string name;
+  std::string against;  ///< the method it is compared with; the first is its own
+};
+
+/// What a scenario compares and what it expects, without how its worlds are made: all that judging its rows takes.
+struct Study {
+  std::string scenario;
+  std::string task;
+  std::string question;
+  int trials = 1;
+  std::vector<ComparedMethod> methods;              ///< at least one
+  std::vector<std::vector<SweptValue>> conditions;  ///< at least one
+  std::vector<std::string> metrics;                 ///< headline metrics, most important first
+  std::vector<Expectation> expectations;
+  GateRules gate;
+};
+
+}  // namespace etude

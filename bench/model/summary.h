@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/model/row.h"
+
+namespace etude {
+
+/// How an interval was computed (bench/statistics/bootstrap.h, proportion.h).
+enum class IntervalKind {
+  kNone,
+  kBca,           ///< bias-corrected and accelerated bootstrap
+  kPercentile,    ///< bootstrap whose correction is undefined, e.g. of values that are all the same
+  kWilson,        ///< score interval of a share
+  kAdjustedWald,  ///< Bonett and Price's, of the difference of two shares on the same worlds
+};
+std::string_view IntervalKindName(IntervalKind kind);
+
+/// One metric of one method over the trials of one condition.
+struct MetricSummary {
+  std::string id;
+  int present = 0;
+  int missing = 0;  ///< cells without a value, whatever the reason
+  std::optional<double> median, mean;
+  std::optional<double> ci_low, ci_high;  ///< 95 % interval of the metric's own aggregate (MetricInfo)
+  IntervalKind interval = IntervalKind::kNone;
+};
+
+struct MethodSummary {
+  std::string method;
+  std::vector<std::pair<Status, int>> statuses;  ///< how many cells ended in each, zero ones left out
+  std::vector<MetricSummary> metrics;
+  int ok = 0;                             ///< cells of status ok …
+  int attempted = 0;                      ///< … of all but the skipped ones: failures stay in the denominator
+  std::optional<double> ok_low, ok_high;  ///< 95 % Wilson interval of ok / attempted
+};
+
+enum class Verdict { kBetter, kWorse, kNoDifference, kInconclusive };
+std::string_view VerdictName(Verdict verdict);
+
+/// A test of paired differences (bench/statistics/paired_tests.h).
+struct PairedTest {
+  std::optional<double> p;  ///< two-sided; nothing without pairs
+  std::string how;          ///< "exact", "normal approximation", "9,999 draws"
+};
+
+/// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares and
+/// penalised costs) of the paired differences method − baseline.
+struct Comparison {
+  std::string metric;
+  std::string baseline;
+  std::string method;
+  int pairs = 0;                                        ///< worlds in which both have a value
+  int differing = 0;                                    ///< of the pairs, those whose values differ
+  int only_baseline = 0, only_method = 0, neither = 0;  ///< worlds without a pair: who has a value there
+  std::optional<double> difference, ci_low, ci_high;    ///< 95 % interval, pairs resampled
+  IntervalKind interval = IntervalKind::kNone;
+  std::optional<double> mean, mean_low, mean_high;  ///< of the same differences, whatever the metric's aggregate
+  PairedTest signed_rank;                           ///< Wilcoxon's; decides where the aggregate is the median
+  PairedTest sign_flip;                             ///< of the aggregate; decides where it is the mean
+  std::optional<double> p_holm;       ///< the deciding p, corrected over the scenario's comparisons (Holm)
+  double share_better = 0;            ///< of the pairs, ties count half
+  std::optional<double> effect_size;  ///< rank-biserial correlation, −1…1; positive speaks for `method`, or, without
+                                      ///< a direction, for larger values
+  Verdict verdict = Verdict::kInconclusive;
+  std::string why_open;            ///< when it is inconclusive: what is lacking, in words, if that can be named
+  std::vector<std::string> notes;  ///< what else to know before believing the figures, in words
+};
+
+struct ConditionSummary {
+  std::vector<SweptValue> condition;
+  std::vector<MethodSummary> methods;
+  std::vector<Comparison> comparisons;  ///< every method against its baseline, headline metrics
+};
+
+/// Whether something that was said to come out did: an expectation, a time rule.
+enum class Ruling { kMet, kUnmet, kUndecided };
+std::string_view RulingName(Ruling ruling);
+
+/// What a scenario said it expects, and whether it came so.
+struct ExpectationResult {
+  std::string text;  ///< "orientation_error_deg of adaptive below fixed"
+  Ruling ruling = Ruling::kUndecided;
+  std::string detail;  ///< the figures that decided it
+};
+
+struct ScenarioSummary {
+  std::string name;
+  std::string task;
+  std::string question;
+  std::vector<std::string> methods;
+  std::vector<std::string> headline_metrics;
+  std::vector<ConditionSummary> conditions;
+  std::vector<ExpectationResult> expectations;
+  int family = 0;  ///< comparisons in all conditions and headline metrics, over which Holm's correction runs
+};
+
+}  // namespace etude

@@ -1,0 +1,152 @@
+#include "bench/recordings/capture_extras.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+namespace etude {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kFormat = "etude-capture";
+constexpr int kVersion = 1;
+constexpr int kLargestSide = 4096;  // pixels
+
+Json ToJson(const CaptureExtras::View& view) {
+  const Intrinsics& in = view.truth.intrinsics;
+  Json rotation = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) rotation.push_back(view.truth.R_CW[column][row]);
+  }
+  Json masks = Json::array();
+  for (const Mask& mask : view.masks) masks.push_back(EncodeMask(mask));
+  const glm::dvec3& p = view.truth.p_WC;
+  return {{"width", in.width},
+          {"height", in.height},
+          {"fx", in.fx},
+          {"fy", in.fy},
+          {"cx", in.cx},
+          {"cy", in.cy},
+          {"skew", in.skew},
+          {"R_CW", std::move(rotation)},
+          {"p_WC", {p.x, p.y, p.z}},
+          {"mask_width", view.masks.empty() ? 0 : view.masks[0].width},
+          {"mask_height", view.masks.empty() ? 0 : view.masks[0].height},
+          {"masks", std::move(masks)}};
+}
+
+Result<CaptureExtras::View> ToView(const Json& json) {
+  CaptureExtras::View view;
+  Intrinsics& in = view.truth.intrinsics;
+  in = {json.at("width"), json.at("height"), json.at("fx"),  json.at("fy"),
+        json.at("cx"),    json.at("cy"),     json.at("skew")};
+  for (int i = 0; i < 9; ++i) view.truth.R_CW[i % 3][i / 3] = json.at("R_CW").at(i);
+  for (int i = 0; i < 3; ++i) view.truth.p_WC[i] = json.at("p_WC").at(i);
+  const int width = json.at("mask_width"), height = json.at("mask_height");
+  for (const Json& text : json.at("masks")) {
+    ASSIGN_OR_RETURN(auto mask, DecodeMask(text.get_ref<const std::string&>(), width, height));
+    view.masks.push_back(std::move(mask));
+  }
+  return view;
+}
+
+Result<CaptureExtras> ToExtras(const Json& json) {
+  if (json.at("format") != kFormat || json.at("version") != kVersion) {
+    return Fail({}, "a capture recording of format {} version {}; this program reads {} version {}",
+                json.at("format").dump(), json.at("version").dump(), kFormat, kVersion);
+  }
+  CaptureExtras extras;
+  extras.texture_seed = json.at("room").at("texture_seed");
+  extras.casts_shadows = json.at("room").at("casts_shadows");
+  for (std::size_t i = 0; i < extras.colours.size(); ++i) {
+    const Json& colour = json.at("colours").at(i);
+    extras.colours[i] = {colour.at(0), colour.at(1), colour.at(2)};
+  }
+  extras.brightness = json.at("brightness").get<std::vector<double>>();
+  for (const Json& camera : json.at("cameras")) {
+    ASSIGN_OR_RETURN(auto view, ToView(camera));
+    if (view.masks.size() != extras.brightness.size()) {
+      return Fail({}, "a capture recording with {} frames of light and {} masks", extras.brightness.size(),
+                  view.masks.size());
+    }
+    extras.views.push_back(std::move(view));
+  }
+  extras.bvh = json.at("bvh");
+  return extras;
+}
+
+}  // namespace
+
+std::string WriteCaptureExtras(const CaptureExtras& extras) {
+  Json colours = Json::array();
+  for (const Rgb8& colour : extras.colours) colours.push_back({colour.r, colour.g, colour.b});
+  Json cameras = Json::array();
+  for (const CaptureExtras::View& view : extras.views) cameras.push_back(ToJson(view));
+  const Json json = {{"format", kFormat},
+                     {"version", kVersion},
+                     {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
+                     {"colours", std::move(colours)},
+                     {"brightness", extras.brightness},
+                     {"cameras", std::move(cameras)},
+                     {"bvh", extras.bvh}};
+  return json.dump();
+}
+
+Result<CaptureExtras> ReadCaptureExtras(std::string_view text) {
+  try {
+    return ToExtras(Json::parse(text));
+  } catch (const Json::exception& error) {
+    return Fail({}, "no readable capture recording: {}", error.what());
+  }
+}
+
+std::string EncodeMask(const Mask& mask) {
+  std::string text;
+  std::size_t begin = 0;
+  bool value = false;
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+    if ((mask.pixels[i] != 0) == value) continue;
+    text += (text.empty() ? "" : " ") + std::to_string(i - begin);
+    begin = i;
+    value = !value;
+  }
+  if (value) text += " " + std::to_string(mask.pixels.size() - begin);
+  return text;
+}
+
+Result<Mask> DecodeMask(std::string_view text, int width, int height) {
+  if (width < 0 || height < 0 || width > kLargestSide || height > kLargestSide) {
+    return Fail({}, "a mask of {} × {} pixels; at most {} a side", width, height, kLargestSide);
+  }
+  Mask mask(width, height);
+  std::size_t at = 0;
+  bool value = false;
+  const char* next = text.data();
+  const char* const end = next + text.size();
+  while (next != end) {
+    std::size_t run = 0;
+    const auto [rest, error] = std::from_chars(next, end, run);
+    if (error != std::errc() || (rest != end && *rest != ' ') || run > mask.pixels.size() - at) {
+      return Fail({}, "a mask whose run lengths are no numbers or exceed {} × {} pixels", width, height);
+    }
+    std::fill_n(mask.pixels.begin() + static_cast<std::ptrdiff_t>(at), run, static_cast<std::uint8_t>(value));
+    at += run;
+    value = !value;
+    next = rest == end ? end : rest + 1;
+  }
+  return mask;
+}
+
+Mask HalveMask(const Mask& mask) {
+  Mask half(mask.width / 2, mask.height / 2);
+  for (int y = 0; y < half.height; ++y) {
+    for (int x = 0; x < half.width; ++x) {
+      const int set =
+          mask.At(2 * x, 2 * y) + mask.At(2 * x + 1, 2 * y) + mask.At(2 * x, 2 * y + 1) + mask.At(2 * x + 1, 2 * y + 1);
+      half.At(x, y) = set >= 2;
+    }
+  }
+  return half;
+}
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/base/result.h"
+#include "engine/cameras/camera.h"
+
+namespace etude {
+
+/// What a recording of the `capture` task holds beside its tracks "truth" and "recovered" (both at
+/// 30 Hz, frame k of the tracks belongs to frame k here): enough to draw the stereo views again.
+/// To show frame k of camera c: render the truth, dressed in `colours`, in Room{texture_seed, brightness[k],
+/// casts_shadows} as seen by cameras[c].truth, lay masks[k] over it, and project the recovered joints with
+/// MatrixOf(cameras[c].truth).
+///
+/// As JSON (what `Recording::extras_json` holds):
+///
+///     {"format": "etude-capture", "version": 1,
+///      "room": {"texture_seed": 7, "casts_shadows": true},
+///      "colours": [[r, g, b], …],                          sixteen, by Part: Figure::colours
+///      "brightness": [1.0, 1.01, …],                       one per frame
+///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,
+///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
+///                   "mask_width": 320, "mask_height": 240,
+///                   "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
+///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
+struct CaptureExtras {
+  struct View {
+    Camera truth;             ///< the camera that took the pictures
+    std::vector<Mask> masks;  ///< the person as found, one per frame, at half the pictures' size
+  };
+
+  std::uint64_t texture_seed = 1;
+  bool casts_shadows = true;
+  std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  std::vector<double> brightness;  ///< one per frame
+  std::vector<View> views;
+  std::string bvh;
+};
+
+std::string WriteCaptureExtras(const CaptureExtras& extras);
+/// Fails when `json` is not what WriteCaptureExtras writes, naming what is missing or wrong.
+Result<CaptureExtras> ReadCaptureExtras(std::string_view json);
+
+/// Run lengths in scan order, separated by blanks: that many 0s, then that many 1s, then 0s, … The last
+/// run of 0s is left out, so an empty mask is the empty text.
+std::string EncodeMask(const Mask& mask);
+Result<Mask> DecodeMask(std::string_view text, int width, int height);
+
+/// Half the size: a pixel is set when at least two of its four are.
+Mask HalveMask(const Mask& mask);
+
+}  // namespace etude

@@ -1,0 +1,20 @@
+#include "bench/scenario/study_of.h"
+
+namespace etude {
+
+Study StudyOf(const Scenario& scenario) {
+  Study study{.scenario = scenario.name,
+              .task = scenario.task,
+              .question = scenario.question,
+              .trials = scenario.trials,
+              .methods = {},
+              .conditions = {},
+              .metrics = scenario.metrics,
+              .expectations = scenario.expectations,
+              .gate = scenario.gate};
+  for (const MethodEntry& method : scenario.methods) study.methods.push_back({method.name, method.against});
+  for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
+  return study;
+}
+
+}  // namespace etude

@@ -1,0 +1,44 @@
+#include "bench/tasks/capture/recording.h"
+
+#include "bench/recordings/capture_extras.h"
+#include "engine/formats/bvh.h"
+#include "engine/motion/from_body.h"
+
+namespace etude {
+namespace {
+
+CaptureExtras DescribeStage(const CaptureWorld& world) {
+  CaptureExtras extras;
+  extras.texture_seed = world.room.texture_seed;
+  extras.casts_shadows = world.room.casts_shadows;
+  extras.colours = world.colours;
+  extras.brightness = world.brightness;
+  return extras;
+}
+
+}  // namespace
+
+Recording MakeRecording(const CaptureWorld& world, const Observation& observation,
+                        const std::vector<RecoveredFrame>& frames, const std::string& name) {
+  Track truth{"truth", {kJudgedRateHz, world.truth}}, recovered{"recovered", {kJudgedRateHz, {}}};
+  for (const RecoveredFrame& frame : frames) recovered.motion.poses.push_back(frame.pose);
+  CaptureExtras extras = DescribeStage(world);
+  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+    extras.views.push_back({world.cameras[i], observation.masks[i]});
+  }
+  extras.bvh = WriteBvh(ToClip(world.lengths, frames, kJudgedRateHz, name));
+  return {{std::move(truth), std::move(recovered)}, WriteCaptureExtras(extras)};
+}
+
+Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
+  const BodyMotion found{kJudgedRateHz, poses};
+  CaptureExtras extras = DescribeStage(world);
+  for (const Camera& camera : world.cameras) {
+    const Mask nothing(camera.intrinsics.width / 2, camera.intrinsics.height / 2);
+    extras.views.push_back({camera, std::vector<Mask>(poses.size(), nothing)});
+  }
+  extras.bvh = WriteBvh(ToClip(found, "recovered"));
+  return {{{"truth", {kJudgedRateHz, world.truth}}, {"recovered", found}}, WriteCaptureExtras(extras)};
+}
+
+}  // namespace etude

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/capture/film.h"
+#include "bench/tasks/capture/world.h"
+#include "engine/capture/recover_frames.h"
+
+namespace etude {
+
+/// The recording of a built-in method's motion, with its masks (bench/recordings/capture_extras.h). `name`: its BVH clip's.
+Recording MakeRecording(const CaptureWorld& world, const Observation& observation,
+                        const std::vector<RecoveredFrame>& frames, const std::string& name);
+
+/// What an answer alone can show: nothing was cut out, and no joint of its BVH clip turns.
+Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses);
+
+}  // namespace etude

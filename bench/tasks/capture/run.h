@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/stages.h"
+#include "engine/capture/recover_frames.h"
+
+namespace etude {
+
+/// What every stage of a built-in method made of a world. References lead into the CaptureStages that it was run on.
+struct CaptureRun {
+  const CaptureMethod& method;
+  const CalibratedCameras& cameras;
+  const Take& take;
+  const Observation& observation;
+  const MeasuredTake& measured;
+  std::vector<std::optional<RecoveredFrame>> frames;
+};
+
+/// Runs one method in one world. Fails, saying why, when a camera cannot be calibrated or there is no renderer.
+Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method);
+
+}  // namespace etude

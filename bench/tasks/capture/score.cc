@@ -1,0 +1,196 @@
+#include "bench/tasks/capture/score.h"
+
+#include <algorithm>
+
+#include "bench/metrics/measurement.h"
+#include "bench/metrics/pose_error.h"
+#include "bench/metrics/share.h"
+#include "bench/tasks/capture/recording.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+void ReportMasks(const MaskScore& score, CellResult& cell) {
+  cell.MeasureOr("iou", score.iou, "no picture shows or finds a person");
+  cell.MeasureOr("mask_precision", score.precision, "nobody was found in any picture");
+  cell.MeasureOr("mask_recall", score.recall, "no picture shows a person");
+  cell.MeasureOr("mask_f1", score.f1, "no picture shows or finds a person");
+  cell.MeasureOr("shadow_error", score.shadow_error, "no picture shows a shadow");
+}
+
+void Add(const BodyPose& pose, Digest& digest) {
+  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+}
+
+void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured, CellResult& cell) {
+  std::vector<Sighted> limbs, ends;
+  for (std::size_t k = 0; k < world.truth.size(); ++k) {
+    const FrameMeasurement& found = measured.frames[k];
+    const FrameMeasurement truth = TrueMeasurement(world.truth[k]);
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      limbs.push_back({found.directions[i], truth.directions[i]});
+      ends.push_back({found.ends[i], truth.ends[i]});
+    }
+  }
+  const MeasuredError directions = LimbDirectionErrorDeg(limbs), points = TriangulationErrorMm(ends);
+  cell.MeasureOr("limb_direction_error_deg", directions.mean, "no limb was marked in both pictures");
+  cell.MeasureOr("limb_direction_coverage", directions.coverage, "no limb has a direction");
+  cell.MeasureOr("triangulation_error_mm", points.mean, "no end effector was marked in both pictures");
+  cell.MeasureOr("triangulation_coverage", points.coverage, "there are no end effectors");
+}
+
+void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& cell) {
+  cell.digests = {{"calibration", run.cameras.digest},
+                  {"pictures", run.take.pictures_digest},
+                  {"masks", run.observation.masks_digest},
+                  {"marks", run.observation.marks_digest},
+                  {"directions", run.measured.directions_digest},
+                  {"points", run.measured.points_digest}};
+  cell.Measure("reprojection_rms_px", run.cameras.reprojection_rms_px);
+  ReportMasks(run.observation.score, cell);
+  ReportMeasurements(world, run.measured, cell);
+}
+
+// "the left hand was never marked in both pictures", for the first thing that is never measured.
+std::string ReasonForNoSkeleton(std::span<const FrameMeasurement> frames) {
+  auto never = [&](auto member, Role role) {
+    return std::none_of(frames.begin(), frames.end(),
+                        [&](const FrameMeasurement& frame) { return (frame.*member)[Index(role)].has_value(); });
+  };
+  for (const EffectorMark& mark : EffectorMarks()) {
+    if (never(&FrameMeasurement::ends, mark.role)) {
+      return fmt::format("no skeleton: {} was never marked in both pictures", RoleName(mark.role));
+    }
+  }
+  for (const StrokeMark& mark : StrokeMarks()) {
+    if (never(&FrameMeasurement::directions, mark.to)) {
+      return fmt::format("no skeleton: the direction of the limb to {} was never seen in both pictures",
+                         RoleName(mark.to));
+    }
+  }
+  return "no skeleton: no frame has all its marks within half a second, or its limbs fit no body";
+}
+
+constexpr const char* kNoStages = "only a built-in method's stages tell";
+
+constexpr std::array kStageMetrics = {"reprojection_rms_px",
+                                      "iou",
+                                      "mask_precision",
+                                      "mask_recall",
+                                      "mask_f1",
+                                      "shadow_error",
+                                      "limb_direction_error_deg",
+                                      "limb_direction_coverage",
+                                      "triangulation_error_mm",
+                                      "triangulation_coverage"};
+
+constexpr std::array kPoseMetrics = {"mpjpe_mm",  "mpjpe_before_ik_mm",   "pa_mpjpe_mm",      "pck_50mm",
+                                     "auc_200mm", "bone_length_error_cm", "position_error_cm"};
+
+/// The errors of final poses; those before inverse kinematics only where there were such.
+void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellResult& cell) {
+  cell.Measure("mpjpe_mm", after.mpjpe_mm);
+  if (before != nullptr) {
+    cell.Measure("mpjpe_before_ik_mm", before->mpjpe_mm);
+  } else {
+    cell.Missing("mpjpe_before_ik_mm", kNoStages);
+  }
+  cell.Measure("pa_mpjpe_mm", after.pa_mpjpe_mm);
+  cell.Measure("pck_50mm", after.pck_50mm);
+  cell.Measure("auc_200mm", after.auc_200mm);
+  cell.Measure("bone_length_error_cm", after.bone_length_error_cm);
+  cell.series.push_back({"mpjpe_mm", "frame", after.frame_mpjpe_mm});
+  if (before != nullptr) cell.series.push_back({"mpjpe_before_ik_mm", "frame", before->frame_mpjpe_mm});
+}
+
+/// From the end effectors to where they were seen, mean over the frames in which they were.
+double MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
+  constexpr double kCmPerMetre = 100;
+  double of_frames = 0;
+  int count = 0;
+  for (const RecoveredFrame& frame : frames) {
+    if (frame.errors.empty()) continue;
+    double of_effectors = 0;
+    for (const EffectorError& error : frame.errors) of_effectors += kCmPerMetre * error.position;
+    of_frames += of_effectors / static_cast<double>(frame.errors.size());
+    ++count;
+  }
+  return of_frames / count;
+}
+
+void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& frames, CellResult& cell) {
+  std::vector<BodyPose> fixed, poses;
+  Digest lengths_digest, pose_digest;
+  for (const RecoveredFrame& frame : frames) {
+    fixed.push_back(frame.fixed);
+    poses.push_back(frame.pose);
+    Add(frame.fixed, lengths_digest);
+    Add(frame.pose, pose_digest);
+  }
+  cell.digests.emplace_back("lengths", lengths_digest.Hex());
+  cell.digests.emplace_back("pose", pose_digest.Hex());
+  const PoseErrors before = ComparePoses(fixed, world.truth);
+  ReportJointErrors(ComparePoses(poses, world.truth), &before, cell);
+  cell.Measure("position_error_cm", MeanEffectorErrorCm(frames));
+}
+
+/// Tells how many frames have a skeleton; whether any has.
+template <typename Frame>
+bool ReportRecovered(const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
+  const auto count = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.has_value(); });
+  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(frames.size())));
+  return count > 0;
+}
+
+void FailWithoutPoses(const std::string& reason, CellResult& cell) {
+  cell.status = Status::kFailed;
+  cell.reason = reason;
+  for (const char* id : kPoseMetrics) cell.Missing(id, "no frame was recovered");
+}
+
+/// As HoldFrames: where there is no pose, the last one before it, or the first.
+std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
+  std::vector<BodyPose> held;
+  const auto first = std::find_if(answer.begin(), answer.end(), [](const auto& pose) { return pose.has_value(); });
+  for (const auto& pose : answer) held.push_back(pose ? *pose : held.empty() ? **first : held.back());
+  return held;
+}
+
+}  // namespace
+
+CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
+  CellResult cell;
+  ReportStages(world, run, cell);
+  if (!ReportRecovered(run.frames, cell)) {
+    FailWithoutPoses(ReasonForNoSkeleton(run.measured.frames), cell);
+    return cell;
+  }
+  const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
+  ReportPoses(world, frames, cell);
+  if (keeps_motion) cell.recording = MakeRecording(world, run.observation, frames, run.method.name);
+  cell.status = Status::kOk;
+  cell.reason.clear();
+  return cell;
+}
+
+CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion) {
+  CellResult cell;
+  for (const char* id : kStageMetrics) cell.Missing(id, kNoStages);
+  if (!ReportRecovered(answer, cell)) {
+    FailWithoutPoses("no frame has a pose", cell);
+    return cell;
+  }
+  const std::vector<BodyPose> poses = HoldPoses(answer);
+  Digest digest;
+  for (const BodyPose& pose : poses) Add(pose, digest);
+  cell.digests = {{"pose", digest.Hex()}};
+  ReportJointErrors(ComparePoses(poses, world.truth), nullptr, cell);
+  cell.Missing("position_error_cm", kNoStages);
+  if (keeps_motion) cell.recording = MakeRecording(world, poses);
+  cell.status = Status::kOk;
+  cell.reason.clear();
+  return cell;
+}
+
+}  // namespace etude

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/capture/exchange.h"
+#include "bench/tasks/capture/run.h"
+
+namespace etude {
+
+/// Compares what every stage of a built-in method made with the truth of the world. `keeps_motion`: with a recording.
+CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion);
+
+/// Scores an answer of a method outside likewise; what only stages can tell is missing.
+CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
+
+}  // namespace etude

@@ -1,0 +1,124 @@
+#include "bench/tasks/capture/stages.h"
+
+#include <algorithm>
+
+#include "bench/metrics/measurement.h"
+#include "engine/base/digest.h"
+#include "engine/capture/calibrate_cameras.h"
+
+namespace etude {
+namespace {
+
+void Add(const RoleVectors& vectors, Digest& digest) {
+  for (const std::optional<glm::dvec3>& v : vectors) {
+    digest.Add(static_cast<std::int64_t>(v.has_value()));
+    if (v) digest.Add(v->x).Add(v->y).Add(v->z);
+  }
+}
+
+Result<std::vector<ProjectionMatrix>> MatricesOf(const CaptureWorld& world, bool is_truth, Calibration calibration) {
+  if (!is_truth) return CalibrateCameras(world.calibration_pairs, {.method = calibration});
+  std::vector<ProjectionMatrix> matrices;
+  for (const Camera& camera : world.cameras) matrices.push_back(MatrixOf(camera));
+  return matrices;
+}
+
+Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, bool is_truth, Calibration calibration) {
+  ASSIGN_OR_RETURN(auto matrices, MatricesOf(world, is_truth, calibration));
+  Digest digest;
+  std::vector<CameraFit> fits;
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    for (const auto& row : matrices[i].h) digest.Add(std::span<const double>(row));
+    fits.push_back({matrices[i], world.calibration_pairs[i]});
+  }
+  const double rms_px = MeanReprojectionRmsPx(fits);
+  return CalibratedCameras{std::move(matrices), rms_px, digest.Hex()};
+}
+
+/// What a method with these oracles is told of the frames that the human looks at.
+std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
+  std::vector<KnownMeasurement> known(world.truth.size());
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    if (!marked[k]) continue;
+    const FrameMeasurement truth = TrueMeasurement(world.truth[k]);
+    if (oracle.directions) known[k].directions = truth.directions;
+    if (oracle.points) known[k].ends = truth.ends;
+  }
+  return known;
+}
+
+MeasuredTake MeasureTake(const MeasureInputs& inputs, const BridgeOptions& bridge) {
+  MeasuredTake take;
+  take.frames = MeasureFrames(inputs);
+  take.seen = BridgeGaps(take.frames, bridge);
+  Digest directions, points;
+  for (const FrameMeasurement& frame : take.frames) {
+    Add(frame.directions, directions);
+    Add(frame.ends, points);
+  }
+  take.directions_digest = directions.Hex();
+  take.points_digest = points.Hex();
+  return take;
+}
+
+}  // namespace
+
+CaptureStages::CaptureStages(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key,
+                             std::span<const PersonSource> sources, bool keeps_masks)
+    : options_(options),
+      key_(key),
+      sources_(sources),
+      keeps_masks_(keeps_masks),
+      world_(MakeCaptureWorld(options, clip, key)),
+      marked_(world_.truth.size()) {
+  for (std::size_t k = 0; k < marked_.size(); ++k) marked_[k] = k % static_cast<std::size_t>(options.mark_every) == 0;
+}
+
+Result<Renderer*> CaptureStages::GetRenderer() {
+  if (!renderer_) renderer_ = Renderer::Create();
+  if (!*renderer_) return tl::unexpected(renderer_->error());
+  return (*renderer_)->get();
+}
+
+Result<const Take*> CaptureStages::GetTake() {
+  if (take_) return &*take_;
+  ASSIGN_OR_RETURN(const auto renderer, GetRenderer());
+  take_ = Film(world_, options_, key_, sources_, keeps_masks_, *renderer);
+  return &*take_;
+}
+
+CaptureStages::CameraChoice CaptureStages::CameraChoiceOf(const CaptureMethod& method) {
+  if (method.oracle.calibration) return {.is_truth = true, .calibration = Calibration::kDlt};
+  return {.is_truth = false, .calibration = method.calibration};
+}
+
+Result<const CalibratedCameras*> CaptureStages::GetCameras(const CaptureMethod& method) {
+  const CameraChoice choice = CameraChoiceOf(method);
+  auto kept = cameras_.find(choice);
+  if (kept == cameras_.end()) {
+    kept = cameras_.emplace(choice, MakeCameras(world_, choice.is_truth, choice.calibration)).first;
+  }
+  if (!kept->second) return tl::unexpected(kept->second.error());
+  return &*kept->second;
+}
+
+const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
+                                               const Observation& observation) {
+  const MeasureChoice choice{CameraChoiceOf(method), PersonSourceOf(method), method.oracle.directions,
+                             method.oracle.points};
+  auto kept = measured_.find(choice);
+  if (kept == measured_.end()) {
+    const std::vector<KnownMeasurement> known = Tell(world_, method.oracle, marked_);
+    const MeasureInputs inputs{.cameras = cameras.matrices, .marks = observation.marks, .known = known};
+    const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, options_.mark_every)};
+    kept = measured_.emplace(choice, MeasureTake(inputs, bridge)).first;
+  }
+  return kept->second;
+}
+
+PersonSource PersonSourceOf(const CaptureMethod& method) {
+  if (method.oracle.segmentation) return {.segmenter = Segmenter::kHue, .is_truth = true};
+  return {.segmenter = method.segmenter, .is_truth = false};
+}
+
+}  // namespace etude

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <compare>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/tasks/capture/film.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/world.h"
+#include "engine/capture/bridge_gaps.h"
+#include "engine/capture/measure_frames.h"
+
+namespace etude {
+
+/// All cameras of a world, calibrated one way.
+struct CalibratedCameras {
+  std::vector<ProjectionMatrix> matrices;
+  double reprojection_rms_px = 0;
+  std::string digest;
+};
+
+/// What the marks of a whole take say about space.
+struct MeasuredTake {
+  std::vector<FrameMeasurement> frames;
+  std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
+  std::string directions_digest, points_digest;
+};
+
+/// The stages that methods may share in one world: each is computed when the first method asks for it, and kept for
+/// the next ones.
+class CaptureStages {
+ public:
+  /// `sources`: every way of cutting out the person that will be asked for, because each picture is rendered once,
+  /// for all of them, and not kept. References must outlive this.
+  CaptureStages(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key,
+                std::span<const PersonSource> sources, bool keeps_masks);
+
+  const CaptureWorld& world() const { return world_; }
+  /// Which frames the human looks at.
+  const std::vector<bool>& marked() const { return marked_; }
+  /// The renderer of this world; fails, saying why, when there can be none.
+  Result<Renderer*> GetRenderer();
+  Result<const Take*> GetTake();
+  Result<const CalibratedCameras*> GetCameras(const CaptureMethod& method);
+  /// `cameras` and `observation` are those of `method`.
+  const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
+                                  const Observation& observation);
+
+ private:
+  /// What decides about the matrices of a method's cameras.
+  struct CameraChoice {
+    bool is_truth = false;
+    Calibration calibration = Calibration::kDlt;
+    auto operator<=>(const CameraChoice&) const = default;
+  };
+  /// What decides about a method's measurements.
+  struct MeasureChoice {
+    CameraChoice cameras;
+    PersonSource person;
+    bool true_directions = false, true_points = false;
+    auto operator<=>(const MeasureChoice&) const = default;
+  };
+  static CameraChoice CameraChoiceOf(const CaptureMethod& method);
+
+  const StudioOptions& options_;
+  const WorldKey key_;
+  const std::span<const PersonSource> sources_;
+  const bool keeps_masks_;
+  const CaptureWorld world_;
+  std::vector<bool> marked_;
+  std::optional<Result<std::unique_ptr<Renderer>>> renderer_;
+  std::optional<Take> take_;
+  std::map<CameraChoice, Result<CalibratedCameras>> cameras_;
+  std::map<MeasureChoice, MeasuredTake> measured_;
+};
+
+/// How the method cuts out the person.
+PersonSource PersonSourceOf(const CaptureMethod& method);
+
+}  // namespace etude

@@ -1,0 +1,135 @@
+#include "bench/tasks/capture/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
+
+namespace etude {
+namespace {
+
+constexpr double kReach = 1.2;  // metres from the middle that both cameras see
+
+std::vector<BodyPose> Window(const LibraryClip& clip, std::size_t start, std::size_t frames) {
+  const std::vector<BodyPose>& all = clip.motion.poses;
+  std::vector<BodyPose> window;
+  for (std::size_t i = 0; i < frames; ++i) window.push_back(all[(start + i) % all.size()]);
+  const FloorMove to_origin = ToOrigin(window[frames / 2]);
+  for (BodyPose& pose : window) pose = to_origin.Apply(pose);
+  return window;
+}
+
+double FarthestFromMiddle(const std::vector<BodyPose>& poses) {
+  double farthest = 0;
+  for (const BodyPose& pose : poses) {
+    for (const glm::dvec3& joint : pose.joints) farthest = std::max({farthest, std::abs(joint.x), std::abs(joint.z)});
+  }
+  return farthest;
+}
+
+std::vector<BodyPose> ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
+  RandomStream random(key, "capture/window");
+  const std::size_t available = clip.motion.poses.size();
+  const bool loops = clip.move && clip.move->loops;
+  std::size_t frames = static_cast<std::size_t>(std::lround(options.duration_s * kJudgedRateHz));
+  if (!loops) frames = std::min(frames, available);
+  const std::size_t starts = loops ? available : available - frames + 1;
+
+  constexpr int kThrows = 12;
+  std::vector<BodyPose> best;
+  double least = 0;
+  for (int i = 0; i < kThrows; ++i) {
+    std::vector<BodyPose> window = Window(clip, random.IndexBelow(starts), frames);
+    const double farthest = FarthestFromMiddle(window);
+    if (best.empty() || farthest < least) {
+      best = std::move(window);
+      least = farthest;
+    }
+    if (least <= kReach) break;
+  }
+  return best;
+}
+
+std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
+  std::array<Rgb8, 16> colours = PerformerColours();
+  if (clothes == Clothes::kStudio) return colours;
+  auto dress = [&](std::initializer_list<Part> parts, Rgb8 colour) {
+    for (Part part : parts) colours[static_cast<std::size_t>(part)] = colour;
+  };
+  dress({Part::kTrunk, Part::kLeftUpperArm, Part::kRightUpperArm}, {190, 190, 190});
+  dress({Part::kLeftThigh, Part::kLeftShank, Part::kRightThigh, Part::kRightShank}, {35, 45, 80});
+  dress({Part::kLeftFoot, Part::kRightFoot}, {50, 45, 45});
+  return colours;
+}
+
+// Tripods are never set up to the centimetre.
+Camera PlaceCamera(const StudioOptions& options, std::size_t index, const WorldKey& key) {
+  RandomStream random(key, fmt::format("capture/camera-{}/place", index));
+  const double angle = Radians(options.camera_angles_deg[index] + random.Normal(0, 2));
+  const double distance = options.camera_distance_m + random.Normal(0, 0.05);
+  const double height = options.camera_heights_m[index] + random.Normal(0, 0.03);
+  const glm::dvec3 target(random.Normal(0, 0.02), 0.95 + random.Normal(0, 0.02), 0);
+  return LookAt({}, {distance * std::sin(angle), height, distance * std::cos(angle)}, target);
+}
+
+// Points stuck on three walls of a box around the stage (paper B: "on different planes"), seen by the
+// camera and clicked with a small error.
+std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const Camera& camera, std::size_t index,
+                                            const WorldKey& key) {
+  RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
+  const glm::dvec3 low(-0.8, 0.1, -0.8), high(0.8, 1.9, 0.8);
+  const ProjectionMatrix matrix = MatrixOf(camera);
+  std::vector<PointPair> pairs;
+  for (int i = 0; i < options.calibration_pairs; ++i) {
+    glm::dvec3 point;
+    for (int axis = 0; axis < 3; ++axis) point[axis] = random.Uniform(low[axis], high[axis]);
+    // In turn the back wall, the left wall and the floor of the box.
+    constexpr int kWalls[] = {2, 0, 1};
+    const int wall = kWalls[i % 3];
+    point[wall] = low[wall];
+    const glm::dvec2 error(random.Normal(), random.Normal());
+    pairs.push_back({point, *Project(matrix, point) + options.calibration_noise_px * error});
+  }
+  return pairs;
+}
+
+// The lamp waxes and wanes slowly about the brightness of the background pictures.
+std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t frames, const WorldKey& key) {
+  RandomStream random(key, "capture/light");
+  const double period_s = random.Uniform(2, 6), phase = random.Uniform(0, 2 * kPi);
+  std::vector<double> brightness;
+  for (std::size_t k = 0; k < frames; ++k) {
+    const double seconds = static_cast<double>(k) / kJudgedRateHz;
+    brightness.push_back(1 + options.light_drift * std::sin(2 * kPi * seconds / period_s + phase));
+  }
+  return brightness;
+}
+
+}  // namespace
+
+CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
+  CaptureWorld world;
+  world.truth = ChooseWindow(options, clip, key);
+  world.lengths = MeasureLimbLengths(world.truth);
+  world.colours = ColoursOf(options.clothes);
+  RandomStream room(key, "capture/room");
+  world.room.texture_seed = room.IndexBelow(1u << 30);
+  world.brightness = MakeBrightness(options, world.truth.size(), key);
+  for (std::size_t i = 0; i < options.camera_angles_deg.size(); ++i) {
+    world.cameras.push_back(PlaceCamera(options, i, key));
+    world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, key));
+  }
+  return world;
+}
+
+FrameMeasurement TrueMeasurement(const BodyPose& truth) {
+  FrameMeasurement frame;
+  for (const EffectorMark& mark : EffectorMarks()) frame.ends[Index(mark.role)] = truth[mark.role];
+  for (const StrokeMark& mark : StrokeMarks()) {
+    const glm::dvec3 limb = truth[mark.to] - truth[mark.from];
+    if (glm::length(limb) > 0) frame.directions[Index(mark.to)] = glm::normalize(limb);
+  }
+  return frame;
+}
+
+}  // namespace etude

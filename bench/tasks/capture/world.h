@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bench/clips/clip_library.h"
+#include "bench/tasks/capture/options.h"
+#include "engine/cameras/camera.h"
+#include "engine/cameras/dlt.h"
+#include "engine/capture/measure_frames.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/motion/body.h"
+#include "sim/random/stream.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// Everything true about one take: who moves how in front of which cameras under which light.
+struct CaptureWorld {
+  std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
+  LimbLengths lengths;             ///< measured on the performer beforehand, as paper B does
+  std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  std::vector<Camera> cameras;     ///< two
+  Room room;                       ///< its brightness is that of the background pictures
+  std::vector<double> brightness;  ///< of each frame
+  std::vector<std::vector<PointPair>> calibration_pairs;  ///< of each camera, pixels noisy
+};
+
+/// The world of `key`. The window of the clip begins by dice; among a few throws the first is taken that
+/// keeps the performer within 1.2 m of the middle, where both cameras see the whole body, else the one
+/// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole.
+CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
+
+/// What faultless marks and cameras would measure of a frame.
+FrameMeasurement TrueMeasurement(const BodyPose& truth);
+
+}  // namespace etude

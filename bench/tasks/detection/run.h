@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/tasks/detection/options.h"
+#include "bench/tasks/detection/world.h"
+#include "engine/recognition/recognise.h"
+
+namespace etude {
+
+/// What a method made of one session.
+struct SessionVerdict {
+  SkeletonStream filtered;
+  std::vector<Judgement> events;  ///< one per event; frames count from its window's first
+  std::vector<Detection> alarms;  ///< false ones: by move, then by time
+};
+
+/// Filters what the sensor saw, or, for an oracle, how it was truly danced.
+SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
+
+/// Lets the method judge every event in its window and look for all moves through the whole session
+/// (engine/recognition, which is told what was asked for and when), then keeps the false alarms. `seen` must be what
+/// the method sees of the world.
+Result<SessionVerdict> JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
+                                    const DetectionMethod& method);
+
+}  // namespace etude

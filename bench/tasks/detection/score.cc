@@ -1,0 +1,144 @@
+#include "bench/tasks/detection/score.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bench/metrics/detection.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const SessionVerdict& verdict) {
+  std::vector<JudgedEvent> events;
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const Judgement& judgement = verdict.events[i];
+    events.push_back({world.session.events[i].IsRight(), judgement.recognised_at.has_value(), judgement.score});
+  }
+  return events;
+}
+
+/// How long each right performance had to wait for its praise; a miss waited in vain until its window closed.
+std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
+  std::vector<Wait> waits;
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const SessionEvent& event = world.session.events[i];
+    if (!event.first_right_s) continue;
+    const FrameWindow window = WindowOf(event, world.stream);
+    const std::optional<int>& recognised_at = verdict.events[i].recognised_at;
+    const std::optional<int> called = recognised_at ? std::optional(window.begin + *recognised_at) : std::nullopt;
+    waits.push_back(WaitForPraise(*event.first_right_s, called, window.end, world.stream.rate_hz));
+  }
+  return waits;
+}
+
+void AddPose(Digest& digest, const BodyPose& pose) {
+  for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
+}
+
+std::string SessionDigest(const Performance& session) {
+  Digest digest;
+  for (const SessionEvent& event : session.events) {
+    digest.Add(event.move).Add(event.danced).Add(FaultName(event.fault)).Add(event.start_s).Add(event.end_s);
+    digest.Add(event.first_right_s.value_or(-1));
+  }
+  for (const BodyPose& pose : session.motion.poses) AddPose(digest, pose);
+  return digest.Hex();
+}
+
+std::string StreamDigest(const SkeletonStream& stream) {
+  Digest digest;
+  for (const SensedFrame& frame : stream.frames) {
+    AddPose(digest, PoseOf(frame));
+    for (const SensedJoint& joint : frame.joints) digest.Add(static_cast<std::int64_t>(joint.state));
+    digest.Add(std::int64_t{frame.body_seen});
+  }
+  return digest.Hex();
+}
+
+std::string EventsDigest(const SessionVerdict& verdict) {
+  Digest digest;
+  for (const Judgement& judgement : verdict.events) {
+    digest.Add(std::int64_t{judgement.recognised_at.value_or(-1)}).Add(judgement.score);
+  }
+  for (const Detection& alarm : verdict.alarms) digest.Add(alarm.move).Add(std::int64_t{alarm.frame});
+  return digest.Hex();
+}
+
+}  // namespace
+
+void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result) {
+  const std::vector<JudgedEvent> events = JudgedEvents(world, verdict);
+  const Confusion confusion = CountConfusion(events);
+  const std::vector<Wait> waits = WaitsOf(world, verdict);
+  result.MeasureOr("f1", F1(confusion), "no performance was right, and none was called right");
+  result.MeasureOr("precision", Precision(confusion), "no performance was called right");
+  result.MeasureOr("recall", Recall(confusion), "no performance was right");
+  result.MeasureOr("roc_auc", RocAuc(events), "all performances were right, or all were wrong");
+  result.MeasureOr(
+      "latency_s", KaplanMeierMedian(waits),
+      waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
+  result.Measure("false_alarms_per_min",
+                 FalseAlarmsPerMinute(verdict.alarms.size(), world.session.motion.DurationSeconds()));
+}
+
+std::vector<std::string> DetectionMetrics() {
+  return {"f1", "precision", "recall", "roc_auc", "latency_s", "false_alarms_per_min"};
+}
+
+std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right) {
+  const bool counts_misses = metric == "recall" || metric == "f1";
+  return counts_misses && some_are_right ? std::optional(0.0) : std::nullopt;
+}
+
+StageDigests WorldDigests(const DetectionWorld& world) {
+  return {{"session", SessionDigest(world.session)}, {"stream", StreamDigest(world.stream)}};
+}
+
+StageDigests VerdictDigests(const SessionVerdict& verdict) {
+  return {{"filtered", StreamDigest(verdict.filtered)}, {"events", EventsDigest(verdict)}};
+}
+
+std::string StateLetters(const SensedFrame& frame) {
+  std::string letters;
+  for (const SensedJoint& joint : frame.joints) {
+    const bool tracked = joint.state == TrackingState::kTracked, inferred = joint.state == TrackingState::kInferred;
+    letters += tracked ? 't' : inferred ? 'i' : 'n';
+  }
+  return letters;
+}
+
+Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
+  Series series{.name = "score", .axis = "frame", .values = std::vector<double>(world.stream.frames.size(), 0.0)};
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const FrameWindow window = WindowOf(world.session.events[i], world.stream);
+    const std::vector<double>& scores = verdict.events[i].running_score;
+    std::copy(scores.begin(), scores.end(), series.values.begin() + window.begin);
+  }
+  return series;
+}
+
+Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict) {
+  nlohmann::ordered_json extras = {{"format", "etude-detection"}, {"version", 1}};
+  extras["events"] = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const SessionEvent& event = world.session.events[i];
+    const Judgement& judgement = verdict.events[i];
+    const FrameWindow window = WindowOf(event, world.stream);
+    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultName(event.fault)},
+                                   {"danced", event.danced},  {"begin_frame", window.begin},
+                                   {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},
+                                   {"score", judgement.score}};
+    if (judgement.recognised_at) told["called_frame"] = window.begin + *judgement.recognised_at;
+    extras["events"].push_back(std::move(told));
+  }
+  extras["alarms"] = nlohmann::ordered_json::array();
+  for (const Detection& alarm : verdict.alarms) {
+    extras["alarms"].push_back({{"move", alarm.move}, {"frame", alarm.frame}});
+  }
+  extras["joint_states"] = nlohmann::ordered_json::array();
+  for (const SensedFrame& frame : world.stream.frames) extras["joint_states"].push_back(StateLetters(frame));
+  return {.tracks = {{"truth", world.session.motion}, {"sensed", MotionOf(verdict.filtered)}},
+          .extras_json = extras.dump()};
+}
+
+}  // namespace etude

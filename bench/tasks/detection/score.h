@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/detection/run.h"
+
+namespace etude {
+
+/// The metrics of a session (docs/metrics.md).
+void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result);
+
+/// The ids of all of them, in the order in which they are measured.
+std::vector<std::string> DetectionMetrics();
+
+/// What a method without an answer is credited with (Task::ValueOfFailure): a coach that says nothing praises nobody,
+/// so every right performance is missed: `recall` and `f1` are 0, if some were right. The rest is missing: nothing was
+/// called right (precision), nothing was ranked (roc_auc), no praise came (latency), and no false alarm either, which
+/// is no merit.
+std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right);
+
+using StageDigests = std::vector<std::pair<std::string, std::string>>;
+
+/// Fingerprints of the session and of the stream: the same for every method.
+StageDigests WorldDigests(const DetectionWorld& world);
+/// Fingerprints of the filtered stream and of the verdicts.
+StageDigests VerdictDigests(const SessionVerdict& verdict);
+
+/// One letter per joint: tracked, inferred, not tracked.
+std::string StateLetters(const SensedFrame& frame);
+
+/// Per frame, how well the move asked for was seen to be danced so far in its window; 0 between windows.
+Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
+
+/// The session: tracks "truth" and "sensed" (as the recogniser saw it), and in `extras_json`
+///
+///     {"format": "etude-detection", "version": 1,
+///      "events": [{"move": "clap", "fault": "none", "danced": "clap", "begin_frame": 30, "end_frame": 120,
+///                  "called_right": true, "called_frame": 88, "score": 0.83}, …],
+///      "alarms": [{"move": "sway", "frame": 215}, …],
+///      "joint_states": ["tttttttttttttttiiiii", …]}   one letter per joint and frame: tracked, inferred, not tracked
+///
+/// `called_frame` is absent when the move was not recognised.
+Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict);
+
+}  // namespace etude

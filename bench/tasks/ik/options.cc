@@ -1,0 +1,145 @@
+#include "bench/tasks/ik/options.h"
+
+#include "bench/tasks/base/read_methods.h"
+
+namespace etude {
+namespace {
+
+constexpr Range kShare{0, 1};
+
+// "poses: {uniform: 0.5}", or "poses: 0.5" for short, which a sweep can write.
+KeyInfo PosesKey() {
+  const ValueKind share = NumberKind(kShare);
+  const ValueKind mapping =
+      MappingKind("", std::vector<KeyInfo>{{"uniform", share, "0.5", "Of every joint's range, about its middle."}});
+  return {"poses",
+          {"{uniform: 0…1}, or 0…1 alone", fmt::format(R"({{"anyOf":[{},{}]}})", share.schema, mapping.schema)},
+          "{uniform: 0.5}",
+          "The true pose is drawn from this share of every joint's range, about its middle.",
+          {"start", {"disturbed", "middle"}}};
+}
+
+void ReadPoses(Fields& condition, IkCondition& options) {
+  double& share = options.trial.pose_range;
+  const Node* poses = condition.Raw("poses");
+  if (poses == nullptr || poses->kind == Node::Kind::kScalar) {
+    share = condition.Number("poses", share, kShare);
+    return;
+  }
+  Fields fields(*poses, "'poses'");
+  share = fields.Number("uniform", share, kShare);
+  if (auto done = fields.Finish(); !done) condition.Complain(done.error().place, done.error().message);
+}
+
+void ReadTargets(Fields& condition, IkCondition& options) {
+  const std::string asked = condition.Choice("targets", {"both", "position", "orientation"}, "both");
+  options.trial.asks_positions = asked != "orientation";
+  options.trial.asks_axes = asked != "position";
+}
+
+void CheckCondition(Fields& condition, IkCondition& options) {
+  if (options.trial.unreachable_cm == 0 || options.trial.asks_positions) return;
+  condition.Complain(condition.Raw("unreachable_cm")->place,
+                     "'unreachable_cm' needs positions; allowed with targets: both, position");
+}
+
+void CheckMethod(Fields& method, IkMethod& options) {
+  if (!options.options.angle_change_tolerance || !options.tolerance_times_noise) return;
+  method.Complain(method.node().place, "a method has either 'tolerance_deg' or 'tolerance_times_noise'");
+}
+
+}  // namespace
+
+const FieldTable<IkCondition>& IkConditionFields() {
+  using Key = Field<IkCondition>;
+  static const FieldTable<IkCondition> table{
+      {Key::Name(
+           "limit_set", [](auto& o) -> auto& {
+    return o.trial.limit_set; }, LimitSetNames(), FindLimitSet,
+           "How far joints may turn: Etude's adult, or paper B's table 3.1."),
+       Key{PosesKey(), ReadPoses},
+       Key::Name(
+           "start", [](auto& o) -> auto& {
+    return o.trial.start; },
+           {{"disturbed", IkStart::kDisturbed}, {"middle", IkStart::kMiddle}, {"stretched", IkStart::kStretched}},
+           "Solvers begin at the disturbed truth, in the middle of every joint's range, or standing with stretched "
+           "arms that the hands' targets lie along (paper B, figure 3.8)."),
+       Key::Number(
+           "joint_noise_deg", [](auto& o) -> auto& {
+    return o.trial.joint_noise_deg; }, {0, 180},
+           "How far every angle of the start is from the truth.")
+           .Unit("degrees")
+           .With("start", {"disturbed"}),
+       Key::Name(
+           "noise", [](auto& o) -> auto& {
+    return o.trial.noise; },
+           {{"gaussian", NoiseKind::kGaussian}, {"uniform", NoiseKind::kUniform}},
+           "`joint_noise_deg` is the standard deviation, or the largest deviation to either side.")
+           .With("start", {"disturbed"}),
+       Key::Number(
+           "target_noise_cm", [](auto& o) -> auto& {
+    return o.trial.target_noise.position_cm; }, {0, 100},
+           "Standard deviation of every target's place, along each axis.")
+           .With("start", {"disturbed", "middle"}),
+       Key::Number(
+           "target_noise_deg", [](auto& o) -> auto& {
+    return o.trial.target_noise.orientation_deg; }, {0, 180},
+           "Standard deviation of every target's rotation vector.")
+           .With("start", {"disturbed", "middle"}),
+       Key::Number(
+           "unreachable_cm", [](auto& o) -> auto& {
+    return o.trial.unreachable_cm; }, {0, 1000},
+           "One target is pulled away from the root, this far beyond where all limbs together are too short.")
+           .With("start", {"disturbed", "middle"}),
+       Key{{"targets", NameKind(std::vector<std::string>{"both", "position", "orientation"}), "both",
+            "What effectors are to meet of their targets; a world is solved when they meet that."},
+           ReadTargets},
+       Key::Flags("record",
+                  {{"effector_errors", [](auto& o) -> auto& { return o.records.effector_errors; }},
+                   {"angle_changes", [](auto& o) -> auto& { return o.records.angle_changes;
+}
+}  // namespace etude
+, {
+  "effector_curves", [](auto& o) -> auto& { return o.records.effector_curves; }
+}
+},
+                  "Which series a cell keeps for the report: every effector's errors, every angle's change, curves of "
+                  "every effector."),
+       SweepsField(&IkCondition::common, "The limit of a solver's steps."), GoalsField(&IkCondition::common)
+}
+, CheckCondition
+}
+;
+return table;
+}
+
+const FieldTable<IkMethod>& IkMethodFields() {
+  using Key = Field<IkMethod>;
+  static const FieldTable<IkMethod> table = [] {
+    FieldTable<IkMethod> made{IkSolverFields(&IkMethod::solver, &IkMethod::options), CheckMethod};
+    const std::vector<Key> own = {
+        Key::Flag(
+            "limits", [](auto& m) -> auto& { return m.options.limits; }, "Whether joint limits are kept."),
+        ToleranceField(&IkMethod::options, "How far an angle may leave its start."),
+        Key::Number("tolerance_times_noise", &IkMethod::tolerance_times_noise, {0, 100},
+                    "The same in multiples of joint_noise_deg; paper B's reading: 1.2.")
+            .WhenAbsent("(no bound)")};
+    made.fields.insert(made.fields.end(), own.begin(), own.end());
+    return made;
+  }();
+  return table;
+}
+
+Result<std::vector<IkMethod>> ReadIkMethods(TaskInput& input, const IkCondition& condition) {
+  IkMethod start;
+  start.options = condition.common;
+  return ReadMethods<IkMethod>(input, "ik", IkMethodFields(), start, [&](Fields& fields, IkMethod& method) {
+    if (!method.tolerance_times_noise) return;
+    if (condition.trial.start != IkStart::kDisturbed) {
+      fields.Complain(fields.node().place, "'tolerance_times_noise' needs noise; allowed with start: disturbed");
+    }
+    method.options.angle_change_tolerance = Radians(*method.tolerance_times_noise * condition.trial.joint_noise_deg);
+  });
+}
+
+}  // namespace etude

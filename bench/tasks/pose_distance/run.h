@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/tasks/pose_distance/world.h"
+#include "bench/training/learnt_weights.h"
+#include "engine/fuzzy/fuzzy_system.h"
+
+namespace etude {
+
+/// A way to tell how unlike two poses are.
+enum class PoseDistance {
+  kFuzzy,           ///< paper A's d, equation 1
+  kPointCloud,      ///< Kovar's: root mean square over the joints after the best alignment on the floor, cm
+  kJointPositions,  ///< mean over the joints after laying heading and hip centre onto each other, cm
+};
+
+/// "fuzzy", "point-cloud", "joint-positions".
+std::vector<std::string> PoseDistanceNames();
+/// `name` must be one of them.
+PoseDistance FindPoseDistance(std::string_view name);
+
+/// A method of task pose-distance.
+struct PoseDistanceMethod {
+  std::string name;
+  PoseDistance distance = PoseDistance::kFuzzy;
+  WeightSource weights = WeightSource::kFixed;  ///< of the fuzzy one
+  double threshold = kPaperThreshold;           ///< two poses are called alike below it; of the others, centimetres
+};
+
+/// What a method says of a world's pairs, in their order.
+struct PairVerdict {
+  std::vector<double> distances;  ///< the larger, the more unlike; on any scale
+  std::vector<bool> alike;
+};
+
+/// `weights` are S of the fuzzy distance; the others have none.
+PairVerdict TellPairs(const PairWorld& world, const PoseDistanceMethod& method, const Memberships& memberships,
+                      const FeatureWeights& weights);
+
+}  // namespace etude

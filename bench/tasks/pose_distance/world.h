@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/clips/clip_library.h"
+#include "engine/fuzzy/features.h"
+#include "engine/transitions/library/body_proportions.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+
+/// A pose and what the fuzzy side sees of it.
+struct SeenPose {
+  BodyPose pose;
+  PoseFeatures features;
+};
+
+struct SeenPair {
+  SeenPose a, b;
+  double gap_m = 0;  ///< the truth: PoseGap, the distance of the worst joint after alignment on the floor
+};
+
+/// Pairs of poses to be told alike or not.
+struct PairWorld {
+  std::string name;             ///< of the blind spot; empty for frames
+  std::string clip_a, clip_b;   ///< identities of the clips that the poses were taken from; empty for a blind spot
+  std::vector<SeenPair> pairs;  ///< one or more
+};
+
+/// Which pairs a world is made of.
+enum class PairSource {
+  kBlindSpots,  ///< trial i shows the (i mod 8)th of BlindSpots
+  kFrames,      ///< any frames of two different clips
+};
+
+/// Clips danced by one body, to draw frames of.
+struct DancedClips {
+  BodyProportions proportions;
+  std::vector<std::string> names;
+  std::vector<std::string> identities;  ///< equal for equal dances: what opens the clip
+  std::vector<BodyMotion> motions;
+};
+
+/// Whoever danced the clips, they are danced by the body of the built-in moves now.
+DancedClips DanceClips(const ClipLibrary& library);
+
+/// Whether there are clips of two different identities.
+bool HoldsTwoDances(const DancedClips& clips);
+
+PairWorld ShowBlindSpot(int trial);
+
+/// Two clips of different identities, and `count` pairs of a frame of the one and a frame of the other, each pair drawn
+/// evenly. The first clip goes round-robin with the trials. The clips must hold two dances.
+PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key);
+
+}  // namespace etude

@@ -1,0 +1,78 @@
+#include "engine/capture/measure_frames.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "engine/cameras/limb_direction.h"
+#include "engine/cameras/triangulation.h"
+
+namespace etude {
+namespace {
+
+/// One frame's pictures, and how they are measured.
+class FrameMeter {
+ public:
+  FrameMeter(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
+      : inputs_(inputs), frame_(frame), options_(options) {}
+
+  RoleVectors Ends() const {
+    RoleVectors ends;
+    for (std::size_t i = 0; i < kEffectorCount; ++i) ends[Index(EffectorMarks()[i].role)] = End(i);
+    return ends;
+  }
+
+  RoleVectors Directions() const {
+    RoleVectors directions;
+    for (std::size_t i = 0; i < kStrokeCount; ++i) directions[Index(StrokeMarks()[i].to)] = Direction(i);
+    return directions;
+  }
+
+ private:
+  std::optional<glm::dvec3> End(std::size_t effector) const {
+    std::vector<Sighting> sightings;
+    for (std::size_t camera = 0; camera < inputs_.cameras.size(); ++camera) {
+      const auto& pixel = MarksOf(camera).effectors[effector];
+      if (pixel) sightings.push_back({inputs_.cameras[camera], *pixel});
+    }
+    const TriangulatedPoint point = Triangulate(sightings);
+    return point.status == PointStatus::kOk ? std::optional(point.position) : std::nullopt;
+  }
+
+  std::optional<glm::dvec3> Direction(std::size_t stroke_mark) const {
+    std::vector<LimbSighting> sightings;
+    for (std::size_t camera = 0; camera < inputs_.cameras.size(); ++camera) {
+      const auto& stroke = MarksOf(camera).strokes[stroke_mark];
+      if (stroke && IsLongEnough(*stroke)) sightings.push_back({inputs_.cameras[camera], *stroke});
+    }
+    const LimbDirection limb = ComputeLimbDirection(sightings, options_.smallest_plane_angle);
+    return limb.status == DirectionStatus::kOk ? std::optional(limb.direction) : std::nullopt;
+  }
+
+  const Marks& MarksOf(std::size_t camera) const { return inputs_.marks[camera][frame_]; }
+  bool IsLongEnough(const PixelSegment& stroke) const {
+    return glm::distance(stroke.a, stroke.b) >= options_.shortest_stroke_px;
+  }
+
+  const MeasureInputs& inputs_;
+  const std::size_t frame_;
+  const MeasureOptions& options_;
+};
+
+}  // namespace
+
+std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options) {
+  assert(inputs.cameras.size() >= 2 && inputs.marks.size() == inputs.cameras.size());
+  const std::size_t count = inputs.marks[0].size();
+  assert(std::ranges::all_of(inputs.marks, [&](const auto& of_camera) { return of_camera.size() == count; }));
+  assert(inputs.known.empty() || inputs.known.size() == count);
+  std::vector<FrameMeasurement> frames;
+  for (std::size_t i = 0; i < count; ++i) {
+    const FrameMeter meter(inputs, i, options);
+    const KnownMeasurement known = inputs.known.empty() ? KnownMeasurement{} : inputs.known[i];
+    frames.push_back({.ends = known.ends ? *known.ends : meter.Ends(),
+                      .directions = known.directions ? *known.directions : meter.Directions()});
+  }
+  return frames;
+}
+
+}  // namespace etude

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/kinematics/solvers/ik_solver.h"
+#include "engine/kinematics/tree.h"
+#include "engine/motion/body.h"
+#include "engine/motion/clip.h"
+
+namespace etude {
+
+struct RecoverInputs {
+  /// Of the person, measured beforehand (metres): the body is `MakeBodyTree(lengths)`.
+  LimbLengths lengths;
+  /// One per frame; nothing in frames of which too little was seen.
+  std::span<const std::optional<LimbObservation>> seen;
+  /// One per frame, or empty when all are: whether the frame itself was marked. The solver starts a marked frame from
+  /// the angles that its pictures show, any other from the last frame's angles.
+  std::vector<bool> marked = {};
+};
+
+struct RecoverOptions {
+  /// Finds the angles. Not null: one of AllIkSolvers(), or the caller's own.
+  const IkSolver* solver = nullptr;
+  /// The solver's. `angle_change_tolerance` bounds how far an angle may move from its start (paper B, section 3.7.2):
+  /// set it when limb directions are more exact than the places of the ends.
+  IkOptions ik = {};
+};
+
+/// One frame of a recovered motion, in the world, metres.
+struct RecoveredFrame {
+  BodyPose fixed;   ///< with the known limb lengths, before inverse kinematics
+  TreeState state;  ///< after it
+  BodyPose pose;    ///< the same as twenty joints
+  /// From the tree's end effectors to where they were seen; empty where they were not seen.
+  std::vector<EffectorError> errors;
+};
+
+/// From what was seen to a skeleton (paper B, chapter 3): limb lengths fixed, then every end effector brought back by
+/// the solver. A frame without observation, or whose skeleton cannot be computed, stays empty.
+std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
+
+/// Every frame: an empty one shows the last skeleton before it, leading ones the first. At least one is not empty.
+std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
+
+/// The motion as a clip, which WriteBvh writes: metres, Y up. `lengths` are those it was recovered with.
+Clip ToClip(const LimbLengths& lengths, std::span<const RecoveredFrame> frames, double rate_hz,
+            const std::string& name);
+
+}  // namespace etude

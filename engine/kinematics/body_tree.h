@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+
+#include "engine/kinematics/tree.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// The limbs of one person, metres, both sides alike. The default is an adult.
+struct LimbLengths {
+  double foot = 0.18;   ///< ankle to toe tips
+  double shank = 0.42;  ///< knee to ankle
+  double thigh = 0.43;  ///< hip to knee
+  double hip_width = 0.18;
+  double trunk = 0.50;           ///< navel (midway between the hips) to the base of the neck
+  double neck = 0.25;            ///< base of the neck to the head
+  double shoulder_width = 0.36;  ///< the base of the neck is its middle
+  double upper_arm = 0.29;
+  double forearm = 0.25;
+  double hand = 0.18;  ///< wrist to finger tips
+};
+
+/// Every length is finite and more than zero.
+bool IsValid(const LimbLengths& lengths);
+
+/// Indices of `MakeBodyTree(…).joints`.
+enum BodyTreeJoint {
+  kTreeLeftToe,
+  kTreeLeftAnkle,
+  kTreeLeftKnee,
+  kTreeLeftHip,
+  kTreeNavel,
+  kTreeLeftShoulder,
+  kTreeLeftElbow,
+  kTreeLeftWrist,
+  kTreeRightShoulder,
+  kTreeRightElbow,
+  kTreeRightWrist,
+  kTreeNeck,
+  kTreeRightHip,
+  kTreeRightKnee,
+  kTreeRightAnkle,
+  kBodyTreeJointCount
+};
+
+/// Paper B's body (figure 3.10): rooted at the left toe, 15 joints, 29 degrees of freedom,
+/// limits `adult`, effectors right foot, left hand, right hand, head in this order. At rest (all angles zero) it
+/// stands with hanging arms. *Ours*: its feet are level then; on real clips that keeps the ankles within their limits
+/// most often.
+KinematicTree MakeBodyTree(const LimbLengths& lengths);
+
+/// Which part of the canonical body a limb of the tree is.
+struct BodyTreeLimb {
+  Role from;  ///< the joint that it turns about
+  Role to;    ///< the joint that it leads to, or the end: the role of the effector on this limb
+};
+
+/// Of `MakeBodyTree(…).joints`, in the order of BodyTreeJoint.
+std::span<const BodyTreeLimb, kBodyTreeJointCount> BodyTreeLimbs();
+
+}  // namespace etude

@@ -1,0 +1,63 @@
+#include "engine/transitions/bridge_frames/coverage.h"
+
+#include <algorithm>
+
+#include "engine/transitions/search/frame_matches.h"
+
+namespace etude {
+namespace {
+
+/// The worst wait for the next of `frames`, which rise, when the clip starts over at its end.
+std::optional<double> WorstWait(std::span<const FrameMatches> frames, const TaggedClip& clip) {
+  if (frames.empty()) return std::nullopt;
+  int worst = frames.front().frame + clip.FrameCount() - frames.back().frame;
+  for (std::size_t i = 1; i < frames.size(); ++i) worst = std::max(worst, frames[i].frame - frames[i - 1].frame);
+  return (worst - 1) / clip.rate_hz;
+}
+
+/// From how many frames none of `frames` comes within the budget.
+int CountLate(std::span<const FrameMatches> frames, const TaggedClip& clip, double budget_s) {
+  int late = 0;
+  auto next = frames.begin();
+  for (int frame = 0; frame < clip.FrameCount(); ++frame) {
+    while (next != frames.end() && next->frame < frame) ++next;
+    late += next == frames.end() || !WaitWindow(clip, frame, budget_s).Contains(next->frame);
+  }
+  return late;
+}
+
+}  // namespace
+
+Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s)
+    : clip_count_(static_cast<int>(clips.size())), pairs_(clips.size() * clips.size()) {
+  std::vector<MatchClip> all_frames, bridge_frames;
+  for (const TaggedClip& clip : clips) {
+    all_frames.push_back({.grades = clip.grades, .frames = std::nullopt, .tags = clip.tags});
+    bridge_frames.push_back({.grades = clip.grades, .frames = clip.bridge_frames, .tags = clip.tags});
+  }
+  const MatchRules partner_rules{
+      .weights = rules.weights, .threshold = rules.threshold, .within_class = rules.within_class};
+  const MatchTable of_all = FindMatches(all_frames, partner_rules);
+  const MatchTable of_bridges = FindMatches(bridge_frames, partner_rules);
+  for (int from = 0; from < clip_count_; ++from) {
+    for (int to = 0; to < clip_count_; ++to) {
+      if (from == to || clips[from].FrameCount() == 0) continue;
+      PairCoverage& pair = pairs_[Index(from, to)];
+      const std::span<const FrameMatches> ways = of_bridges.Of(from, to);
+      pair.frame_share = of_all.Share(from, to);
+      pair.bridge_share = of_bridges.Share(from, to);
+      pair.worst_wait_s = WorstWait(ways, clips[from]);
+      pair.in_between_share = static_cast<double>(CountLate(ways, clips[from], budget_s)) / clips[from].FrameCount();
+    }
+  }
+}
+
+std::vector<int> Coverage::WithoutWayInto(int wanted) const {
+  std::vector<int> without;
+  for (int from = 0; from < clip_count_; ++from) {
+    if (from != wanted && !Of(from, wanted).worst_wait_s) without.push_back(from);
+  }
+  return without;
+}
+
+}  // namespace etude

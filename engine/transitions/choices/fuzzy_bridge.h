@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/transitions/base/match_rules.h"
+#include "engine/transitions/base/transition_record.h"
+#include "engine/transitions/library/library.h"
+
+namespace etude {
+
+/// Paper A's transition (section 3.5): at each bridge frame of the playing clip within the budget, the first (or, by
+/// `rules.pick`, the nearest) bridge frame of the wanted clip, front half before rear half; else through an in-between.
+TransitionRecord PlanFuzzyBridge(const MotionLibrary& library, const TransitionRequest& request,
+                                 const MatchRules& rules);
+
+}  // namespace etude

@@ -1,0 +1,170 @@
+#include "engine/transitions/choices/through_in_between.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "engine/transitions/bridge_frames/transition_points.h"
+
+namespace etude {
+namespace {
+
+using Key = InBetweenNet::Key;
+
+/// Where a clip and the in-between meet.
+struct KeyPoint {
+  int frame = 0;  ///< of the clip
+  int key = -1;   ///< of the net
+  FuzzyDistance distance;
+  bool matches = false;
+};
+
+/// One clip of the library against the keys, counting the pairs that it compares.
+class KeySearch {
+ public:
+  KeySearch(const MotionLibrary& library, int clip, const MatchRules& rules, TransitionRecord& record)
+      : library_(library), clip_(library.tagged[clip]), rules_(rules), record_(record) {}
+
+  /// The first of `frames` that a key matches, with the nearest such key; else the nearest pair of `all` and any key.
+  KeyPoint Find(std::span<const int> frames, std::span<const int> all) const {
+    for (int frame : frames) {
+      if (const KeyPoint junction = MatchKeys(frame); junction.matches) return junction;
+    }
+    KeyPoint nearest;
+    for (int frame : all) {
+      for (int key = 0; key < KeyCount(); ++key) {
+        const bool is_first = nearest.key < 0;
+        if (is_first || IsCloser(clip_.grades[frame], GradesOf(key), rules_.weights, nearest.distance.value)) {
+          nearest = {frame, key, DistanceTo(key, frame), false};
+        }
+      }
+      record_.pairs_seen += KeyCount();
+    }
+    return nearest;
+  }
+
+  /// The junction, and beside it those of `frames` that come nearest to the same key: half of the record's room.
+  /// Their `from_frame` is the clip's.
+  std::vector<Candidate> ListCandidates(const KeyPoint& junction, std::span<const int> frames) const {
+    std::vector<Candidate> listed;
+    for (int frame : frames) {
+      if (frame == junction.frame) continue;
+      const CandidateOutcome outcome =
+          MatchesKey(frame, junction.key) ? CandidateOutcome::kLater : CandidateOutcome::kTooFar;
+      listed.push_back(
+          {.from_frame = frame, .distance = DistanceTo(junction.key, frame), .cost = {}, .outcome = outcome});
+    }
+    std::ranges::stable_sort(listed, {}, [](const Candidate& candidate) { return candidate.distance.value; });
+    listed.resize(std::min(listed.size(), kMostCandidates / 2 - 1));
+    listed.push_back(
+        {.from_frame = junction.frame, .distance = junction.distance, .cost = {}, .outcome = CandidateOutcome::kTaken});
+    std::ranges::stable_sort(listed, {}, &Candidate::from_frame);
+    return listed;
+  }
+
+ private:
+  int KeyCount() const { return static_cast<int>(library_.in_betweens.keys.size()); }
+  const Grades& GradesOf(int key) const {
+    const Key& place = library_.in_betweens.keys[key];
+    return library_.tagged[place.clip].grades[place.frame];
+  }
+
+  FuzzyDistance DistanceTo(int key, int frame) const {
+    return ComputeDistance(clip_.grades[frame], GradesOf(key), rules_.weights);
+  }
+  bool MatchesKey(int frame, int key) const {
+    const Key& place = library_.in_betweens.keys[key];
+    return Matches(clip_, frame, library_.tagged[place.clip], place.frame, rules_);
+  }
+
+  KeyPoint MatchKeys(int frame) const {
+    KeyPoint best{.frame = frame, .key = -1, .distance = {}, .matches = false};
+    for (int key = 0; key < KeyCount(); ++key) {
+      if (!MatchesKey(frame, key)) continue;
+      ++record_.pairs_matched;
+      const FuzzyDistance distance = DistanceTo(key, frame);
+      if (!best.matches || distance.value < best.distance.value) best = {frame, key, distance, true};
+    }
+    record_.pairs_seen += KeyCount();
+    return best;
+  }
+
+  const MotionLibrary& library_;
+  const TaggedClip& clip_;
+  const MatchRules& rules_;
+  TransitionRecord& record_;
+};
+
+/// The frames from one key to another, directly unless a limb would have to turn too far.
+std::vector<BodyPose> MakeInBetween(const MotionLibrary& library, int from, int to, double rate_hz) {
+  const InBetweenNet& net = library.in_betweens;
+  const auto pose = [&](int key) { return library.motions[net.keys[key].clip].poses[net.keys[key].frame]; };
+  const Tween direct(pose(from), pose(to));
+  constexpr int kHub = 0;
+  if (direct.WidestTurn() <= net.tween.widest_turn || from == kHub || to == kHub) {
+    return SampleTween(direct, rate_hz, net.tween);
+  }
+  std::vector<BodyPose> frames = SampleTween(Tween(pose(from), pose(kHub)), rate_hz, net.tween);
+  AppendTween(pose(to), rate_hz, net.tween, frames);
+  return frames;
+}
+
+std::string Explain(const MotionLibrary& library, const TransitionRequest& request, const KeyPoint& exit,
+                    const KeyPoint& entrance, double threshold) {
+  const auto name = [&](const KeyPoint& junction) {
+    const Key& key = library.in_betweens.keys[junction.key];
+    return fmt::format("{} {}", library.names[key.clip], key.frame);
+  };
+  const auto judge = [&](const KeyPoint& junction) {
+    const bool is_near = junction.distance.value < threshold;
+    return fmt::format("{} (d = {:.2f}{})", junction.frame, junction.distance.value,
+                       junction.matches ? ""
+                       : is_near        ? ", but no bridge frame that may be taken"
+                                        : fmt::format(", not below {}", threshold));
+  };
+  return fmt::format("left at {} {} for the key pose {}, entered from the key pose {} at {} {}",
+                     library.names[request.from], judge(exit), name(exit), name(entrance), library.names[request.to],
+                     judge(entrance));
+}
+
+}  // namespace
+
+TransitionRecord ThroughInBetween(const MotionLibrary& library, const TransitionRequest& request,
+                                  const MatchRules& rules, const std::string& why_not, std::int64_t pairs_seen) {
+  TransitionRecord record;
+  record.request_frame = request.request_frame;
+  record.pairs_seen = pairs_seen;
+  if (library.in_betweens.keys.empty()) {
+    record.why = why_not + "; and the library has no in-between";
+    return record;
+  }
+  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  const KeySearch exits(library, request.from, rules, record), entrances(library, request.to, rules, record);
+  const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
+  const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
+  const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
+  // In rising order the front half comes first by itself.
+  const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
+  const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
+
+  record.branch = exit.matches && entrance.matches ? Branch::kInBetween : Branch::kForced;
+  std::vector<BodyPose> own = MakeInBetween(library, exit.key, entrance.key, playing.rate_hz);
+  const int last = static_cast<int>(own.size()) - 1;
+  record.segments = {{.clip = request.from, .first = request.request_frame, .last = exit.frame, .own = {}},
+                     {.clip = Segment::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
+                     {.clip = request.to, .first = entrance.frame, .last = next.FrameCount() - 1, .own = {}}};
+  record.distances = {exit.distance, entrance.distance};
+  record.wait_s = WaitOf(record.segments, playing.rate_hz);
+  record.candidates = exits.ListCandidates(exit, exit_frames);
+  for (Candidate& candidate : entrances.ListCandidates(entrance, entrance_frames)) {
+    candidate.to_frame = std::exchange(candidate.from_frame, last);
+    candidate.point = 1;
+    record.candidates.push_back(std::move(candidate));
+  }
+  record.why = why_not + "; " + Explain(library, request, exit, entrance, rules.threshold);
+  return record;
+}
+
+}  // namespace etude

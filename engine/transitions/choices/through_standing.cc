@@ -1,0 +1,79 @@
+#include "engine/transitions/choices/through_standing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/transitions/in_betweens/tween.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// Where a limb of a standing body points to; not of unit length for the feet, which fall to the floor.
+glm::dvec3 StandingDirection(Role child) {
+  switch (child) {
+    case kLeftShoulder:
+    case kLeftHip:
+      return {1, 0, 0};
+    case kRightShoulder:
+    case kRightHip:
+      return {-1, 0, 0};
+    case kSpine:
+    case kShoulderCentre:
+    case kHead:
+      return {0, 1, 0};
+    case kLeftFoot:
+    case kRightFoot:
+      return {0, 0, 1};
+    default:
+      return {0, -1, 0};
+  }
+}
+
+}  // namespace
+
+BodyPose StandingPose(const BodyProportions& proportions) {
+  BodyPose pose;
+  pose[kHipCentre] = {0, proportions.standing_hip_height, 0};
+  for (const Bone& bone : AllBones()) {
+    const double length = proportions.limb_lengths[Index(bone.child)];
+    glm::dvec3 limb = length * StandingDirection(bone.child);
+    if (bone.child == kLeftFoot || bone.child == kRightFoot) {
+      const double drop = std::clamp(pose[bone.parent].y, 0.0, length);
+      limb = {0, -drop, std::sqrt(length * length - drop * drop)};
+    }
+    pose[bone.child] = pose[bone.parent] + limb;
+  }
+  return pose;
+}
+
+TransitionRecord PlanThroughStanding(const MotionLibrary& library, const TransitionRequest& request,
+                                     const MatchRules& rules) {
+  const TaggedClip &playing = library.tagged[request.from], &next = library.tagged[request.to];
+  const TweenRules& tween = library.in_betweens.tween;
+  const BodyPose& leaving = library.motions[request.from].poses[request.request_frame];
+  const BodyPose& entered = library.motions[request.to].poses.front();
+  std::vector<BodyPose> own = SampleTween(Tween(leaving, StandingPose(library.proportions)), playing.rate_hz, tween);
+  const int standing = static_cast<int>(own.size()) - 1;
+  AppendTween(entered, playing.rate_hz, tween, own);
+
+  TransitionRecord record;
+  record.branch = Branch::kStandingPose;
+  record.request_frame = request.request_frame;
+  const int last = static_cast<int>(own.size()) - 1;
+  record.segments = {{.clip = request.from, .first = request.request_frame, .last = request.request_frame, .own = {}},
+                     {.clip = Segment::kOwnFrames, .first = 0, .last = last, .own = std::move(own)},
+                     {.clip = request.to, .first = 0, .last = next.FrameCount() - 1, .own = {}}};
+  // The tweens begin and end in the clips' own frames.
+  const auto to_itself = [&](const Grades& grades) { return ComputeDistance(grades, grades, rules.weights); };
+  record.distances = {to_itself(playing.grades[request.request_frame]), to_itself(next.grades.front())};
+  record.wait_s = WaitOf(record.segments, playing.rate_hz);
+  record.why = fmt::format("left at once: {:.2f} s into a standing pose and {:.2f} s into the first frame of {}",
+                           standing / playing.rate_hz, (last - standing) / playing.rate_hz, library.names[request.to]);
+  return record;
+}
+
+}  // namespace etude

@@ -1,0 +1,43 @@
+#include "engine/transitions/joins/crossfade.h"
+
+#include <algorithm>
+
+#include "engine/base/smoothstep.h"
+#include "engine/transitions/joins/limb_turn.h"
+
+namespace etude {
+namespace {
+
+/// `share` of the way from one pose to another; the limbs have the lengths of `to`.
+BodyPose Between(const BodyPose& from, const BodyPose& to, double share) {
+  BodyPose pose;
+  pose[Role::kHipCentre] = glm::mix(from[Role::kHipCentre], to[Role::kHipCentre], share);
+  for (const Bone& bone : AllBones()) {
+    const glm::dvec3 limb = to[bone.child] - to[bone.parent];
+    const LimbTurn back = TurnBetween(limb, from[bone.child] - from[bone.parent]);
+    pose[bone.child] = pose[bone.parent] + Turned(limb, (1 - share) * back);
+  }
+  return pose;
+}
+
+}  // namespace
+
+const SettingTable<CrossfadeOptions>& CrossfadeSettings() {
+  static const SettingTable<CrossfadeOptions> kSettings({{"blend_s", &CrossfadeOptions::blend_s, 0, 5,
+                                                          "Seconds after the transition point until the new motion is "
+                                                          "shown alone."}});
+  return kSettings;
+}
+
+Blend Crossfade(const JoinInput& input, const CrossfadeOptions& options) {
+  const double blend_frames = options.blend_s * input.rate_hz;
+  std::vector<BodyPose> old = input.continuation(static_cast<std::size_t>(blend_frames) + 1);
+  if (old.empty()) old.push_back(input.shown.now);
+  return [old = std::move(old), blend_frames](const BodyPose& target, int frames) {
+    if (frames >= blend_frames) return target;
+    const std::size_t shown = std::min(static_cast<std::size_t>(frames), old.size());
+    return Between(old[shown - 1], target, Smoothstep(0, blend_frames, frames));
+  };
+}
+
+}  // namespace etude

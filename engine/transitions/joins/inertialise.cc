@@ -1,0 +1,95 @@
+#include "engine/transitions/joins/inertialise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/angles.h"
+#include "engine/transitions/joins/limb_turn.h"
+
+namespace etude {
+namespace {
+
+glm::dvec3 Limb(const BodyPose& pose, const Bone& bone) { return pose[bone.child] - pose[bone.parent]; }
+
+template <auto Decay, typename Options>
+Blend Inertialise(const JoinInput& input, const Options& options) {
+  const DecayLaw law = [options](const Offset& offset, double seconds) { return Decay(offset, seconds, options); };
+  return [inertialiser = Inertialiser(input, law), rate_hz = input.rate_hz](const BodyPose& target, int frames) {
+    return inertialiser.Apply(target, frames / rate_hz);
+  };
+}
+
+}  // namespace
+
+Inertialiser::Inertialiser(const JoinInput& input, DecayLaw law) : law_(std::move(law)) {
+  const PosePair &shown = input.shown, &target = input.target;
+  const auto measure = [rate = input.rate_hz](const glm::dvec3& before, const glm::dvec3& now) {
+    return Offset{now, (now - before) * rate};
+  };
+  hips_ = measure(shown.before[Role::kHipCentre] - target.before[Role::kHipCentre],
+                  shown.now[Role::kHipCentre] - target.now[Role::kHipCentre]);
+  for (const Bone& bone : AllBones()) {
+    const LimbTurn before = TurnBetween(Limb(target.before, bone), Limb(shown.before, bone));
+    const LimbTurn now = TurnBetween(Limb(target.now, bone), Limb(shown.now, bone));
+    // Near a half turn the axis may flip between two frames; that is no velocity.
+    const bool flipped = glm::dot(before, now) < 0 && glm::length(now) > 0.5 * kPi;
+    limbs_[Index(bone.child)] = measure(flipped ? now : before, now);
+  }
+}
+
+BodyPose Inertialiser::Apply(const BodyPose& target, double seconds) const {
+  BodyPose pose;
+  pose[Role::kHipCentre] = target[Role::kHipCentre] + law_(hips_, seconds);
+  for (const Bone& bone : AllBones()) {
+    const LimbTurn turn = law_(limbs_[Index(bone.child)], seconds);
+    pose[bone.child] = pose[bone.parent] + Turned(Limb(target, bone), turn);
+  }
+  return pose;
+}
+
+const SettingTable<SpringOptions>& SpringSettings() {
+  static const SettingTable<SpringOptions> kSettings({{"half_life_s", &SpringOptions::half_life_s, 0.001, 5,
+                                                       "Seconds until about half of what was off at the transition "
+                                                       "point is gone."}});
+  return kSettings;
+}
+
+glm::dvec3 SpringDecay(const Offset& offset, double seconds, const SpringOptions& options) {
+  const double y = 2.0 * std::numbers::ln2 / options.half_life_s;
+  return std::exp(-y * seconds) * (offset.value + (offset.velocity + y * offset.value) * seconds);
+}
+
+Blend InertialiseSpring(const JoinInput& input, const SpringOptions& options) {
+  return Inertialise<SpringDecay>(input, options);
+}
+
+const SettingTable<QuinticOptions>& QuinticSettings() {
+  static const SettingTable<QuinticOptions> kSettings({{"blend_s", &QuinticOptions::blend_s, 0, 5,
+                                                        "Seconds after the transition point until the new motion is "
+                                                        "shown alone."}});
+  return kSettings;
+}
+
+glm::dvec3 QuinticDecay(const Offset& offset, double seconds, const QuinticOptions& options) {
+  const double x0 = glm::length(offset.value);
+  if (x0 == 0) return glm::dvec3(0);
+  const glm::dvec3 axis = offset.value / x0;
+  const double v0 = std::min(glm::dot(offset.velocity, axis), 0.0);
+  // The parabola from x0 with slope v0 to rest would be there at −2 x0/v0; Bollo lets the quintic take 5/2 of that.
+  const double t1 = v0 < 0 ? std::min(options.blend_s, -5 * x0 / v0) : options.blend_s;
+  if (seconds >= t1) return glm::dvec3(0);
+  const double a0 = std::max(0.0, (-8 * v0 * t1 - 20 * x0) / (t1 * t1));
+  // x(s), s = t/t1, with x(0) = x0, x'(0) = v0, x''(0) = a0 and all three zero at s = 1.
+  const double s = seconds / t1, v = v0 * t1, a = a0 * t1 * t1;
+  const double c3 = -0.5 * (3 * a + 12 * v + 20 * x0);
+  const double c4 = 0.5 * (3 * a + 16 * v + 30 * x0);
+  const double c5 = -0.5 * (a + 6 * v + 12 * x0);
+  return axis * (x0 + s * (v + s * (0.5 * a + s * (c3 + s * (c4 + s * c5)))));
+}
+
+Blend InertialiseQuintic(const JoinInput& input, const QuinticOptions& options) {
+  return Inertialise<QuinticDecay>(input, options);
+}
+
+}  // namespace etude

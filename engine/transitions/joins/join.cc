@@ -1,0 +1,58 @@
+#include "engine/transitions/joins/join.h"
+
+#include <array>
+
+#include "engine/transitions/joins/crossfade.h"
+#include "engine/transitions/joins/inertialise.h"
+
+namespace etude {
+namespace {
+
+Blend CutOver(const JoinInput& /*input*/, std::span<const double> /*values*/) {
+  return [](const BodyPose& target, int /*frames*/) { return target; };
+}
+
+/// A row's `begin`: makes the join's own options of the values.
+template <auto Begin, auto Settings>
+Blend BeginWith(const JoinInput& input, std::span<const double> values) {
+  return Begin(input, Settings().Apply(values));
+}
+
+// A function, so that the table is made after every string it is made of.
+std::span<const Join> Table() {
+  static const std::array kJoins = {
+      Join{.name = "cut", .description = "paper A's: the next frame shown is the new clip's", .begin = CutOver},
+      Join{.name = "crossfade",
+           .description = "the old motion fades into the new one (Kovar 2002)",
+           .settings = CrossfadeSettings().Describe(),
+           .begin = BeginWith<Crossfade, CrossfadeSettings>},
+      Join{.name = "inertialised-quintic",
+           .description = "what was off dies away along a quintic that does not overshoot (Bollo 2018)",
+           .settings = QuinticSettings().Describe(),
+           .begin = BeginWith<InertialiseQuintic, QuinticSettings>},
+      Join{.name = "inertialised-spring",
+           .description = "what was off dies away like a critically damped spring (Holden 2020)",
+           .settings = SpringSettings().Describe(),
+           .begin = BeginWith<InertialiseSpring, SpringSettings>},
+  };
+  return kJoins;
+}
+
+}  // namespace
+
+std::span<const Join> AllJoins() { return Table(); }
+
+std::vector<std::string> JoinNames() {
+  std::vector<std::string> names;
+  for (const Join& join : AllJoins()) names.push_back(join.name);
+  return names;
+}
+
+const Join* FindJoin(std::string_view name) {
+  for (const Join& join : AllJoins()) {
+    if (join.name == name) return &join;
+  }
+  return nullptr;
+}
+
+}  // namespace etude

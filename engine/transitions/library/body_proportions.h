@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// The body that performs all clips of a library: how long its limbs are, and how high its hips stand.
+struct BodyProportions {
+  /// Metres, by the limb's child joint; the hip centre's entry is 0.
+  std::array<double, kRoleCount> limb_lengths{};
+  double standing_hip_height = 0;  ///< metres, as `StandingHipHeight` reads it
+};
+
+/// Those of `pose`, scaled so that the hips stand `standing_hip_height` metres high. `pose` must have legs.
+BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
+
+/// The same motion, performed by a body of these proportions. Paper A's clips all belong to one character; real clips
+/// come from many people, and a transition between two bodies would be seen whatever the pose.
+///
+/// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clip is
+/// set down, so that the lower foot is on or below the floor in 5 % of its frames. A limb of zero length in the source
+/// follows its parent limb's direction.
+BodyMotion PerformedBy(const BodyProportions& proportions, const BodyMotion& motion);
+
+}  // namespace etude

@@ -1,0 +1,24 @@
+#include "engine/transitions/library/library.h"
+
+#include <utility>
+
+namespace etude {
+
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
+                          const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
+  MotionLibrary library{.proportions = proportions,
+                        .names = std::move(names),
+                        .motions = {},
+                        .tagged = {},
+                        .features = {},
+                        .in_betweens = {}};
+  library.motions.reserve(clips.size());
+  for (const BodyMotion& clip : clips) library.motions.push_back(PerformedBy(proportions, clip));
+  library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
+  library.features = ComputeMotionFeatures(library.motions);
+  library.in_betweens =
+      BuildInBetweens(library.tagged, {.weights = rules.weights, .threshold = kPaperThreshold, .tween = tween});
+  return library;
+}
+
+}  // namespace etude

@@ -1,0 +1,150 @@
+// Compiled once for every kind of vectors that x86-64 CPUs have; the best one is chosen when the program runs
+// (engine/kinematics/solvers/batch_lanes.cc says why by Highway).
+#include "engine/transitions/search/grade_blocks.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/transitions/search/grade_blocks.cc"
+#include "hwy/foreach_target.h"  // before highway.h
+
+// In this order: per target.
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace etude::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<double, kBlockLanes / 2>;
+using Vec = hn::Vec<Tag>;
+
+/// Sums up the weighted squares of the gaps that `gap(term, lane)` gives for the lanes from `lane` on, as
+/// `ComputeDistance` does: never MulAdd, which rounds once where CPUs without it round twice. Gives up when all lanes
+/// are beyond the limit, since sums only grow.
+template <class Gap>
+HWY_INLINE BlockResult SumSquares(const GradeMetric& metric, double limit, const Gap& gap) {
+  const Tag tag;
+  const std::size_t lanes = hn::Lanes(tag);
+  const Vec most = hn::Set(tag, limit);
+  Vec least = most;
+  BlockResult result;
+  // Two vectors at a time: their sums do not wait for each other.
+  for (std::size_t lane = 0; lane < kBlockLanes; lane += 2 * lanes) {
+    Vec sum_a = hn::Zero(tag), sum_b = hn::Zero(tag);
+    bool goes_on = true;
+    for (std::size_t k = 0; k < kFeatureCount && goes_on; ++k) {
+      Vec feature_a = hn::Zero(tag), feature_b = hn::Zero(tag);
+      for (std::size_t t = metric.first_term[k]; t < metric.first_term[k + 1]; ++t) {
+        const Vec gap_a = gap(t, lane), gap_b = gap(t, lane + lanes);
+        feature_a = hn::Add(feature_a, hn::Mul(gap_a, gap_a));
+        feature_b = hn::Add(feature_b, hn::Mul(gap_b, gap_b));
+      }
+      const Vec weight = hn::Set(tag, metric.weights[k]);
+      sum_a = hn::Add(sum_a, hn::Mul(weight, feature_a));
+      sum_b = hn::Add(sum_b, hn::Mul(weight, feature_b));
+      if (k % 2 == 1) goes_on = !hn::AllFalse(tag, hn::Or(hn::Le(sum_a, most), hn::Le(sum_b, most)));
+    }
+    if (!goes_on) continue;
+    least = hn::Min(least, hn::Min(sum_a, sum_b));
+    hn::Store(sum_a, tag, &result.squared[lane]);
+    hn::Store(sum_b, tag, &result.squared[lane + lanes]);
+    std::array<std::uint8_t, 8> bits{};
+    hn::StoreMaskBits(tag, hn::Le(sum_a, most), bits.data());
+    result.kept |= static_cast<std::uint32_t>(bits[0]) << lane;
+    hn::StoreMaskBits(tag, hn::Le(sum_b, most), bits.data());
+    result.kept |= static_cast<std::uint32_t>(bits[0]) << (lane + lanes);
+  }
+  result.least = hn::GetLane(hn::MinOfLanes(tag, least));
+  return result;
+}
+
+BlockResult Distances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit) {
+  const Tag tag;
+  return SumSquares(metric, limit, [&](std::size_t t, std::size_t lane) HWY_ATTR {
+    return hn::Sub(hn::Load(tag, &block.grades[t][lane]), hn::Set(tag, query[t]));
+  });
+}
+
+BlockResult Bounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit) {
+  const Tag tag;
+  return SumSquares(metric, limit, [&](std::size_t t, std::size_t lane) HWY_ATTR {
+    const Vec below = hn::Sub(hn::Load(tag, &block.low[t][lane]), hn::Set(tag, query.high[t]));
+    const Vec above = hn::Sub(hn::Set(tag, query.low[t]), hn::Load(tag, &block.high[t][lane]));
+    return hn::Max(hn::Max(below, above), hn::Zero(tag));
+  });
+}
+
+}  // namespace etude::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etude {
+
+HWY_EXPORT(Distances);
+HWY_EXPORT(Bounds);
+
+GradeMetric::GradeMetric(const FeatureWeights& feature_weights) : weights(feature_weights) {
+  // Sums must only grow.
+  for ([[maybe_unused]] double weight : weights) assert(weight >= 0);
+  for (std::size_t k = 0; k < kFeatureCount; ++k) first_term[k] = FirstTermOf(AllFeatures()[k]);
+  first_term[kFeatureCount] = kTermCount;
+}
+
+void FrameBlock::Set(int lane, const Grades& frame) {
+  for (std::size_t t = 0; t < kTermCount; ++t) grades[t][lane] = frame[t];
+}
+
+void GradeBox::Include(const GradeBox& other) {
+  for (std::size_t t = 0; t < kTermCount; ++t) {
+    low[t] = std::min(low[t], other.low[t]);
+    high[t] = std::max(high[t], other.high[t]);
+  }
+}
+
+GradeBox BoxOf(std::span<const Grades> frames) {
+  GradeBox box{frames[0], frames[0]};
+  for (const Grades& grades : frames) box.Include({grades, grades});
+  return box;
+}
+
+void BoxBlock::Set(int lane, const GradeBox& box) {
+  for (std::size_t t = 0; t < kTermCount; ++t) {
+    low[t][lane] = box.low[t];
+    high[t][lane] = box.high[t];
+  }
+}
+
+BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit) {
+  return HWY_DYNAMIC_DISPATCH(Distances)(metric, query, block, limit);
+}
+
+BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit) {
+  return HWY_DYNAMIC_DISPATCH(Bounds)(metric, query, block, limit);
+}
+
+std::vector<std::string> BlockTargets() {
+  hwy::SetSupportedTargetsForTest(0);
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.push_back(hwy::TargetName(target));
+  return names;
+}
+
+void SetBlockTarget(const std::string& target) {
+  hwy::SetSupportedTargetsForTest(0);
+  for (const std::int64_t one : hwy::SupportedAndGeneratedTargets()) {
+    if (target == hwy::TargetName(one)) hwy::SetSupportedTargetsForTest(one);
+  }
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+double SquaredLimit(double distance) {
+  // The root and the square are each off by half a unit in the last place at most, and less than the least number.
+  constexpr double kSlack = 1 + 4 * std::numeric_limits<double>::epsilon();
+  return distance * distance * kSlack + std::numeric_limits<double>::denorm_min();
+}
+
+}  // namespace etude
+#endif  // HWY_ONCE

@@ -1,0 +1,276 @@
+#include "engine/transitions/search/grade_index.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "engine/transitions/search/block_order.h"
+
+namespace etude {
+namespace {
+
+/// Most first matches of a large library lie among so many frames; scanning their boxes takes a microsecond.
+constexpr std::size_t kHeadFrames = 4096;
+constexpr int kNoFrame = std::numeric_limits<int>::max();
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+bool Precedes(const Neighbour& a, const Neighbour& b) {
+  return std::tuple(a.distance, a.frame) < std::tuple(b.distance, b.frame);
+}
+
+void AddWork(const SearchWork& of_search, SearchWork* work) {
+  if (work == nullptr) return;
+  work->boxes += of_search.boxes;
+  work->distances += of_search.distances;
+}
+
+/// By frame. Many matches are sorted by their digits: standing still, a frame can have a hundred thousand.
+void SortByFrame(std::vector<Neighbour>& found, int frame_count) {
+  constexpr int kDigitBits = 11;
+  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+  if (found.size() < kDigits) {
+    std::ranges::sort(found, {}, &Neighbour::frame);
+    return;
+  }
+  std::vector<Neighbour> sorted(found.size());
+  for (int shift = 0; (std::int64_t{frame_count} >> shift) > 0; shift += kDigitBits) {
+    const auto digit_of = [&](const Neighbour& n) { return static_cast<std::size_t>(n.frame >> shift) % kDigits; };
+    std::array<std::size_t, kDigits + 1> places{};
+    for (const Neighbour& neighbour : found) ++places[digit_of(neighbour) + 1];
+    for (std::size_t d = 0; d < kDigits; ++d) places[d + 1] += places[d];
+    for (const Neighbour& neighbour : found) sorted[places[digit_of(neighbour)]++] = neighbour;
+    found.swap(sorted);
+  }
+}
+
+}  // namespace
+
+/// What is known of the frames below a node.
+struct GradeIndex::Node {
+  GradeBox box;
+  int first_frame;
+};
+
+struct GradeIndex::Children {
+  std::array<Child, kBlockLanes> array;
+  int count = 0;
+
+  Child* begin() { return array.data(); }
+  Child* end() { return array.data() + count; }
+};
+
+struct GradeIndex::NearestSearch {
+  GradeBox query;
+  std::size_t k;
+  std::vector<Neighbour> best;  // a heap, the worst in front
+  SearchWork work{};
+
+  Neighbour Worst() const { return best.size() < k ? Neighbour{kNoFrame, kFar} : best.front(); }
+  void Offer(const Neighbour& neighbour) {
+    if (!Precedes(neighbour, Worst())) return;
+    if (best.size() == k) {
+      std::ranges::pop_heap(best, Precedes);
+      best.pop_back();
+    }
+    best.push_back(neighbour);
+    std::ranges::push_heap(best, Precedes);
+  }
+};
+
+struct GradeIndex::FirstSearch {
+  GradeBox query;
+  double threshold;
+  Neighbour best{kNoFrame, kFar};
+  SearchWork work{};
+};
+
+struct GradeIndex::WithinSearch {
+  GradeBox query;
+  double threshold;
+  std::vector<Neighbour> found;
+  SearchWork work{};
+};
+
+GradeIndex::GradeIndex(std::span<const Grades> frames, const FeatureWeights& weights)
+    : frame_count_(static_cast<int>(frames.size())),
+      metric_(weights),
+      head_(frames.first(std::min(frames.size(), kHeadFrames))),
+      order_(OrderForBlocks(frames, metric_)),
+      blocks_(static_cast<std::size_t>(BlocksFor(frames.size()))) {
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    blocks_[i / kBlockLanes].Set(static_cast<int>(i % kBlockLanes), frames[order_[i]]);
+  }
+  if (!frames.empty()) BuildLevels(frames);
+}
+
+void GradeIndex::BuildLevels(std::span<const Grades> frames) {
+  // The nodes below the level in work: at first the frame blocks.
+  std::vector<Node> nodes;
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Grades& grades = frames[order_[i]];
+    AddChild(nodes, i, {{grades, grades}, order_[i]});
+  }
+  AddLevel(nodes);
+  while (nodes.size() > kBlockLanes) {
+    std::vector<Node> above;
+    for (std::size_t i = 0; i < nodes.size(); ++i) AddChild(above, i, nodes[i]);
+    nodes = std::move(above);
+    AddLevel(nodes);
+  }
+}
+
+void GradeIndex::AddLevel(std::span<const Node> nodes) {
+  Level& level = levels_.emplace_back();
+  level.boxes.resize(static_cast<std::size_t>(BlocksFor(nodes.size())));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    level.boxes[i / kBlockLanes].Set(static_cast<int>(i % kBlockLanes), nodes[i].box);
+    level.first_frames.push_back(nodes[i].first_frame);
+  }
+}
+
+/// Puts the next child, the one with that number, into the last node, or into a new one when that is full.
+void GradeIndex::AddChild(std::vector<Node>& nodes, std::size_t number, const Node& child) {
+  if (number % kBlockLanes == 0) {
+    nodes.push_back(child);
+    return;
+  }
+  Node& node = nodes.back();
+  node.box.Include(child.box);
+  node.first_frame = std::min(node.first_frame, child.first_frame);
+}
+
+std::int64_t GradeIndex::Bytes() const {
+  std::size_t bytes = order_.size() * sizeof(int) + (blocks_.size() + head_.frames.size()) * sizeof(FrameBlock) +
+                      head_.boxes.size() * sizeof(BoxBlock);
+  for (const Level& level : levels_) {
+    bytes += level.boxes.size() * sizeof(BoxBlock) + level.first_frames.size() * sizeof(int);
+  }
+  return static_cast<std::int64_t>(bytes);
+}
+
+GradeIndex::Children GradeIndex::ChildrenWithin(int level, int node, const GradeBox& query, double distance,
+                                                SearchWork& work) const {
+  const Level& of = levels_[level];
+  const int first = node * kBlockLanes;
+  const int count = std::min(kBlockLanes, static_cast<int>(of.first_frames.size()) - first);
+  work.boxes += count;
+  BlockResult result = SquaredBounds(metric_, query, of.boxes[node], SquaredLimit(distance));
+  result.kept &= LanesOf(count);
+  Children children;
+  ForEachLane(result.kept, [&](int lane) {
+    children.array[children.count++] = {std::sqrt(result.squared[lane]), of.first_frames[first + lane], first + lane};
+  });
+  return children;
+}
+
+BlockResult GradeIndex::FramesWithin(int block, const GradeBox& query, double distance, SearchWork& work) const {
+  const int count = std::min(kBlockLanes, frame_count_ - block * kBlockLanes);
+  work.distances += count;
+  BlockResult result = SquaredDistances(metric_, query.low, blocks_[block], SquaredLimit(distance));
+  result.kept &= LanesOf(count);
+  return result;
+}
+
+std::vector<Neighbour> GradeIndex::Nearest(const Grades& query, int k, SearchWork* work) const {
+  if (k <= 0 || frame_count_ == 0) return {};
+  NearestSearch search{.query = {query, query}, .k = static_cast<std::size_t>(std::min(k, frame_count_)), .best = {}};
+  search.best.reserve(search.k + 1);
+  FindNearest(TopLevel(), 0, search);
+  AddWork(search.work, work);
+  std::ranges::sort_heap(search.best, Precedes);
+  return search.best;
+}
+
+void GradeIndex::FindNearest(int level, int node, NearestSearch& search) const {
+  if (level < 0) {
+    const BlockResult near = FramesWithin(node, search.query, search.Worst().distance, search.work);
+    ForEachLane(near.kept, [&](int lane) {
+      search.Offer({order_[node * kBlockLanes + lane], std::sqrt(near.squared[lane])});
+    });
+    return;
+  }
+  Children children = ChildrenWithin(level, node, search.query, search.Worst().distance, search.work);
+  std::ranges::sort(children, {}, [](const Child& c) { return std::tuple(c.bound, c.first_frame); });
+  for (const Child& child : children) {
+    if (!Precedes({child.first_frame, child.bound}, search.Worst())) break;
+    FindNearest(level - 1, child.index, search);
+  }
+}
+
+std::optional<Neighbour> GradeIndex::First(const Grades& query, double threshold, SearchWork* work) const {
+  if (frame_count_ == 0 || !(threshold > 0)) return std::nullopt;
+  FirstSearch search{.query = {query, query}, .threshold = threshold};
+  if (const auto early = FirstInHead(query, threshold, search.work)) {
+    search.best = *early;
+  } else if (head_.frame_count < frame_count_) {
+    FindFirst(TopLevel(), 0, search);
+  }
+  AddWork(search.work, work);
+  if (search.best.frame == kNoFrame) return std::nullopt;
+  return search.best;
+}
+
+std::optional<Neighbour> GradeIndex::FirstInHead(const Grades& query, double threshold, SearchWork& work) const {
+  const double limit = SquaredLimit(threshold);
+  for (int node = 0; node * kBlockLanes < head_.BlockCount(); ++node) {
+    const int block_count = std::min(kBlockLanes, head_.BlockCount() - node * kBlockLanes);
+    work.boxes += block_count;
+    const BlockResult bounds = SquaredBounds(metric_, {query, query}, head_.boxes[node], limit);
+    for (std::uint32_t kept = bounds.kept & LanesOf(block_count); kept != 0; kept &= kept - 1) {
+      const int block = node * kBlockLanes + std::countr_zero(kept);
+      const int count = std::min(kBlockLanes, head_.frame_count - block * kBlockLanes);
+      work.distances += count;
+      const BlockResult near = SquaredDistances(metric_, query, head_.frames[block], limit);
+      for (std::uint32_t lanes = near.kept & LanesOf(count); lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        const double distance = std::sqrt(near.squared[lane]);
+        if (distance < threshold) return Neighbour{block * kBlockLanes + lane, distance};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+void GradeIndex::FindFirst(int level, int node, FirstSearch& search) const {
+  if (level < 0) {
+    const BlockResult near = FramesWithin(node, search.query, search.threshold, search.work);
+    ForEachLane(near.kept, [&](int lane) {
+      const Neighbour found{order_[node * kBlockLanes + lane], std::sqrt(near.squared[lane])};
+      if (found.distance < search.threshold && found.frame < search.best.frame) search.best = found;
+    });
+    return;
+  }
+  Children children = ChildrenWithin(level, node, search.query, search.threshold, search.work);
+  std::ranges::sort(children, {}, &Child::first_frame);
+  for (const Child& child : children) {
+    if (child.first_frame >= search.best.frame) break;
+    if (child.bound < search.threshold) FindFirst(level - 1, child.index, search);
+  }
+}
+
+std::vector<Neighbour> GradeIndex::Within(const Grades& query, double threshold, SearchWork* work) const {
+  if (frame_count_ == 0 || !(threshold > 0)) return {};
+  WithinSearch search{.query = {query, query}, .threshold = threshold, .found = {}};
+  FindWithin(TopLevel(), 0, search);
+  AddWork(search.work, work);
+  SortByFrame(search.found, frame_count_);
+  return search.found;
+}
+
+void GradeIndex::FindWithin(int level, int node, WithinSearch& search) const {
+  if (level < 0) {
+    const BlockResult near = FramesWithin(node, search.query, search.threshold, search.work);
+    ForEachLane(near.kept, [&](int lane) {
+      const Neighbour found{order_[node * kBlockLanes + lane], std::sqrt(near.squared[lane])};
+      if (found.distance < search.threshold) search.found.push_back(found);
+    });
+    return;
+  }
+  for (const Child& child : ChildrenWithin(level, node, search.query, search.threshold, search.work)) {
+    if (child.bound < search.threshold) FindWithin(level - 1, child.index, search);
+  }
+}
+
+}  // namespace etude

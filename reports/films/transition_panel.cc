@@ -1,0 +1,93 @@
+#include "reports/films/transition_panel.h"
+
+#include <fmt/core.h>
+
+#include "reports/films/distance_bars.h"
+#include "reports/films/film.h"
+#include "reports/films/look.h"
+#include "reports/words/figures.h"
+
+namespace etude {
+namespace {
+
+// How long a change stays marked, and the pose that was left shimmers on.
+constexpr int kMarkFrames = kFilmRate / 2, kGhostFrames = kFilmRate;
+constexpr double kPanelMargin = 12;
+constexpr Paint kPlate{0.13, 0.15, 0.17, 1};
+constexpr Paint kVeil{0.078, 0.090, 0.102, 0.6};
+
+}  // namespace
+
+std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz) {
+  if (time < 0) return "";
+  if (time <= last_point) return fmt::format("{} in {} s", wanted, FormatFixed((last_point - time) / rate_hz, 2));
+  return fmt::format("waited {} s", FormatFixed(last_point / rate_hz, 2));
+}
+
+Box TransitionPanel::BodyBox(const Box& column) {
+  return {column.x, column.y, column.width,
+          column.height - kCaptionHeight - kStripHeight - kDistanceBarsHeight - 2 * kGap};
+}
+
+// Clips are named by what meets; a recording that does not tell knows the first and the last.
+std::string TransitionPanel::ClipAt(int time) const {
+  const std::size_t points = path_.PointsBefore(time);
+  if (points == 0) return path_.facts.from;
+  if (points >= path_.facts.transition_frames.size()) return path_.facts.to;
+  const bool is_told = points <= path_.facts.points.size() && !path_.facts.points[points - 1].to.empty();
+  return is_told ? path_.facts.points[points - 1].to : "in-between";
+}
+
+void TransitionPanel::Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time) {
+  const Box body = BodyBox(column);
+  DrawBody(canvas, body, renderer, time);
+  const Box strip{column.x, body.y + body.height + kCaptionHeight + kGap, column.width, kStripHeight};
+  canvas.FillBox(strip, kPlate, kPanelRadius);
+  strip_.Draw(canvas, strip, path_, time);
+  const Box bars{column.x, strip.y + strip.height + kGap, column.width, kDistanceBarsHeight};
+  canvas.FillBox(bars, kPlate, kPanelRadius);
+  const std::size_t points = path_.PointsBefore(time);
+  DrawDistanceBars(canvas, bars, path_.facts, points > 0 ? std::optional(points - 1) : std::nullopt);
+}
+
+void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time) {
+  const int frame = path_.FrameAt(time);
+  const std::size_t points = path_.PointsBefore(time);
+  std::optional<int> left;
+  if (points > 0) left = path_.facts.transition_frames[points - 1];
+  const int since = left ? time - path_.TimeOf(*left) : 0;
+  const std::optional<int> ghost = left && since <= kGhostFrames ? left : std::nullopt;
+  if (!drawn_ || drawn_->frame != frame || drawn_->ghost != ghost) {
+    drawn_ = {frame, ghost, stage_.Picture(renderer, path_, index_, frame, ghost)};
+  }
+  const bool just_changed = left && since <= kMarkFrames;
+  const Box plate{box.x, box.y, box.width, box.height + kCaptionHeight};
+  if (just_changed) {
+    constexpr double kRim = 3;
+    canvas.FillBox({plate.x - kRim, plate.y - kRim, plate.width + 2 * kRim, plate.height + 2 * kRim}, kWarm,
+                   kPanelRadius + kRim);
+  }
+  canvas.FillBox(plate, kPlate, kPanelRadius);
+  canvas.DrawImage(drawn_->picture, box, kPanelRadius);
+  constexpr double kMarkRoom = 90;
+  if (!path_.IsRecordedAt(time)) {
+    canvas.FillBox(box, kVeil, kPanelRadius);
+    const std::string begin = FormatFixed(path_.TimeOf(0) / path_.motion.rate_hz, 1);
+    canvas.DrawText({box.x + 16, box.y + box.height / 2}, fmt::format("recorded from {} s on", begin), 14, kSoftInk,
+                    box.width - 32);
+  }
+  DrawTag(canvas, box, path_.method, kMarkRoom);
+  if (just_changed) DrawMark(canvas, box, "change");
+  DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);
+}
+
+void TransitionPanel::DrawWords(Canvas& canvas, const Box& box, int time) const {
+  const double room = box.width - 2 * kPanelMargin;
+  canvas.DrawDot({box.x + kPanelMargin + 5, box.y + 17}, 5, PaintOfSegment(path_.facts, path_.PointsBefore(time)));
+  canvas.DrawText({box.x + kPanelMargin + 18, box.y + 23}, ClipAt(time), 17, kInk, room - 18, true);
+  const std::string countdown = CountdownWords(path_.facts.to, time, path_.LastPoint(), path_.motion.rate_hz);
+  canvas.DrawText({box.x + kPanelMargin, box.y + 43}, countdown.empty() ? "before the request" : countdown, 14,
+                  kSoftInk, room);
+}
+
+}  // namespace etude

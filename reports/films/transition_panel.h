@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reports/films/canvas.h"
+#include "reports/films/jump_strip.h"
+#include "reports/films/transition_stage.h"
+
+namespace etude {
+
+/// "side kick in 0.34 s" from the request until the wanted clip plays, "waited 0.57 s" then; "" before.
+/// `time` and `last_point` are frames after the request.
+std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
+
+/// One method's column of the film that compares transitions: the dancer, how jerky it is, and the distances at its
+/// transition points.
+class TransitionPanel {
+ public:
+  static constexpr double kCaptionHeight = 52, kStripHeight = 132, kGap = 8;
+
+  /// All must outlive the panel; `index` is the path's place in the race that the stage was made for.
+  TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
+      : path_(path), index_(index), stage_(stage), strip_(strip) {}
+
+  /// The part of a column of the film that shows the dancer; its caption is beneath.
+  static Box BodyBox(const Box& column);
+  void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
+
+ private:
+  struct Drawn {
+    int frame;
+    std::optional<int> ghost;
+    ColourImage picture;
+  };
+  void DrawBody(Canvas& canvas, const Box& box, Renderer& renderer, int time);
+  void DrawWords(Canvas& canvas, const Box& box, int time) const;
+  std::string ClipAt(int time) const;
+
+  const TransitionPath& path_;
+  std::size_t index_;
+  const TransitionStage& stage_;
+  const JumpStrip& strip_;
+  std::optional<Drawn> drawn_;  ///< slow moments show one picture several times
+};
+
+}  // namespace etude

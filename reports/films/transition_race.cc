@@ -1,0 +1,77 @@
+#include "reports/films/transition_race.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/metrics/transition_smoothness.h"
+#include "reports/words/figures.h"
+
+namespace etude {
+namespace {
+
+// Older recordings tell the wait only; what tells neither is aligned at its transition.
+int RequestOf(const TransitionFacts& facts, double rate_hz) {
+  if (facts.request_frame) return *facts.request_frame;
+  constexpr double kLongest = 3600;
+  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kLongest);
+  return facts.transition_frames.back() - static_cast<int>(std::lround(wait * rate_hz));
+}
+
+bool CanBeShown(const RecordedTransition& recorded) {
+  return recorded.row->result.status == Status::kOk && !recorded.facts.transition_frames.empty();
+}
+
+std::vector<const RecordedTransition*> ShownOf(const RecordedRequest& world, const std::vector<std::string>& methods) {
+  std::vector<const RecordedTransition*> shown;
+  for (const std::string& method : methods) {
+    const auto found = std::ranges::find_if(
+        world.transitions, [&](const RecordedTransition& s) { return s.row->method == method && CanBeShown(s); });
+    if (found != world.transitions.end() && shown.size() < kMostTransitionPaths) shown.push_back(&*found);
+  }
+  return shown;
+}
+
+}  // namespace
+
+int TransitionPath::FrameAt(int time) const {
+  return std::clamp(request + time, 0, static_cast<int>(motion.poses.size()) - 1);
+}
+
+bool TransitionPath::IsRecordedAt(int time) const { return request + time >= 0; }
+
+std::size_t TransitionPath::PointsBefore(int time) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(facts.transition_frames, [&](int point) { return TimeOf(point) < time; }));
+}
+
+Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSummary& scenario) {
+  const std::vector<RecordedRequest> worlds = RecordedRequestsOf(run, scenario);
+  const RecordedRequest* best = nullptr;
+  std::vector<const RecordedTransition*> shown;
+  for (const RecordedRequest& world : worlds) {
+    auto candidates = ShownOf(world, scenario.methods);
+    if (candidates.size() <= shown.size()) continue;
+    best = &world;
+    shown = std::move(candidates);
+  }
+  if (worlds.empty()) {
+    return Fail({}, "this run kept no recordings of transitions here (the scenario's key video)");
+  }
+  if (shown.size() < 2) return Fail({}, "no world kept recordings of two methods with a transition");
+  TransitionRace race{.world = best->Name(), .request = best->Request(), .choice = {}, .paths = {}};
+  race.choice = fmt::format("the first of {} recorded in which most of them have one",
+                            Plural(static_cast<long long>(worlds.size()), "world"));
+  for (const RecordedTransition* recorded : shown) {
+    const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");
+    race.paths.push_back({.method = recorded->row->method,
+                          .facts = recorded->facts,
+                          .motion = motion,
+                          .jumps_cm = SecondDifferencesCm(motion),
+                          .request = RequestOf(recorded->facts, motion.rate_hz)});
+  }
+  return race;
+}
+
+}  // namespace etude

@@ -1,0 +1,43 @@
+#include "reports/transitions/recorded_requests.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace etude {
+
+std::string RecordedRequest::Name() const {
+  const Row& row = *transitions.front().row;
+  const std::string condition = ConditionLabel(row.condition);
+  return fmt::format("{}{}trial {}", condition, condition.empty() ? "" : ", ", row.trial);
+}
+
+std::string RecordedRequest::Request() const {
+  const TransitionFacts& facts = transitions.front().facts;
+  return fmt::format("{} → {}", facts.from, facts.to);
+}
+
+std::vector<RecordedRequest> RecordedRequestsOf(const RunData& run, const ScenarioSummary& scenario) {
+  std::vector<RecordedRequest> worlds;
+  if (scenario.task != "transition" || run.recordings.empty()) return worlds;
+  std::map<std::string_view, const Recording*> recordings;
+  for (const CellRecording& recorded : run.recordings) recordings.emplace(recorded.cell, &recorded.recording);
+  std::map<std::pair<std::string, int>, std::size_t> places;
+  for (const Row& row : run.rows) {
+    if (row.scenario != scenario.name) continue;
+    const auto found = recordings.find(row.Id());
+    if (found == recordings.end() || FindTrack(*found->second, "coach") == nullptr) continue;
+    auto facts = ReadTransitionFacts(*found->second, row.Id());
+    if (!facts) continue;
+    const auto [place, is_new] = places.try_emplace({CompactLabel(row.condition), row.trial}, worlds.size());
+    if (is_new) worlds.emplace_back();
+    worlds[place->second].transitions.push_back({&row, found->second, *std::move(facts)});
+  }
+  const auto order = [&](const RecordedTransition& s) { return std::ranges::find(scenario.methods, s.row->method); };
+  for (RecordedRequest& world : worlds) std::ranges::stable_sort(world.transitions, {}, order);
+  return worlds;
+}
+
+}  // namespace etude

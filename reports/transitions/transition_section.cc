@@ -1,0 +1,220 @@
+#include "reports/transitions/transition_section.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "reports/transitions/distance_table.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "reports/words/left_out.h"
+
+namespace etude {
+namespace {
+
+// More than a reader takes in; the recordings hold them all.
+constexpr std::size_t kMostWorlds = 6;
+constexpr std::size_t kMostMethods = 12;
+constexpr std::size_t kMostCandidates = 24;
+
+std::string NumberOr(std::optional<double> value, int decimals) {
+  return value ? FormatFixed(*value, decimals) : std::string(kNoValue);
+}
+
+std::span<const RecordedTransition> Shown(const RecordedRequest& world) {
+  return std::span(world.transitions).first(std::min(world.transitions.size(), kMostMethods));
+}
+
+/// "clap 41 → in-between 0 … in-between 12 → side kick 3"
+std::string WayOf(const TransitionFacts& facts) {
+  std::string text;
+  for (const PointFacts& point : facts.points) {
+    if (!point.from_frame || !point.to_frame) continue;
+    text += fmt::format("{}{} {} → {} {}", text.empty() ? "" : " … ", point.from, *point.from_frame, point.to,
+                        *point.to_frame);
+  }
+  return text.empty() ? std::string(kNoValue) : text;
+}
+
+/// The largest distance of the frames that met: what the threshold is about.
+std::optional<double> WorstDistance(const TransitionFacts& facts) {
+  std::optional<double> worst;
+  for (const PointFacts& point : facts.points) {
+    if (point.distance && (!worst || *point.distance > *worst)) worst = point.distance;
+  }
+  return worst;
+}
+
+std::string PairsOf(const TransitionFacts& facts) {
+  if (!facts.pairs_seen || *facts.pairs_seen == 0) return std::string(kNoValue);
+  if (!facts.pairs_matched) return FormatCount(*facts.pairs_seen);
+  return fmt::format("{} of {}", FormatCount(*facts.pairs_matched), FormatCount(*facts.pairs_seen));
+}
+
+std::string Dashed(const std::string& text) { return text.empty() ? std::string(kNoValue) : text; }
+
+std::string WaysTable(const RecordedRequest& world) {
+  std::string html =
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Which way each method "
+      "took\"><table><thead><tr>"
+      "<th scope=\"col\">Method</th><th scope=\"col\">Branch</th><th scope=\"col\">Frames, left → entered</th>"
+      "<th scope=\"col\" class=\"n\">Wait</th><th scope=\"col\" class=\"n\">d</th>"
+      "<th scope=\"col\" class=\"n\">Pairs matched</th><th scope=\"col\">Why</th></tr></thead><tbody>";
+  for (const RecordedTransition& taken : Shown(world)) {
+    const TransitionFacts& facts = taken.facts;
+    html += fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td>{}</td></tr>",
+        EscapeMarkup(taken.row->method), EscapeMarkup(Dashed(facts.branch)), EscapeMarkup(WayOf(facts)),
+        facts.wait_s ? FormatFixed(*facts.wait_s, 2) + " s" : std::string(kNoValue), NumberOr(WorstDistance(facts), 3),
+        PairsOf(facts), EscapeMarkup(Dashed(facts.why)));
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string Distances(const RecordedRequest& world) {
+  DistanceTable table;
+  for (const RecordedTransition& taken : Shown(world)) {
+    const TransitionFacts& facts = taken.facts;
+    if (facts.weights) table.AddWeights(taken.row->method, *facts.weights);
+    for (const PointFacts& point : facts.points) {
+      if (point.partials) table.AddPoint(taken.row->method, point, facts.threshold);
+    }
+  }
+  return table.Html();
+}
+
+/// "clap 28", or the frame alone
+std::string FrameIn(const std::string& clip, int frame) {
+  return clip.empty() ? std::to_string(frame) : fmt::format("{} {}", EscapeMarkup(clip), frame);
+}
+
+/// Through an in-between two pairs of clips meet, each with candidates of its own. Clips unknown are not named.
+PointFacts PointOf(const CandidateFacts& candidate, const TransitionFacts& facts) {
+  const int point = candidate.point.value_or(facts.points.size() == 1 ? 0 : -1);
+  const bool is_told = point >= 0 && point < static_cast<int>(facts.points.size());
+  return is_told ? facts.points[static_cast<std::size_t>(point)] : PointFacts{};
+}
+
+std::string CandidateRow(const CandidateFacts& candidate, const TransitionFacts& facts, bool has_costs) {
+  const bool taken = candidate.outcome == "taken";
+  const PointFacts point = PointOf(candidate, facts);
+  std::string html =
+      fmt::format("<tr{}><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
+                  taken ? " class=\"taken\"" : "", taken ? "✓ " : "", EscapeMarkup(Dashed(candidate.outcome)),
+                  FrameIn(point.from, candidate.from_frame), FrameIn(point.to, candidate.to_frame),
+                  FormatFixed(candidate.distance, 3));
+  if (has_costs)
+    html += fmt::format("<td class=\"n\">{}</td>", candidate.cost ? FormatNumber(*candidate.cost) : kNoValue);
+  return html +
+         fmt::format("<td>{}</td></tr>", candidate.partials ? MostlyBy(*candidate.partials) : std::string(kNoValue));
+}
+
+/// The record holds but a few of all the pairs.
+std::string HowMany(const TransitionFacts& facts) {
+  const auto listed = static_cast<long long>(facts.candidates.size());
+  if (!facts.pairs_seen || *facts.pairs_seen <= listed) return "";
+  return fmt::format("<p class=\"quiet legend\">{} of {} pairs of frames: the taken, and the best of the others.</p>",
+                     FormatCount(listed), FormatCount(*facts.pairs_seen));
+}
+
+std::string CandidatesTable(const std::string& methods, const TransitionFacts& facts) {
+  if (facts.candidates.empty()) return "";
+  const bool has_costs = std::ranges::any_of(facts.candidates, [](const auto& c) { return c.cost.has_value(); });
+  std::string html = fmt::format(
+      "<h4>What {} looked at</h4>{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Candidates of "
+      "{}\">"
+      "<table><thead><tr><th scope=\"col\">Outcome</th><th scope=\"col\" class=\"n\">Leaves at</th>"
+      "<th scope=\"col\" class=\"n\">Enters at</th><th scope=\"col\" class=\"n\">d</th>",
+      EscapeMarkup(methods), HowMany(facts), EscapeMarkup(methods));
+  if (has_costs) {
+    const std::string unit = facts.cost_unit.empty() ? "" : fmt::format(" ({})", facts.cost_unit);
+    html += fmt::format("<th scope=\"col\" class=\"n\">Cost{}</th>", EscapeMarkup(unit));
+  }
+  html += "<th scope=\"col\">d² is mostly</th></tr></thead><tbody>";
+  const std::size_t shown = std::min(facts.candidates.size(), kMostCandidates);
+  for (std::size_t i = 0; i < shown; ++i) html += CandidateRow(facts.candidates[i], facts, has_costs);
+  return html + "</tbody></table></div>" + LeftOutHtml(facts.candidates.size(), shown, "candidates", "the recording");
+}
+
+/// Methods that differ in the join alone look at the same candidates: these are shown once.
+std::string AllCandidates(const RecordedRequest& world) {
+  std::string html;
+  std::vector<bool> told(world.transitions.size());
+  for (std::size_t i = 0; i < Shown(world).size(); ++i) {
+    if (told[i]) continue;
+    std::string methods = world.transitions[i].row->method;
+    for (std::size_t j = i + 1; j < Shown(world).size(); ++j) {
+      if (world.transitions[j].facts.candidates != world.transitions[i].facts.candidates) continue;
+      methods += ", " + world.transitions[j].row->method;
+      told[j] = true;
+    }
+    html += CandidatesTable(methods, world.transitions[i].facts);
+  }
+  if (html.empty()) return html;
+  return html +
+         "<p class=\"quiet legend\">Too far: d is not below the threshold. Later: it matches, but the first match is "
+         "taken. Worse: it matches, but another ranks before it.</p>";
+}
+
+std::string WorldHtml(const RecordedRequest& world, bool open) {
+  std::string html =
+      fmt::format("<details class=\"transitions\"{}><summary>Why each transition went where it went: {}, {}</summary>",
+                  open ? " open" : "", EscapeMarkup(world.Request()), EscapeMarkup(world.Name()));
+  html += WaysTable(world) + Distances(world) + AllCandidates(world);
+  return html + LeftOutHtml(world.transitions.size(), kMostMethods, "methods", "the folder recordings") + "</details>";
+}
+
+std::string WorldMarkdown(const RecordedRequest& world) {
+  std::string text = fmt::format(
+      "\n{}, {}:\n\n| method | branch | frames, left → entered | wait | d | d² is mostly | why |\n"
+      "|---|---|---|---|---|---|---|\n",
+      EscapeMarkdown(world.Request()), EscapeMarkdown(world.Name()));
+  for (const RecordedTransition& taken : Shown(world)) {
+    const TransitionFacts& facts = taken.facts;
+    const auto worst =
+        std::ranges::max_element(facts.points, {}, [](const PointFacts& m) { return m.distance.value_or(-1); });
+    text += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} |\n", EscapeMarkdown(taken.row->method),
+        EscapeMarkdown(Dashed(facts.branch)), EscapeMarkdown(WayOf(facts)),
+        facts.wait_s ? FormatFixed(*facts.wait_s, 2) + " s" : std::string(kNoValue), NumberOr(WorstDistance(facts), 3),
+        worst->partials ? MostlyBy(*worst->partials) : std::string(kNoValue), EscapeMarkdown(Dashed(facts.why)));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string MostlyBy(const PerFeature& partials) {
+  constexpr std::size_t kNamed = 3;
+  std::array<std::size_t, kFeatureCount> order{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t k) { return partials[k]; });
+  std::string text;
+  for (const std::size_t k : std::span(order).first(kNamed)) {
+    if (partials[k] < kLeastShown) break;
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", FeatureName(AllFeatures()[k]), FormatFixed(partials[k], 3));
+  }
+  return text.empty() ? "all alike" : text;
+}
+
+std::string TransitionsHtml(const std::vector<RecordedRequest>& worlds) {
+  std::string html;
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) html += WorldHtml(worlds[i], i == 0);
+  return html + LeftOutHtml(worlds.size(), kMostWorlds, "requests", "the folder recordings");
+}
+
+std::string TransitionsMarkdown(const std::vector<RecordedRequest>& worlds) {
+  if (worlds.empty()) return "";
+  std::string text = "\n<details><summary>Why each transition went where it went</summary>\n";
+  for (std::size_t i = 0; i < std::min(worlds.size(), kMostWorlds); ++i) text += WorldMarkdown(worlds[i]);
+  const std::string rest = LeftOutWords(worlds.size(), kMostWorlds, "requests", "the folder recordings");
+  return text + (rest.empty() ? "" : "\n" + rest + "\n") + "\n</details>\n";
+}
+
+}  // namespace etude

@@ -1,0 +1,18 @@
+# Turns results of before a word was renamed into what they are now: sed -E -f scripts/renames.sed cells.jsonl
+# Digests of scenarios and methods differ all the same, and so do the intervals of a renamed method in summary.json:
+# their dice are keyed by its name.
+s/ccd-nullspace/gauss-newton/g
+s/\bnullspace\b/gauss-newton/g
+# Transitions: recordings' facts, series, digests and reasons.
+s/(\\?")seam_frame(s?\\?":)/\1transition_frame\2/g
+s/(\\?")switches(\\?": ?\[)/\1transition_points\2/g
+s/"digest_switches":/"digest_transition":/g
+s/(\\?")meeting(\\?":)/\1point\2/g
+s/(\\?")fate(\\?":)/\1outcome\2/g
+s/\bmeeting_partials\b/point_partials/g
+s/\bcandidate_meeting\b/candidate_point/g
+s/\bcandidate_fate\b/candidate_outcome/g
+s/goes on: no switch, for comparison/goes on: no transition, for comparison/g
+s/\ba switch needs two clips/a transition needs two clips/g
+s/\ba switch is judged over at least/a transition is judged over at least/g
+s/nothing moves around the seam, or too shortly/nothing moves around the transition, or too shortly/g

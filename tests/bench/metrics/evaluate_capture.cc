@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/measurement.h"
+#include "bench/metrics/pose_error.h"
+#include "bench/metrics/segmentation.h"
+#include "bench/metrics/share.h"
+#include "tests/bench/metrics/evaluators.h"
+#include "tests/bench/metrics/vector_input.h"
+
+namespace etude {
+namespace {
+
+PoseErrors PoseErrorsOf(const Json& in, const char* found) {
+  return ComparePoses(ReadMotion(in.at(found)).poses, ReadMotion(in.at("truth")).poses);
+}
+
+std::vector<Sighted> SightedThings(const Json& list) {
+  std::vector<Sighted> things;
+  for (const Json& thing : list) {
+    things.push_back({ReadOptionalPoint(thing.at("found")), ReadOptionalPoint(thing.at("truth"))});
+  }
+  return things;
+}
+
+double ReprojectionOf(const Json& in) {
+  std::vector<std::vector<PointPair>> pairs;
+  std::vector<CameraFit> fits;
+  for (const Json& camera : in.at("cameras")) {
+    std::vector<PointPair>& list = pairs.emplace_back();
+    for (std::size_t i = 0; i < camera.at("points_m").size(); ++i) {
+      const Json& pixel = camera.at("pixels").at(i);
+      list.push_back({ReadPoint(camera.at("points_m").at(i)), {pixel.at(0).get<double>(), pixel.at(1).get<double>()}});
+    }
+    fits.push_back({{camera.at("matrix").get<std::array<std::array<double, 4>, 3>>()}, list});
+  }
+  return MeanReprojectionRmsPx(fits);
+}
+
+Value ShareOfFrames(const Json& in) {
+  const auto recovered = in.at("recovered").get<std::vector<int>>();
+  return Share(std::count(recovered.begin(), recovered.end(), 1), static_cast<std::int64_t>(recovered.size()));
+}
+
+MaskScore MasksOf(const Json& in) {
+  std::vector<MaskScore> scores;
+  for (const Json& image : in.at("images")) {
+    scores.push_back(ScoreMask(ReadMask(image.at("found")), ReadMask(image.at("truth")), ReadMask(image.at("shadow"))));
+  }
+  return MeanScore(scores);
+}
+
+}  // namespace
+
+std::span<const Evaluator> CaptureEvaluators() {
+  static constexpr Evaluator kAll[] = {
+      {"mpjpe_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").mpjpe_mm; }},
+      {"mpjpe_before_ik_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "before_ik").mpjpe_mm; }},
+      {"pa_mpjpe_mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").pa_mpjpe_mm; }},
+      {"pck_50mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").pck_50mm; }},
+      {"auc_200mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").auc_200mm; }},
+      {"bone_length_error_cm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").bone_length_error_cm; }},
+      {"limb_direction_error_deg",
+       [](const Json& in) -> Value { return LimbDirectionErrorDeg(SightedThings(in.at("limbs"))).mean; }},
+      {"limb_direction_coverage",
+       [](const Json& in) -> Value { return LimbDirectionErrorDeg(SightedThings(in.at("limbs"))).coverage; }},
+      {"triangulation_error_mm",
+       [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).mean; }},
+      {"triangulation_coverage",
+       [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).coverage; }},
+      {"reprojection_rms_px", [](const Json& in) -> Value { return ReprojectionOf(in); }},
+      {"frames_recovered", ShareOfFrames},
+      {"iou", [](const Json& in) -> Value { return MasksOf(in).iou; }},
+      {"mask_precision", [](const Json& in) -> Value { return MasksOf(in).precision; }},
+      {"mask_recall", [](const Json& in) -> Value { return MasksOf(in).recall; }},
+      {"mask_f1", [](const Json& in) -> Value { return MasksOf(in).f1; }},
+      {"shadow_error", [](const Json& in) -> Value { return MasksOf(in).shadow_error; }},
+  };
+  return kAll;
+}
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/detection.h"
+#include "tests/bench/metrics/evaluators.h"
+
+namespace etude {
+namespace {
+
+std::vector<JudgedEvent> EventsOf(const Json& in) {
+  std::vector<JudgedEvent> events;
+  for (const Json& event : in.at("events")) {
+    events.push_back({event.at("right").get<bool>(), event.at("called").get<bool>(), event.at("score").get<double>()});
+  }
+  return events;
+}
+
+Confusion ConfusionOf(const Json& in) { return CountConfusion(EventsOf(in)); }
+
+Value Latency(const Json& in) {
+  std::vector<Wait> waits;
+  for (const Json& event : in.at("performances")) {
+    const Json& called = event.at("called_frame");
+    waits.push_back(WaitForPraise(event.at("first_right_s").get<double>(),
+                                  called.is_null() ? std::nullopt : std::optional(called.get<int>()),
+                                  event.at("window_end_frame").get<int>(), in.at("rate_hz").get<double>()));
+  }
+  return KaplanMeierMedian(waits);
+}
+
+double FalseAlarms(const Json& in) {
+  std::vector<MoveWindow> windows;
+  for (const Json& window : in.at("windows")) {
+    windows.push_back({window.at("asked").get<std::string>(), window.at("danced").get<std::string>(),
+                       window.at("begin_frame").get<int>(), window.at("end_frame").get<int>()});
+  }
+  std::size_t alarms = 0;
+  for (const Json& call : in.at("calls")) {
+    alarms += IsFalseAlarm(call.at("move").get<std::string>(), call.at("frame").get<int>(), windows);
+  }
+  return FalseAlarmsPerMinute(alarms, in.at("frames").get<double>() / in.at("rate_hz").get<double>());
+}
+
+}  // namespace
+
+std::span<const Evaluator> DetectionEvaluators() {
+  static constexpr Evaluator kAll[] = {
+      {"precision", [](const Json& in) -> Value { return Precision(ConfusionOf(in)); }},
+      {"recall", [](const Json& in) -> Value { return Recall(ConfusionOf(in)); }},
+      {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
+      {"roc_auc", [](const Json& in) -> Value { return RocAuc(EventsOf(in)); }},
+      {"latency_s", Latency},
+      {"false_alarms_per_min", [](const Json& in) -> Value { return FalseAlarms(in); }},
+  };
+  return kAll;
+}
+
+}  // namespace etude

@@ -1,0 +1,46 @@
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/detection.h"
+#include "bench/metrics/pose_distance.h"
+#include "tests/bench/metrics/evaluators.h"
+#include "tests/bench/metrics/vector_input.h"
+
+namespace etude {
+namespace {
+
+Value CalledAlike(const Json& in) {
+  const Json& pairs = in.at("pairs");
+  if (pairs.size() != 1) return std::nullopt;
+  return pairs.at(0).at("distance").get<double>() < in.at("threshold").get<double>() ? 1 : 0;
+}
+
+Value JointDistance(const Json& in) {
+  const BodyPose a = ReadPose(in.at("a")), b = ReadPose(in.at("b"));
+  return in.at("method") == "point-cloud" ? RootMeanSquareJointDistanceCm(a, b) : MeanJointDistanceCm(a, b);
+}
+
+/// A pair of poses as an event: "right" is close, "called right" is called alike.
+std::vector<JudgedEvent> PairEvents(const Json& in) {
+  std::vector<JudgedEvent> events;
+  for (const Json& pair : in.at("pairs")) {
+    const double distance = pair.at("distance").get<double>();
+    events.push_back({pair.at("pose_gap_cm").get<double>() < 100 * kCloseGap,
+                      distance < in.at("threshold").get<double>(), -distance});
+  }
+  return events;
+}
+
+}  // namespace
+
+std::span<const Evaluator> PoseDistanceEvaluators() {
+  static constexpr Evaluator kAll[] = {
+      {"called_alike", CalledAlike},
+      {"joint_distance_cm", JointDistance},
+      {"close_auc", [](const Json& in) -> Value { return RocAuc(PairEvents(in)); }},
+      {"close_f1", [](const Json& in) -> Value { return F1(CountConfusion(PairEvents(in))); }},
+  };
+  return kAll;
+}
+
+}  // namespace etude

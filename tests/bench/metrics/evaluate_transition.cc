@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/dimensionless_jerk.h"
+#include "bench/metrics/matching.h"
+#include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/transition_smoothness.h"
+#include "engine/fuzzy/distance.h"
+#include "tests/bench/metrics/evaluators.h"
+#include "tests/bench/metrics/vector_input.h"
+
+namespace etude {
+namespace {
+
+std::vector<int> TransitionFramesOf(const Json& in) { return in.at("seams").get<std::vector<int>>(); }
+
+TransitionSmoothness SmoothnessOf(const Json& in) {
+  return MeasureTransitions(ReadMotion(in.at("motion")), TransitionFramesOf(in));
+}
+
+bool IsNaturalJump(const Json& in) {
+  std::vector<double> jumps;
+  for (const Json& clip : in.at("clips")) {
+    const std::vector<double> own = NaturalJumpsCm(ReadMotion(clip));
+    jumps.insert(jumps.end(), own.begin(), own.end());
+  }
+  const Json& jump = in.at("jump_cm");
+  return IsNatural(jump.is_null() ? std::nullopt : std::optional(jump.get<double>()), std::move(jumps));
+}
+
+double WorstFootSlide(const Json& in) {
+  const BodyMotion motion = ReadMotion(in.at("motion"));
+  double worst = 0;
+  for (int seam : TransitionFramesOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
+  return worst;
+}
+
+double WorstPoseGap(const Json& in) {
+  double worst = 0;
+  for (const Json& meeting : in.at("meetings")) {
+    worst = std::max(worst, PoseGapCm(ReadPose(meeting.at("leaving")), ReadPose(meeting.at("arriving"))));
+  }
+  return worst;
+}
+
+double WorstVelocityGap(const Json& in) {
+  double worst = 0;
+  for (const Json& meeting : in.at("meetings")) {
+    const auto pose = [&](const char* key) { return ReadPose(meeting.at(key)); };
+    worst = std::max(worst, VelocityGapCmps(pose("leaving_before"), pose("leaving"), pose("arriving"),
+                                            pose("arriving_after"), in.at("rate_hz").get<double>()));
+  }
+  return worst;
+}
+
+Value FalseSmooth(const Json& in) {
+  if (!in.at("matched").get<bool>()) return std::nullopt;
+  return IsFalselySmooth(in.at("pose_gap_cm").get<double>()) ? 1 : 0;
+}
+
+double Waited(const Json& in) {
+  std::vector<Stay> stays;
+  for (const Json& stay : in.at("stays")) {
+    stays.push_back({stay.at("from_frame").get<int>(), stay.at("until_frame").get<int>()});
+  }
+  return WaitSeconds(stays, in.at("rate_hz").get<double>());
+}
+
+double WorstFuzzyDistance(const Json& in) {
+  const auto weights = in.at("weights").get<FeatureWeights>();
+  double worst = 0;
+  for (const Json& change : in.at("switches")) {
+    const PoseFeatures from{change.at("from_features").get<PerFeature>()};
+    const PoseFeatures to{change.at("to_features").get<PerFeature>()};
+    worst = std::max(worst, ComputeDistance(Fuzzify(from), Fuzzify(to), weights).value);
+  }
+  return worst;
+}
+
+struct SpeedProfile {
+  std::vector<double> speed;
+  double rate_hz = 0;
+};
+
+SpeedProfile SpeedOf(const Json& in) {
+  if (in.contains("speed_mps")) return {in.at("speed_mps").get<std::vector<double>>(), in.at("rate_hz").get<double>()};
+  const BodyMotion motion = ReadMotion(in.at("motion"));
+  const std::vector<int> seams = TransitionFramesOf(in);
+  const int second = static_cast<int>(motion.rate_hz);
+  return {MeanJointSpeed(motion, seams.at(0) - second, seams.back() + second), motion.rate_hz};
+}
+
+Value SparcOf(const Json& in) {
+  const SpeedProfile profile = SpeedOf(in);
+  return SpectralArcLength(profile.speed, profile.rate_hz);
+}
+
+/// Nothing for a method that matches no frames.
+std::optional<MatchTally> TallyOf(const Json& in) {
+  const Json& threshold = in.at("threshold");
+  MatchTally tally;
+  for (const Json& pair : in.at("pairs")) {
+    ++tally.pairs;
+    if (threshold.is_null() || pair.at("distance").get<double>() >= threshold.get<double>()) continue;
+    ++tally.matching;
+    tally.falsely_smooth += IsFalselySmooth(pair.at("pose_gap_cm").get<double>());
+  }
+  return threshold.is_null() ? std::nullopt : std::optional(tally);
+}
+
+Value DirectMatch(const Json& in) {
+  const auto tally = TallyOf(in);
+  return tally ? Value(HasDirectMatch(*tally) ? 1 : 0) : std::nullopt;
+}
+
+Value ShareOfPairs(const Json& in, std::optional<double> (*share)(const MatchTally&)) {
+  const auto tally = TallyOf(in);
+  return tally ? share(*tally) : std::nullopt;
+}
+
+Value InBetween(const Json& in) {
+  if (in.at("legs").is_null()) return std::nullopt;
+  return in.at("legs").get<int>() > 2 ? 1 : 0;
+}
+
+}  // namespace
+
+std::span<const Evaluator> TransitionEvaluators() {
+  static constexpr Evaluator kAll[] = {
+      {"jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).jump_cm; }},
+      {"mean_joint_jump_cm", [](const Json& in) -> Value { return SmoothnessOf(in).mean_joint_jump_cm; }},
+      {"rotation_step_change_deg", [](const Json& in) -> Value { return SmoothnessOf(in).rotation_step_change_deg; }},
+      {"jerk_peak_mps3", [](const Json& in) -> Value { return SmoothnessOf(in).jerk_peak_mps3; }},
+      {"foot_slide_cmps", [](const Json& in) -> Value { return WorstFootSlide(in); }},
+      {"pose_gap_cm", [](const Json& in) -> Value { return WorstPoseGap(in); }},
+      {"velocity_gap_cmps", [](const Json& in) -> Value { return WorstVelocityGap(in); }},
+      {"false_smooth", FalseSmooth},
+      {"natural_share", [](const Json& in) -> Value { return IsNaturalJump(in) ? 1 : 0; }},
+      {"wait_s", [](const Json& in) -> Value { return Waited(in); }},
+      {"fuzzy_distance", [](const Json& in) -> Value { return WorstFuzzyDistance(in); }},
+      {"sparc", SparcOf},
+      {"ldlj", [](const Json& in) { return LogDimensionlessJerk(SpeedOf(in).speed); }},
+      {"direct_match", DirectMatch},
+      {"matching_share", [](const Json& in) { return ShareOfPairs(in, MatchingShare); }},
+      {"false_smooth_share", [](const Json& in) { return ShareOfPairs(in, FalseSmoothShare); }},
+      {"in_between", InBetween},
+  };
+  return kAll;
+}
+
+}  // namespace etude

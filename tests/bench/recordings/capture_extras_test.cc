@@ -1,0 +1,100 @@
+#include "bench/recordings/capture_extras.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+Mask Pattern(int width, int height, std::uint32_t state) {
+  Mask mask(width, height);
+  for (auto& pixel : mask.pixels) {
+    state = state * 1664525u + 1013904223u;
+    pixel = (state >> 20) % 3 == 0;
+  }
+  return mask;
+}
+
+CaptureExtras Sample() {
+  CaptureExtras extras;
+  extras.texture_seed = 77;
+  extras.casts_shadows = false;
+  extras.colours[3] = {1, 2, 255};
+  extras.brightness = {1.0, 0.93};
+  for (double x : {-2.0, 2.5}) {
+    Intrinsics in;
+    in.fy = 601.5;
+    extras.views.push_back({LookAt(in, {x, 1.4, 3}, {0, 1, 0}), {Pattern(32, 24, 1), Pattern(32, 24, 2)}});
+  }
+  extras.bvh = "HIERARCHY\n";
+  return extras;
+}
+
+TEST(CaptureExtras, SurviveWritingAndReading) {
+  const CaptureExtras written = Sample();
+  const auto read = ReadCaptureExtras(WriteCaptureExtras(written));
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->texture_seed, 77u);
+  EXPECT_FALSE(read->casts_shadows);
+  EXPECT_EQ(read->colours, written.colours);
+  EXPECT_EQ(read->brightness, written.brightness);
+  EXPECT_EQ(read->bvh, written.bvh);
+  ASSERT_EQ(read->views.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read->views[i].truth.R_CW, written.views[i].truth.R_CW);
+    EXPECT_EQ(read->views[i].truth.p_WC, written.views[i].truth.p_WC);
+    EXPECT_EQ(read->views[i].truth.intrinsics.fy, 601.5);
+    ASSERT_EQ(read->views[i].masks.size(), 2u);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(read->views[i].masks[k].pixels, written.views[i].masks[k].pixels);
+  }
+}
+
+TEST(CaptureExtras, RefuseWhatIsNotOne) {
+  for (const char* text : {"", "{", "[]", "{}", R"({"format": "etude-capture", "version": 1})"}) {
+    EXPECT_FALSE(ReadCaptureExtras(text)) << text;
+  }
+  const auto newer = ReadCaptureExtras(R"({"format": "etude-capture", "version": 2})");
+  ASSERT_FALSE(newer);
+  EXPECT_THAT(newer.error().message, HasSubstr("version 2"));
+  CaptureExtras torn = Sample();
+  torn.views[1].masks.pop_back();
+  EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(torn)));
+}
+
+TEST(EncodeMask, IsUndoneByDecodeMask) {
+  for (std::uint32_t seed = 0; seed < 50; ++seed) {
+    const Mask mask = Pattern(7 + static_cast<int>(seed % 5), 6, seed);
+    const auto decoded = DecodeMask(EncodeMask(mask), mask.width, mask.height);
+    ASSERT_TRUE(decoded) << ToString(decoded.error());
+    ASSERT_EQ(decoded->pixels, mask.pixels) << seed;
+  }
+}
+
+TEST(EncodeMask, CountsZerosFirstAndLeavesOutTheLastOnes) {
+  Mask mask(4, 2);
+  EXPECT_EQ(EncodeMask(mask), "");
+  mask.At(3, 0) = mask.At(0, 1) = 1;
+  EXPECT_EQ(EncodeMask(mask), "3 2");
+  EXPECT_EQ(EncodeMask(Mask(4, 2, 1)), "0 8");
+}
+
+TEST(DecodeMask, RefusesBrokenText) {
+  for (const char* text : {"3 x", "3 6", "-1 2", "1,2", "99999999999999999999"}) {
+    EXPECT_FALSE(DecodeMask(text, 4, 2)) << text;
+  }
+  EXPECT_FALSE(DecodeMask("", 1 << 30, 1 << 30));
+}
+
+TEST(HalveMask, KeepsAPixelWithTwoOfItsFour) {
+  Mask mask(4, 2);
+  mask.At(0, 0) = 1;                  // one of four
+  mask.At(2, 0) = mask.At(3, 1) = 1;  // two of four
+  EXPECT_EQ(HalveMask(mask).pixels, (std::vector<std::uint8_t>{0, 1}));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,55 @@
+#include "bench/tasks/detection/run.h"
+
+#include <gtest/gtest.h>
+
+namespace etude {
+namespace {
+
+/// Asked for from 0.5 s to 2.5 s, the last half second to spare.
+SessionEvent AskedFor(const char* move, const char* danced) {
+  SessionEvent event;
+  event.move = move;
+  event.danced = danced;
+  event.start_s = 0.5;
+  event.end_s = 2;
+  return event;
+}
+
+/// A body with its right arm at rest for a second, raised for a second, at rest again; seen perfectly.
+DetectionWorld ArmRaised() {
+  DetectionWorld world;
+  world.stream.frames.resize(90);
+  for (std::size_t t = 0; t < 90; ++t) {
+    SensedFrame& frame = world.stream.frames[t];
+    frame.body_seen = true;
+    for (SensedJoint& joint : frame.joints) joint.state = TrackingState::kTracked;
+    frame[Role::kLeftShoulder].position = {0.2, 1.4, 0};
+    frame[Role::kRightShoulder].position = {-0.2, 1.4, 0};
+    frame[Role::kLeftHip].position = {0.1, 0.9, 0};
+    frame[Role::kRightHip].position = {-0.1, 0.9, 0};
+    const bool raised = t >= 30 && t < 60;
+    frame[Role::kRightElbow].position = {-0.2, raised ? 1.7 : 1.1, 0};
+  }
+  world.session.motion.poses.resize(90);
+  return world;
+}
+
+TEST(JudgeSession, CountsAnAlarmOnlyWhereTheMoveWasNeitherAskedForNorDanced) {
+  Repertoire repertoire;
+  repertoire.taught = {{.name = "clap", .poses = {{{{Feature::kRH, 90, 20}}}}, .span_frames = 60},
+                       {.name = "raise", .poses = {{{{Feature::kRH, 180, 20}}}}, .span_frames = 60}};
+  const auto alarms = [&](const std::vector<SessionEvent>& events) {
+    DetectionWorld world = ArmRaised();
+    world.session.events = events;
+    const DetectionMethod method;
+    return JudgeSession(world, SeeSession(world, method), repertoire, method)->alarms.size();
+  };
+  EXPECT_EQ(alarms({}), 1u);
+  EXPECT_EQ(alarms({AskedFor("raise", "raise")}), 0u);
+  EXPECT_EQ(alarms({AskedFor("raise", "")}), 0u);
+  EXPECT_EQ(alarms({AskedFor("clap", "raise")}), 0u);
+  EXPECT_EQ(alarms({AskedFor("clap", "clap")}), 1u);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,202 @@
+#include "engine/capture/measure_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/cameras/limb_direction.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "tests/engine/capture/marked_body.h"
+
+namespace etude {
+namespace {
+
+FrameMeasurement MeasureFrame(const std::vector<ProjectionMatrix>& cameras, const TakeMarks& marks,
+                              const MeasureOptions& options = {}) {
+  return MeasureFrames({.cameras = cameras, .marks = marks}, options).at(0);
+}
+
+std::vector<ProjectionMatrix> TwoCameras() { return {ThreeCameras()[0], ThreeCameras()[1]}; }
+
+/// Expects every direction found to be the pose's; gives their number.
+int CountTrueDirections(const FrameMeasurement& found, const BodyPose& pose) {
+  int count = 0;
+  for (const StrokeMark& mark : StrokeMarks()) {
+    const auto& direction = found.directions[Index(mark.to)];
+    if (!direction) continue;
+    EXPECT_LT(Degrees(AngleBetween(*direction, LimbOf(pose, mark))), 1e-6) << RoleName(mark.to);
+    ++count;
+  }
+  return count;
+}
+
+std::size_t StrokeTo(Role role) {
+  std::size_t i = 0;
+  while (StrokeMarks()[i].to != role) ++i;
+  return i;
+}
+
+TEST(Strokes, AreThoseOfTheLimbsThatTheSkeletonNeeds) {
+  ASSERT_EQ(ObservedLimbs().size(), kStrokeCount);
+  for (Role limb : ObservedLimbs()) {
+    int found = 0;
+    for (const StrokeMark& mark : StrokeMarks()) found += mark.to == limb;
+    EXPECT_EQ(found, 1) << RoleName(limb);
+  }
+}
+
+TEST(MeasureFrames, FindsTheTruthInExactMarksOfTwoCamerasOrThree) {
+  for (const auto& cameras : {TwoCameras(), ThreeCameras()}) {
+    for (double phase : {0.0, 1.0, 2.0, 3.0}) {
+      const BodyPose pose = ModelPose(phase);
+      const FrameMeasurement found = MeasureFrame(cameras, ExactMarks({pose}, cameras));
+      int ends = 0;
+      for (Role role : AllRoles()) {
+        if (!found.ends[Index(role)]) continue;
+        EXPECT_LT(glm::distance(*found.ends[Index(role)], pose[role]), 1e-6) << RoleName(role);
+        ++ends;
+      }
+      EXPECT_EQ(ends, 5);
+      EXPECT_GE(CountTrueDirections(found, pose), cameras.size() == 2 ? 11 : 13)
+          << "of thirteen; with two cameras some may be ill-conditioned";
+    }
+  }
+}
+
+TEST(MeasureFrames, FindsSomethingElseWhenTheCamerasAreMixedUp) {
+  const auto cameras = ThreeCameras();
+  const BodyPose pose = ModelPose();
+  const FrameMeasurement found = MeasureFrame({cameras[1], cameras[0], cameras[2]}, ExactMarks({pose}, cameras));
+  for (const EffectorMark& mark : EffectorMarks()) {
+    const auto& end = found.ends[Index(mark.role)];
+    EXPECT_TRUE(!end || glm::distance(*end, pose[mark.role]) > 0.01) << RoleName(mark.role);
+  }
+}
+
+TEST(MeasureFrames, NeedsTwoPicturesThatShowAMark) {
+  const BodyPose pose = ModelPose();
+  TakeMarks two = ExactMarks({pose}, TwoCameras()), three = ExactMarks({pose}, ThreeCameras());
+  for (TakeMarks* marks : {&two, &three}) {
+    (*marks)[0][0].effectors[0].reset();
+    (*marks)[0][0].strokes[0].reset();
+  }
+  const Role end = EffectorMarks()[0].role, limb = StrokeMarks()[0].to;
+  const FrameMeasurement one_left = MeasureFrame(TwoCameras(), two), two_left = MeasureFrame(ThreeCameras(), three);
+  EXPECT_FALSE(one_left.ends[Index(end)]);
+  EXPECT_FALSE(one_left.directions[Index(limb)]);
+  EXPECT_TRUE(one_left.ends[Index(EffectorMarks()[1].role)]);
+  ASSERT_TRUE(two_left.ends[Index(end)]);
+  EXPECT_LT(glm::distance(*two_left.ends[Index(end)], pose[end]), 1e-6);
+  EXPECT_EQ(CountTrueDirections(two_left, pose), 13);
+}
+
+TEST(MeasureFrames, SeesWithAThirdCameraALimbThatLiesInAPlaneThroughTheOthers) {
+  const std::vector<ProjectionMatrix> level = {CameraAt(-40, 1), CameraAt(40, 1)};
+  const std::vector<ProjectionMatrix> with_high = {level[0], level[1], CameraAt(0, 2.5)};
+  BodyPose pose = ModelPose();
+  pose[Role::kLeftElbow] = {0.1, 1, 0.1};
+  pose[Role::kLeftWrist] = {0.4, 1, 0.1};  // level as the first two cameras' centres
+  const std::size_t forearm = Index(Role::kLeftWrist);
+  EXPECT_FALSE(MeasureFrame(level, ExactMarks({pose}, level)).directions[forearm]);
+  const auto found = MeasureFrame(with_high, ExactMarks({pose}, with_high)).directions[forearm];
+  ASSERT_TRUE(found);
+  EXPECT_LT(Degrees(AngleBetween(*found, {1, 0, 0})), 1e-6);
+}
+
+// A forearm that points almost at one camera, which sees it the wrong way round, as a careless stroke can: the others,
+// who see it at full length, decide about its sense.
+TEST(MeasureFrames, TakesTheSenseOfALimbFromTheCamerasThatSeeItBest) {
+  const auto cameras = ThreeCameras();
+  for (std::size_t careless = 0; careless < 3; ++careless) {
+    const double degrees[] = {-40, 40, 100}, heights[] = {1, 2.2, 1.5};
+    const double a = Radians(degrees[careless]);
+    const glm::dvec3 eye(3.8 * std::sin(a), heights[careless], 3.8 * std::cos(a));
+    BodyPose pose = ModelPose();
+    const glm::dvec3 elbow(0.1, 1.1, 0.1);
+    const glm::dvec3 towards = glm::normalize(glm::normalize(eye - elbow) + glm::dvec3(0, 0.3, 0));
+    pose[Role::kLeftElbow] = elbow;
+    pose[Role::kLeftWrist] = elbow + 0.25 * towards;
+    TakeMarks marks = ExactMarks({pose}, cameras);
+    PixelSegment& stroke = *marks[careless][0].strokes[StrokeTo(Role::kLeftWrist)];
+    std::swap(stroke.a, stroke.b);
+    const auto found = MeasureFrame(cameras, marks).directions[Index(Role::kLeftWrist)];
+    ASSERT_TRUE(found) << careless;
+    EXPECT_LT(Degrees(AngleBetween(*found, towards)), 1e-6) << careless;
+    // The same with that camera and one other alone, in either order.
+    const std::size_t other = (careless + 1) % 3;
+    for (const auto& [first, second] : {std::pair(careless, other), std::pair(other, careless)}) {
+      const auto of_two = MeasureFrame({cameras[first], cameras[second]}, {marks[first], marks[second]})
+                              .directions[Index(Role::kLeftWrist)];
+      ASSERT_TRUE(of_two) << first << second;
+      EXPECT_LT(Degrees(AngleBetween(*of_two, towards)), 1e-6) << first << second;
+    }
+  }
+}
+
+TEST(MeasureFrames, ComesNearerToTheTruthWithAThirdCameraWhenMarksAreCareless) {
+  double two_errors = 0, three_errors = 0, two_angles = 0, three_angles = 0;
+  for (int i = 0; i < 40; ++i) {
+    const BodyPose pose = ModelPose(0.3 * i);
+    TakeMarks marks = ExactMarks({pose}, ThreeCameras());
+    double turn = i;
+    const auto slip = [&] {
+      turn += 1;
+      return 3.0 * glm::dvec2(std::sin(37 * turn), std::cos(91 * turn));
+    };
+    for (std::vector<Marks>& of_camera : marks) {
+      for (auto& end : of_camera[0].effectors) *end += slip();
+      for (auto& stroke : of_camera[0].strokes) stroke = PixelSegment{stroke->a + slip(), stroke->b + slip()};
+    }
+    const FrameMeasurement three = MeasureFrame(ThreeCameras(), marks);
+    const FrameMeasurement two = MeasureFrame(TwoCameras(), {marks[0], marks[1]});
+    for (const EffectorMark& mark : EffectorMarks()) {
+      two_errors += glm::distance(*two.ends[Index(mark.role)], pose[mark.role]);
+      three_errors += glm::distance(*three.ends[Index(mark.role)], pose[mark.role]);
+    }
+    for (const StrokeMark& mark : StrokeMarks()) {
+      const auto &of_two = two.directions[Index(mark.to)], &of_three = three.directions[Index(mark.to)];
+      if (!of_two || !of_three) continue;
+      two_angles += AngleBetween(*of_two, LimbOf(pose, mark));
+      three_angles += AngleBetween(*of_three, LimbOf(pose, mark));
+    }
+  }
+  EXPECT_LT(three_errors, 0.9 * two_errors);
+  EXPECT_LT(three_angles, 0.9 * two_angles);
+}
+
+TEST(MeasureFrames, UsesNoStrokeThatIsTooShortAndNoPlanesThatAreTooNear) {
+  const auto cameras = TwoCameras();
+  const BodyPose pose = ModelPose();
+  const TakeMarks marks = ExactMarks({pose}, cameras);
+  const std::size_t i = StrokeTo(Role::kLeftKnee);
+  double shortest = 1e9;
+  for (const auto& of_camera : marks) {
+    shortest = std::min(shortest, glm::distance(of_camera[0].strokes[i]->a, of_camera[0].strokes[i]->b));
+  }
+  const std::size_t knee = Index(Role::kLeftKnee);
+  EXPECT_TRUE(MeasureFrame(cameras, marks, {.shortest_stroke_px = shortest}).directions[knee]);
+  EXPECT_FALSE(MeasureFrame(cameras, marks, {.shortest_stroke_px = shortest + 1e-9}).directions[knee]);
+  const double angle =
+      ComputeLimbDirection(cameras[0], *marks[0][0].strokes[i], cameras[1], *marks[1][0].strokes[i]).plane_angle;
+  EXPECT_TRUE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle}).directions[knee]);
+  EXPECT_FALSE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle + 1e-9}).directions[knee]);
+}
+
+TEST(MeasureFrames, TakesWhatIsKnownInsteadOfMarks) {
+  const auto cameras = TwoCameras();
+  const BodyPose pose = ModelPose();
+  const TakeMarks marks = ExactMarks({pose, pose}, cameras);
+  std::vector<KnownMeasurement> known(2);
+  known[1].ends.emplace()[Index(Role::kHead)] = glm::dvec3(1, 2, 3);
+  const auto frames = MeasureFrames({.cameras = cameras, .marks = marks, .known = known});
+  EXPECT_LT(glm::distance(*frames[0].ends[Index(Role::kHead)], pose[Role::kHead]), 1e-6);
+  EXPECT_EQ(frames[1].ends[Index(Role::kHead)], glm::dvec3(1, 2, 3));
+  EXPECT_FALSE(frames[1].ends[Index(Role::kLeftFoot)]) << "all ends are replaced";
+  EXPECT_EQ(frames[1].directions, frames[0].directions) << "directions are not";
+  known[0].directions.emplace();
+  EXPECT_EQ(MeasureFrames({.cameras = cameras, .marks = marks, .known = known})[0].directions, RoleVectors{});
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,81 @@
+#include "engine/capture/recover_frames.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/engine/capture/marked_body.h"
+
+namespace etude {
+namespace {
+
+LimbObservation Observe(const BodyPose& pose) {
+  LimbObservation observation{pose, {}};
+  for (const StrokeMark& mark : StrokeMarks()) observation.directions[Index(mark.to)] = LimbOf(pose, mark);
+  return observation;
+}
+
+RecoverOptions With(const char* solver) { return {.solver = FindIkSolver(solver), .ik = {}}; }
+
+TEST(RecoverFrames, GivesAPoseOfTheModelBackAndHoldsItWhereNothingIsSeen) {
+  const BodyPose pose = ModelPose();
+  const std::vector<std::optional<LimbObservation>> seen = {Observe(pose), std::nullopt};
+  const auto recovered = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  ASSERT_TRUE(recovered[0]);
+  EXPECT_FALSE(recovered[1]);
+  for (Role role : AllRoles()) {
+    EXPECT_LT(glm::distance(recovered[0]->fixed[role], pose[role]), 1e-3) << RoleName(role);
+    EXPECT_LT(glm::distance(recovered[0]->pose[role], pose[role]), 0.02) << RoleName(role);
+  }
+  const auto held = HoldFrames(recovered);
+  ASSERT_EQ(held.size(), 2u);
+  EXPECT_EQ(held[1].pose[Role::kHead], held[0].pose[Role::kHead]);
+  EXPECT_EQ(held[0].errors.size(), 4u);
+  EXPECT_TRUE(held[1].errors.empty()) << "a held frame met no target";
+}
+
+TEST(HoldFrames, ShowsTheFirstSkeletonBeforeItAndTheLastOneAfterIt) {
+  const std::vector<std::optional<LimbObservation>> seen = {std::nullopt, Observe(ModelPose(0)), std::nullopt,
+                                                            Observe(ModelPose(1)), std::nullopt};
+  const auto recovered = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  const auto held = HoldFrames(recovered);
+  const int shown[] = {1, 1, 1, 3, 3};
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(held[k].pose.joints, recovered[shown[k]]->pose.joints) << k;
+}
+
+// A solver that does nothing shows where each frame starts.
+TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame) {
+  const IkSolver idle{.name = "idle",
+                      .description = "",
+                      .step = "steps",
+                      .settings = {},
+                      .solve = [](const KinematicTree&, const IkProblem& problem, const IkOptions&) {
+                        IkSolution solution;
+                        solution.status = IkStatus::kStalled;
+                        solution.angles = problem.start.angles;
+                        return solution;
+                      }};
+  const std::vector<std::optional<LimbObservation>> seen = {Observe(ModelPose(0)), Observe(ModelPose(1)),
+                                                            Observe(ModelPose(2))};
+  const auto frames = RecoverFrames({.lengths = {}, .seen = seen, .marked = {true, false, true}}, {.solver = &idle});
+  EXPECT_EQ(frames[1]->state.angles, frames[0]->state.angles);
+  EXPECT_NE(frames[2]->state.angles, frames[1]->state.angles);
+  EXPECT_LT(glm::distance(frames[1]->pose[Role::kLeftFoot], ModelPose(1)[Role::kLeftFoot]), 1e-9)
+      << "the root is always where it was seen";
+  const std::vector<std::optional<LimbObservation>> with_gap = {seen[0], seen[1], std::nullopt, seen[2]};
+  const auto after_gap =
+      RecoverFrames({.lengths = {}, .seen = with_gap, .marked = {true, true, false, false}}, {.solver = &idle});
+  EXPECT_EQ(after_gap[3]->state.angles, after_gap[1]->state.angles) << "of the last frame that was recovered";
+  const auto all_marked = RecoverFrames({.lengths = {}, .seen = seen}, {.solver = &idle});
+  EXPECT_NE(all_marked[1]->state.angles, all_marked[0]->state.angles);
+}
+
+TEST(RecoverFrames, LeavesOutWhatNoBodyFits) {
+  LimbObservation broken = Observe(ModelPose());
+  broken.directions[Index(Role::kHead)] = glm::dvec3(0);
+  const std::vector<std::optional<LimbObservation>> seen = {broken, Observe(ModelPose())};
+  const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  EXPECT_FALSE(frames[0]);
+  EXPECT_TRUE(frames[1]);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,306 @@
+#include "engine/kinematics/solvers/gauss_newton.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/kinematics/solvers/damped_least_squares.h"
+#include "engine/kinematics/solvers/gauss_newton_step.h"
+#include "tests/engine/kinematics/random_tree.h"
+
+namespace etude {
+namespace {
+
+// 10⁻³ cm and 10⁻³°.
+IkOptions Tight() {
+  IkOptions options;
+  options.position_goal = 1e-5;
+  options.axis_goal = Radians(1e-3);
+  options.max_iterations = 1000;
+  return options;
+}
+
+// What became of many trials.
+struct Tally {
+  int solved = 0, outside = 0;
+  double hidden = 0;  // root of the mean squared angle to the truth, in units of the noise
+  double iterations = 0;
+};
+
+Tally Solve(int trials, double pose_range, double noise_deg, bool is_cold = false) {
+  Tally tally;
+  double squares = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const TreeState truth = RandomPose(Body(), trial, pose_range);
+    IkProblem problem = DisturbedProblem(Body(), truth, trial, noise_deg);
+    for (std::size_t d = 0; is_cold && d < truth.angles.size(); ++d) {
+      problem.start.angles[d] = 0.5 * (Body().limits[d].lower + Body().limits[d].upper);
+    }
+    const IkSolution solution = SolveGaussNewton(Body(), problem, Tight());
+    tally.solved += solution.status == IkStatus::kConverged;
+    tally.iterations += solution.iterations;
+    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+      const double angle = solution.angles[d], off = angle - truth.angles[d];
+      squares += off * off;
+      tally.outside += !(angle >= Body().limits[d].lower && angle <= Body().limits[d].upper);
+    }
+  }
+  tally.hidden = std::sqrt(squares / (trials * Body().dof_count())) / Radians(noise_deg);
+  tally.iterations /= trials;
+  return tally;
+}
+
+TEST(GaussNewton, SolvesFindsHiddenAnglesAndKeepsLimits) {
+  for (const double pose_range : {0.5, 1.0}) {
+    const Tally tally = Solve(400, pose_range, 15);
+    EXPECT_GE(tally.solved, 399) << pose_range;
+    EXPECT_EQ(tally.outside, 0) << pose_range;
+    EXPECT_LE(tally.hidden, 0.45) << pose_range;
+    EXPECT_LE(tally.iterations, 7) << pose_range;
+  }
+}
+
+TEST(GaussNewton, NeedsFewStepsFromAWarmStart) {
+  const Tally tally = Solve(100, 1.0, 2);
+  EXPECT_EQ(tally.solved, 100);
+  EXPECT_LE(tally.iterations, 3.5);
+}
+
+TEST(GaussNewton, SolvesHardProblems) {
+  const Tally noisy = Solve(200, 1.0, 30);
+  EXPECT_GE(noisy.solved, 198);
+  EXPECT_EQ(noisy.outside, 0);
+  const Tally cold = Solve(200, 1.0, 30, true);
+  EXPECT_GE(cold.solved, 194);
+  EXPECT_EQ(cold.outside, 0);
+}
+
+// The largest change that a further step towards the start would make: none at the nearest solution.
+double LeftToGain(const IkProblem& problem, const IkSolution& solution) {
+  TreeState state = problem.start;
+  state.angles = solution.angles;
+  GaussNewtonStep step(Body(), problem.targets);
+  step.Build(ComputeFrames(Body(), state));
+  double largest = 0;
+  for (int more = 0; more < 40; ++more) {
+    largest = 0;
+    for (const double c : step.Solve(solution.angles, problem.start.angles, problem.limits, 1e-7)) {
+      largest = std::max(largest, std::abs(c));
+    }
+    if (step.is_exact()) break;
+  }
+  return largest;
+}
+
+TEST(GaussNewton, FindsTheNearestSolutionToTheStart) {
+  int nearest = 0, nearest_of_other = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 15);
+    nearest += LeftToGain(problem, SolveGaussNewton(Body(), problem, Tight())) < Radians(1);
+    nearest_of_other += LeftToGain(problem, SolveDampedLeastSquares(Body(), problem, Tight())) < Radians(1);
+  }
+  EXPECT_GE(nearest, 48);
+  EXPECT_LE(nearest_of_other, 25) << "a solver that does not look for it must show";
+}
+
+// Starts near the truth, poses of the joints' whole ranges: many angles are at their limits.
+TEST(GaussNewton, ExtraPassesOfItsActiveSetBringItNearerToTheStartInFewerSteps) {
+  const auto count_far = [](const GaussNewtonOptions& own) {
+    int far = 0;
+    for (int trial = 0; trial < 500; ++trial) {
+      const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 2);
+      far += LeftToGain(problem, SolveGaussNewton(Body(), problem, {}, own)) > 0.01;
+    }
+    return far;
+  };
+  EXPECT_LE(count_far({}), 8);
+  EXPECT_GE(count_far({.extra_passes = 0}), 14) << "else they are not needed";
+
+  const auto count_iterations = [](const GaussNewtonOptions& own) {
+    int iterations = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+      iterations += SolveGaussNewton(Body(), problem, Tight(), own).iterations;
+    }
+    return iterations;
+  };
+  EXPECT_LE(count_iterations({}), 0.96 * count_iterations({.extra_passes = 0}));
+}
+
+TEST(GaussNewton, DoesNotCareForTheOrderOfEffectors) {
+  KinematicTree reordered = Body();
+  std::ranges::rotate(reordered.effectors, reordered.effectors.begin() + 1);
+  std::swap(reordered.effectors[0], reordered.effectors[1]);
+  for (int trial = 0; trial < 20; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+    IkProblem other = problem;
+    std::ranges::rotate(other.targets, other.targets.begin() + 1);
+    std::swap(other.targets[0], other.targets[1]);
+    const IkSolution a = SolveGaussNewton(Body(), problem, Tight()), b = SolveGaussNewton(reordered, other, Tight());
+    EXPECT_EQ(a.iterations, b.iterations);
+    for (std::size_t d = 0; d < a.angles.size(); ++d) EXPECT_NEAR(a.angles[d], b.angles[d], 1e-7) << trial;
+  }
+}
+
+TEST(GaussNewton, StretchesALimbTowardsATargetOutOfReach) {
+  KinematicTree arm;
+  arm.joints.push_back({.name = "root"});
+  for (int n = 1; n < 4; ++n) {
+    arm.joints.push_back({.name = "joint", .parent = n - 1, .p_PJ = {0, 0, 0.5}});
+    arm.joints.back().first_dof = arm.dof_count();
+    arm.joints.back().dof_count = 3;
+    arm.limits.insert(arm.limits.end(), 3, {-2, 2});
+  }
+  arm.effectors.push_back({"tip", 3, {0, 0, 0.5}});
+  IkProblem problem{StandingState(arm), {{.position = {2, 1, 3}, .axis_weights = glm::dvec3(0)}}, arm.limits};
+  const IkSolution solution = SolveGaussNewton(arm, problem, Tight());
+  EXPECT_EQ(solution.status, IkStatus::kUnreachable);
+  // The first limb has no joint below it and stands; the others are three, half a metre each.
+  const double nearest = glm::length(glm::dvec3(2, 1, 3) - glm::dvec3(0, 0, 0.5)) - 1.5;
+  EXPECT_NEAR(solution.errors[0].position, nearest, 1e-6);
+}
+
+// How far angles are from the targets, by the solver's own measure.
+double SquaresAt(const IkProblem& problem, std::span<const double> angles) {
+  TreeState state = problem.start;
+  state.angles.assign(angles.begin(), angles.end());
+  return GaussNewtonStep(Body(), problem.targets).Build(ComputeFrames(Body(), state));
+}
+
+TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
+  int unsolved = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
+    for (EffectorTarget& target : problem.targets) target.position *= 1.05;
+    const IkSolution solution = SolveGaussNewton(Body(), problem, Tight());
+    if (solution.status == IkStatus::kConverged) continue;
+    ++unsolved;
+    EXPECT_NE(solution.status, IkStatus::kIterationLimit) << trial;
+    for (std::size_t d = 0; d < solution.angles.size(); ++d) {
+      EXPECT_TRUE(solution.angles[d] >= Body().limits[d].lower && solution.angles[d] <= Body().limits[d].upper);
+    }
+    // No longer run finds a nearer pose from here.
+    IkProblem from_there = problem;
+    from_there.start.angles = solution.angles;
+    const double found = SquaresAt(problem, solution.angles);
+    EXPECT_LT(found, SquaresAt(problem, problem.start.angles));
+    EXPECT_GT(SquaresAt(problem, SolveDampedLeastSquares(Body(), from_there, Tight()).angles), 0.95 * found) << trial;
+  }
+  EXPECT_GE(unsolved, 10) << "else nothing was checked";
+}
+
+// The share of frames that are solved along motions of which the first pose is far off; every frame begins at the
+// answer to the one before.
+double ShareFollowed(int max_iterations) {
+  constexpr int kMotions = 40, kFrames = 60;
+  IkOptions options;
+  options.max_iterations = max_iterations;
+  int solved = 0;
+  for (int motion = 0; motion < kMotions; ++motion) {
+    const TreeState middle = RandomPose(Body(), motion, 0.7);
+    IkProblem problem = DisturbedProblem(Body(), middle, motion, 60);
+    for (int frame = 0; frame < kFrames; ++frame) {
+      TreeState truth = middle;
+      for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+        const AngleRange& range = Body().limits[d];
+        truth.angles[d] += 0.1 * (range.upper - range.lower) * std::sin(0.1 * frame + static_cast<double>(d));
+      }
+      problem.targets = DisturbedProblem(Body(), truth, 0, 0).targets;
+      const double before = SquaresAt(problem, problem.start.angles);
+      const IkSolution solution = SolveGaussNewton(Body(), problem, options);
+      EXPECT_LE(solution.iterations, max_iterations);
+      if (solution.status == IkStatus::kConverged) {
+        ++solved;
+      } else {
+        EXPECT_LE(SquaresAt(problem, solution.angles), before) << "motion " << motion << ", frame " << frame;
+      }
+      problem.start.angles = solution.angles;
+    }
+  }
+  return static_cast<double>(solved) / (kMotions * kFrames);
+}
+
+TEST(GaussNewton, FollowsAMotionWithFewIterationsAFrameAndTheBetterTheMoreItHas) {
+  double fewer = 0;
+  for (const auto& [budget, at_least] : {std::pair(3, 0.88), {5, 0.92}, {10, 0.95}, {20, 0.99}, {50, 0.998}}) {
+    const double share = ShareFollowed(budget);
+    EXPECT_GE(share, at_least) << budget;
+    EXPECT_GE(share, fewer) << budget;
+    fewer = share;
+  }
+}
+
+TEST(GaussNewton, TellsTheErrorsOfItsAnglesWhetherSweepsOrStepsFoundThem) {
+  const GaussNewtonOptions own{.first_sweeps = 20};
+  int by_sweeps = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 0.5), trial, 0.2);
+    const IkSolution solution = SolveGaussNewton(Body(), problem, {}, own);
+    by_sweeps += solution.status == IkStatus::kConverged && solution.iterations < own.first_sweeps;
+    const TreeFrames found =
+        ComputeFrames(Body(), {problem.start.root_position, problem.start.root_frame, solution.angles});
+    for (std::size_t e = 0; e < found.effectors.size(); ++e) {
+      EXPECT_EQ(solution.errors[e].position, ErrorOf(found.effectors[e], problem.targets[e]).position) << trial;
+    }
+  }
+  EXPECT_GE(by_sweeps, 25);
+}
+
+// Any tree, fixed joints, free ones, starts outside their limits, weights of nothing, one iteration or many.
+TEST(GaussNewton, GivesAnHonestAnswerToAnyProblem) {
+  int converged = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    RandomStream random({.suite_seed = 9, .scenario = "null-space-test", .trial = trial}, "problem");
+    KinematicTree tree = RandomTree(trial, 4 + trial % 10);
+    if (tree.limits.empty()) continue;
+    for (AngleRange& range : tree.limits) {
+      const double lower = random.Uniform(-2, 1);
+      range = {lower, lower + (random.Chance(0.2) ? 0 : random.Uniform(0, 3))};
+    }
+    IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 40);
+    const auto weight = [&] { return random.Chance(0.3) ? 0 : random.Uniform(0, 3); };
+    for (EffectorTarget& target : problem.targets) {
+      target.position_weight = weight();
+      target.axis_weights = {weight(), weight(), weight()};
+      if (random.Chance(0.1)) target.position += random.Normal3();
+    }
+    for (double& angle : problem.start.angles) angle += random.Chance(0.1) ? 5 : 0;
+    IkOptions options;
+    options.max_iterations = trial % 3 == 0 ? 1 : 150;
+    const GaussNewtonOptions own{.first_sweeps = trial % 4 == 0 ? 2 : 0};
+    if (random.Chance(0.2)) options.angle_change_tolerance = random.Uniform(0, 0.3);
+
+    const IkSolution solution = SolveGaussNewton(tree, problem, options, own);
+    const std::vector<AngleRange> ranges = AllowedRanges(problem, options);
+    for (std::size_t d = 0; d < ranges.size(); ++d) {
+      EXPECT_TRUE(solution.angles[d] >= ranges[d].lower && solution.angles[d] <= ranges[d].upper) << trial;
+    }
+    EXPECT_LE(solution.iterations, options.max_iterations) << trial;
+    const bool is_met = FindWorst(solution.errors, problem.targets).Within(options);
+    EXPECT_EQ(solution.status == IkStatus::kConverged, is_met) << trial;
+    if (solution.status == IkStatus::kIterationLimit) {
+      EXPECT_EQ(solution.iterations, options.max_iterations) << trial;
+    }
+    converged += is_met;
+  }
+  EXPECT_GT(converged, 50);
+  EXPECT_LT(converged, 450);
+}
+
+TEST(GaussNewton, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
+  KinematicTree tree = Body();
+  for (TreeJoint& joint : tree.joints) joint.p_PJ *= 1e5;
+  for (const double weight : {1e-300, 1e-9, 1e6}) {
+    IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 3, 1.0), 3, 30);
+    for (EffectorTarget& target : problem.targets) target.position_weight = weight;
+    problem.targets[0].position = {1e6, -1e6, 1e6};
+    const IkSolution solution = SolveGaussNewton(tree, problem, Tight());
+    EXPECT_NE(solution.status, IkStatus::kBadInput);
+    for (const double angle : solution.angles) EXPECT_TRUE(std::isfinite(angle)) << weight;
+    for (const EffectorError& error : solution.errors) EXPECT_TRUE(std::isfinite(error.position)) << weight;
+  }
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,78 @@
+#include "engine/transitions/joins/inertialise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/fuzzy/features.h"
+#include "tests/engine/transitions/joins/join_pictures.h"
+#include "tests/engine/transitions/test_clips.h"
+
+namespace etude {
+namespace {
+
+/// What a law makes of an offset of `x` metres that changes by `v` per second.
+double Left(const DecayLaw& law, double x, double v, double seconds) { return law({{x, 0, 0}, {v, 0, 0}}, seconds).x; }
+
+DecayLaw Spring() {
+  return [](const Offset& offset, double seconds) { return SpringDecay(offset, seconds); };
+}
+DecayLaw Quintic(const QuinticOptions& options = {}) {
+  return [options](const Offset& offset, double seconds) { return QuinticDecay(offset, seconds, options); };
+}
+
+double SpeedAtStart(const DecayLaw& law, double x, double v) {
+  constexpr double kStep = 1e-6;
+  return (Left(law, x, v, kStep) - Left(law, x, v, 0)) / kStep;
+}
+
+TEST(Inertialise, ShowsTheOldPoseAtTheTransitionPointAndHalfTheOffsetAfterItsHalfLife) {
+  const BodyPose hanging = StandingClip(1, 0).poses[0], raised = StandingClip(1, 60).poses[0];
+  const Inertialiser offsets({.shown = {hanging, hanging}, .target = {raised, raised}, .continuation = {}}, Spring());
+  ExpectSamePose(offsets.Apply(raised, 0), hanging, 1e-12);
+  const auto arm_degrees = [&](double seconds) {
+    return ComputeFeatures(offsets.Apply(raised, seconds), PosedBody::kStandingHipHeight)[Feature::kRH];
+  };
+  // Critically damped from rest: (1 + yt)e^−yt of the offset is left, with yt = 2 ln 2 after a half-life.
+  EXPECT_NEAR(arm_degrees(0.1), 60 * (1 - (1 + 2 * std::log(2)) / 4), 1e-6);
+  EXPECT_NEAR(arm_degrees(2), 60, 1e-3);
+}
+
+TEST(Inertialise, StartsInTheShownPoseWithTheShownSpeed) {
+  for (const DecayLaw& law : {Spring(), Quintic()}) {
+    EXPECT_EQ(Left(law, 0.3, -0.5, 0), 0.3);
+    EXPECT_NEAR(SpeedAtStart(law, 0.3, -0.5), -0.5, 1e-3);
+  }
+  EXPECT_NEAR(SpeedAtStart(Spring(), 0.3, 0.5), 0.5, 1e-3) << "the spring lets it grow on";
+  EXPECT_NEAR(SpeedAtStart(Quintic(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
+}
+
+TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
+  const DecayLaw law = Quintic({.blend_s = 0.4});
+  constexpr double kStep = 1e-4;
+  EXPECT_EQ(Left(law, 0.3, -0.2, 0.4), 0);
+  // A root of third order: speed and acceleration are zero, too.
+  EXPECT_NEAR(Left(law, 0.3, -0.2, 0.4 - kStep), 0, 1e-9);
+  EXPECT_GT(Left(law, 0.3, -0.2, 0.35), 0);
+}
+
+TEST(QuinticDecay, NeverOvershootsNorGrows) {
+  for (double velocity : {0.0, -0.1, -1.0, -5.0, -50.0}) {
+    double last = 0.3;
+    for (int i = 1; i <= 400; ++i) {
+      const double left = Left(Quintic(), 0.3, velocity, 0.001 * i);
+      EXPECT_GE(left, -1e-12) << velocity;
+      EXPECT_LE(left, last + 1e-12) << velocity;
+      last = left;
+    }
+    EXPECT_EQ(last, 0);
+  }
+}
+
+TEST(QuinticDecay, IsNothingWithoutOffsetOrWithoutTime) {
+  EXPECT_EQ(Left(Quintic(), 0, -1, 0.1), 0);
+  EXPECT_EQ(Left(Quintic({.blend_s = 0}), 0.3, 0, 0.03), 0);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,170 @@
+#include "engine/transitions/tags_file/tags_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/transitions/tags_file/compare_tags.h"
+#include "tests/engine/transitions/test_clips.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+BridgeTags SomeTags() {
+  const BodyMotion clips[] = {WavingClip(40), WavingClip(30, 1.1)};
+  const MotionLibrary library =
+      MakeLibrary({"wave", "other"}, clips, MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9));
+  const std::vector<std::string> sources = {"mocap/wave.bvh", "mocap/other.glb#1"};
+  BridgeTags tags = CollectTags(library, sources, {}, {}, {});
+  tags.clips[1].name = "Ärm & <leg> \"2\"";
+  for (KeyTag& key : tags.keys) {
+    if (key.clip != "wave") key.clip = tags.clips[1].name;
+  }
+  return tags;
+}
+
+std::string SomeText() { return WriteTagsFile(SomeTags()).value(); }
+
+/// The text with its first `from` replaced.
+std::string With(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+Error Complaint(const std::string& text) {
+  const auto tags = ReadTagsFile(text, "tags.xml");
+  EXPECT_FALSE(tags);
+  return tags ? Error{} : tags.error();
+}
+
+TEST(TagsFile, ComesBackToTheLastBit) {
+  const BridgeTags tags = SomeTags();
+  ASSERT_GT(tags.clips[0].bridge_frames.size(), 3u);
+  ASSERT_GT(tags.keys.size(), 1u);
+  const auto back = ReadTagsFile(SomeText(), "tags.xml");
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_TRUE(*back == tags);
+  EXPECT_EQ(WriteTagsFile(*back).value(), SomeText());
+}
+
+TEST(TagsFile, SaysWhereWhatWasFoundAndWhatIsAllowed) {
+  const std::string text = SomeText();
+  const Error error = Complaint(With(text, "RH=\"mid\"", "RH=\"middle\""));
+  EXPECT_EQ(error.place.file, "tags.xml");
+  const std::size_t at = text.find("RH=\"mid\"");
+  EXPECT_EQ(error.place.line, 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  EXPECT_THAT(error.message, HasSubstr("middle"));
+  EXPECT_THAT(error.message, HasSubstr("'down', 'mid', 'up'"));
+}
+
+TEST(TagsFile, RefusesWhatContradictsItself) {
+  const std::string text = SomeText();
+  EXPECT_THAT(Complaint(With(text, "RH=\"mid\"", "RH=\"up\"")).message, HasSubstr("by its grades it is mid"));
+  EXPECT_THAT(Complaint(With(text, "frames=\"40\"", "frames=\"4\"")).message, HasSubstr("of a clip that has 4"));
+  EXPECT_THAT(Complaint(With(text, "name=\"wave\"", "name=\"Ärm &amp; &lt;leg&gt; &quot;2&quot;\"")).message,
+              HasSubstr("a second clip"));
+  EXPECT_THAT(Complaint(With(text, "key clip=\"wave\"", "key clip=\"wink\"")).message, HasSubstr("wink"));
+  EXPECT_THAT(Complaint(With(text, "rate-hz=\"30\"", "rate-hz=\"60\"")).message, HasSubstr("time-s"));
+  EXPECT_THAT(Complaint(With(text, "feature=\"RH\"", "feature=\"LH\"")).message, HasSubstr("stands that of RH"));
+}
+
+TEST(TagsFile, RefusesHostileInput) {
+  const std::string text = SomeText();
+  const std::string bomb =
+      "<?xml version=\"1.0\"?>\n<!DOCTYPE a [<!ENTITY l \"lol\"><!ENTITY m \"&l;&l;&l;&l;&l;&l;&l;&l;\">"
+      "<!ENTITY n \"&m;&m;&m;&m;&m;&m;&m;&m;\">]>\n<bridge-tags>&n;</bridge-tags>";
+  EXPECT_THAT(Complaint(bomb).message, HasSubstr("document type declaration"));
+  EXPECT_EQ(Complaint(bomb).place.line, 2);
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "<a>";
+  const std::string inputs[] = {
+      "",
+      "no XML at all",
+      std::string("\0\1\2", 3),
+      "\xff\xfe<\0b\0",
+      "<wrong-root/>",
+      "<bridge-tags version=\"2\"/>",
+      "<bridge-tags version=\"1\"/>",
+      "<bridge-tags version=\"1\"><clip/></bridge-tags>",
+      deep,
+      text.substr(0, text.size() / 2),
+      text + "<more/>",
+      With(text, "<rules", "<rulers"),
+      With(text, "threshold=\"0.4\"", "threshold=\"NaN\""),
+      With(text, "threshold=\"0.4\"", "threshold=\"INF\""),
+      With(text, "threshold=\"0.4\"", "threshold=\"-1\""),
+      With(text, "threshold=\"0.4\"", "threshold=\"0.4\" threshold=\"0.5\""),
+      With(text, "frames=\"40\"", "frames=\"99999999999999999999\""),
+      With(text, "grades=\"", "grades=\"NaN "),
+      With(text, "grades=\"", "grades=\"0 "),
+      With(text, "grades=\"0", "grades=\"2"),
+      With(text, "min-clips=\"2\"", ""),
+      With(text, "<rules", "<rules extra=\"1\""),
+      With(text, "version=\"1.0\"", "version=\"1.1\""),  // libxml2 only warns of it, and of the next
+      With(text, "<bridge-tags", "<bridge-tags xmlns=\"relative\""),
+  };
+  for (const std::string& input : inputs) {
+    const Error error = Complaint(input);
+    EXPECT_EQ(error.place.file, "tags.xml");
+    EXPECT_FALSE(error.message.empty());
+    EXPECT_THAT(ToString(error), ::testing::Not(HasSubstr("\n")));
+  }
+}
+
+TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
+  std::string attributes = "\n<bridge-tags";
+  for (int i = 0; i < 100'000; ++i) attributes += " a" + std::to_string(i) + "=\"1\"";
+  const Error error = Complaint(attributes + "/>");
+  EXPECT_THAT(error.message, HasSubstr("bytes without a new tag"));
+  EXPECT_EQ(error.place.line, 2);
+  EXPECT_THAT(Complaint(" \n").message, HasSubstr("is empty"));
+}
+
+TEST(TagsFile, MayHoldTheLongestNames) {
+  BridgeTags tags = SomeTags();
+  for (ClipTags& clip : tags.clips) clip.source = std::string(4096, '"');
+  const auto text = WriteTagsFile(tags);
+  ASSERT_TRUE(text);
+  const auto back = ReadTagsFile(*text, "tags.xml");
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_TRUE(*back == tags);
+}
+
+TEST(TagsFile, RefusesToWriteNamesThatXmlCannotHold) {
+  for (const std::string& name : {std::string("a\nb"), std::string("\xff"), std::string()}) {
+    BridgeTags tags = SomeTags();
+    tags.clips[0].name = name;
+    EXPECT_FALSE(WriteTagsFile(tags));
+  }
+}
+
+TEST(TagsComparison, FindsWhatHasChanged) {
+  const BridgeTags tags = SomeTags();
+  EXPECT_THAT(CompareTags(tags, tags).differences, IsEmpty());
+  EXPECT_EQ(CompareTags(tags, tags).clips, 2);
+  EXPECT_GT(CompareTags(tags, tags).bridge_frames, 3);
+  BridgeTags other = tags;
+  other.clips[0].bridge_frames[1].grades[0] += 1e-3;
+  other.clips[0].bridge_frames.pop_back();
+  other.clips[1].name = "renamed";
+  other.threshold = 0.5;
+  other.weights[2] = 0.25;
+  const TagsComparison comparison = CompareTags(tags, other);
+  EXPECT_EQ(comparison.clips, 1);
+  EXPECT_THAT(comparison.differences, ::testing::SizeIs(::testing::Ge(5)))
+      << "weights, grades, a frame, a clip gone and a clip come";
+}
+
+TEST(MembershipsDigest, TellsFunctionsApartNotNames) {
+  FuzzySystem renamed, other;
+  renamed.name = "mine";
+  other.memberships.shapes[0] = Gaussian{.mean = 20, .sigma = 30};
+  EXPECT_EQ(MembershipsDigest(renamed), MembershipsDigest({}));
+  EXPECT_NE(MembershipsDigest(other), MembershipsDigest({}));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,3 @@
+// What every room includes must not know a task: whoever includes this header is flagged as well.
+#pragma once
+#include "bench/tasks/base/task.h"

@@ -1,0 +1,2 @@
+// Rows do not know how they are written.
+#include "bench/results/row_json.h"

@@ -1,0 +1,1 @@
+#include "bench/tasks/tracking/tracking_options.h"

@@ -1,0 +1,2 @@
+// The lowest room knows no other.
+#include "engine/motion/body.h"

@@ -1,0 +1,3 @@
+// Pose features are of a body, however it was seen.
+#pragma once
+#include "engine/cameras/camera.h"

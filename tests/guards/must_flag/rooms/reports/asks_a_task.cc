@@ -1,0 +1,1 @@
+#include "bench/tasks/ik/ik_options.h"

@@ -1,0 +1,122 @@
+"""Which room may include which: the house, as data. A room is a folder; guard.py holds every include to this.
+
+The table tells what is, not what might be: a pair that no file needs is complained about as well, so whoever adds,
+renames or joins rooms edits this file, and only this. The rooms form no circle.
+"""
+
+# room: the other rooms that its files may include.
+MAY_INCLUDE = {
+    # engine/
+    "engine/base": "",
+    "engine/bridging": "engine/base engine/bridging/search engine/fuzzy engine/motion",
+    "engine/bridging/search": "engine/fuzzy",
+    "engine/bridging/tags_file": "engine/base engine/bridging engine/fuzzy",
+    "engine/cameras": "engine/base",
+    "engine/document": "engine/base",
+    "engine/formats": "engine/base engine/motion",
+    "engine/formats/gltf": "engine/base engine/formats engine/motion",
+    "engine/fuzzy": "engine/base engine/document engine/motion",
+    "engine/kinematics": "engine/base engine/motion",
+    "engine/kinematics/solvers": "engine/base engine/kinematics",
+    "engine/motion": "engine/base",
+    "engine/recognition": "engine/base engine/fuzzy engine/motion",
+    "engine/retargeting": "engine/base engine/document engine/motion",
+    "engine/switching": "engine/switching/choices engine/switching/joins",
+    "engine/switching/choices": "engine/base engine/bridging engine/bridging/search engine/fuzzy",
+    "engine/switching/joins": "engine/base engine/bridging engine/motion",
+    "engine/vision": "engine/base engine/cameras engine/motion",
+    # sim/
+    "sim/body": "engine/motion",
+    "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
+    "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
+    "sim/performer": "engine/base engine/motion sim/choreography sim/random",
+    "sim/random": "engine/base",
+    "sim/render": "engine/base engine/cameras sim/body sim/random",
+    "sim/sensors":
+        "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
+    # bench/
+    "bench/clips":
+        "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/character sim/choreography "
+        "bench/files",
+    "bench/dataset": "engine/base bench/files bench/run bench/scenario",
+    "bench/files": "engine/base",
+    "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",
+    "bench/gate": "engine/base sim/random bench/files bench/metrics bench/model bench/statistics",
+    "bench/metrics": "engine/base engine/cameras engine/fuzzy engine/kinematics engine/motion bench/files",
+    "bench/micro":
+        "engine/base engine/bridging/search engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers "
+        "engine/motion engine/switching/choices sim/character sim/choreography sim/random sim/render bench/clips",
+    "bench/model": "engine/base engine/motion bench/files",
+    "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
+    "bench/process": "engine/base",
+    "bench/recordings": "engine/base engine/cameras",
+    "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
+    "bench/results": "engine/base bench/files bench/metrics bench/model",
+    "bench/run":
+        "engine/base bench/files bench/metrics bench/outside bench/process bench/results bench/scenario "
+        "bench/statistics bench/tasks bench/tasks/base",
+    "bench/scenario": "engine/base engine/document bench/files bench/metrics bench/model bench/tasks bench/tasks/base",
+    "bench/statistics": "sim/random bench/metrics bench/model",
+    "bench/tasks":
+        "bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik bench/tasks/pose_distance "
+        "bench/tasks/search bench/tasks/tracking bench/tasks/transition",
+    "bench/tasks/base":
+        "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion sim/random "
+        "bench/clips bench/files bench/model",
+    "bench/tasks/capture":
+        "engine/base engine/cameras engine/document engine/formats engine/kinematics engine/kinematics/solvers "
+        "engine/motion engine/vision sim/body sim/random sim/render sim/sensors bench/clips bench/metrics "
+        "bench/recordings bench/tasks/base",
+    "bench/tasks/detection":
+        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips "
+        "bench/metrics bench/tasks/base",
+    "bench/tasks/ik":
+        "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics bench/tasks/base",
+    "bench/tasks/pose_distance":
+        "engine/base engine/bridging engine/fuzzy engine/switching/choices sim/choreography sim/random bench/clips "
+        "bench/metrics bench/tasks/base bench/training",
+    "bench/tasks/search":
+        "engine/base engine/bridging/search engine/fuzzy sim/choreography sim/random bench/clips bench/metrics "
+        "bench/tasks/base",
+    "bench/tasks/tracking":
+        "engine/base engine/formats engine/kinematics engine/kinematics/solvers sim/random bench/clips bench/files "
+        "bench/metrics bench/tasks/base",
+    "bench/tasks/transition":
+        "engine/base engine/bridging engine/document engine/formats engine/fuzzy engine/motion engine/switching "
+        "engine/switching/choices engine/switching/joins sim/choreography sim/random bench/clips bench/metrics "
+        "bench/tasks/base bench/training",
+    "bench/training": "engine/base engine/bridging engine/fuzzy sim/choreography sim/random bench/metrics",
+    # reports/
+    "reports":
+        "engine/base bench/files bench/gate bench/model bench/recordings reports/assets reports/films reports/growth "
+        "reports/paper reports/switches reports/words",
+    "reports/assets": "",
+    "reports/bridges": "engine/base engine/bridging engine/fuzzy bench/files",
+    "reports/clips":
+        "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
+        "bench/files reports/films reports/words",
+    "reports/films":
+        "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
+        "bench/files bench/metrics bench/model bench/recordings reports/switches reports/words",
+    "reports/growth": "bench/model reports/paper reports/words",
+    "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/words",
+    "reports/switches": "engine/base engine/fuzzy bench/files bench/model reports/words",
+    "reports/words": "bench/metrics bench/model",
+    # cli/
+    "cli": "any",
+}
+
+# What makes worlds, asks methods in them, or reads what people wrote: all that knows a task.
+TASKS = "bench/tasks bench/scenario bench/outside bench/run bench/finished_runs bench/dataset bench/replay bench/training"
+# What worlds of some task are made of.
+MATERIAL = "bench/clips engine/document engine/formats engine/recognition engine/retargeting sim/choreography sim/performer"
+
+# (rooms with all below them, what none of their files may include even through others). Folders hold for all below.
+NEVER_INCLUDES = [
+    ("engine/base", "engine/motion engine/document engine/cameras"),
+    ("bench/model", "bench/metrics bench/results bench/statistics bench/gate bench/recordings reports"),
+    ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate reports", TASKS),
+    ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate", MATERIAL),
+    ("reports/words reports/growth reports/switches reports/paper", "bench/clips engine/retargeting sim"),
+    ("reports/films", "bench/clips"),
+]

@@ -1,0 +1,72 @@
+"""What is kept of a sample: figure.json, and survivors.json with a reason each."""
+
+import json
+import math
+from collections import Counter
+
+NOTICED = ("killed", "crashed", "too slow")
+NO_REASON = "not noticed"
+
+
+def wilson(hits, total, z=1.959964):
+    """The 95 % interval of a share (Wilson 1927); (0, 1) of nothing."""
+    if total == 0:
+        return 0.0, 1.0
+    p, spread = hits / total, z * z / total
+    middle = (p + spread / 2) / (1 + spread)
+    half = z * math.sqrt(p * (1 - p) / total + spread / (4 * total)) / (1 + spread)
+    return max(0.0, middle - half), min(1.0, middle + half)
+
+
+def key(entry):
+    """By what a survivor is known again after lines have moved."""
+    return entry["file"], entry["code"], entry["original"], entry["mutation"]
+
+
+def survivors_of(results, known):
+    """Every mutant that nothing noticed, with the reason that was given before, if one was."""
+    reasons = {key(entry): entry["reason"] for entry in known}
+    found = []
+    for mutant, verdict in results:
+        if verdict in NOTICED:
+            continue
+        entry = {"file": mutant.file, "code": mutant.code, "original": mutant.original, "mutation": mutant.mutation,
+                 "verdict": verdict}
+        found.append(entry | {"reason": reasons.get(key(entry), NO_REASON)})
+    return sorted(found, key=key)
+
+
+def is_equivalent(entry):
+    return entry["reason"].startswith("equivalent")
+
+
+def figure_of(results, survivors, about):
+    """The counts; shares of all, and of those that are no equivalents of the original."""
+    verdicts = Counter(verdict for _, verdict in results)
+    noticed, total = sum(verdicts[v] for v in NOTICED), len(results)
+    equivalent = sum(is_equivalent(entry) for entry in survivors)
+
+    def share(of):
+        low, high = wilson(noticed, of)
+        return {"of": of, "share": round(noticed / of, 4) if of else None, "wilson_95": [round(low, 4), round(high, 4)]}
+
+    counts = {verdict.replace(" ", "_"): verdicts[verdict] for verdict in (*NOTICED, "survived", "unreached")}
+    return about | {"sample": total, "noticed": noticed} | counts | {
+        "equivalent": equivalent, "noticed_of_all": share(total), "noticed_of_different": share(total - equivalent)}
+
+
+def by_folder(results):
+    """folder → (noticed, total)."""
+    table = {}
+    for mutant, verdict in results:
+        noticed, total = table.get(mutant.folder, (0, 0))
+        table[mutant.folder] = (noticed + (verdict in NOTICED), total + 1)
+    return dict(sorted(table.items()))
+
+
+def load(path):
+    return json.loads(path.read_text()) if path.exists() else []
+
+
+def save(path, data):
+    path.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n")

@@ -1,0 +1,148 @@
+// What the mutated copy of the engine is made of: every compiler call of its build includes this file first. All
+// mutants are compiled into one program; the environment variable ETUDE_MUTANT chooses one by number, 0 none.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <initializer_list>
+#include <type_traits>
+
+namespace etude_mutation {
+
+constexpr int kMost = 1 << 16;
+inline unsigned char reached[kMost];
+
+inline void WriteReached() {
+  std::FILE* file = std::fopen(std::getenv("ETUDE_MUTANTS_REACHED"), "w");
+  if (file == nullptr) std::abort();
+  for (int number = 0; number < kMost; ++number) {
+    if (reached[number] != 0) std::fprintf(file, "%d\n", number);
+  }
+  std::fclose(file);
+}
+
+/// The mutant's number; −1 when the numbers of all mutants that are reached shall be written to the file that
+/// ETUDE_MUTANTS_REACHED names, and none is chosen.
+inline int ReadChoice() {
+  if (std::getenv("ETUDE_MUTANTS_REACHED") != nullptr) {
+    std::atexit(WriteReached);
+    return -1;
+  }
+  const char* number = std::getenv("ETUDE_MUTANT");
+  return number == nullptr ? 0 : std::atoi(number);
+}
+
+inline int chosen = ReadChoice();
+
+inline bool On(int number) {
+  if (chosen < 0) {
+    reached[number] = 1;
+    return false;
+  }
+  return chosen == number;
+}
+
+/// Fails to compile where the mutated expression has no meaning or another type; the message names the number.
+template <int kNumber, bool kPossible>
+struct Check {
+  static_assert(kPossible, "no such mutant");
+};
+
+template <class Operator, class A>
+struct Bound {
+  const A& a;
+};
+
+// `a < Less<7>{} < b` is `a < b`, or for mutants 7 and 8 another comparison. Between two operators of its own kind it
+// finds the operands that the original had, whatever stands around them.
+#define ETUDE_MUTATION_OPERATOR(Name, op, other1, second, other2)                       \
+  template <int kNumber>                                                                \
+  struct Name {};                                                                       \
+  template <class A, int kNumber>                                                       \
+  Bound<Name<kNumber>, A> operator op(const A& a, Name<kNumber>) {                      \
+    return {a};                                                                         \
+  }                                                                                     \
+  template <class A, int kNumber, class B>                                              \
+  auto operator op(Bound<Name<kNumber>, A> left, const B& b) {                          \
+    const A& a = left.a;                                                                \
+    constexpr bool kPossible = requires {                                               \
+      requires std::is_same_v<decltype(a op b), decltype(a other1 b)>;                  \
+      requires std::is_same_v<decltype(a op b), decltype(a other2 b)>;                  \
+    };                                                                                  \
+    (void)sizeof(Check<kNumber, kPossible>);                                            \
+    return On(kNumber) ? (a other1 b) : On(kNumber + second) ? (a other2 b) : (a op b); \
+  }
+ETUDE_MUTATION_OPERATOR(Less, <, <=, 1, >=)
+ETUDE_MUTATION_OPERATOR(Greater, >, >=, 1, <=)
+ETUDE_MUTATION_OPERATOR(LessEqual, <=, <, 1, >)
+ETUDE_MUTATION_OPERATOR(GreaterEqual, >=, >, 1, <)
+ETUDE_MUTATION_OPERATOR(Equal, ==, !=, 0, !=)
+ETUDE_MUTATION_OPERATOR(Unequal, !=, ==, 0, ==)
+ETUDE_MUTATION_OPERATOR(Plus, +, -, 0, -)
+ETUDE_MUTATION_OPERATOR(Minus, -, +, 0, +)
+ETUDE_MUTATION_OPERATOR(Times, *, /, 0, /)
+ETUDE_MUTATION_OPERATOR(Over, /, *, 0, *)
+ETUDE_MUTATION_OPERATOR(Modulo, %, *, 0, *)
+#undef ETUDE_MUTATION_OPERATOR
+
+/// `-Negation<7>{}->*b` is `-b`, or b. (An operator that binds as tightly as a sign and takes two operands.)
+template <int kNumber>
+struct Negation {};
+template <int kNumber, class B>
+auto operator->*(Negation<kNumber>, const B& b) {
+  (void)sizeof(
+      Check < kNumber, requires { requires std::is_same_v<decltype(-b), std::decay_t<decltype(+b)>>; } ||
+                           requires { requires std::is_same_v<decltype(-b), B>; } >);
+  return On(kNumber) ? b : -b;
+}
+
+/// b, or −b.
+template <int kNumber, class B>
+B Opposite(const B& b) {
+  (void)sizeof(Check<kNumber, requires { static_cast<B>(-b); }>);
+  return On(kNumber) ? static_cast<B>(-b) : b;
+}
+
+/// b, or 1 / b.
+template <int kNumber, class B>
+B Inverse(const B& b) {
+  (void)sizeof(Check<kNumber, std::is_floating_point_v<B>>);
+  return On(kNumber) ? 1 / b : b;
+}
+
+/// `a && b`, or `a || b`; the second operand is only computed when it counts.
+template <class B>
+bool And(int number, bool a, const B& b) {
+  return On(number) ? a || b() : a && b();
+}
+template <class B>
+bool Or(int number, bool a, const B& b) {
+  return On(number) ? a && b() : a || b();
+}
+
+/// std::min and std::max, or the other.
+template <int kNumber>
+struct Min {
+  template <class A>
+  const A& operator()(const A& a, const A& b) const {
+    return On(kNumber) ? std::max(a, b) : std::min(a, b);
+  }
+  template <class A>
+  A operator()(std::initializer_list<A> list) const {
+    return On(kNumber) ? std::max(list) : std::min(list);
+  }
+};
+template <int kNumber>
+struct Max {
+  template <class A>
+  const A& operator()(const A& a, const A& b) const {
+    return On(kNumber) ? std::min(a, b) : std::max(a, b);
+  }
+  template <class A>
+  A operator()(std::initializer_list<A> list) const {
+    return On(kNumber) ? std::min(list) : std::max(list);
+  }
+};
+
+}  // namespace etude_mutation

@@ -1,0 +1,215 @@
+"""The mutator itself: what it takes for code, what it makes of it, and that good tests kill and bad ones do not."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+import figure  # noqa: E402
+import rewrite  # noqa: E402
+import shadow  # noqa: E402
+import sites  # noqa: E402
+import soak  # noqa: E402
+import tokens  # noqa: E402
+from trials import Test, judge, record, run_program  # noqa: E402
+
+
+COMPILER = [os.environ.get("CXX", "c++"), "-std=c++20", "-O0", "-include", HERE / "mutant.h"]
+
+
+def found_in(text):
+    return [(site.original, site.mutations) for site in sites.find_sites(text)]
+
+
+def originals_in(text):
+    return [site.original for site in sites.find_sites(text)]
+
+
+def rewritten(text):
+    numbered, number = [], 1
+    for site in sites.find_sites(text):
+        numbered.append((site, number))
+        number += len(site.mutations)
+    return rewrite.rewrite(text, numbered), numbered, number - 1
+
+
+def mutant_of(number, file="engine/toy/toy.cc"):
+    return shadow.Mutant(number, file, 1, 1, "", "", "")
+
+
+class Tokens(unittest.TestCase):
+    def texts(self, code):
+        return [token.text for token in tokens.tokenize(code)]
+
+    def test_comments_directives_and_white_space_are_no_tokens(self):
+        self.assertEqual(self.texts("#define X \\\n  1 + 1\na /* + */ = b; // < c\n"), ["a", "=", "b", ";"])
+
+    def test_strings_are_one_token_whatever_they_hold(self):
+        self.assertEqual(self.texts('f("a \\" < 1", R"x(1 + ")" 2)x", \'\\\'\', u8"")'),
+                         ["f", "(", '"a \\" < 1"', ",", 'R"x(1 + ")" 2)x"', ",", "'\\''", ",", 'u8""', ")"])
+
+    def test_numbers_are_one_token(self):
+        for number in ("1'000'000", "1e-9", "0x1F", ".5f", "2.", "3u", "1.5e+3"):
+            self.assertEqual(self.texts(f"a = {number};"), ["a", "=", number, ";"])
+
+    def test_marks_are_the_longest_that_fit(self):
+        self.assertEqual(self.texts("a<=>b<<=c->d->*e::f&&g"),
+                         ["a", "<=>", "b", "<<=", "c", "->", "d", "->*", "e", "::", "f", "&&", "g"])
+
+    def test_brackets_know_their_partners(self):
+        found = tokens.tokenize("f(a[1], {2})")
+        self.assertEqual([token.match for token in found], [-1, 10, -1, 5, -1, 3, -1, 9, -1, 7, 1])
+        with self.assertRaises(ValueError):
+            tokens.tokenize("f(a]")
+
+
+class Sites(unittest.TestCase):
+    def test_each_kind_is_found(self):
+        self.assertEqual(found_in("bool f(int a) { return a < 2; }"), [("<", ["<=", ">="]), ("2", ["2 / 4", "2 + 1"])])
+        self.assertEqual(found_in("void f() { if (a) return; }"), [("if (c)", ["if (!(c))", "if (false)"])])
+        self.assertEqual(originals_in("void f() { a = b && c || d ? -x : y; }"),
+                         ["a = b && c || d ? -x : y;", "&&", "||", "c ?", "-x"])
+        self.assertEqual(originals_in("void f() { g(x); h += 0.5; }"), ["g(x);", "h += 0.5;", "+=", "0.5"])
+        self.assertEqual(found_in("int f() { return std::max(a, b); }"), [("std::max", ["std::min"])])
+        self.assertEqual(found_in("bool f() { return true; }"), [("true", ["!true"])])
+
+    def test_a_named_constant_is_mutated_where_it_is_used(self):
+        code = "constexpr double kStep = 0.5;\ndouble f(double x) { return kStep * x; }"
+        self.assertEqual(found_in(code), [("kStep", ["kStep / 4"]), ("*", ["/"])])
+
+    def test_what_does_not_run_has_no_sites(self):
+        for code in ("constexpr int Two(int a) { return a + 2; }", "constexpr int kA[] = {1, 2};",
+                     "static_assert(a < 3);", "std::array<int, 3> a;", "template <int kN = 4> void f();",
+                     "void f() { switch (a) { case 3: break; } }", "#if A > 3\n#endif", "enum E { kA = 1, kB = 2 };",
+                     "void f() { assert(a < 3); }", "using A = B<1>;", "void f(int&& a, char* b, const C& c);",
+                     "bool operator<(const A& a, const A& b);"):
+            self.assertEqual(originals_in(code), [], code)
+
+    def test_a_statement_before_an_else_stays(self):
+        self.assertEqual(originals_in("void f() { if (a) g(); else h(); }"), ["if (c)", "h();"])
+
+    def test_a_condition_that_declares_is_not_negated(self):
+        self.assertEqual(originals_in("void f() { if (auto a = g()) return; }"), [])
+        self.assertEqual(originals_in("void f() { if (auto a = g(); a) return; }"), ["if (c)"])
+
+    def test_a_header_has_the_defaults_of_its_members(self):
+        text = "struct A {\n  double a = 0.5;\n  int b = 0;\n  bool c = true;\n  int F(int d) { return d + 1; }\n};\n"
+        self.assertEqual([site.original for site in sites.find_defaults(text)], ["0.5", "true"])
+
+    def test_lines_stay_where_they_are(self):
+        text = (HERE / "toy/toy.cc").read_text()
+        self.assertEqual(rewritten(text)[0].count("\n"), text.count("\n"))
+
+    def test_without_sites_a_text_is_what_it_was(self):
+        text = (HERE / "toy/toy.cc").read_text()
+        self.assertEqual(rewrite.rewrite(text, []), text)
+
+
+class Toy(unittest.TestCase):
+    """A small program with its mutants, compiled once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        work = Path(cls.folder.name)
+        text, cls.numbered, cls.count = rewritten((HERE / "toy/toy.cc").read_text())
+        (work / "toy.cc").write_text(text)
+        compiler = [*COMPILER, "-I", HERE / "toy"]
+        subprocess.run([*compiler, "-c", work / "toy.cc", "-o", work / "toy.o"], check=True)
+        for name in ("good_test", "bad_test"):
+            subprocess.run([*compiler, work / "toy.o", HERE / f"toy/{name}.cc", "-o", work / name], check=True)
+        cls.work = work
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def verdicts(self, name):
+        test = record(Test("engine/toy", (str(self.work / name),), "all"), self.work)
+        return test, [judge(mutant_of(n), [test], self.work) for n in range(1, self.count + 1)]
+
+    def test_a_good_test_kills_all_mutants(self):
+        self.assertGreater(self.count, 30)
+        _, verdicts = self.verdicts("good_test")
+        alive = [site.original for (site, first) in self.numbered
+                 for k in range(len(site.mutations)) if verdicts[first + k - 1] != "killed"]
+        self.assertEqual(alive, [])
+
+    def test_a_bad_test_reaches_all_and_kills_none(self):
+        test, verdicts = self.verdicts("bad_test")
+        self.assertEqual(test.reached, set(range(1, self.count + 1)))
+        self.assertEqual(set(verdicts), {"survived"})
+
+    def test_a_mutant_that_no_test_reaches_or_only_another_folders_is_unreached(self):
+        test, _ = self.verdicts("bad_test")
+        for mutant in (mutant_of(1, "engine/other/a.cc"), mutant_of(60000)):
+            self.assertEqual(judge(mutant, [test], self.work), "unreached")
+
+    def test_a_program_that_does_not_end_is_too_slow(self):
+        test = Test("engine/toy", ("sh", "-c", "while :; do :; done"), "all", 0.0, frozenset([1]))
+        self.assertEqual(judge(mutant_of(1), [test], self.work), "too slow")
+
+    def test_a_test_that_fails_without_a_mutant_is_an_error(self):
+        with self.assertRaises(RuntimeError):
+            record(Test("engine/toy", ("false",), "all"), self.work)
+
+    def test_a_mutant_without_a_meaning_is_named_by_the_compiler(self):
+        source = self.work / "text.cc"
+        text, _, _ = rewritten("#include <string>\nstd::string F(std::string a, std::string b) { return a + b; }\n")
+        source.write_text(text)
+        done = subprocess.run([*COMPILER, "-fsyntax-only", source], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(shadow.impossible(done.stderr), {1})
+
+
+class Figure(unittest.TestCase):
+    MUTANT = shadow.Mutant(7, "engine/a/a.cc", 3, 5, "<", "<=", "if (a < b) return;")
+
+    def test_wilsons_interval_is_the_published_one(self):
+        low, high = figure.wilson(81, 263)  # Newcombe 1998, table I
+        self.assertAlmostEqual(low, 0.2553, places=4)
+        self.assertAlmostEqual(high, 0.3662, places=4)
+        self.assertEqual(figure.wilson(0, 0), (0.0, 1.0))
+
+    def test_a_survivor_keeps_its_reason_when_its_line_has_moved(self):
+        known = figure.survivors_of([(self.MUTANT, "survived")], [])
+        self.assertEqual(known[0]["reason"], figure.NO_REASON)
+        known[0]["reason"] = "equivalent: b is never a"
+        moved = shadow.Mutant(9, "engine/a/a.cc", 30, 5, "<", "<=", "if (a < b) return;")
+        again = figure.survivors_of([(moved, "survived"), (self.MUTANT, "killed")], known)
+        self.assertEqual([entry["reason"] for entry in again], ["equivalent: b is never a"])
+
+    def test_the_shares_are_of_all_and_of_those_that_differ(self):
+        results = [(self.MUTANT, v) for v in ["killed"] * 7 + ["too slow", "survived", "unreached"]]
+        survivors = [{"reason": "equivalent: so"}, {"reason": figure.NO_REASON}]
+        kept = figure.figure_of(results, survivors, {"seed": 1})
+        self.assertEqual((kept["noticed"], kept["sample"], kept["equivalent"]), (8, 10, 1))
+        self.assertEqual(kept["noticed_of_all"]["share"], 0.8)
+        self.assertEqual(kept["noticed_of_different"]["of"], 9)
+
+    def test_a_line_that_was_cut_off_is_tried_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "verdicts.jsonl"
+            path.write_text(json.dumps({"number": 1}) + '\n{"num')
+            self.assertEqual(soak.complete_lines(path), ['{"number": 1}'])
+            self.assertEqual(path.read_text(), '{"number": 1}\n')
+
+    def test_every_kept_survivor_has_a_reason(self):
+        for entry in figure.load(HERE / "survivors.json"):
+            self.assertTrue(entry["reason"].startswith(("equivalent: ", figure.NO_REASON)), entry)
+
+
+class Limits(unittest.TestCase):
+    def test_a_crash_is_no_success(self):
+        code, _ = run_program(["sh", "-c", "kill -SEGV $$"], {}, HERE, 5)
+        self.assertEqual(code, -11)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,182 @@
+"""The mutated engine: a copy of the tree with all mutants in it, and its build.
+
+`<work>/tree` is the project with links instead of files, but engine/ is rewritten. Mutants that do not compile are
+found by the compiler's messages and left out; `<work>/dropped.json` remembers them by their file's content."""
+
+import hashlib
+import json
+import os
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import rewrite
+import sites
+
+HERE = Path(__file__).resolve().parent
+MUTATOR = ("tokens.py", "source.py", "sites.py", "rewrite.py", "shadow.py")
+_MESSAGE = re.compile(r"^(?P<path>[^:\s]+):(?P<line>\d+):\d+: +(?P<kind>error|note):(?P<text>.*)$", re.MULTILINE)
+_IMPOSSIBLE = re.compile(r"etude_mutation::Check<(\d+), false>")
+
+
+def impossible(output):
+    """The numbers of the sites that have no meaning, by the compiler's messages."""
+    return {int(number) for number in _IMPOSSIBLE.findall(output)}
+
+
+@dataclass(frozen=True)
+class Mutant:
+    number: int
+    file: str  # engine/…
+    line: int
+    column: int
+    original: str
+    mutation: str
+    code: str  # the line it stands in
+
+    @property
+    def folder(self):
+        return os.path.dirname(self.file)
+
+
+class Shadow:
+    def __init__(self, root, work):
+        self.root, self.tree, self.build, self.work = Path(root), Path(work) / "tree", Path(work) / "build", Path(work)
+        self.numbered, number = {}, 1  # file → [(site, number of its first mutant)]
+        for file in self._engine_files():
+            text = self._read(file)
+            if file.endswith(".h"):
+                found = sites.find_defaults(text)
+            else:
+                header = self.root / (file[:-3] + ".h")
+                found = sites.find_sites(text, header.read_text() if header.exists() else "")
+            pairs = []
+            for site in found:
+                pairs.append((site, number))
+                number += len(site.mutations)
+            self.numbered[file] = pairs
+        self.dropped = self._load_dropped()
+
+    # --- files ---------------------------------------------------------------------------------------------------
+    def _git_files(self):
+        command = ["git", "-C", self.root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+        listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        return sorted(file for file in listed.split("\0") if file and (self.root / file).is_file())
+
+    def _engine_files(self):
+        """Those that can be mutated: not the ones that Highway compiles once for every kind of vectors."""
+        files = [f for f in self._git_files() if f.startswith("engine/") and f.endswith((".cc", ".h"))]
+        return [f for f in files if not re.search(r"foreach_target|-inl\.h|HWY_", f + self._read(f))]
+
+    def _read(self, file):
+        return (self.root / file).read_text(encoding="utf-8")
+
+    def digest(self):
+        """Of everything that a mutant's fate depends on."""
+        state = hashlib.sha256()
+        for file in self._git_files():
+            used = file.startswith(("engine/", "tests/engine/", "tests/support/", "tests/mutation/", "sim/", "cmake/"))
+            if used and file.endswith((".cc", ".h", ".txt", ".cmake", *MUTATOR)):
+                state.update(file.encode() + b"\0" + (self.root / file).read_bytes())
+        return state.hexdigest()[:16]
+
+    def write(self):
+        wanted = set()
+        for file in self._git_files():
+            target = self.tree / file
+            wanted.add(target)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if file in self.numbered:
+                self._write_mutated(file)
+            elif not target.is_symlink():
+                target.unlink(missing_ok=True)
+                target.symlink_to(self.root / file)
+        for folder, _, names in os.walk(self.tree):
+            for name in names:
+                if Path(folder) / name not in wanted:
+                    (Path(folder) / name).unlink()
+
+    def _write_mutated(self, file):
+        kept = [(site, number) for site, number in self.numbered[file] if number not in self.dropped]
+        text = rewrite.rewrite(self._read(file), kept)
+        target = self.tree / file
+        if target.is_symlink() or not target.exists() or target.read_text(encoding="utf-8") != text:
+            target.unlink(missing_ok=True)
+            target.write_text(text, encoding="utf-8")
+
+    # --- mutants that do not compile -----------------------------------------------------------------------------
+    def _key(self, file, site):
+        content = hashlib.sha256(self._read(file).encode()).hexdigest()[:12]
+        return f"{file}:{content}:{site.line}:{site.column}:{site.original}"
+
+    def _load_dropped(self):
+        path = self.work / "dropped.json"
+        known = set(json.loads(path.read_text())) if path.exists() else set()
+        return {n for file, pairs in self.numbered.items() for site, n in pairs if self._key(file, site) in known}
+
+    def _save_dropped(self):
+        keys = [self._key(f, site) for f, pairs in self.numbered.items() for site, n in pairs if n in self.dropped]
+        (self.work / "dropped.json").write_text(json.dumps(keys))
+
+    def _blamed(self, output):
+        """The numbers of the sites that the compiler's messages speak of."""
+        blamed = impossible(output) - self.dropped
+        explained = {file for file, pairs in self.numbered.items() if any(n in blamed for _, n in pairs)}
+        for found in _MESSAGE.finditer(output):
+            file = os.path.relpath(self.build / found["path"], self.tree)  # of ninja, relative to where it builds
+            # What else is wrong in a file with an impossible mutant may follow from it.
+            about_mutants = found["kind"] == "error" or "etude_mutation" in found["text"]
+            if about_mutants and file in self.numbered and file not in explained:
+                blamed |= self._nearest(file, int(found["line"]))
+        return blamed
+
+    def _nearest(self, file, line):
+        """The sites in a line that are still there; or in the lines around it."""
+        here = [(abs(site.line - line), n) for site, n in self.numbered[file] if n not in self.dropped]
+        least = min(here, default=(99, 0))[0]
+        return {n for away, n in here if away == least and least <= 12}
+
+    # --- the build -----------------------------------------------------------------------------------------------
+    def test_folders(self):
+        lists = [f for f in self._git_files() if f.startswith("tests/engine/") and f.endswith("/CMakeLists.txt")]
+        return [os.path.dirname(f) for f in lists]
+
+    def compile(self, folders, jobs, log):
+        """Builds the test programs of these folders; drops what does not compile. Raises when something else is
+        wrong."""
+        self.write()
+        (self.work / "mutant.h").write_text((HERE / "mutant.h").read_text())
+        flags = f"-O1 -DNDEBUG -include {self.work}/mutant.h -Werror=vla -fmax-errors=0"
+        options = ["-DETUDE_TESTS=ON", "-DETUDE_UNITY=ON", "-DCMAKE_BUILD_TYPE=Mutation",
+                   f"-DCMAKE_CXX_FLAGS_MUTATION={flags}"]
+        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options],
+                       check=True, stdout=log, stderr=log)
+        targets = ["etude_" + folder.replace("/", "_") for folder in folders]
+        for _ in range(40):
+            output = self.work / "build.output"
+            with output.open("w") as file:
+                ninja = ["nice", "-n", "10", "ninja", "-C", self.build, f"-j{jobs}", "-k0"]
+                code = subprocess.run([*ninja, *targets], stdout=file, stderr=subprocess.STDOUT).returncode
+            if code == 0:
+                return
+            blamed = self._blamed(output.read_text())
+            if not blamed:
+                raise RuntimeError("The mutated engine does not compile, not because of a mutant: see build.output.")
+            self.dropped |= blamed
+            self._save_dropped()
+            self.write()
+        raise RuntimeError("The mutated engine still does not compile: see build.output.")
+
+    def mutants(self):
+        for file, pairs in sorted(self.numbered.items()):
+            lines = self._read(file).split("\n")
+            for site, first in pairs:
+                if first in self.dropped:
+                    continue
+                code = lines[site.line - 1].strip()
+                for k, mutation in enumerate(site.mutations):
+                    yield Mutant(first + k, file, site.line, site.column, site.original, mutation, code)
+
+    def dropped_count(self):
+        return sum(len(site.mutations) for pairs in self.numbered.values() for site, n in pairs if n in self.dropped)

@@ -1,0 +1,10 @@
+// Runs all of toy.cc and looks at nothing: notices no mutant. The control.
+#include "toy.h"
+
+int main() {
+  for (int x = -9; x <= 9; ++x) {
+    Sign(x), Negative(x), Scaled(x), Least(x, 2), Inside(x, 1, 4), Outside(x, 1, 4);
+  }
+  Sum({1, 2, 3});
+  return 0;
+}

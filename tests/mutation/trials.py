@@ -1,0 +1,84 @@
+"""Tests run against mutants: which tests reach which mutants, and whether one of them notices."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import tempfile
+import threading
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+SLOWER = 5  # a mutant whose tests take so many times as long counts as noticed: they might never end
+
+
+@dataclass(frozen=True)
+class Test:
+    folder: str  # engine/…, the mirrored one
+    command: tuple  # with the pinned environment, without the filter
+    name: str  # Suite.Name
+    seconds: float = 0  # of CPU
+    reached: frozenset = frozenset()
+
+
+def list_tests(build, folders):
+    """What ctest knows of these folders of tests, without the heavy ones."""
+    command = ["ctest", "--test-dir", build, "--show-only=json-v1"]
+    shown = subprocess.run(command, check=True, capture_output=True, text=True)
+    tests = []
+    for entry in json.loads(shown.stdout)["tests"]:
+        folder, _, _ = entry["name"].partition(": ")
+        properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
+        if "tests/" + folder not in folders or "heavy" in properties.get("LABELS", []) or properties.get("DISABLED"):
+            continue
+        command = tuple(part for part in entry["command"] if not part.startswith("--gtest"))
+        name = next(part for part in entry["command"] if part.startswith("--gtest_filter=")).partition("=")[2]
+        tests.append(Test(folder, command, name))
+    return tests
+
+
+def run_program(command, environment, cwd, cpu_seconds):
+    """Its exit code (negative: the signal that ended it) and the CPU-seconds that it took."""
+    limits = ["prlimit", f"--cpu={cpu_seconds}:{cpu_seconds + 1}", f"--as={8 << 30}", "--core=0", f"--fsize={1 << 28}"]
+    with tempfile.TemporaryDirectory() as scratch:
+        process = subprocess.Popen([*limits, "nice", "-n", "10", *command], cwd=cwd, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+                                   env=os.environ | environment | {"TMPDIR": scratch})
+        asleep = threading.Timer(60 + 30 * cpu_seconds, lambda: os.killpg(process.pid, signal.SIGXCPU))
+        asleep.start()
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        asleep.cancel()
+        return process.returncode, used.ru_utime + used.ru_stime
+
+
+def record(test, cwd):
+    """The test with its time and with all mutants that it reaches. It must pass: no mutant is chosen."""
+    with tempfile.TemporaryDirectory() as scratch:
+        path = Path(scratch) / "reached"
+        command = [*test.command, "--gtest_filter=" + test.name]
+        code, seconds = run_program(command, {"ETUDE_MUTANTS_REACHED": str(path)}, cwd, 600)
+        if code != 0 or not path.exists():
+            raise RuntimeError(f"{test.folder}: {test.name} fails without a mutant (exit code {code})")
+        return replace(test, seconds=seconds, reached=frozenset(map(int, path.read_text().split())))
+
+
+def judge(mutant, tests, cwd):
+    """"killed" (a test failed), "crashed", "too slow", "survived", or "unreached", by the mirrored folder's tests."""
+    reaching = [test for test in tests if mutant.number in test.reached and test.folder == mutant.folder]
+    if not reaching:
+        return "unreached"
+    program = {}  # its tests; a folder has one program, but nothing here needs that
+    for test in reaching:
+        program.setdefault(test.command, []).append(test)
+    for command, chosen in program.items():
+        limit = math.ceil(SLOWER * sum(test.seconds for test in chosen)) + 1
+        names = ":".join(test.name for test in chosen)
+        code, _ = run_program([*command, "--gtest_fail_fast", "--gtest_filter=" + names],
+                              {"ETUDE_MUTANT": str(mutant.number)}, cwd, limit)
+        if code in (-signal.SIGXCPU, -signal.SIGKILL):
+            return "too slow"
+        if code != 0:
+            return "killed" if code == 1 else "crashed"
+    return "survived"
