@@ -219,10 +219,15 @@ void DefineList(CLI::App& app, Action& action) {
                                              : MetricsFormat::kTable;
     action = [=] { return ListMetricsCommand(format); };
   });
-  auto as_page = Keep<bool>(false);
+  auto as_page = Keep<bool>(false), as_schema = Keep<bool>(false);
   CLI::App* keys = command->add_subcommand("keys", "Every key of a scenario file");
-  keys->add_flag("--markdown", *as_page, "The page docs/keys.md");
-  keys->callback([=, &action] { action = [=] { return ListKeysCommand(*as_page); }; });
+  CLI::Option* page = keys->add_flag("--markdown", *as_page, "The page docs/keys.md");
+  keys->add_flag("--schema", *as_schema, "The JSON Schema docs/schemas/scenario.schema.json, for editors")
+      ->excludes(page);
+  keys->callback([=, &action] {
+    const KeysFormat format = *as_schema ? KeysFormat::kSchema : *as_page ? KeysFormat::kMarkdown : KeysFormat::kText;
+    action = [=] { return ListKeysCommand(format); };
+  });
   auto folder = Keep<std::string>("scenarios/quick");
   CLI::App* scenarios = command->add_subcommand("scenarios", "Scenarios of a folder");
   scenarios->add_option("folder", *folder, "Folder of scenarios")->capture_default_str();

@@ -54,8 +54,13 @@ enum class Listing { kMethods, kScenarios, kClips };
 /// `etude list …`: what can be named in a scenario.
 int ListCommand(Listing what, const std::string& scenario_folder);
 
-/// `etude list keys`: every key of a scenario file; as the page docs/keys.md, or for people at a terminal.
-int ListKeysCommand(bool as_markdown);
+enum class KeysFormat {
+  kText,      ///< for people at a terminal
+  kMarkdown,  ///< docs/keys.md
+  kSchema,    ///< docs/schemas/scenario.schema.json
+};
+/// `etude list keys`: every key of a scenario file.
+int ListKeysCommand(KeysFormat format);
 
 enum class MetricsFormat {
   kTable,     ///< a line each, for people at a terminal

@@ -66,16 +66,16 @@ int ListScenarios(const std::string& folder) {
 
 }  // namespace
 
-int ListKeysCommand(bool as_markdown) {
-  if (as_markdown) {
-    fmt::print("{}", KeysAsMarkdown());
+int ListKeysCommand(KeysFormat format) {
+  if (format != KeysFormat::kText) {
+    fmt::print("{}", format == KeysFormat::kSchema ? KeysAsSchema() : KeysAsMarkdown());
     return kSuccess;
   }
   for (const KeyGroup& group : AllKeyGroups()) {
     fmt::print("{}{}\n", group.title, group.path.empty() ? "" : ": " + group.path);
     for (const KeyInfo& key : group.keys) {
       fmt::print("  {:<22} {}\n  {:<22} {}; {}\n", key.key, key.meaning, "", key.AllowedWhere(),
-                 key.fallback.empty() ? "required" : "default: " + key.fallback);
+                 key.IsRequired() ? "required" : "default: " + key.fallback);
     }
     fmt::print("\n");
   }

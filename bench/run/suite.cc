@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "bench/files/files.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -44,6 +46,16 @@ Result<void> KeepFuzzySystems(const Scenario& scenario, SourceTexts& texts) {
   return {};
 }
 
+/// Refuses --clips with a file or a folder that has no use for them; one that has may also hold scenarios without.
+Result<void> CheckThatClipsAreUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_clips) {
+  for (const std::string& path : paths) {
+    ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({path}));
+    const bool used = std::ranges::any_of(files, [&](const std::string& file) { return with_clips.contains(file); });
+    if (!used) return Fail({path, 0, 0}, "has no use for --clips: no task of its scenarios makes its worlds of clips");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths) {
@@ -75,6 +87,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
   std::map<std::string, std::string> file_of_name;
+  std::set<std::string> with_clips;  // files with a scenario that has a use for clips
   std::size_t cells = 0;
   for (const std::string& file : files) {
     SourceTexts texts;
@@ -93,7 +106,9 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
         return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
                     scenario.conditions.size(), scenario.methods.size(), trials, kMostCells);
       }
-      const bool replaced = !options.clips.empty() && !scenario.clips.empty();
+      const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
+      if (uses_clips) with_clips.insert(file);
+      const bool replaced = !options.clips.empty() && uses_clips;
       const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
       RETURN_IF_ERROR(KeepText(joint_map, suite.sources));
       RETURN_IF_ERROR(KeepFuzzySystems(scenario, suite.sources));
@@ -102,6 +117,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     }
     suite.sources.merge(texts);
   }
+  if (!options.clips.empty()) RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
   return suite;
 }
 

@@ -12,22 +12,15 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The metrics that a task's cells report.
-std::vector<std::string> MetricsOf(const TaskKind& kind) {
-  if (!kind.metrics.empty()) return kind.metrics;
-  std::vector<std::string> all;
-  for (const MetricInfo& metric : AllMetrics()) all.push_back(metric.id);
-  return all;
-}
-
 /// A list of metrics that the task reports, each once.
-std::vector<std::string> ReadMetricList(Fields& fields, std::string_view key, const TaskKind& kind) {
-  const std::vector<std::string> known = MetricsOf(kind);
+std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
+                                        const std::vector<std::string>& known) {
+  const char* key = "metrics";
   const std::vector<std::string> metrics = fields.Texts(key);
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     const Place& place = fields.node().Find(key)->items[i].place;
     if (!Contains(known, metrics[i])) {
-      fields.Complain(place, UnknownName("metric of task " + kind.name, metrics[i], known));
+      fields.Complain(place, UnknownName("metric of task " + task, metrics[i], known));
     } else if (std::find(metrics.begin(), metrics.begin() + static_cast<std::ptrdiff_t>(i), metrics[i]) !=
                metrics.begin() + static_cast<std::ptrdiff_t>(i)) {
       fields.Complain(place, fmt::format("the metric '{}' stands here twice", metrics[i]));
@@ -74,100 +67,94 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
   return where;
 }
 
-std::string RequiredChoice(Fields& fields, std::string_view key, const std::vector<std::string>& allowed) {
-  fields.RequiredText(key);
-  return fields.Choice(key, allowed, "");
+/// A name that must be one of `known`, which only a scenario tells; `allowed` says it for people.
+template <typename Options>
+Field<Options> KnownName(const std::string& key, std::string Options::*member, std::string allowed,
+                         std::vector<std::string> known, std::string meaning) {
+  return {{key, TextKind(std::move(allowed)), "", std::move(meaning)},
+          [=](Fields& fields, Options& options) { options.*member = fields.Choice(key, known, options.*member); }};
 }
 
-Result<Expectation> ReadExpectation(const Node& item, const Scenario& scenario, const TaskKind& kind) {
-  const std::vector<std::string> methods = MethodNames(scenario);
-  Fields entry(item, "an expectation");
-  Expectation expectation;
-  expectation.place = item.place;
-  expectation.metric = RequiredChoice(entry, "metric", MetricsOf(kind));
-  expectation.of = RequiredChoice(entry, "of", methods);
-  expectation.below = entry.Choice("below", methods, "");
-  expectation.above = entry.Choice("above", methods, "");
-  expectation.at_most = entry.OptionalNumber("at_most");
-  expectation.at_least = entry.OptionalNumber("at_least");
-  expectation.statistic = entry.Choice("statistic", {"median", "mean", "p95"}, "median");
-  expectation.confidence = entry.Number("confidence", expectation.confidence, {0.5, 0.999});
-  expectation.where = ReadWhere(entry, scenario);
-  RETURN_IF_ERROR(entry.Finish());
+void CheckExpectation(Fields& fields, Expectation& expectation) {
+  expectation.place = fields.node().place;
   if (expectation.below == expectation.of || expectation.above == expectation.of) {
-    return Fail(item.place, "'{}' cannot be expected to differ from itself", expectation.of);
+    fields.Complain(expectation.place, fmt::format("'{}' cannot be expected to differ from itself", expectation.of));
   }
   const int claims = !expectation.below.empty() + !expectation.above.empty() + expectation.at_most.has_value() +
                      expectation.at_least.has_value();
-  if (claims != 1) {
-    return Fail(item.place,
-                "an expectation says exactly one of: below, above (a method), at_most, at_least (a number); found {}",
-                claims);
-  }
-  return expectation;
+  if (claims == 1) return;
+  fields.Complain(expectation.place, fmt::format("an expectation says exactly one of: below, above (a method), "
+                                                 "at_most, at_least (a number); found {}",
+                                                 claims));
 }
 
-Result<TimeRatio> ReadTimeRatio(const Node& item, const Scenario& scenario) {
-  const std::vector<std::string> methods = MethodNames(scenario);
-  Fields entry(item, "a time ratio");
-  TimeRatio ratio;
-  ratio.place = item.place;
-  ratio.of = RequiredChoice(entry, "of", methods);
-  ratio.over = RequiredChoice(entry, "over", methods);
-  ratio.at_most = entry.Number("at_most", ratio.at_most, {0.001, 1e6});
-  RETURN_IF_ERROR(entry.Finish());
-  if (ratio.of == ratio.over) return Fail(item.place, "the ratio of '{}' over itself says nothing", ratio.of);
-  return ratio;
-}
-
-/// The items of a list, or nothing, with a complaint, when it is none.
-std::vector<Node> ItemsOf(Fields& fields, std::string_view key) {
-  const Node* list = fields.Raw(key);
-  if (list == nullptr) return {};
-  if (list->kind != Node::Kind::kSequence) {
-    fields.Complain(list->place, fmt::format("'{}' must be a list, found {}", key, Describe(*list)));
-  }
-  return list->items;
+void CheckTimeRatio(Fields& fields, TimeRatio& ratio) {
+  ratio.place = fields.node().place;
+  if (ratio.of != ratio.over) return;
+  fields.Complain(ratio.place, fmt::format("the ratio of '{}' over itself says nothing", ratio.of));
 }
 
 }  // namespace
 
+std::vector<std::string> MetricsOf(const TaskKind& kind) {
+  if (!kind.metrics.empty()) return kind.metrics;
+  std::vector<std::string> all;
+  for (const MetricInfo& metric : AllMetrics()) all.push_back(metric.id);
+  return all;
+}
+
 std::vector<std::string> ReadMetrics(Fields& fields, const TaskKind& kind) {
-  std::vector<std::string> metrics = ReadMetricList(fields, "metrics", kind);
+  std::vector<std::string> metrics = ReadMetricList(fields, kind.name, MetricsOf(kind));
   return metrics.empty() ? kind.default_metrics : metrics;
 }
 
-std::vector<Expectation> ReadExpectations(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
-  std::vector<Expectation> expectations;
-  for (const Node& item : ItemsOf(fields, "expect")) {
-    auto expectation = ReadExpectation(item, scenario, kind);
-    if (!expectation) {
-      fields.Complain(expectation.error().place, expectation.error().message);
-      return {};
-    }
-    expectations.push_back(*std::move(expectation));
-  }
-  return expectations;
+FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
+  using Key = Field<Expectation>;
+  const std::vector<std::string> methods = MethodNames(scenario);
+  const char* another = "(another claim is made)";
+  return {{KnownName("metric", &Expectation::metric, "a metric that the task reports", metrics, "What is judged."),
+           KnownName("of", &Expectation::of, "a method", methods, "Whose values are judged."),
+           KnownName("below", &Expectation::below, "a method", methods, "`of` has lower values in the same worlds.")
+               .WhenAbsent(another),
+           KnownName("above", &Expectation::above, "a method", methods, "`of` has higher values in the same worlds.")
+               .WhenAbsent(another),
+           Key::Number("at_most", &Expectation::at_most, {}, "The statistic is not above it.").WhenAbsent(another),
+           Key::Number("at_least", &Expectation::at_least, {}, "The statistic is not below it.").WhenAbsent(another),
+           Key::Name("statistic", &Expectation::statistic, {{"median", "median"}, {"mean", "mean"}, {"p95", "p95"}},
+                     "What `at_most` and `at_least` are about."),
+           Key::Number("confidence", &Expectation::confidence, {0.5, 0.999}, "How sure `below` and `above` must be."),
+           {{"where",
+             {"a mapping of swept parameters to one of their values", R"({"type":"object"})"},
+             "{}",
+             "Judged in these conditions only."},
+            [&](Fields& fields, Expectation& expectation) { expectation.where = ReadWhere(fields, scenario); }}},
+          CheckExpectation};
 }
 
-GateRules ReadGate(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
-  GateRules rules;
-  rules.metrics = scenario.metrics;
-  const Node* node = fields.Raw("gate");
-  if (node == nullptr) return rules;
-  Fields gate(*node, "'gate'");
-  if (auto metrics = ReadMetricList(gate, "metrics", kind); !metrics.empty()) rules.metrics = std::move(metrics);
-  rules.exact = gate.Choice("rule", {"threshold", "exact"}, "threshold") == "exact";
-  for (const Node& item : ItemsOf(gate, "time_ratios")) {
-    auto ratio = ReadTimeRatio(item, scenario);
-    if (!ratio) {
-      gate.Complain(ratio.error().place, ratio.error().message);
-      break;
-    }
-    rules.time_ratios.push_back(*std::move(ratio));
-  }
-  if (auto done = gate.Finish(); !done) fields.Complain(done.error().place, done.error().message);
-  return rules;
+FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
+  const std::vector<std::string> methods = MethodNames(scenario);
+  return {{KnownName("of", &TimeRatio::of, "a method", methods, "Whose time is judged."),
+           KnownName("over", &TimeRatio::over, "a method", methods, "By whose time it is divided, world by world."),
+           Field<TimeRatio>::Number("at_most", &TimeRatio::at_most, {0.001, 1e6},
+                                    "What the median of these ratios may be.")},
+          CheckTimeRatio};
+}
+
+FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
+  using Key = Field<GateRules>;
+  return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(`metrics`)",
+             "What is compared."},
+            [&scenario, metrics](Fields& gate, GateRules& rules) {
+              auto named = ReadMetricList(gate, scenario.task, metrics);
+              if (!named.empty()) rules.metrics = std::move(named);
+            }},
+           Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
+                     "Only a difference that matters is a regression, or every difference is."),
+           {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
+             "How processor times may compare within the run."},
+            [&](Fields& gate, GateRules& rules) {
+              rules.time_ratios = ReadListed(gate, "time_ratios", "a time ratio", TimeRatioFields(scenario));
+            }}}};
 }
 
 }  // namespace etude

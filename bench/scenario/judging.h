@@ -5,15 +5,16 @@
 
 namespace etude {
 
-// Each reads one key of a scenario whose methods and conditions are known, and leaves complaints in `fields`.
+/// The metrics that a task's cells report.
+std::vector<std::string> MetricsOf(const TaskKind& kind);
 
-/// `metrics`: the headline metrics; the task's own when the file names none.
+/// Reads `metrics`: the headline metrics; the task's own when the file names none. Complaints stay in `fields`.
 std::vector<std::string> ReadMetrics(Fields& fields, const TaskKind& kind);
 
-/// `expect`: what should come out.
-std::vector<Expectation> ReadExpectations(Fields& fields, const Scenario& scenario, const TaskKind& kind);
-
-/// `gate`: what is held against a baseline; the headline metrics when the file names none.
-GateRules ReadGate(Fields& fields, const Scenario& scenario, const TaskKind& kind);
+// The keys of `expect`, `gate` and its `time_ratios`: they name methods and conditions of `scenario`, which must
+// outlive the tables, and `metrics` of its task.
+FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics);
+FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics);
+FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario);
 
 }  // namespace etude

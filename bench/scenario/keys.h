@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/tasks/base/task.h"
+#include "bench/keys/key_info.h"
 
 namespace etude {
 
@@ -19,5 +19,7 @@ std::vector<KeyGroup> AllKeyGroups();
 
 /// AllKeyGroups as the reference page docs/keys.md.
 std::string KeysAsMarkdown();
+/// As the JSON Schema docs/schemas/scenario.schema.json, by which editors complete and check scenario files.
+std::string KeysAsSchema();
 
 }  // namespace etude

@@ -1,10 +1,10 @@
 #include "bench/scenario/methods.h"
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
+#include "bench/keys/key_schema.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -12,38 +12,6 @@ namespace {
 
 constexpr std::size_t kMostMethods = 100;
 constexpr double kLongestTime_s = 86'400;
-
-Json ScalarToJson(const Node& node) {
-  const std::string& text = node.scalar;
-  if (text == "true" || text == "false") return text == "true";
-  const auto number = AsNumber(node);
-  if (!number) return text;
-  std::int64_t whole = 0;  // 5 stays 5 and does not become 5.0
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data(), end, whole);
-  if (status == std::errc() && stop == end) return whole;
-  return *number;
-}
-
-/// A document keeps only the text of its values: what reads as a number, true or false is one, even in quotes.
-Json ToJson(const Node& node) {
-  switch (node.kind) {
-    case Node::Kind::kNull:
-      return nullptr;
-    case Node::Kind::kScalar:
-      return ScalarToJson(node);
-    case Node::Kind::kSequence: {
-      Json list = Json::array();
-      for (const Node& item : node.items) list.push_back(ToJson(item));
-      return list;
-    }
-    case Node::Kind::kMapping:
-      break;
-  }
-  Json object = Json::object();
-  for (const Node::Entry& entry : node.entries) object[entry.key] = ToJson(entry.value);
-  return object;
-}
 
 std::string ReadOptions(Fields& method) {
   const Node* options = method.Raw("options");
@@ -58,14 +26,11 @@ std::string ReadOptions(Fields& method) {
   return "{}";
 }
 
-void ReadOutside(Fields& method, MethodEntry& entry) {
-  const Node* exec = method.Raw("exec");
+void ReadProgram(Fields& method, MethodEntry& entry) {
   entry.exec = method.Texts("exec");
-  if (entry.exec.empty() || entry.exec.front().empty()) {
-    method.Complain(exec->place, "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
-  }
-  entry.options_json = ReadOptions(method);
-  entry.time_s = method.OptionalNumber("time_s", {0.001, kLongestTime_s});
+  if (!entry.exec.empty() && !entry.exec.front().empty()) return;
+  method.Complain(method.Raw("exec")->place,
+                  "'exec' needs a program and its arguments, such as [python3, my_solver.py]");
 }
 
 /// The keys of a built-in method are its task's: it reads their values. Their names are checked here, where it is
@@ -78,20 +43,22 @@ void CheckKeysOfBuiltIn(Fields& method, const TaskKind& kind) {
   for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
 }
 
-Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
-  const bool outside = node.Find("exec") != nullptr;
-  Fields method(node, outside ? "a method with 'exec'" : "a method of task " + kind.name);
+Result<MethodEntry> ReadBuiltIn(const Node& node, const TaskKind& kind) {
+  Fields method(node, "a method of task " + kind.name);
   MethodEntry entry;
   entry.name = ReadPlainName(method, "name");
   for (const char* key : {"against", "exec"}) method.Raw(key);
-  if (outside) {
-    ReadOutside(method, entry);
-  } else {
-    CheckKeysOfBuiltIn(method, kind);
-  }
+  CheckKeysOfBuiltIn(method, kind);
   RETURN_IF_ERROR(method.Finish());
-  entry.node = node;
-  std::erase_if(entry.node.entries, [](const Node::Entry& key) { return key.key == "against"; });
+  return entry;
+}
+
+Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
+  auto entry = node.Find("exec") != nullptr ? ReadMapping(node, "a method with 'exec'", OutsideMethodFields())
+                                            : ReadBuiltIn(node, kind);
+  if (!entry) return entry;
+  entry->node = node;
+  std::erase_if(entry->node.entries, [](const Node::Entry& key) { return key.key == "against"; });
   return entry;
 }
 
@@ -103,6 +70,28 @@ bool IsPlainName(const std::string& name) {
            c == '.';
   };
   return !name.empty() && name.size() <= 80 && name[0] != '.' && std::all_of(name.begin(), name.end(), plain);
+}
+
+ValueKind PlainNameKind() {
+  return TextKind("at most 80 letters, digits, '-', '_', '.'", "^[A-Za-z0-9_-][A-Za-z0-9._-]{0,79}$");
+}
+
+const FieldTable<MethodEntry>& OutsideMethodFields() {
+  using Key = Field<MethodEntry>;
+  static const FieldTable<MethodEntry> table{
+      {{{"name", PlainNameKind(), "", "Its name, unique in the scenario."},
+        [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
+       {{"against", TextKind("a method"), "(the first method)", "The method it is compared with."},
+        [](Fields&, MethodEntry&) {}},  // read when all names are known
+       {{"exec", ListKind("a list: a program and its arguments", TextKind("")), "(the method is built in)",
+         "Another program that answers; such a method has none of its task's keys."},
+        ReadProgram},
+       {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Told to that program as JSON."},
+        [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
+       Key::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s}, "How long it may take over one problem.")
+           .WhenAbsent("(`limits.time_s`)")
+           .And("with `exec`")}};
+  return table;
 }
 
 std::string ReadPlainName(Fields& fields, std::string_view key) {

@@ -8,8 +8,13 @@ namespace etude {
 /// Whether a name can be part of a cell's identity and of a file's name: letters, digits, '-', '_' and '.', at most 80,
 /// not beginning with a dot.
 bool IsPlainName(const std::string& name);
+/// As the value of a key.
+ValueKind PlainNameKind();
 /// Reads such a name.
 std::string ReadPlainName(Fields& fields, std::string_view key);
+
+/// The keys of a method outside; a built-in one has `name` and `against` of them, and its task's.
+const FieldTable<MethodEntry>& OutsideMethodFields();
 
 /// Reads `methods`: what every method has (its name, whom it is compared with) and all of those outside.
 /// Complaints stay in `fields`.

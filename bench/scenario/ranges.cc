@@ -32,17 +32,9 @@ std::string Write(double value, const Steps& steps) {
 }
 
 Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
-  Fields range(swept.value, "a range");
-  range.RequiredText("from");
-  range.RequiredText("to");
-  Steps steps;
-  steps.from = range.Number("from", 0);
-  steps.to = range.Number("to", 0);
-  const auto step = range.OptionalNumber("step");
-  const auto count = range.OptionalWhole("count", {2, static_cast<double>(most)});
-  steps.logarithmic = range.Choice("scale", {"linear", "log"}, "linear") == "log";
-  RETURN_IF_ERROR(range.Finish());
-
+  ASSIGN_OR_RETURN(const RangeWords words, ReadMapping(swept.value, "a range", RangeFields(most)));
+  const auto& [from, to, step, count, is_logarithmic] = words;
+  Steps steps{.from = from, .to = to, .logarithmic = is_logarithmic};
   const Place& place = swept.value.place;
   if (step.has_value() == count.has_value()) {
     return Fail(place, "a range says either 'step' or 'count', found {}", step ? "both" : "neither");
@@ -54,7 +46,7 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
     return Fail(place, "{} and {} are too far apart", steps.from, steps.to);
   }
   if (count) {
-    steps.count = static_cast<std::size_t>(*count);
+    steps.count = *count;
     return steps;
   }
   steps.step = *step;
@@ -70,6 +62,20 @@ Result<Steps> ReadRange(const Node::Entry& swept, std::size_t most) {
 }
 
 }  // namespace
+
+FieldTable<RangeWords> RangeFields(std::size_t most) {
+  using Key = Field<RangeWords>;
+  return {{Key::Number("from", &RangeWords::from, {}, "The first value.").WhenAbsent(""),
+           Key::Number("to", &RangeWords::to, {}, "The last value; with `step`, it is not passed.").WhenAbsent(""),
+           Key::Number("step", &RangeWords::step, {}, "From one value to the next.")
+               .And("not 0")
+               .WhenAbsent("(`count` says it)"),
+           Key::Number("count", &RangeWords::count, {2, static_cast<double>(most)},
+                       "How many values, spread from `from` to `to`.")
+               .WhenAbsent("(`step` says it)"),
+           Key::Name("scale", &RangeWords::is_logarithmic, {{"linear", false}, {"log", true}},
+                     "Equal differences, or equal ratios; log goes with `count`.")}};
+}
 
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most) {
   const Node& value = swept.value;

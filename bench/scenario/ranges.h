@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "bench/keys/field_table.h"
 #include "engine/document/node.h"
 
 namespace etude {
@@ -10,5 +13,15 @@ namespace etude {
 /// `{from: 1, to: 100, count: 5, scale: log}`. A range's values are written with at most 12 digits, so that
 /// 0.1 + 2 × 0.1 reads 0.3; all stand where the range stands. At least one, at most `most`.
 Result<std::vector<Node>> SweptValues(const Node::Entry& swept, std::size_t most);
+
+/// What a range says.
+struct RangeWords {
+  double from = 0, to = 0;
+  std::optional<double> step;
+  std::optional<std::uint64_t> count;
+  bool is_logarithmic = false;
+};
+/// The keys of a range of at most so many values.
+FieldTable<RangeWords> RangeFields(std::size_t most);
 
 }  // namespace etude

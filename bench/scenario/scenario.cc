@@ -9,89 +9,145 @@
 #include "bench/scenario/sweep.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/names.h"
-#include "engine/document/fields.h"
 
 namespace etude {
 namespace {
 
-constexpr int kMostTrials = 1'000'000;
+constexpr Range kTrials{0, 1'000'000};
+constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
 
-RecordingSelection ReadVideo(Fields& fields, const Scenario& scenario) {
-  RecordingSelection selection;
-  const Node* node = fields.Raw("video");
-  if (node == nullptr) return selection;
-  Fields video(*node, "'video'");
-  const std::vector<std::string> names = MethodNames(scenario);
-  const Node* methods = video.Raw("compare");
-  selection.methods = video.Texts("compare");
-  for (std::size_t i = 0; video.ok() && i < selection.methods.size(); ++i) {
-    if (std::find(names.begin(), names.end(), selection.methods[i]) == names.end()) {
-      video.Complain(methods->items[i].place, UnknownName("method", selection.methods[i], names));
-    }
-  }
+std::vector<std::string> TaskNames() {
+  std::vector<std::string> names;
+  for (const TaskKind& kind : AllTaskKinds()) names.push_back(kind.name);
+  return names;
+}
+
+void ReadFilmedTrials(Fields& video, const Scenario& scenario, RecordingSelection& selection) {
   const Node* trials = video.Raw("trials");
+  std::vector<int> read;
   for (double trial : video.Numbers("trials", {0, scenario.trials - 1.0})) {
     if (trial != std::floor(trial)) video.Complain(trials->place, "'trials' must be whole numbers");
-    selection.trials.push_back(static_cast<int>(trial));
+    read.push_back(static_cast<int>(trial));
   }
-  if (selection.trials.empty()) selection.trials = {0};
-  if (selection.methods.empty()) selection.methods = names;
-  if (auto done = video.Finish(); !done) fields.Complain(done.error().place, done.error().message);
-  return selection;
+  if (!read.empty()) selection.trials = std::move(read);
 }
 
-Limits ReadLimits(Fields& fields) {
-  Limits limits;
-  const Node* node = fields.Raw("limits");
-  if (node == nullptr) return limits;
-  Fields entry(*node, "'limits'");
-  limits.time_s = entry.Number("time_s", limits.time_s, {0.001, 86'400});
-  limits.memory_mb = entry.Number("memory_mb", limits.memory_mb, {16, 1'048'576});
-  if (auto done = entry.Finish(); !done) fields.Complain(done.error().place, done.error().message);
-  return limits;
-}
-
-const TaskKind* ReadTask(Fields& fields) {
-  std::vector<std::string> kinds;
-  for (const TaskKind& kind : AllTaskKinds()) kinds.push_back(kind.name);
-  fields.RequiredText("task");
-  return FindTaskKind(fields.Choice("task", kinds, kinds.front()));
-}
-
-Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
-  Fields fields(node, "a scenario");
-  Scenario scenario;
-  scenario.file = file;
-  scenario.name = ReadPlainName(fields, "scenario");
-  scenario.question = fields.RequiredText("question");
-  const TaskKind& kind = *ReadTask(fields);
-  scenario.task = kind.name;
-  scenario.clips = fields.Texts("clips");
-  scenario.joint_map = fields.Text("joint_map", "");
-  scenario.trials = fields.Integer("trials", 10, {1, kMostTrials});
-  constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
-  if (const auto seed = fields.OptionalWhole("seed", {0, kLargestSeed})) {
-    scenario.seed = static_cast<std::uint64_t>(*seed);
+void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingSelection& selection) {
+  const std::vector<std::string> names = MethodNames(scenario), read = video.Texts("compare");
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (std::find(names.begin(), names.end(), read[i]) != names.end()) continue;
+    video.Complain(video.Raw("compare")->items[i].place, UnknownName("method", read[i], names));
   }
-  scenario.limits = ReadLimits(fields);
-  if (fields.ok()) scenario.methods = ReadMethods(fields, kind);
-  for (const KeyInfo& key : kind.condition_keys) fields.Raw(key.key);
-  if (fields.ok()) scenario.conditions = ReadSweep(fields, kind);
-  if (fields.ok()) scenario.metrics = ReadMetrics(fields, kind);
-  if (fields.ok()) scenario.expectations = ReadExpectations(fields, scenario, kind);
-  if (fields.ok()) scenario.recordings = ReadVideo(fields, scenario);
-  if (fields.ok()) scenario.gate = ReadGate(fields, scenario, kind);
-  RETURN_IF_ERROR(fields.Finish());
-  return scenario;
+  selection.methods = read.empty() ? names : read;
 }
 
 }  // namespace
+
+const FieldTable<Limits>& LimitFields() {
+  using Key = Field<Limits>;
+  static const FieldTable<Limits> table{
+      {Key::Number("time_s", &Limits::time_s, {0.001, 86'400}, "Seconds by the clock."),
+       Key::Number("memory_mb", &Limits::memory_mb, {16, 1'048'576},
+                   "Resident memory of the worker, and of each program it has started.")}};
+  return table;
+}
+
+FieldTable<RecordingSelection> VideoFields(const Scenario& scenario) {
+  using Selection = RecordingSelection;
+  return {{{{"compare", ListKind("a list of methods", TextKind("")), "(all)", "Whose motions are kept."},
+            [&](Fields& video, Selection& selection) { ReadFilmedMethods(video, scenario, selection); }},
+           {{"trials", ListKind("a list of whole numbers below `trials`", NumberKind({0, kTrials.highest}, true)),
+             "[0]", "Of which worlds."},
+            [&](Fields& video, Selection& selection) { ReadFilmedTrials(video, scenario, selection); }}}};
+}
+
+/// A key is read where those before it are right: methods are asked about their task, expectations about methods.
+const FieldTable<Scenario>& ScenarioFields() {
+  using Key = Field<Scenario>;
+  static const auto when_right = [](auto read) {
+    return [=](Fields& fields, Scenario& scenario) {
+      if (fields.ok()) read(fields, scenario, *FindTaskKind(scenario.task));
+    };
+  };
+  static const Scenario unread;
+  static const FieldTable<Scenario> table{
+      {{{"scenario", PlainNameKind(), "", "Its name, unique in a run."},
+        [](Fields& fields, Scenario& s) { s.name = ReadPlainName(fields, "scenario"); }},
+       {{"question", TextKind("a text"), "", "What is asked, in one sentence."},
+        [](Fields& fields, Scenario& s) { s.question = fields.RequiredText("question"); }},
+       {{"task", NameKind(TaskNames()), "", "The kind of question."},
+        [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", TaskNames(), ""); }},
+       Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
+                  "What worlds are made of; trials go through them in turn."),
+       Key::Text("joint_map", &Scenario::joint_map, "a file",
+                 "Teaches which joints of the clips play which roles, where names do not tell.")
+           .WhenAbsent("(names tell)"),
+       Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
+       Key::Number("seed", &Scenario::seed, {0, kLargestSeed}, "Of all worlds; `etude run --seed` wins over it.")
+           .WhenAbsent("1"),
+       {{"sweep",
+         {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
+         "{}",
+         "One condition for every combination of values."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.conditions = ReadSweep(fields, kind); })},
+       {{"methods",
+         {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
+         "",
+         "What is compared, on the same worlds."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
+       {{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(the task's)",
+         "The headline metrics, most important first."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.metrics = ReadMetrics(fields, kind); })},
+       {{"expect", ListKind("a list of expectations", MappingKind("", ExpectationFields(unread, {}).Describe())), "[]",
+         "What should come out, judged after the run."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
+          s.expectations = ReadListed(fields, "expect", "an expectation", ExpectationFields(s, MetricsOf(kind)));
+        })},
+       {{"video", MappingKind("a mapping", VideoFields(unread).Describe()), "(no motion is kept)",
+         "Which motions are kept for the report's films."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind&) {
+          RecordingSelection selection{MethodNames(s), {0}};
+          ReadNested(fields, "video", VideoFields(s), selection);
+          if (fields.Raw("video") != nullptr) s.recordings = selection;
+        })},
+       {{"limits", MappingKind("a mapping", LimitFields().Describe()), "{}",
+         "What a cell, or the building of a world, may take before it is ended."},
+        [](Fields& fields, Scenario& s) { ReadNested(fields, "limits", LimitFields(), s.limits); }},
+       {{"gate", MappingKind("a mapping", GateFields(unread, {}).Describe()), "{}",
+         "What `etude gate` holds against a baseline."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
+          s.gate.metrics = s.metrics;
+          ReadNested(fields, "gate", GateFields(s, MetricsOf(kind)), s.gate);
+        })}}};
+  return table;
+}
+
+std::span<const KeyInfo> CommonScenarioKeys() {
+  static const std::vector<KeyInfo> keys = ScenarioFields().Describe();
+  return keys;
+}
 
 std::vector<std::string> MethodNames(const Scenario& scenario) {
   std::vector<std::string> names;
   for (const MethodEntry& method : scenario.methods) names.push_back(method.name);
   return names;
 }
+
+namespace {
+
+Result<Scenario> ParseScenario(const Node& node, const std::string& file) {
+  Fields fields(node, "a scenario");
+  Scenario scenario;
+  scenario.file = file;
+  ScenarioFields().Read(fields, scenario);
+  if (const TaskKind* kind = FindTaskKind(scenario.task)) {
+    for (const KeyInfo& key : kind->condition_keys) fields.Raw(key.key);  // their values are read by the task
+  }
+  RETURN_IF_ERROR(fields.Finish());
+  return scenario;
+}
+
+}  // namespace
 
 Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts) {
   const auto from_texts = [&](const std::string& path, const Place& asked_at) -> Result<std::string> {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/keys/field_table.h"
 #include "bench/model/study.h"
 #include "bench/tasks/base/task.h"
 #include "engine/document/node.h"
@@ -49,7 +50,7 @@ struct Scenario {
   std::string task;
   std::vector<std::string> clips;  ///< references as written
   std::string joint_map;           ///< file that teaches the joints of the clips (docs/clips.md), "" = none
-  int trials = 1;
+  int trials = 10;
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;  ///< at least one
   std::vector<MethodEntry> methods;   ///< at least one
@@ -72,7 +73,10 @@ Result<void> ReadSources(const std::string& file, SourceTexts& texts);
 /// tasks read (`bench/run`). A key that is not documented (bench/scenario/keys.h) is refused.
 Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const SourceTexts& texts);
 
-/// The keys that ParseScenarios reads: known in every scenario, whatever its task.
+/// The keys of every scenario, whatever its task.
 std::span<const KeyInfo> CommonScenarioKeys();
+const FieldTable<Limits>& LimitFields();
+/// Names methods of `scenario`, which must outlive it.
+FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 
 }  // namespace etude

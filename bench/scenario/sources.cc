@@ -34,7 +34,9 @@ void Put(const Node::Entry& entry, Entries& entries) {
   }
 }
 
-bool IsKeyOfFiles(const std::string& key) { return key == "include" || key == "defaults" || key == "scenarios"; }
+bool IsKeyOfFiles(const std::string& key) {
+  return std::ranges::any_of(FileKeys(), [&](const KeyInfo& other) { return other.key == key; });
+}
 
 class Collector {
  public:
@@ -55,7 +57,7 @@ class Collector {
       return std::vector<Node>{WithDefaults(std::move(scenario), defaults)};
     }
     Fields fields(top, "a file of several scenarios");
-    for (const char* key : {"include", "defaults", "scenarios"}) fields.Raw(key);
+    for (const KeyInfo& key : FileKeys()) fields.Raw(key.key);
     RETURN_IF_ERROR(fields.Finish());
     if (list->kind != Node::Kind::kSequence || list->items.empty()) {
       return Fail(list->place, "'scenarios' must be a list of at least one scenario, found {}", Describe(*list));
@@ -142,6 +144,21 @@ class Collector {
 };
 
 }  // namespace
+
+std::span<const KeyInfo> FileKeys() {
+  static const std::vector<KeyInfo> keys = {
+      {"scenarios",
+       {"a list of scenarios", fmt::format(R"({{"type":"array","minItems":1,"maxItems":{}}})", kMostScenarios)},
+       "",
+       "The scenarios, run in this order."},
+      {"defaults",
+       {"a mapping", R"({"type":"object"})"},
+       "{}",
+       "Keys of every scenario here that does not write them itself."},
+      {"include", ListKind("a list of files", TextKind("")), "[]",
+       "Files with more `defaults`, their names relative to this file; a single scenario may have it, too."}};
+  return keys;
+}
 
 Result<std::vector<Node>> CollectScenarios(const std::string& file, const TextOf& text_of) {
   return Collector(text_of).Scenarios(file);

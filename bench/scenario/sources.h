@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bench/keys/key_info.h"
 #include "engine/document/node.h"
 
 namespace etude {
@@ -15,5 +17,8 @@ using TextOf = std::function<Result<std::string>(const std::string& file, const 
 /// What a scenario says wins over `defaults` of its file, these over included ones, and a later include over
 /// an earlier one. Keys are replaced whole; every node keeps the place where it stands.
 Result<std::vector<Node>> CollectScenarios(const std::string& file, const TextOf& text_of);
+
+/// The keys at the top of a file of several scenarios.
+std::span<const KeyInfo> FileKeys();
 
 }  // namespace etude

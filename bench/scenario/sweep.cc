@@ -8,8 +8,6 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostConditions = 1000;
-
 /// A point of an axis: the keys that are set there.
 using Point = std::vector<Node::Entry>;
 using Axis = std::vector<Point>;

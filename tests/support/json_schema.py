@@ -30,7 +30,7 @@ def load_schema(name):
 def complaints(value, schema):
     if jsonschema is None:
         return own_complaints(value, schema)
-    found = jsonschema.Draft202012Validator(schema).iter_errors(value)
+    found = jsonschema.validators.validator_for(schema)(schema).iter_errors(value)
     return [f"{'/'.join(map(str, error.absolute_path))}: {error.message}" for error in found]
 
 

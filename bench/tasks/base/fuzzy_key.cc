@@ -8,13 +8,8 @@ constexpr std::string_view kBuiltin = "builtin:";
 }  // namespace
 
 KeyInfo FuzzyKey() {
-  return {kFuzzyKey, "`builtin:paper`, `builtin:gaussian`, a file", "builtin:paper",
+  return {kFuzzyKey, TextKind("`builtin:paper`, `builtin:gaussian`, a file"), "builtin:paper",
           "The fuzzy system that poses are graded by: membership functions, weights, rules."};
-}
-
-const FuzzySystem& FuzzyOf(TaskInput& input) {
-  input.condition.Raw(kFuzzyKey);
-  return input.fuzzy;
 }
 
 bool IsFuzzyFile(std::string_view reference) { return !reference.starts_with(kBuiltin); }

@@ -4,17 +4,19 @@
 #include <string>
 #include <string_view>
 
-#include "bench/tasks/base/task.h"
+#include "bench/keys/field_table.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {
 
 constexpr const char* kFuzzyKey = "fuzzy";
 
-/// The key `fuzzy`, for the condition_keys of a task that grades poses. Whoever makes the task opens what it names.
+/// The key `fuzzy` of a task that grades poses by TaskInput::fuzzy. Whoever makes the task opens what it names.
 KeyInfo FuzzyKey();
-/// What such a task grades by: marks the key as read.
-const FuzzySystem& FuzzyOf(TaskInput& input);
+template <typename Options>
+Field<Options> FuzzyField() {
+  return {FuzzyKey(), [](Fields& condition, Options&) { condition.Raw(kFuzzyKey); }};
+}
 
 /// Whether a reference names a file, and not `builtin:NAME`.
 bool IsFuzzyFile(std::string_view reference);

@@ -1,20 +1,71 @@
 #pragma once
 
-#include "bench/tasks/base/task.h"
-#include "engine/document/fields.h"
+#include <vector>
+
+#include "bench/keys/setting_fields.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 
-/// Reads a method's `solver` (gauss-newton by default) and what that solver can be set by (`weights`, `refresh`,
-/// `memory`, …) into `options`. Settings of another solver are a mistake worth telling. Complaints stay in `fields`.
-const IkSolver* ReadIkSolver(Fields& fields, IkOptions& options);
+/// What a method has that names none: gauss-newton.
+const IkSolver* DefaultIkSolver();
 
-/// Reads a condition's `stop_at` (practical by default) into the goals of `options`.
+/// The defaults of a solver, but at most so many steps.
+IkOptions IkBudget(int most_steps);
+
+/// The names of the solvers that have `weights` and `refresh`.
+std::vector<std::string> WeighingSolvers();
+
+/// Complains of a solver that has another name now, and says which.
+void RefuseFormerName(Fields& method);
+
+/// A method's `solver` and what that solver can be set by: `weights`, `refresh`, its own settings.
+template <typename Method>
+std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOptions Method::*options) {
+  using Key = Field<Method>;
+  std::vector<Key> rows = {
+      Key::Name("solver", solver, IkSolverNames(), FindIkSolver, "How the angles are found."),
+      Key::Name(
+          "weights", [=](Method & m) -> auto& { return (m.*options).weights; }, WeightRuleNames(), FindWeightRule,
+          "How an effector's position counts against its axes.")
+          .With("solver", WeighingSolvers()),
+      Key::Name(
+          "refresh", [=](Method & m) -> auto& { return (m.*options).refresh; }, WeightRefreshNames(), FindWeightRefresh,
+          "When errors are measured anew for weights that follow them.")
+          .With("solver", WeighingSolvers())};
+  rows.front().read = [read = rows.front().read](Fields& fields, Method& method) {
+    RefuseFormerName(fields);
+    read(fields, method);
+  };
+  const auto settings = [=](Method& m) -> auto& { return (m.*options).solver_settings; };
+  for (const auto& setting : SettingFields<Method>("solver", AllIkSolvers(), settings)) rows.push_back(setting);
+  return rows;
+}
+
+/// A method's `tolerance_deg`; `meaning` says from where.
+template <typename Method>
+Field<Method> ToleranceField(IkOptions Method::*options, std::string meaning) {
+  return Field<Method>::Angle(
+             "tolerance_deg", [=](Method & m) -> auto& { return (m.*options).angle_change_tolerance; }, {0, 360},
+             std::move(meaning))
+      .WhenAbsent("(no bound)");
+}
+
+/// The limit of a solver's steps.
+template <typename Options>
+Field<Options> SweepsField(IkOptions Options::*options, std::string meaning) {
+  return Field<Options>::Number(
+      "max_sweeps", [=](Options & o) -> auto& { return (o.*options).max_iterations; }, {1, 100'000},
+      std::move(meaning));
+}
+
+/// Reads `stop_at`, practical by default.
 void ReadIkGoals(Fields& condition, IkOptions& options);
-
-/// What the functions above read, for the reference page.
-std::vector<KeyInfo> IkSolverKeys();
-KeyInfo IkGoalsKey();
+template <typename Options>
+Field<Options> GoalsField(IkOptions Options::*options) {
+  return {{"stop_at", NameKind(std::vector<std::string>{"practical", "tight"}), "practical",
+           "Solvers stop when every effector is within 0.1 cm and 0.1°, or within 10⁻³ cm and 10⁻³°."},
+          [=](Fields& condition, Options& o) { ReadIkGoals(condition, o.*options); }};
+}
 
 }  // namespace etude

@@ -1,15 +1,6 @@
 #include "bench/tasks/base/task.h"
 
-#include <fmt/core.h>
-
-#include "engine/base/names.h"
-
 namespace etude {
-
-std::string KeyInfo::AllowedWhere() const {
-  if (only_with.key.empty()) return allowed;
-  return fmt::format("{}; with `{}: {}`", allowed, only_with.key, Join(only_with.values));
-}
 
 std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion) {
   const std::unique_ptr<TaskWorld> world = task.MakeWorld(key, keeps_motion);

@@ -9,6 +9,7 @@
 
 #include "bench/clips/clip_library.h"
 #include "bench/files/json.h"
+#include "bench/keys/key_info.h"
 #include "bench/model/cell_result.h"
 #include "bench/model/payload.h"
 #include "engine/document/fields.h"
@@ -73,24 +74,6 @@ struct TaskInput {
   FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
 };
 
-/// What another key of the same mapping must say for a key to be allowed beside it.
-struct KeyCondition {
-  std::string key;                  ///< "solver"; empty: no condition
-  std::vector<std::string> values;  ///< any of these
-};
-
-/// A key of a scenario file, for the reference page and for complaints.
-struct KeyInfo {
-  std::string key;
-  std::string allowed;   ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
-  std::string fallback;  ///< what an absent key means, as one would write it; "" = it must be there
-  std::string meaning;   ///< one sentence
-  KeyCondition only_with = {};
-
-  /// `allowed`, and what it goes with: "0…1; with `weights: adaptive`".
-  std::string AllowedWhere() const;
-};
-
 /// A kind of question that can be asked: one entry per folder of bench/tasks.
 struct TaskKind {
   std::string name;
@@ -100,6 +83,7 @@ struct TaskKind {
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys of a scenario
   std::vector<KeyInfo> method_keys;     ///< its keys of a method, beside `name`
+  bool uses_clips = true;               ///< whether its worlds are made of a scenario's `clips`
   /// What its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
   std::string (*platform)() = nullptr;
 };

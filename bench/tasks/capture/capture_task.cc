@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/capture/exchange.h"
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/run.h"
@@ -77,8 +78,8 @@ class CaptureTask : public Task {
 
 Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   CaptureStudy study;
-  study.options = ReadStudioOptions(input.condition);
-  ASSIGN_OR_RETURN(auto methods, ReadCaptureMethods(input.methods));
+  CaptureConditionFields().Read(input.condition, study.options);
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", CaptureMethodFields()));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
@@ -104,8 +105,8 @@ TaskKind MakeCaptureTaskKind() {
                       "triangulation_coverage", "frames_recovered", "mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm",
                       "pck_50mm", "auc_200mm", "bone_length_error_cm", "position_error_cm"},
           .make = MakeCaptureTask,
-          .condition_keys = CaptureConditionKeys(),
-          .method_keys = CaptureMethodKeys(),
+          .condition_keys = CaptureConditionFields().Describe(),
+          .method_keys = CaptureMethodFields().Describe(),
           .platform = RendererVersion};
 }
 

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
-#include "bench/tasks/base/task.h"
+#include "bench/tasks/base/solver_fields.h"
 #include "engine/cameras/dlt.h"
-#include "engine/document/fields.h"
-#include "engine/kinematics/solvers/ik_solver.h"
 #include "engine/vision/change_detection.h"
 
 namespace etude {
@@ -49,20 +46,12 @@ struct CaptureMethod {
   std::string name;
   Segmenter segmenter = Segmenter::kHue;
   Calibration calibration = Calibration::kDlt;
-  const IkSolver* solver = nullptr;
-  IkOptions ik;
+  const IkSolver* solver = DefaultIkSolver();
+  IkOptions ik = IkBudget(100);
   Oracle oracle;
 };
 
-/// Reads a condition's keys, which are the members' names; complaints stay in `condition`.
-StudioOptions ReadStudioOptions(Fields& condition);
-
-/// Reads the methods: `segmenter`, `calibration`, `solver`, `weights`, `refresh`, `tolerance_deg`,
-/// `max_sweeps`, `oracle`.
-Result<std::vector<CaptureMethod>> ReadCaptureMethods(std::span<const Node> methods);
-
-/// What the two functions above read, for the reference page.
-std::vector<KeyInfo> CaptureConditionKeys();
-std::vector<KeyInfo> CaptureMethodKeys();
+const FieldTable<StudioOptions>& CaptureConditionFields();
+const FieldTable<CaptureMethod>& CaptureMethodFields();
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/run.h"
@@ -121,14 +122,15 @@ class DetectionTask final : public Task {
 };
 
 Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
-  const DetectionOptions options = ReadDetectionOptions(input.condition);
-  auto methods = ReadDetectionMethods(input.condition, input.methods);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
-  if (!methods) return tl::unexpected(methods.error());
+  DetectionOptions options;
+  DetectionConditionFields().Read(input.condition, options);
+  DetectionMethod start;
+  start.recogniser = options.recogniser;
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "detection", DetectionMethodFields(), start));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*']");
   }
-  return std::make_unique<DetectionTask>(options, *std::move(methods), input.clips);
+  return std::make_unique<DetectionTask>(options, std::move(methods), input.clips);
 }
 
 }  // namespace
@@ -140,8 +142,8 @@ TaskKind MakeDetectionTaskKind() {
           .default_metrics = metrics,
           .metrics = metrics,
           .make = MakeDetectionTask,
-          .condition_keys = DetectionConditionKeys(),
-          .method_keys = DetectionMethodKeys()};
+          .condition_keys = DetectionConditionFields().Describe(),
+          .method_keys = DetectionMethodFields().Describe()};
 }
 
 }  // namespace etude

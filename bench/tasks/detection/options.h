@@ -1,10 +1,8 @@
 #pragma once
 
-#include <span>
 #include <string>
-#include <vector>
 
-#include "bench/tasks/base/task.h"
+#include "bench/keys/field_table.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/key_pose.h"
 #include "sim/performer/session.h"
@@ -22,6 +20,7 @@ struct DetectionOptions {
   SessionOptions session;
   double noise = 1;
   double turn_deg = 0;
+  KeyPoseOptions recogniser;  ///< what methods begin with
 };
 
 /// One way from stream to verdict.
@@ -34,15 +33,8 @@ struct DetectionMethod {
   KeyPoseOptions recogniser;
 };
 
-/// Complaints stay in `condition`.
-DetectionOptions ReadDetectionOptions(Fields& condition);
-
-/// Reads the methods; `threshold` and `hold_frames` may stand in the condition for all of them, which
-/// makes these two sweepable.
-Result<std::vector<DetectionMethod>> ReadDetectionMethods(Fields& condition, std::span<const Node> methods);
-
-/// The keys of a scenario and of a method, for the reference page.
-std::vector<KeyInfo> DetectionConditionKeys();
-std::vector<KeyInfo> DetectionMethodKeys();
+const FieldTable<DetectionOptions>& DetectionConditionFields();
+/// `threshold` and `hold_frames` may stand in the condition for all methods, which makes these two sweepable.
+const FieldTable<DetectionMethod>& DetectionMethodFields();
 
 }  // namespace etude

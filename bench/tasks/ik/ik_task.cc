@@ -13,16 +13,14 @@ namespace {
 /// Everything that the worlds of one condition have in common.
 struct IkStudy {
   KinematicTree tree = MakeBodyTree({});  ///< with the condition's limits
-  IkTrialOptions trial;
-  IkRecords records;
-  IkOptions common;
+  IkCondition condition;
   std::vector<IkMethod> methods;
 };
 
 class IkTaskWorld : public TaskWorld {
  public:
   IkTaskWorld(const IkStudy& study, const WorldKey& key, bool keeps_motion)
-      : study_(study), world_(MakeIkWorld(study.tree, study.trial, key)), records_(study.records) {
+      : study_(study), world_(MakeIkWorld(study.tree, study.condition.trial, key)), records_(study.condition.records) {
     records_.motion = keeps_motion;
   }
 
@@ -35,7 +33,7 @@ class IkTaskWorld : public TaskWorld {
 
   Result<CellResult> Judge(const Json& json) override {
     ASSIGN_OR_RETURN(const auto answer, ReadIkAnswer(json, study_.tree));
-    return ScoreIkAnswer(study_.tree, world_, answer, study_.common.max_iterations, records_);
+    return ScoreIkAnswer(study_.tree, world_, answer, study_.condition.common.max_iterations, records_);
   }
 
  private:
@@ -54,10 +52,12 @@ class IkTask : public Task {
 
   std::string ClipOf(const WorldKey&) const override { return ""; }
 
-  Result<Payload> Setting() const override { return DescribeIkSetting(study_.tree, study_.common, study_.trial); }
+  Result<Payload> Setting() const override {
+    return DescribeIkSetting(study_.tree, study_.condition.common, study_.condition.trial);
+  }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
-    return IkValueOfFailure(metric, study_.common.max_iterations);
+    return IkValueOfFailure(metric, study_.condition.common.max_iterations);
   }
 
  private:
@@ -66,14 +66,10 @@ class IkTask : public Task {
 
 Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
   IkStudy study;
-  study.trial = ReadIkTrialOptions(input.condition);
-  study.tree.limits = JointLimits(study.trial.limit_set);
-  study.records = ReadIkRecords(input.condition);
-  study.common = ReadIkCommonOptions(input.condition);
-  auto methods = ReadIkMethods(input.methods, study.common, study.trial);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
-  if (!methods) return tl::unexpected(methods.error());
-  study.methods = *std::move(methods);
+  IkConditionFields().Read(input.condition, study.condition);
+  study.tree.limits = JointLimits(study.condition.trial.limit_set);
+  ASSIGN_OR_RETURN(auto methods, ReadIkMethods(input, study.condition));
+  study.methods = std::move(methods);
   return std::make_unique<IkTask>(std::move(study));
 }
 
@@ -89,8 +85,9 @@ TaskKind MakeIkTaskKind() {
                   "hidden_angle_error_deg", "hidden_angle_change_deg", "solved_practical", "solved_tight",
                   "limit_violations", "iterations", "iterations_par2", "fk_evaluations", "fk_evaluations_par2"},
       .make = MakeIkTask,
-      .condition_keys = IkConditionKeys(),
-      .method_keys = IkMethodKeys()};
+      .condition_keys = IkConditionFields().Describe(),
+      .method_keys = IkMethodFields().Describe(),
+      .uses_clips = false};
 }
 
 }  // namespace etude

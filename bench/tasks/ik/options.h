@@ -1,10 +1,11 @@
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/tasks/base/ik_targets.h"
+#include "bench/tasks/base/solver_fields.h"
 #include "bench/tasks/base/task.h"
 #include "engine/kinematics/joint_limits.h"
 #include "engine/kinematics/solvers/ik_solver.h"
@@ -44,30 +45,25 @@ struct IkRecords {
   bool motion = false;
 };
 
+/// All that a condition says.
+struct IkCondition {
+  IkTrialOptions trial;
+  IkRecords records;
+  IkOptions common = IkBudget(200);  ///< what all methods share
+};
+
 /// A solver with its settings.
 struct IkMethod {
   std::string name;
-  const IkSolver* solver = nullptr;
+  const IkSolver* solver = DefaultIkSolver();
   IkOptions options;
+  std::optional<double> tolerance_times_noise;  ///< options.angle_change_tolerance, in multiples of joint_noise_deg
 };
 
-/// Reads the keys of a condition that make its worlds, from `limit_set` to `unreachable_cm`; complaints stay in
-/// `condition`.
-IkTrialOptions ReadIkTrialOptions(Fields& condition);
+const FieldTable<IkCondition>& IkConditionFields();
+const FieldTable<IkMethod>& IkMethodFields();
 
-/// Reads `record`; complaints stay in `condition`.
-IkRecords ReadIkRecords(Fields& condition);
-
-/// Reads what all methods of a condition share: `max_sweeps`, `stop_at`; complaints stay in `condition`.
-IkOptions ReadIkCommonOptions(Fields& condition);
-
-/// Reads the methods: `solver`, its settings, `limits`, `tolerance_deg`, `tolerance_times_noise`, on top of what they
-/// share.
-Result<std::vector<IkMethod>> ReadIkMethods(std::span<const Node> methods, const IkOptions& common,
-                                            const IkTrialOptions& trial);
-
-/// What the functions above read, for the reference page.
-std::vector<KeyInfo> IkConditionKeys();
-std::vector<KeyInfo> IkMethodKeys();
+/// Reads the methods on top of what the condition says for all.
+Result<std::vector<IkMethod>> ReadIkMethods(TaskInput& input, const IkCondition& condition);
 
 }  // namespace etude

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "bench/tasks/base/task.h"
+#include "bench/keys/field_table.h"
 #include "bench/tasks/pose_distance/run.h"
 
 namespace etude {
@@ -14,14 +11,12 @@ struct PairOptions {
   int pairs_per_world = 500;  ///< of frames
 };
 
-PairOptions ReadPairOptions(Fields& condition);
-std::vector<KeyInfo> PoseDistanceConditionKeys();
+const FieldTable<PairOptions>& PoseDistanceConditionFields();
 
-/// Reads methods such as
+/// Of methods such as
 ///
 ///     - {name: fuzzy, distance: fuzzy, weights: adaptive, threshold: 0.4}
 ///     - {name: joints, distance: joint-positions, threshold_cm: 8}
-Result<std::vector<PoseDistanceMethod>> ReadPoseDistanceMethods(std::span<const Node> methods);
-std::vector<KeyInfo> PoseDistanceMethodKeys();
+const FieldTable<PoseDistanceMethod>& PoseDistanceMethodFields();
 
 }  // namespace etude

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/pose_distance/blind_spots.h"
 #include "bench/tasks/pose_distance/exchange.h"
 #include "bench/tasks/pose_distance/options.h"
@@ -70,11 +70,9 @@ class PoseDistanceTask final : public Task {
 };
 
 Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
-  const PairOptions options = ReadPairOptions(input.condition);
-  auto methods = ReadPoseDistanceMethods(input.methods);
-  const FuzzySystem& fuzzy = FuzzyOf(input);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
-  if (!methods) return tl::unexpected(methods.error());
+  PairOptions options;
+  PoseDistanceConditionFields().Read(input.condition, options);
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "pose-distance", PoseDistanceMethodFields()));
   DancedClips clips = DanceClips(input.clips);
   if (options.source == PairSource::kFrames && !HoldsTwoDances(clips)) {
     return Fail(input.condition.node().place,
@@ -82,8 +80,8 @@ Result<std::unique_ptr<Task>> MakePoseDistanceTask(TaskInput& input) {
                 "['builtin:*']");
   }
   ASSIGN_OR_RETURN(auto training, GatherTrainingClips(clips.motions, clips.identities, clips.proportions));
-  return std::make_unique<PoseDistanceTask>(
-      PairStudy{options, *std::move(methods), std::move(clips), fuzzy, LearntWeights(std::move(training), fuzzy)});
+  return std::make_unique<PoseDistanceTask>(PairStudy{options, std::move(methods), std::move(clips), input.fuzzy,
+                                                      LearntWeights(std::move(training), input.fuzzy)});
 }
 
 }  // namespace
@@ -95,8 +93,8 @@ TaskKind MakePoseDistanceTaskKind() {
                               "close_f1"},
           .metrics = PoseDistanceMetrics(),
           .make = MakePoseDistanceTask,
-          .condition_keys = PoseDistanceConditionKeys(),
-          .method_keys = PoseDistanceMethodKeys()};
+          .condition_keys = PoseDistanceConditionFields().Describe(),
+          .method_keys = PoseDistanceMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "bench/tasks/base/task.h"
+#include "bench/keys/field_table.h"
 
 namespace etude {
 
@@ -13,9 +11,6 @@ namespace etude {
 enum class SearchQuestion { kFirst, kWithin, kNearest, kNearest10 };
 /// "first", "within", "nearest", "nearest-10".
 std::string_view QuestionName(SearchQuestion question);
-std::vector<std::string> QuestionNames();
-/// Null when there is no such question.
-const SearchQuestion* FindQuestion(std::string_view name);
 
 /// How many frames `nearest` and `nearest-10` ask for; needs one of these two.
 int FramesAskedFor(SearchQuestion question);
@@ -38,10 +33,7 @@ struct SearchMethod {
   SearchQuestion question = SearchQuestion::kNearest;
 };
 
-SearchOptions ReadSearchOptions(Fields& condition);
-Result<std::vector<SearchMethod>> ReadSearchMethods(std::span<const Node> methods, const SearchOptions& common);
-
-std::vector<KeyInfo> SearchConditionKeys();
-std::vector<KeyInfo> SearchMethodKeys();
+const FieldTable<SearchOptions>& SearchConditionFields();
+const FieldTable<SearchMethod>& SearchMethodFields();
 
 }  // namespace etude

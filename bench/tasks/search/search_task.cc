@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/search/exchange.h"
 #include "bench/tasks/search/options.h"
 #include "bench/tasks/search/run.h"
@@ -100,12 +100,13 @@ Result<void> CheckClips(const ClipLibrary& clips, const Place& place) {
 }
 
 Result<std::unique_ptr<Task>> MakeSearchTask(TaskInput& input) {
-  SearchStudy study{.options = ReadSearchOptions(input.condition), .methods = {}, .fuzzy = FuzzyOf(input)};
-  auto methods = ReadSearchMethods(input.methods, study.options);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
-  if (!methods) return tl::unexpected(methods.error());
+  SearchStudy study{.options = {}, .methods = {}, .fuzzy = input.fuzzy};
+  SearchConditionFields().Read(input.condition, study.options);
+  SearchMethod start;
+  start.question = study.options.question;
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "search", SearchMethodFields(), start));
   RETURN_IF_ERROR(CheckClips(input.clips, input.condition.node().place));
-  study.methods = *std::move(methods);
+  study.methods = std::move(methods);
   return std::make_unique<SearchTask>(std::move(study), input.clips);
 }
 
@@ -117,8 +118,8 @@ TaskKind MakeSearchTaskKind() {
           .default_metrics = {"distances_per_query", "search_agreement", "boxes_per_query", "matches_per_query"},
           .metrics = {"search_agreement", "matches_per_query", "distances_per_query", "boxes_per_query"},
           .make = MakeSearchTask,
-          .condition_keys = SearchConditionKeys(),
-          .method_keys = SearchMethodKeys()};
+          .condition_keys = SearchConditionFields().Describe(),
+          .method_keys = SearchMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #include "bench/tasks/tracking/tracking_task.h"
 
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/tracking/exchange.h"
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/score.h"
@@ -14,7 +15,6 @@ namespace {
 /// Everything that the worlds of one condition have in common.
 struct TrackingStudy {
   TrackingOptions options;
-  IkOptions common;
   std::vector<TrackingMethod> methods;
   ClipLibrary clips;
 };
@@ -64,7 +64,9 @@ class TrackingTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Payload> Setting() const override { return DescribeTrackingSetting(study_.options, study_.common); }
+  Result<Payload> Setting() const override {
+    return DescribeTrackingSetting(study_.options, study_.options.common);
+  }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return TrackingValueOfFailure(metric);
@@ -80,15 +82,14 @@ class TrackingTask : public Task {
 
 Result<std::unique_ptr<Task>> MakeTrackingTask(TaskInput& input) {
   TrackingStudy study;
-  study.options = ReadTrackingOptions(input.condition);
-  study.common = ReadFrameBudget(input.condition);
-  auto methods = ReadTrackingMethods(input.methods, study.common);
-  if (!input.condition.ok()) return tl::unexpected(input.condition.Finish().error());
-  if (!methods) return tl::unexpected(methods.error());
+  TrackingConditionFields().Read(input.condition, study.options);
+  TrackingMethod start;
+  start.options = study.options.common;
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "tracking", TrackingMethodFields(), start));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a tracking scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
-  study.methods = *std::move(methods);
+  study.methods = std::move(methods);
   study.clips = input.clips;
   return std::make_unique<TrackingTask>(std::move(study));
 }
@@ -104,8 +105,8 @@ TaskKind MakeTrackingTaskKind() {
                       "hidden_angle_error_deg", "mpjpe_mm", "angle_jerk_ratio", "iterations_per_frame",
                       "iterations_per_frame_p95"},
           .make = MakeTrackingTask,
-          .condition_keys = TrackingConditionKeys(),
-          .method_keys = TrackingMethodKeys()};
+          .condition_keys = TrackingConditionFields().Describe(),
+          .method_keys = TrackingMethodFields().Describe()};
 }
 
 }  // namespace etude

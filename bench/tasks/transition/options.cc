@@ -1,108 +1,118 @@
 #include "bench/tasks/transition/options.h"
 
-#include <fmt/ranges.h>
-
+#include "bench/keys/setting_fields.h"
 #include "bench/tasks/base/fuzzy_key.h"
-#include "bench/tasks/base/misplaced_keys.h"
-#include "bench/tasks/base/setting_fields.h"
-#include "bench/tasks/transition/stage_options.h"
 
 namespace etude {
 namespace {
 
-// Paper A's first: it is the default.
-std::vector<std::string> PickNames() { return {"first", "smallest"}; }
+// Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
+constexpr Range kThresholds{0, 6};
+constexpr Range kWaits_s{0, 60};
 
-/// Not the Join of engine/base/names, since that is a struct here.
-std::string ListOf(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
-
-void ReadLimits(Fields& fields, CommonLimits& limits) {
-  // Grades lie in [0, 1] and S sums to 8, so no distance exceeds sqrt(8 · 4).
-  limits.threshold = fields.Number("threshold", limits.threshold, {0, 6});
-  limits.wait_s = fields.Number("wait_s", limits.wait_s, {0, 60});
-}
-
-Result<TransitionMethod> ReadMethod(const Node& node, const CommonLimits& defaults) {
-  Fields fields(node, "a method of task transition");
-  TransitionMethod method;
-  method.name = fields.RequiredText("name");
-  const Choice& choice = *FindChoice(fields.Choice("choice", ChoiceNames(), ChoiceNames().front()));
-  const Join& join = *FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
-  MatchRules& rules = method.way.rules;
-  method.weights = FindWeightSource(fields.Choice("weights", WeightSourceNames(), WeightSourceNames().front()));
-  CommonLimits limits = defaults;
-  ReadLimits(fields, limits);
-  method.wait_s = limits.wait_s;
-  rules.threshold = limits.threshold;
-  rules.pick = fields.Choice("pick", PickNames(), PickNames().front()) == "smallest" ? Pick::kSmallest : Pick::kFirst;
-  rules.within_class = fields.Boolean("within_class", false);
-  method.way.choice_settings = ReadSettings(fields, choice.settings);
-  method.way.join_settings = ReadSettings(fields, join.settings);
-  RefuseMisplacedKeys(fields, TransitionMethodKeys(), "choice", choice.name);
-  RefuseMisplacedKeys(fields, TransitionMethodKeys(), "join", join.name);
-  RETURN_IF_ERROR(fields.Finish());
-  method.way.choice = &choice;
-  method.way.join = &join;
-  return method;
+std::vector<std::string> FuzzyChoices() {
+  std::vector<std::string> names;
+  for (const Choice& choice : AllChoices()) {
+    if (choice.uses_fuzzy) names.push_back(choice.name);
+  }
+  return names;
 }
 
 }  // namespace
 
-std::vector<KeyInfo> TransitionConditionKeys() {
-  std::vector<KeyInfo> keys = {
-      {"threshold", "0…6", "0.4", "Two bridge frames match when their fuzzy distance is below it; for all methods."},
-      {"wait_s", "0…60 (seconds)", "1",
-       "How long after the request a switch may come; for all methods, those outside are told it as max_wait_s."}};
-  keys.push_back(
-      {"explain", "true, false", "false",
-       "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; filmed "
-       "cells are explained in the report anyway."});
-  for (KeyInfo& key : StageKeys()) keys.push_back(std::move(key));
-  keys.push_back(FuzzyKey());
-  return keys;
+TransitionWay DefaultWay() {
+  TransitionWay way;
+  way.choice = &AllChoices().front();
+  way.join = &AllJoins().front();
+  return way;
 }
 
-std::vector<KeyInfo> TransitionMethodKeys() {
-  KeyCondition fuzzy{"choice", {}};
-  for (const Choice& choice : AllChoices()) {
-    if (choice.uses_fuzzy) fuzzy.values.push_back(choice.name);
-  }
-  std::vector<KeyInfo> keys = {
-      {"choice", ListOf(ChoiceNames()), ChoiceNames().front(),
-       "Which frames are switched, and when: paper A's bridge frames, or what one would use otherwise."},
-      {"join", ListOf(JoinNames()), JoinNames().front(),
-       "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."},
-      {"weights", ListOf(WeightSourceNames()), WeightSourceNames().front(),
-       "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two judged, by "
-       "a logistic regression or a genetic algorithm."},
-      {"threshold", "0…6", "(the scenario's)", "The distance below which two frames match.", fuzzy},
-      {"within_class", "true, false", "false", "Whether only frames with the same ten tags are compared.", fuzzy},
-      {"pick",
-       ListOf(PickNames()),
-       PickNames().front(),
-       "Which of several matching pairs is taken.",
-       {"choice", {"fuzzy-bridge"}}},
-      {"wait_s", "0…60 (seconds)", "(the scenario's)", "How long after the request a switch may come."}};
-  for (KeyInfo& key : SettingKeys("choice", AllChoices())) keys.push_back(std::move(key));
-  for (KeyInfo& key : SettingKeys("join", AllJoins())) keys.push_back(std::move(key));
-  return keys;
+const FieldTable<TransitionCondition>& TransitionConditionFields() {
+  using Options = TransitionCondition;
+  using Key = Field<Options>;
+  static const FieldTable<Options> table{
+      {Key::Number("threshold", &Options::threshold, kThresholds,
+                   "Two bridge frames match when their fuzzy distance is below it; for all methods."),
+       Key::Number("wait_s", &Options::wait_s, kWaits_s,
+                   "How long after the request a switch may come; for all methods, those outside are told it as "
+                   "max_wait_s.")
+           .Unit("seconds"),
+       Key::Flag("explain", &Options::explain,
+                 "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; "
+                 "filmed cells are explained in the report anyway."),
+       Key::Name(
+           "asked_for", [](auto& o) -> auto& { return o.stage.asks_for_acts; }, {{"any", false}, {"acts", true}},
+           "Which clips are asked for: any other one, or, while the other clips play, the coach's acts, where there "
+           "are any."),
+       Key::Number(
+           "min_clips", [](auto& o) -> auto& { return o.stage.min_clips; }, {1, 1000},
+           "In how many clips a bridge frame's ten tags occur together at least."),
+       Key::Number(
+           "most_per_class", [](auto& o) -> auto& { return o.stage.most_per_class; }, {0, 100000},
+           "Of each clip's frames with the same ten tags, only so many are bridge frames: those most alike to other "
+           "clips'; 0: all."),
+       Key::Angle(
+           "head_bend_deg", [](auto& o) -> auto& { return o.stage.head.max_bend; }, {0, 180},
+           "A bridge frame's neck is bent by no more."),
+       Key::Angle(
+           "head_turn_dps", [](auto& o) -> auto& { return o.stage.head.max_turn_speed; }, {0, 10000},
+           "A bridge frame's neck turns no faster.")
+           .Unit("degrees per second"),
+       Key::Angle(
+           "tween_dps", [](auto& o) -> auto& { return o.stage.tween.turn_speed; }, {10, 10000},
+           "The fastest that any limb turns in an in-between.")
+           .Unit("degrees per second"),
+       Key::Number(
+           "tween_s", [](auto& o) -> auto& { return o.stage.tween.shortest_s; }, {0, 10},
+           "An in-between takes at least this, however little there is to do.")
+           .Unit("seconds"),
+       Key::Angle(
+           "tween_deg", [](auto& o) -> auto& { return o.stage.tween.widest_turn; }, {0, 180},
+           "An in-between that would turn a limb by more goes by way of the most frequent pose."),
+       FuzzyField<Options>()}};
+  return table;
 }
 
-CommonLimits ReadCommonLimits(Fields& condition) {
-  CommonLimits common;
-  ReadLimits(condition, common);
-  return common;
-}
-
-bool ReadExplain(Fields& condition) { return condition.Boolean("explain", false); }
-
-Result<std::vector<TransitionMethod>> ReadTransitionMethods(const CommonLimits& common, std::span<const Node> methods) {
-  std::vector<TransitionMethod> read;
-  for (const Node& node : methods) {
-    ASSIGN_OR_RETURN(auto method, ReadMethod(node, common));
-    read.push_back(std::move(method));
-  }
-  return read;
+const FieldTable<TransitionMethod>& TransitionMethodFields() {
+  using Key = Field<TransitionMethod>;
+  static const FieldTable<TransitionMethod> table = [] {
+    FieldTable<TransitionMethod> made{
+        {Key::Name(
+             "choice", [](auto& m) -> auto& { return m.way.choice; }, ChoiceNames(), FindChoice,
+             "Which frames are switched, and when: paper A's bridge frames, or what one would use otherwise."),
+         Key::Name(
+             "join", [](auto& m) -> auto& { return m.way.join; }, JoinNames(), FindJoin,
+             "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."),
+         Key::Name("weights", &TransitionMethod::weights, WeightSourceNames(), FindWeightSource,
+                   "How much each fuzzy feature counts: as the fuzzy system says, or learnt on all clips but the two "
+                   "judged, by a logistic regression or a genetic algorithm."),
+         Key::Number(
+             "threshold", [](auto& m) -> auto& { return m.way.rules.threshold; }, kThresholds,
+             "The distance below which two frames match.")
+             .WhenAbsent("(the scenario's)")
+             .With("choice", FuzzyChoices()),
+         Key::Flag(
+             "within_class", [](auto& m) -> auto& { return m.way.rules.within_class; },
+             "Whether only frames with the same ten tags are compared.")
+             .With("choice", FuzzyChoices()),
+         Key::Name(
+             "pick", [](auto& m) -> auto& { return m.way.rules.pick; },
+             {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}, "Which of several matching pairs is taken.")
+             .With("choice", {"fuzzy-bridge"}),
+         Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a switch may come.")
+             .Unit("seconds")
+             .WhenAbsent("(the scenario's)")}};
+    for (const Key& key : SettingFields<TransitionMethod>(
+             "choice", AllChoices(), [](auto& m) -> auto& { return m.way.choice_settings; })) {
+      made.fields.push_back(key);
+    }
+    for (const Key& key : SettingFields<TransitionMethod>(
+             "join", AllJoins(), [](auto& m) -> auto& { return m.way.join_settings; })) {
+      made.fields.push_back(key);
+    }
+    return made;
+  }();
+  return table;
 }
 
 }  // namespace etude

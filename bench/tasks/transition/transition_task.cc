@@ -1,9 +1,8 @@
 #include "bench/tasks/transition/transition_task.h"
 
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/transition/exchange.h"
 #include "bench/tasks/transition/run.h"
-#include "bench/tasks/transition/stage_options.h"
 #include "bench/training/training_clips.h"
 
 namespace etude {
@@ -43,13 +42,17 @@ class TransitionTask final : public Task {
 };
 
 Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
-  const CommonLimits common = ReadCommonLimits(input.condition);
-  const bool explain = ReadExplain(input.condition);
-  ASSIGN_OR_RETURN(auto methods, ReadTransitionMethods(common, input.methods));
-  Stage stage = SetStage(input.clips, ReadStageRules(input.condition, FuzzyOf(input)));
+  TransitionCondition condition;
+  TransitionConditionFields().Read(input.condition, condition);
+  condition.stage.fuzzy = input.fuzzy;
+  TransitionMethod start;
+  start.way.rules.threshold = condition.threshold;
+  start.wait_s = condition.wait_s;
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "transition", TransitionMethodFields(), start));
+  Stage stage = SetStage(input.clips, condition.stage);
   ASSIGN_OR_RETURN(auto training,
                    GatherTrainingClips(stage.library.motions, stage.identities, stage.library.proportions));
-  return std::make_unique<TransitionTask>(std::move(methods), common.wait_s, explain, std::move(stage),
+  return std::make_unique<TransitionTask>(std::move(methods), condition.wait_s, condition.explain, std::move(stage),
                                           std::move(training));
 }
 
@@ -61,8 +64,8 @@ TaskKind MakeTransitionTaskKind() {
           .default_metrics = {"jump_cm", "natural_share", "pose_gap_cm", "false_smooth", "foot_slide_cmps", "wait_s"},
           .metrics = TransitionMetrics(),
           .make = MakeTransitionTask,
-          .condition_keys = TransitionConditionKeys(),
-          .method_keys = TransitionMethodKeys()};
+          .condition_keys = TransitionConditionFields().Describe(),
+          .method_keys = TransitionMethodFields().Describe()};
 }
 
 }  // namespace etude

@@ -124,5 +124,10 @@ TEST(Documents, ListEveryKeyAsTheProgramDoes) {
   EXPECT_EQ(ReadPage("keys.md"), KeysAsMarkdown()) << "write it anew: etude list keys --markdown > docs/keys.md";
 }
 
+TEST(Documents, HoldTheSchemaThatTheProgramWrites) {
+  EXPECT_EQ(ReadPage("schemas/scenario.schema.json"), KeysAsSchema())
+      << "write it anew: etude list keys --schema > docs/schemas/scenario.schema.json";
+}
+
 }  // namespace
 }  // namespace etude

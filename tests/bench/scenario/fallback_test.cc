@@ -13,23 +13,13 @@ struct Defaults {
   int count = 0;
 };
 
-/// Whether a key may stand beside `chosen`, "key: value" or nothing, and the defaults of all others.
-bool MayStand(const KeyInfo& key, const std::vector<KeyInfo>& keys, const std::string& chosen) {
-  const KeyCondition& condition = key.only_with;
-  if (condition.key.empty()) return true;
-  const std::string start = condition.key + ": ";
-  const auto other = std::ranges::find(keys, condition.key, &KeyInfo::key);
-  EXPECT_NE(other, keys.end()) << key.key << " goes with " << condition.key;
-  const std::string value = chosen.starts_with(start) ? chosen.substr(start.size()) : other->fallback;
-  return std::ranges::find(condition.values, value) != condition.values.end();
-}
-
 /// The defaults of all keys that have one, written out; those of `chosen` are left alone, as it stands already.
 Defaults WriteOut(const std::vector<KeyInfo>& keys, const std::string& chosen) {
   Defaults defaults{chosen};
+  const auto mapping = ParseYaml("{" + chosen + "}", "chosen.yaml");
+  EXPECT_TRUE(mapping) << chosen;
   for (const KeyInfo& key : keys) {
-    const bool is_value = !key.fallback.empty() && key.fallback.front() != '(';
-    if (!is_value || chosen.starts_with(key.key + ":") || !MayStand(key, keys, chosen)) continue;
+    if (!key.HasDefaultValue() || mapping->Find(key.key) != nullptr || !MayStand(key, keys, *mapping)) continue;
     defaults.text += (defaults.text.empty() ? "" : ", ") + key.key + ": " + key.fallback;
     ++defaults.count;
   }
@@ -100,7 +90,7 @@ TEST(Defaults, OfEveryScenarioAreTheSameWrittenOrLeftOut) {
   std::string written;
   int count = 0;
   for (const KeyInfo& key : CommonScenarioKeys()) {
-    if (key.fallback.empty() || key.fallback.front() == '(') continue;
+    if (!key.HasDefaultValue()) continue;
     written += key.key + ": " + key.fallback + "\n";
     ++count;
   }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "bench/tasks/registry.h"
+#include "engine/base/names.h"
 #include "tests/bench/scenario/parse.h"
 
 namespace etude {
@@ -147,6 +148,28 @@ TEST(Keys, OfATaskAreThoseThatItReads) {
   }
 }
 
+// Which of two settings of one name is meant is told by one key alone.
+TEST(Keys, ThatStandTwiceGoWithDifferentValuesOfOneKey) {
+  std::size_t checked = 0;
+  for (const TaskKind& kind : AllTaskKinds()) {
+    for (const std::vector<KeyInfo>& keys : {kind.condition_keys, kind.method_keys}) {
+      std::map<std::string, std::vector<KeyInfo>> of_name;
+      for (const KeyInfo& key : keys) of_name[key.key].push_back(key);
+      for (const auto& [name, alike] : of_name) {
+        Names values;
+        for (const KeyInfo& key : alike) {
+          EXPECT_TRUE(alike.size() == 1 || !key.only_with.key.empty()) << kind.name << ": " << name;
+          EXPECT_EQ(key.only_with.key, alike.front().only_with.key) << kind.name << ": " << name;
+          for (const std::string& value : key.only_with.values)
+            EXPECT_TRUE(values.insert(value).second) << name << value;
+          ++checked;
+        }
+      }
+    }
+  }
+  EXPECT_GT(checked, 80u);
+}
+
 TEST(Keys, AreComparedBothWays) {
   EXPECT_THAT(Differences({"a", "b"}, {"a", "b"}), IsEmpty());
   EXPECT_THAT(Differences({"a"}, {"a", "b"}), testing::ElementsAre("b is not documented"));
@@ -158,8 +181,9 @@ TEST(Keys, SayEverythingAboutThemselves) {
   for (const KeyGroup& group : AllKeyGroups()) {
     Names seen;
     for (const KeyInfo& key : group.keys) {
-      EXPECT_TRUE(seen.insert(key.key).second) << key.key << " stands twice in " << group.title;
-      EXPECT_THAT(key.allowed, Not(IsEmpty())) << key.key;
+      const std::string variant = key.key + " with " + key.only_with.key + " " + Join(key.only_with.values);
+      EXPECT_TRUE(seen.insert(variant).second) << variant << " stands twice in " << group.title;
+      EXPECT_THAT(key.value.allowed, Not(IsEmpty())) << key.key;
       EXPECT_TRUE(!key.meaning.empty() && key.meaning.back() == '.') << group.title << ": " << key.key;
       ++checked;
     }

@@ -12,6 +12,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+struct Method {
+  const IkSolver* solver = DefaultIkSolver();
+  IkOptions options;
+};
+
 struct Reading {
   std::string solver;
   IkOptions options;
@@ -21,17 +26,15 @@ struct Reading {
 Reading Read(const std::string& method) {
   const auto node = ParseYaml(method, "m.yaml");
   EXPECT_TRUE(node) << method;
-  Fields fields(*node, "a method");
-  Reading reading;
-  reading.solver = ReadIkSolver(fields, reading.options)->name;
-  const auto done = fields.Finish();
-  if (!done) reading.complaint = ToString(done.error());
-  return reading;
+  const FieldTable<Method> table{IkSolverFields(&Method::solver, &Method::options)};
+  const auto read = ReadMapping(*node, "a method", table);
+  if (!read) return {"", {}, ToString(read.error())};
+  return {read->solver->name, read->options, ""};
 }
 
 TEST(SolverFields, TakeTheDefaultOfThePageOfKeys) {
   EXPECT_EQ(Read("{}").solver, "gauss-newton");
-  EXPECT_EQ(Read("{}").solver, IkSolverKeys().front().fallback);
+  EXPECT_EQ(Read("{}").solver, IkSolverFields(&Method::solver, &Method::options).front().info.fallback);
 }
 
 TEST(SolverFields, ReadTheSettingsOfASolver) {

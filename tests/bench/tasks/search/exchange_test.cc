@@ -52,7 +52,7 @@ TEST(SearchExchange, TheFileTheTermsAndTheQueriesAreEnoughToFindTheTruth) {
 }
 
 TEST(SearchExchange, TheTruthIsAPerfectAnswerOfAllQuestions) {
-  for (const std::string& question : QuestionNames()) {
+  for (const std::string question : {"first", "within", "nearest", "nearest-10"}) {
     const auto task = MakeTask("{frames: 300, queries: 6, query: " + question + "}");
     const auto world = task->MakeWorld(kSearchWorld, false);
     const auto cell = world->Judge(*world->MakeTruth()->json);

@@ -1,0 +1,263 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "bench/keys/key_info.h"
+#include "engine/base/angles.h"
+#include "engine/document/fields.h"
+
+namespace etude {
+
+/// Values by the names that files call them.
+template <typename Value>
+using NamedValues = std::vector<std::pair<std::string, Value>>;
+
+// What a field's member may be when it holds a number; an absent key leaves it alone.
+void ReadNumber(Fields& fields, const std::string& key, Range range, double& value);
+void ReadNumber(Fields& fields, const std::string& key, Range range, int& value);
+void ReadNumber(Fields& fields, const std::string& key, Range range, std::optional<double>& value);
+void ReadNumber(Fields& fields, const std::string& key, Range range, std::optional<std::uint64_t>& value);
+inline std::string DefaultText(double value) { return NumberText(value); }
+template <typename Number>
+std::string DefaultText(const std::optional<Number>&) {
+  return "(none)";
+}
+inline std::string DegreesText(double radians) { return NumberText(Degrees(radians)); }
+inline std::string DegreesText(const std::optional<double>&) { return "(none)"; }
+
+/// Reads as many numbers as `values` holds, one per `of_what` ("camera").
+void ReadNumbers(Fields& fields, const std::string& key, Range range, const std::string& of_what,
+                 std::vector<double>& values);
+/// Reads a list of names; complains of one that is not `known`.
+std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
+
+/// The items of a list; none where there is no list.
+std::span<const Node> ReadItems(Fields& fields, const std::string& key);
+
+/// One key of a mapping that is read into `Options`: declared once, for the reader, the page of keys and the schema. A
+/// `member` is a pointer to one, or a function that gives one ([](auto& o) -> auto& { return o.noise.position_cm; });
+/// what it holds in `Options{}` is the default.
+template <typename Options>
+struct Field {
+  KeyInfo info;
+  std::function<void(Fields&, Options&)> read;
+
+  /// A double, an int (then only whole numbers are taken), or an optional of one.
+  template <typename Member>
+  static Field Number(const std::string& key, Member member, Range range, std::string meaning) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
+    constexpr bool kWhole = std::is_same_v<Value, int> || std::is_same_v<Value, std::optional<std::uint64_t>>;
+    return {{key, NumberKind(range, kWhole), DefaultText(Default(member)), std::move(meaning)},
+            [=](Fields& fields, Options& options) { ReadNumber(fields, key, range, std::invoke(member, options)); }};
+  }
+
+  /// An angle: degrees in the file, radians in memory.
+  template <typename Member>
+  static Field Angle(const std::string& key, Member member, Range range, std::string meaning) {
+    return {{key, NumberKind(range), DegreesText(Default(member)), std::move(meaning)},
+            [=](Fields& fields, Options& options) {
+              if (const auto degrees = fields.OptionalNumber(key, range)) {
+                std::invoke(member, options) = Radians(*degrees);
+              }
+            }};
+  }
+
+  /// A vector of as many numbers as it has by default, one per `of_what`; `allowed` says it for people.
+  template <typename Member>
+  static Field Numbers(const std::string& key, Member member, const std::string& of_what, std::string allowed,
+                       Range range, std::string meaning) {
+    std::string fallback;
+    const auto values = Default(member);
+    for (double value : values) fallback += (fallback.empty() ? "[" : ", ") + NumberText(value);
+    return {{key, ListKind(std::move(allowed), NumberKind(range), values.size()), fallback + "]", std::move(meaning)},
+            [=](Fields& fields, Options& options) {
+              ReadNumbers(fields, key, range, of_what, std::invoke(member, options));
+            }};
+  }
+
+  template <typename Member>
+  static Field Flag(const std::string& key, Member member, std::string meaning) {
+    return {{key, FlagKind(), Default(member) ? "true" : "false", std::move(meaning)},
+            [=](Fields& fields, Options& options) {
+              bool& value = std::invoke(member, options);
+              value = fields.Boolean(key, value);
+            }};
+  }
+
+  /// Any text; `allowed` says for people which.
+  static Field Text(const std::string& key, std::string Options::*member, std::string allowed, std::string meaning) {
+    return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
+            [=](Fields& fields, Options& options) { options.*member = fields.Text(key, options.*member); }};
+  }
+
+  /// A list of texts.
+  static Field Texts(const std::string& key, std::vector<std::string> Options::*member, std::string allowed,
+                     std::string meaning) {
+    return {{key, ListKind(std::move(allowed), TextKind("")), "[]", std::move(meaning)},
+            [=](Fields& fields, Options& options) { options.*member = fields.Texts(key); }};
+  }
+
+  /// One of several values by its name.
+  template <typename Member, typename Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>>
+  static Field Name(const std::string& key, Member member, const NamedValues<Value>& values, std::string meaning) {
+    std::vector<std::string> names;
+    std::string fallback;
+    for (const auto& [name, value] : values) {
+      names.push_back(name);
+      if (value == Default(member)) fallback = name;
+    }
+    return {{key, NameKind(names), fallback, std::move(meaning)}, [=](Fields& fields, Options& options) {
+              const std::string chosen = fields.Choice(key, names, "");
+              for (const auto& [name, value] : values) {
+                if (name == chosen) std::invoke(member, options) = value;
+              }
+            }};
+  }
+
+  /// Likewise; `find` gives the value of a name, or something that points to it.
+  template <typename Member, typename Find>
+  static Field Name(const std::string& key, Member member, const std::vector<std::string>& names, Find find,
+                    std::string meaning) {
+    using Value = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
+    NamedValues<Value> values;
+    for (const std::string& name : names) {
+      if constexpr (std::is_convertible_v<decltype(find(name)), Value>) {
+        values.emplace_back(name, find(name));
+      } else {
+        values.emplace_back(name, *find(name));
+      }
+    }
+    return Name(key, member, values, std::move(meaning));
+  }
+
+  /// A list of names, each of which sets a bool.
+  static Field Flags(const std::string& key, const NamedValues<std::function<bool&(Options&)>>& flags,
+                     std::string meaning) {
+    std::vector<std::string> names;
+    for (const auto& flag : flags) names.push_back(flag.first);
+    const ValueKind item = NameKind(names);
+    return {{key, ListKind("a list of: " + item.allowed, item), "[]", std::move(meaning)},
+            [=](Fields& fields, Options& options) {
+              for (const std::string& chosen : ReadNames(fields, key, names)) {
+                for (const auto& [name, flag] : flags) {
+                  if (name == chosen) flag(options) = true;
+                }
+              }
+            }};
+  }
+
+  /// The unit, where the key does not say it or says it too shortly.
+  Field Unit(const std::string& unit) const {
+    Field field = *this;
+    field.info.value.allowed += " (" + unit + ")";
+    return field;
+  }
+  /// What else is to be said of its values.
+  Field And(const std::string& words) const {
+    Field field = *this;
+    field.info.value.allowed += "; " + words;
+    return field;
+  }
+  /// What an absent key means, when that is no value: "(the scenario's)".
+  Field WhenAbsent(const std::string& words) const {
+    Field field = *this;
+    field.info.fallback = words;
+    return field;
+  }
+  /// It may only stand where `key` has one of these values.
+  Field With(const std::string& key, std::vector<std::string> values) const {
+    Field field = *this;
+    field.info.only_with = {key, std::move(values)};
+    return field;
+  }
+
+ private:
+  template <typename Member>
+  static auto Default(Member member) {
+    Options options{};
+    return std::invoke(member, options);
+  }
+};
+
+/// All keys of a mapping, in the order in which they are read and documented. A key may stand here several times, where
+/// no two of its conditions can hold at once: two solvers may call settings of their own alike.
+template <typename Options>
+struct FieldTable {
+  std::vector<Field<Options>> fields;
+  std::function<void(Fields&, Options&)> check = {};  ///< complains of what only all values together show
+
+  /// Complaints stay in `mapping`; absent keys leave `options` as they are. `check` is left to the caller.
+  void ReadKeys(Fields& mapping, Options& options) const {
+    const std::vector<KeyInfo> keys = Infos();
+    for (const Field<Options>& field : fields) {
+      if (field.info.IsRequired() && mapping.Raw(field.info.key) == nullptr) mapping.RequiredText(field.info.key);
+      if (MayStand(field.info, keys, mapping.node())) field.read(mapping, options);
+    }
+    RefuseMisplacedKeys(mapping, keys);
+  }
+
+  /// Likewise, and checks what was read.
+  void Read(Fields& mapping, Options& options) const {
+    ReadKeys(mapping, options);
+    if (check && mapping.ok()) check(mapping, options);
+  }
+
+  std::vector<KeyInfo> Describe() const { return MergeAlike(Infos()); }
+
+ private:
+  std::vector<KeyInfo> Infos() const {
+    std::vector<KeyInfo> infos;
+    for (const Field<Options>& field : fields) infos.push_back(field.info);
+    return infos;
+  }
+};
+
+/// Reads a mapping that holds these keys and no others, on top of `options`. `what` it is, for complaints.
+template <typename Options>
+Result<Options> ReadMapping(const Node& node, const std::string& what, const FieldTable<Options>& table,
+                            Options options = {}) {
+  Fields fields(node, what);
+  table.ReadKeys(fields, options);
+  RETURN_IF_ERROR(fields.Finish());  // a key that nobody knows explains what is missing
+  if (table.check) table.check(fields, options);
+  RETURN_IF_ERROR(fields.Finish());
+  return options;
+}
+
+/// Reads the mapping under `key`, where there is one, on top of `value`; complaints stay in `fields`.
+template <typename Value>
+void ReadNested(Fields& fields, const std::string& key, const FieldTable<Value>& table, Value& value) {
+  const Node* node = fields.Raw(key);
+  if (node == nullptr) return;
+  auto read = ReadMapping(*node, "'" + key + "'", table, value);
+  if (read) {
+    value = *std::move(read);
+  } else {
+    fields.Complain(read.error().place, read.error().message);
+  }
+}
+
+/// Reads the list of mappings under `key`, where there is one; each of them is `what`. Complaints stay in `fields`.
+template <typename Value>
+std::vector<Value> ReadListed(Fields& fields, const std::string& key, const std::string& what,
+                              const FieldTable<Value>& table) {
+  std::vector<Value> values;
+  for (const Node& item : ReadItems(fields, key)) {
+    auto read = ReadMapping(item, what, table);
+    if (read) {
+      values.push_back(*std::move(read));
+    } else {
+      fields.Complain(read.error().place, read.error().message);
+    }
+  }
+  return values;
+}
+
+}  // namespace etude

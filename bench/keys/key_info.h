@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/document/fields.h"
+
+namespace etude {
+
+struct KeyInfo;
+
+/// What the value of a key may be: for people, and as JSON Schema.
+struct ValueKind {
+  std::string allowed;  ///< "ccd, ccd-hinges", "0…180 (degrees)", "a list of texts"
+  std::string schema;   ///< JSON
+};
+ValueKind NumberKind(Range range, bool is_whole = false);
+ValueKind FlagKind();
+/// A text; `pattern` is a regular expression, empty = any.
+ValueKind TextKind(std::string allowed, const std::string& pattern = "");
+/// One of these texts.
+ValueKind NameKind(std::span<const std::string> names);
+/// A list of such values; `count` of them, or any number.
+ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<std::size_t> count = {});
+/// A mapping with these keys.
+ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
+
+/// What another key of the same mapping must say for a key to be allowed beside it.
+struct KeyCondition {
+  std::string key;                  ///< "solver"; empty: no condition
+  std::vector<std::string> values;  ///< any of these
+};
+
+/// A key of a scenario file: all that its page, its complaints and its schema say of it.
+struct KeyInfo {
+  std::string key;
+  ValueKind value;
+  std::string
+      fallback;         ///< what an absent key means, as one would write it, or in (parentheses); "" = it must be there
+  std::string meaning;  ///< one sentence
+  KeyCondition only_with = {};
+
+  /// What is allowed, and what it goes with: "0…1; with `weights: adaptive`".
+  std::string AllowedWhere() const;
+  bool IsRequired() const { return fallback.empty(); }
+  bool HasDefaultValue() const { return !fallback.empty() && fallback.front() != '('; }
+};
+
+/// A number as pages and defaults show it: 1000000, 0.33, 1e-06.
+std::string NumberText(double number);
+
+/// Keys that differ in their conditions only, as one.
+std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
+
+/// Whether the values of `mapping` allow `key` in it; `keys` are all that it may have, and their defaults count as
+/// said.
+bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
+
+/// Complains of keys that `mapping` has and that do not go with its other values (KeyInfo::only_with): there they would
+/// mean nothing, which is a mistake worth telling. Marks all `keys` as known.
+void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys);
+
+}  // namespace etude

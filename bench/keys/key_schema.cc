@@ -1,0 +1,107 @@
+#include "bench/keys/key_schema.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+namespace etude {
+namespace {
+
+Json ScalarToJson(const Node& node) {
+  const std::string& text = node.scalar;
+  if (text == "true" || text == "false") return text == "true";
+  const auto number = AsNumber(node);
+  if (!number) return text;
+  std::int64_t whole = 0;  // 5 stays 5 and does not become 5.0
+  const char* end = text.data() + text.size();
+  const auto [stop, status] = std::from_chars(text.data(), end, whole);
+  if (status == std::errc() && stop == end) return whole;
+  return *number;
+}
+
+/// The keys of this name, in their order.
+std::vector<KeyInfo> Variants(const std::string& name, std::span<const KeyInfo> keys) {
+  std::vector<KeyInfo> variants;
+  std::ranges::copy_if(keys, std::back_inserter(variants), [&](const KeyInfo& key) { return key.key == name; });
+  return variants;
+}
+
+/// One schema, or any of several.
+Json AnyOf(std::vector<Json> schemas) {
+  if (schemas.size() == 1) return std::move(schemas.front());
+  return {{"anyOf", std::move(schemas)}};
+}
+
+/// What must be said beside a key with a condition.
+Json ConditionSchema(const KeyInfo& key, std::span<const KeyInfo> keys, bool says_all) {
+  const KeyCondition& condition = key.only_with;
+  Json schema{
+      {"properties", {{condition.key, {{"enum", condition.values}}}, {key.key, Json::parse(key.value.schema)}}}};
+  const auto chooser = std::ranges::find(keys, condition.key, &KeyInfo::key);
+  const bool by_default = chooser != keys.end() && std::ranges::count(condition.values, chooser->fallback) > 0;
+  if (says_all && !by_default) schema["required"] = {condition.key};
+  return schema;
+}
+
+}  // namespace
+
+Json ToJson(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::kNull:
+      return nullptr;
+    case Node::Kind::kScalar:
+      return ScalarToJson(node);
+    case Node::Kind::kSequence: {
+      Json list = Json::array();
+      for (const Node& item : node.items) list.push_back(ToJson(item));
+      return list;
+    }
+    case Node::Kind::kMapping:
+      break;
+  }
+  Json object = Json::object();
+  for (const Node::Entry& entry : node.entries) object[entry.key] = ToJson(entry.value);
+  return object;
+}
+
+Json KeySchema(const KeyInfo& key) {
+  Json schema = Json::parse(key.value.schema);
+  std::string description = key.meaning;
+  if (!schema.contains("enum") || !key.only_with.key.empty()) description += " Allowed: " + key.AllowedWhere() + ".";
+  if (!key.IsRequired() && !key.HasDefaultValue()) description += " When left out: " + key.fallback + ".";
+  schema["description"] = std::move(description);
+  if (!key.HasDefaultValue()) return schema;
+  if (const auto value = ParseYaml(key.fallback, "default")) schema["default"] = ToJson(*value);
+  return schema;
+}
+
+Json MappingSchema(std::span<const KeyInfo> keys) {
+  Json properties = Json::object(), required = Json::array();
+  for (const KeyInfo& key : keys) {
+    std::vector<Json> schemas;
+    for (const KeyInfo& variant : Variants(key.key, keys)) schemas.push_back(KeySchema(variant));
+    properties[key.key] = AnyOf(std::move(schemas));
+    if (key.IsRequired()) required.push_back(key.key);
+  }
+  Json schema{{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  if (Json conditions = ConditionSchemas(keys, true); !conditions.empty()) {
+    schema["dependencies"] = std::move(conditions);
+  }
+  return schema;
+}
+
+Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all) {
+  Json dependencies = Json::object();
+  for (const KeyInfo& key : keys) {
+    if (key.only_with.key.empty()) continue;
+    std::vector<Json> schemas;
+    for (const KeyInfo& variant : Variants(key.key, keys)) schemas.push_back(ConditionSchema(variant, keys, says_all));
+    dependencies[key.key] = AnyOf(std::move(schemas));
+  }
+  return dependencies;
+}
+
+}  // namespace etude

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+
+#include "bench/files/json.h"
+#include "bench/keys/key_info.h"
+#include "engine/document/node.h"
+
+namespace etude {
+
+/// A value of a document as JSON. A document keeps only the text of its values: what reads as a number, true or false
+/// is one, even in quotes.
+Json ToJson(const Node& node);
+
+/// What JSON Schema (draft 7, which editors know best) says of the value of a key, with description and default.
+Json KeySchema(const KeyInfo& key);
+
+/// Likewise of a mapping with such keys and no others. A key may stand there several times, with other conditions each.
+Json MappingSchema(std::span<const KeyInfo> keys);
+
+/// Which keys go with which values of others, as `dependencies`. `says_all`: an absent key has its default; else
+/// another part of the file may say it.
+Json ConditionSchemas(std::span<const KeyInfo> keys, bool says_all);
+
+}  // namespace etude
