@@ -14,8 +14,8 @@ namespace {
 // Older recordings tell the wait only; what tells neither is aligned at its transition.
 int RequestOf(const TransitionFacts& facts, double rate_hz) {
   if (facts.request_frame) return *facts.request_frame;
-  constexpr double kLongest = 3600;
-  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kLongest);
+  constexpr double kLongestWait = 3600;
+  const double wait = std::clamp(facts.wait_s.value_or(0), 0.0, kLongestWait);
   return facts.transition_frames.back() - static_cast<int>(std::lround(wait * rate_hz));
 }
 

@@ -10,8 +10,6 @@
 namespace etude {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 FrameBlock BlockOf(std::span<const Grades> frames) {
   FrameBlock block;
   for (int i = 0; i < kBlockLanes; ++i) block.Set(i, frames[static_cast<std::size_t>(i)]);

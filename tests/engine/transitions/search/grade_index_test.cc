@@ -17,8 +17,6 @@ std::ostream& operator<<(std::ostream& out, const Neighbour& n) { return out << 
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The second implementation: a loop over `ComputeDistance`.
 struct Loop {
   const std::vector<Grades>& frames;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/fuzzy/membership.h"
 #include "sim/random/stream.h"
 
 namespace etude {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Grades as motion gives them: every feature's input wanders smoothly, so that frames in a row are close.
 inline std::vector<Grades> WanderingFrames(int count, RandomStream& stream) {
