@@ -50,7 +50,7 @@ Result<void> Check(const RecognitionInput& input, const KeyPoseOptions& options)
 
 }  // namespace
 
-FrameWindow FramesBetween(double start_s, double end_s, const SkeletonStream& stream) {
+FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& stream) {
   const int count = static_cast<int>(stream.frames.size());
   const int begin = std::clamp(static_cast<int>(std::floor(start_s * stream.rate_hz)), 0, count);
   const int end = std::clamp(static_cast<int>(std::ceil(end_s * stream.rate_hz)), begin, count);

@@ -11,19 +11,19 @@
 namespace etude {
 
 /// The frames [begin, end) of a stream.
-struct FrameWindow {
+struct FrameInterval {
   int begin = 0;
   int end = 0;  ///< ≥ begin
 };
 
 /// The frames of `stream` that touch the interval from `start_s` to `end_s`, seconds from the stream's first frame;
 /// what lies outside the stream is cut off.
-FrameWindow FramesBetween(double start_s, double end_s, const SkeletonStream& stream);
+FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& stream);
 
 /// A performance that was asked for: which move is to be recognised, and when.
 struct AskedMove {
   std::string name;  ///< of one of RecognitionInput::taught
-  FrameWindow window;
+  FrameInterval window;
 };
 
 /// A stream as recognisers behind the same filter see it: computed once for all of them.

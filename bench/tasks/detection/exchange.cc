@@ -40,7 +40,7 @@ Json DescribeMove(const Move& move) {
           {"file", FileOf(move)}};
 }
 
-Judgement ReadEvent(AnswerFields& fields, const FrameWindow& window) {
+Judgement ReadEvent(AnswerFields& fields, const FrameInterval& window) {
   Judgement judgement;
   const auto right_at = fields.NullableInteger("right_at_frame", window.begin, window.end - 1);
   if (right_at) judgement.recognised_at = *right_at - window.begin;
@@ -68,7 +68,7 @@ Payload SessionPayload(const DetectionWorld& world) {
         {{"pose", EncodePose(PoseOf(frame))}, {"states", StateLetters(frame)}, {"body_seen", frame.body_seen}});
   }
   for (const SessionEvent& event : world.session.events) {
-    const FrameWindow window = WindowOf(event, world.stream);
+    const FrameInterval window = WindowOf(event, world.stream);
     events.push_back({{"move", event.move}, {"begin_frame", window.begin}, {"end_frame", window.end}});
   }
   const char* file = "stream.trc";
@@ -80,7 +80,7 @@ Payload SessionPayload(const DetectionWorld& world) {
 Payload TruthPayload(const DetectionWorld& world) {
   Json events = Json::array();
   for (const SessionEvent& event : world.session.events) {
-    const FrameWindow window = WindowOf(event, world.stream);
+    const FrameInterval window = WindowOf(event, world.stream);
     Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultName(event.fault)},
                  {"danced", event.danced}, {"begin_frame", window.begin}, {"end_frame", window.end}};
     if (event.first_right_s) told["first_right_s"] = *event.first_right_s;

@@ -23,7 +23,7 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const SessionEvent& event = world.session.events[i];
     if (!event.first_right_s) continue;
-    const FrameWindow window = WindowOf(event, world.stream);
+    const FrameInterval window = WindowOf(event, world.stream);
     const std::optional<int>& recognised_at = verdict.events[i].recognised_at;
     const std::optional<int> called = recognised_at ? std::optional(window.begin + *recognised_at) : std::nullopt;
     waits.push_back(WaitForPraise(*event.first_right_s, called, window.end, world.stream.rate_hz));
@@ -110,7 +110,7 @@ std::string StateLetters(const SensedFrame& frame) {
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
   Series series{.name = "score", .axis = "frame", .values = std::vector<double>(world.stream.frames.size(), 0.0)};
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const FrameWindow window = WindowOf(world.session.events[i], world.stream);
+    const FrameInterval window = WindowOf(world.session.events[i], world.stream);
     const std::vector<double>& scores = verdict.events[i].running_score;
     std::copy(scores.begin(), scores.end(), series.values.begin() + window.begin);
   }
@@ -123,7 +123,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const SessionEvent& event = world.session.events[i];
     const Judgement& judgement = verdict.events[i];
-    const FrameWindow window = WindowOf(event, world.stream);
+    const FrameInterval window = WindowOf(event, world.stream);
     nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultName(event.fault)},
                                    {"danced", event.danced},  {"begin_frame", window.begin},
                                    {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},

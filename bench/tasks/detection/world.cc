@@ -61,14 +61,14 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
   return world;
 }
 
-FrameWindow WindowOf(const SessionEvent& event, const SkeletonStream& stream) {
+FrameInterval WindowOf(const SessionEvent& event, const SkeletonStream& stream) {
   return FramesBetween(event.start_s, event.WindowEnd(), stream);
 }
 
 bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world) {
   std::vector<MoveWindow> windows;
   for (const SessionEvent& event : world.session.events) {
-    const FrameWindow window = WindowOf(event, world.stream);
+    const FrameInterval window = WindowOf(event, world.stream);
     windows.push_back({event.move, event.danced, window.begin, window.end});
   }
   return !IsFalseAlarm(move, frame, windows);

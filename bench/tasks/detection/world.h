@@ -28,7 +28,7 @@ struct DetectionWorld {
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
 
 /// The frames in which an event is judged: first beat to half a second after the last.
-FrameWindow WindowOf(const SessionEvent& event, const SkeletonStream& stream);
+FrameInterval WindowOf(const SessionEvent& event, const SkeletonStream& stream);
 
 /// Whether the frame lies in a window in which the move was asked for or danced: taking it for danced is no false
 /// alarm there.

@@ -52,7 +52,7 @@ std::vector<std::string> Told(const Recognition& recognition) {
 
 TEST(FramesBetween, TakesEveryFrameTouchedAndCutsAtTheStreamsEnds) {
   const auto window = [](double start_s, double end_s) {
-    const FrameWindow frames = FramesBetween(start_s, end_s, RaisedArm());
+    const FrameInterval frames = FramesBetween(start_s, end_s, RaisedArm());
     return std::pair(frames.begin, frames.end);
   };
   EXPECT_EQ(window(0.5, 2), std::pair(15, 60));
@@ -166,7 +166,7 @@ TEST(Recognise, RefusesWhatItCannotJudgeAndSaysWhatIsAllowed) {
   exact.poses[0].targets[0].tolerance_deg = 0;
   EXPECT_EQ(complaint(asked, raise, {}), "no complaint");  // the control
   EXPECT_EQ(complaint({"raize", {15, 75}}, raise, {}), "unknown move 'raize'; did you mean 'raise'? Allowed: raise");
-  for (const FrameWindow window : {FrameWindow{-1, 9}, FrameWindow{9, 8}, FrameWindow{0, 91}}) {
+  for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
     EXPECT_THAT(complaint({"raise", window}, raise, {}), HasSubstr("; the stream has 90"));
   }
   EXPECT_EQ(complaint(asked, without_pose, {}), "move 'raise' has no key pose");
