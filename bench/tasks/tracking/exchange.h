@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/files/json.h"
+#include "bench/model/payload.h"
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/world.h"
 

@@ -8,7 +8,7 @@
 namespace etude {
 namespace {
 
-std::vector<std::string> Split(const std::string& line) {
+std::vector<std::string> SplitAtTabs(const std::string& line) {
   std::vector<std::string> parts(1);
   for (const char c : line) {
     if (c == '\t') {
@@ -44,7 +44,7 @@ TEST(Trc, HasTheHeadingsAndColumnsThatOpenSimWants) {
             "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames");
   EXPECT_EQ(lines[2], "30\t30\t2\t20\tmm\t30\t1\t2");
   EXPECT_EQ(lines[5], "");
-  const auto names = Split(lines[3]), axes = Split(lines[4]), second = Split(lines[7]);
+  const auto names = SplitAtTabs(lines[3]), axes = SplitAtTabs(lines[4]), second = SplitAtTabs(lines[7]);
   ASSERT_EQ(second.size(), 2 + 3 * kRoleCount);
   ASSERT_EQ(axes.size(), second.size());
   EXPECT_EQ(names[0], "Frame#");

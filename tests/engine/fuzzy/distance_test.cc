@@ -11,8 +11,6 @@
 namespace etude {
 namespace {
 
-const glm::dvec3 kForward(0, 0, 1), kLeftwards(1, 0, 0), kUp(0, 1, 0), kDown(0, -1, 0);
-
 Grades GradesOf(const PosedBody& body) { return Fuzzify(ComputeFeatures(body.Pose(), PosedBody::kStandingHipHeight)); }
 
 double DistanceOf(const PosedBody& a, const PosedBody& b) {

@@ -8,7 +8,6 @@ namespace etude {
 namespace {
 
 using enum Feature;
-const glm::dvec3 kForward(0, 0, 1), kLeftwards(1, 0, 0), kUp(0, 1, 0);
 
 PoseFeatures FeaturesOf(const PosedBody& body) { return ComputeFeatures(body.Pose(), PosedBody::kStandingHipHeight); }
 

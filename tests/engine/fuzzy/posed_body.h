@@ -8,6 +8,9 @@
 
 namespace etude {
 
+// Directions of the world, for a body that faces +Z.
+inline const glm::dvec3 kForward(0, 0, 1), kLeftwards(1, 0, 0), kUp(0, 1, 0), kDown(0, -1, 0);
+
 /// A standing body whose limbs can be put at chosen angles, to write down poses by hand. Lengths in
 /// metres; the hip joints stand 0.9 above the floor.
 struct PosedBody {

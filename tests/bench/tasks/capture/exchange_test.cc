@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const WorldKey kKey{.suite_seed = 3, .scenario = "capture-exchange", .trial = 0};
+const WorldKey kExchangeKey{.suite_seed = 3, .scenario = "capture-exchange", .trial = 0};
 
 std::unique_ptr<Task> MakeTask(const std::string& yaml, std::vector<Node> methods = {}) {
   const Node node = *ParseYaml(yaml, "test.yaml");
@@ -54,7 +54,7 @@ Marks MarksOf(const Json& json) {
 TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethodsSee) {
   const auto method = *ParseYaml("[{name: hue, oracle: [calibration]}]", "methods.yaml");
   const auto task = MakeTask("{duration_s: 0.1, mark_every: 2}", method.items);
-  const auto world = task->MakeWorld(kKey, false);
+  const auto world = task->MakeWorld(kExchangeKey, false);
   const CellResult built_in = world->Run(0);
   const auto problem = world->MakeProblem();
   ASSERT_TRUE(problem) << ToString(problem.error());
@@ -70,7 +70,7 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   EXPECT_TRUE(marks[0][1].is_null()) << "nobody looked at the second frame";
   // The limb directions that the told marks give are those of the built-in method, whose cameras are true.
   const CaptureWorld truth =
-      MakeCaptureWorld({.duration_s = 0.1, .mark_every = 2}, LoadClips({"builtin:boxing"}, {})->clips[0], kKey);
+      MakeCaptureWorld({.duration_s = 0.1, .mark_every = 2}, LoadClips({"builtin:boxing"}, {})->clips[0], kExchangeKey);
   const std::vector<ProjectionMatrix> cameras = {MatrixOf(truth.cameras[0]), MatrixOf(truth.cameras[1])};
   std::vector<Sighted> limbs;
   for (std::size_t k : {0u, 2u}) {
@@ -85,7 +85,7 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
 
 TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
   const auto task = MakeTask("{duration_s: 0.1}");
-  const auto world = task->MakeWorld(kKey, true);
+  const auto world = task->MakeWorld(kExchangeKey, true);
   const auto truth = world->MakeTruth();
   ASSERT_TRUE(truth) << ToString(truth.error());
   Json answer;
@@ -111,8 +111,8 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
 
 TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) {
   const auto task = MakeTask("{duration_s: 0.2}");
-  const auto world = task->MakeWorld(kKey, false);
-  const CaptureWorld truth = MakeCaptureWorld({.duration_s = 0.2}, LoadClips({"builtin:boxing"}, {})->clips[0], kKey);
+  const auto world = task->MakeWorld(kExchangeKey, false);
+  const CaptureWorld truth = MakeCaptureWorld({.duration_s = 0.2}, LoadClips({"builtin:boxing"}, {})->clips[0], kExchangeKey);
   Json answer;
   for (std::size_t k = 0; k < truth.truth.size(); ++k) {
     answer["poses"].push_back(k == 2 ? Json(nullptr) : EncodePose(truth.truth[k]));
@@ -137,7 +137,7 @@ TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) 
 
 TEST(CaptureExchange, ReportsEveryMetricThatItsKindNames) {
   const auto task = MakeTask("{duration_s: 0.1}");
-  const auto world = task->MakeWorld(kKey, false);
+  const auto world = task->MakeWorld(kExchangeKey, false);
   Json answer;
   answer["poses"] = (*world->MakeTruth()->json)["poses"];
   const CellResult cell = *world->Judge(answer);
@@ -172,7 +172,7 @@ TEST(CaptureExchange, SettingAndFailureAreTold) {
 
 TEST(CaptureExchange, RefusesTakesOfMorePicturesThanItHolds) {
   const auto task = MakeTask("{duration_s: 21}");
-  const auto problem = task->MakeWorld(kKey, false)->MakeProblem();
+  const auto problem = task->MakeWorld(kExchangeKey, false)->MakeProblem();
   ASSERT_FALSE(problem);
   EXPECT_THAT(ToString(problem.error()), HasSubstr("a duration_s of 20"));
 }

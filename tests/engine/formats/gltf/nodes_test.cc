@@ -30,7 +30,7 @@ std::vector<int> Parents(const Skeleton& skeleton) {
   return parents;
 }
 
-void ExpectNear(const glm::dvec3& found, const glm::dvec3& expected) {
+void ExpectPlace(const glm::dvec3& found, const glm::dvec3& expected) {
   EXPECT_LT(glm::length(found - expected), 1e-9) << "(" << found.x << ", " << found.y << ", " << found.z << ")";
 }
 
@@ -95,9 +95,9 @@ TEST(GltfNodes, TakeMatricesApart) {
   // Columns: X to 2Y, Y to −3X, Z to 4Z; then a shift.
   const Skeleton skeleton = SkeletonOf(R"([{"matrix":[0,2,0,0,-3,0,0,0,0,0,4,0,5,6,7,1]}])");
   const LocalTransform& rest = skeleton.joints.at(0).rest;
-  ExpectNear(rest.translation, {5, 6, 7});
-  ExpectNear(rest.scale, {2, 3, 4});
-  ExpectNear(glm::eulerAngles(rest.rotation), {0, 0, std::numbers::pi / 2});
+  ExpectPlace(rest.translation, {5, 6, 7});
+  ExpectPlace(rest.scale, {2, 3, 4});
+  ExpectPlace(glm::eulerAngles(rest.rotation), {0, 0, std::numbers::pi / 2});
 }
 
 TEST(GltfNodes, TakeMirroringMatricesApart) {
@@ -105,9 +105,9 @@ TEST(GltfNodes, TakeMirroringMatricesApart) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(skeleton, RestPose(skeleton), globals);
   const glm::dmat3& axes = globals.at(0).axes;
-  ExpectNear(axes[0], {1, 0, 0});
-  ExpectNear(axes[1], {0, 1, 0});
-  ExpectNear(axes[2], {0, 0, -2});
+  ExpectPlace(axes[0], {1, 0, 0});
+  ExpectPlace(axes[1], {0, 1, 0});
+  ExpectPlace(axes[2], {0, 0, -2});
 }
 
 }  // namespace
