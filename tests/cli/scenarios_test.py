@@ -92,6 +92,26 @@ class Scenarios(EtudeCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("ik.yaml:1:1: no scenario, only 'defaults'", result.stderr)
 
+    def test_clips_of_the_command_line_go_to_whatever_has_a_use_for_them(self):
+        suite = self.folder / "suite"
+        suite.mkdir()
+        named = "scenario: t\nquestion: q?\ntask: transition\ntrials: 2\nmethods: [{name: now, choice: now}]\n"
+        transition = self.write("suite/transition.yaml", named)
+        clips = ["--clips", "builtin:clap", "builtin:boxing"]
+        rows = self.run_suite(transition, *clips)  # it names none
+        self.assertEqual([row["clip"] for row in rows], ["clap", "boxing"])
+        ik = self.write("suite/ik.yaml", IK)
+        rows = self.run_suite(suite, *clips, out=self.folder / "both")
+        self.assertEqual({row["clip"] for row in rows if row["task"] == "ik"}, {None})
+        self.assertEqual({row["clip"] for row in rows if row["task"] == "transition"}, {"clap", "boxing"})
+        for paths in ([ik], [transition, ik]):
+            refused = self.folder / "refused"
+            result = self.etude("run", *paths, *clips, "-o", refused)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertEqual(result.stderr, f"etude: {ik}: has no use for --clips: no task of its scenarios makes its "
+                                            "worlds of clips\n")
+            self.assertFalse(refused.exists())
+
     def test_the_list_of_methods_says_what_goes_with_what(self):
         listed = self.etude("list", "methods").stdout
         self.assertIn("  memory: 1…20; with `solver: ccd-anderson`\n", listed)

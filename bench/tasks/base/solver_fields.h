@@ -37,7 +37,7 @@ std::vector<Field<Method>> IkSolverFields(const IkSolver* Method::*solver, IkOpt
     RefuseFormerName(fields);
     read(fields, method);
   };
-  const auto settings = [=](Method& m) -> auto& { return (m.*options).solver_settings; };
+  const auto settings = [=](Method & m) -> auto& { return (m.*options).solver_settings; };
   for (const auto& setting : SettingFields<Method>("solver", AllIkSolvers(), settings)) rows.push_back(setting);
   return rows;
 }

@@ -2,9 +2,9 @@
 
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/tracking/exchange.h"
+#include "bench/tasks/tracking/options.h"
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/score.h"
-#include "bench/tasks/tracking/options.h"
 #include "bench/tasks/tracking/world.h"
 #include "engine/formats/bvh.h"
 #include "engine/kinematics/tree_to_body.h"
@@ -64,9 +64,7 @@ class TrackingTask : public Task {
 
   std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
 
-  Result<Payload> Setting() const override {
-    return DescribeTrackingSetting(study_.options, study_.options.common);
-  }
+  Result<Payload> Setting() const override { return DescribeTrackingSetting(study_.options, study_.options.common); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     return TrackingValueOfFailure(metric);
