@@ -11,18 +11,18 @@ namespace {
 
 const glm::dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
-void ExpectNear(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-12); }
+void ExpectSameVector(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-12); }
 
 TEST(ShortestTurn, TurnsAboutTheNormalOfBoth) {
   const glm::dquat turn = ShortestTurn(2.0 * kX, 3.0 * kY);
-  ExpectNear(turn * kX, kY);
-  ExpectNear(turn * kZ, kZ);
+  ExpectSameVector(turn * kX, kY);
+  ExpectSameVector(turn * kZ, kZ);
 }
 
 TEST(ShortestTurn, IsAlsoExactForNearlyEqualAndNearlyOppositeDirections) {
   for (const double angle : {1e-12, 1e-6, kPi - 1e-6, kPi}) {
     const glm::dvec3 to(std::cos(angle), std::sin(angle), 0);
-    ExpectNear(ShortestTurn(kX, to) * kX, to);
+    ExpectSameVector(ShortestTurn(kX, to) * kX, to);
   }
 }
 
@@ -33,13 +33,13 @@ TEST(ShortestTurn, OfNoDirectionIsNone) {
 
 TEST(Orientation, KeepsTheFirstAxisAndThePlane) {
   const glm::dquat axes = Orientation(3.0 * kZ, kX + 5.0 * kZ);
-  ExpectNear(axes * kX, kZ);
-  ExpectNear(axes * kY, kX);
+  ExpectSameVector(axes * kX, kZ);
+  ExpectSameVector(axes * kY, kX);
 }
 
 TEST(Orientation, OfParallelAxesIsAnyThatKeepsTheFirst) {
-  ExpectNear(Orientation(kY, 2.0 * kY) * kX, kY);
-  ExpectNear(Orientation(kY, glm::dvec3(0)) * kX, kY);
+  ExpectSameVector(Orientation(kY, 2.0 * kY) * kX, kY);
+  ExpectSameVector(Orientation(kY, glm::dvec3(0)) * kX, kY);
 }
 
 }  // namespace
