@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cassert>
-#include <cmath>
+#include <functional>
 #include <span>
 #include <string>
-#include <variant>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace etude {
@@ -25,23 +26,26 @@ template <typename Options>
 class SettingTable {
  public:
   struct Row {
-    std::string key;
-    std::variant<int Options::*, double Options::*> member;
-    double lowest = 0, largest = 0;  ///< both allowed
-    std::string meaning;             ///< one sentence, for people
+    /// `lowest` and `largest` are both allowed; `meaning` is one sentence, for people.
+    template <typename Number>
+    Row(std::string key, Number Options::*member, double lowest, double largest, std::string meaning)
+        : setting{std::move(key),
+                  static_cast<double>(Options().*member),
+                  lowest,
+                  largest,
+                  std::is_same_v<Number, int>,
+                  std::move(meaning)},
+          set([member](Options& options, double value) { options.*member = static_cast<Number>(value); }) {}
+
+    NumberSetting setting;
+    std::function<void(Options&, double)> set;
   };
 
   SettingTable(std::vector<Row> rows) : rows_(std::move(rows)) {}
 
   std::vector<NumberSetting> Describe() const {
     std::vector<NumberSetting> settings;
-    static const Options defaults{};  // static: GCC takes an automatic one for uninitialized
-    for (const Row& row : rows_) {
-      const bool is_whole = std::holds_alternative<int Options::*>(row.member);
-      const double fallback =
-          std::visit([&](auto member) { return static_cast<double>(defaults.*member); }, row.member);
-      settings.push_back({row.key, fallback, row.lowest, row.largest, is_whole, row.meaning});
-    }
+    for (const Row& row : rows_) settings.push_back(row.setting);
     return settings;
   }
 
@@ -49,10 +53,7 @@ class SettingTable {
   Options Apply(std::span<const double> values) const {
     assert(values.empty() || values.size() == rows_.size());
     Options options;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      auto set = [&]<typename Number>(Number Options::*member) { options.*member = static_cast<Number>(values[i]); };
-      std::visit(set, rows_[i].member);
-    }
+    for (std::size_t i = 0; i < values.size(); ++i) rows_[i].set(options, values[i]);
     return options;
   }
 
