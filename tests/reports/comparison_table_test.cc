@@ -14,10 +14,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-ScenarioSummary Transition() { return ExampleRun().scenarios[0]; }
+ScenarioSummary ComparedTransition() { return ExampleRun().scenarios[0]; }
 
 TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
-  const std::string html = ComparisonTableHtml(Transition());
+  const std::string html = ComparisonTableHtml(ComparedTransition());
   EXPECT_THAT(html, HasSubstr(">jump at the seam (lower is better, 1 cm matters)</th>"));
   EXPECT_THAT(html, HasSubstr("<td>fuzzy-bridge − now</td><td class=\"n\">10 of 12</td>"
                               "<td class=\"n\">−19.1 cm</td><td class=\"n\">−30.1 to −8.1</td>"
@@ -28,19 +28,19 @@ TEST(ComparisonTable, ShowsPairsDifferencePEffectVerdictAndWhatToMind) {
 }
 
 TEST(ComparisonTable, SaysWhyAVerdictIsOpenAndMarksAnIntervalThatIsNoBca) {
-  ScenarioSummary scenario = Transition();
+  ScenarioSummary scenario = ComparedTransition();
   Comparison& comparison = scenario.conditions[0].comparisons[0];
   comparison.why_open = "too few worlds";
   comparison.interval = IntervalKind::kPercentile;
   const std::string html = ComparisonTableHtml(scenario);
   EXPECT_THAT(html, HasSubstr("too few worlds"));
   EXPECT_THAT(html, HasSubstr(" †</td>"));
-  EXPECT_THAT(ComparisonTableHtml(Transition()), Not(HasSubstr(" †</td>")));
+  EXPECT_THAT(ComparisonTableHtml(ComparedTransition()), Not(HasSubstr(" †</td>")));
   EXPECT_THAT(ComparisonTableMarkdown(scenario), HasSubstr("too few worlds"));
 }
 
 TEST(ComparisonTable, PutsADashWhereNothingCouldBeCompared) {
-  ScenarioSummary scenario = Transition();
+  ScenarioSummary scenario = ComparedTransition();
   Comparison nothing;
   nothing.metric = "jump_cm";
   nothing.baseline = "now";
@@ -55,7 +55,7 @@ TEST(ComparisonTable, PutsADashWhereNothingCouldBeCompared) {
 }
 
 TEST(ComparisonTable, HasAsManyCellsInEveryRowOfTheCsv) {
-  ScenarioSummary scenario = Transition();
+  ScenarioSummary scenario = ComparedTransition();
   for (Comparison& comparison : scenario.conditions[0].comparisons) comparison.notes = {"no comma here"};
   const std::string csv = ComparisonTableCsv(scenario);
   const auto commas = std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',');

@@ -5,17 +5,13 @@
 
 #include <regex>
 
+#include "tests/reports/support/count_of.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::ptrdiff_t CountOf(const std::string& text, const std::string& pattern) {
-  const std::regex regex(pattern);
-  return std::distance(std::sregex_iterator(text.begin(), text.end(), regex), std::sregex_iterator());
-}
 
 /// Every element is closed in the order it was opened, and no attribute holds a raw sign.
 bool IsWellFormed(const std::string& xml) {

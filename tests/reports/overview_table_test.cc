@@ -13,19 +13,19 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-ScenarioSummary Transition() { return ExampleRun().scenarios.front(); }
+ScenarioSummary TransitionScenario() { return ExampleRun().scenarios.front(); }
 
 TEST(OverviewTable, ShowsEveryMethodByEveryHeadlineMetricWithItsVerdict) {
-  const std::string html = OverviewTableHtml(Transition());
+  const std::string html = OverviewTableHtml(TransitionScenario());
   EXPECT_THAT(html, HasSubstr("<th scope=\"row\">now</th><td class=\"n\">48.7 cm<span class=\"mark\"></span></td>"));
   EXPECT_THAT(html, HasSubstr("<th scope=\"row\">fuzzy-bridge</th><td class=\"n\">29.6 cm<span class=\"mark\">"
                               "<b class=\"better\" role=\"img\" aria-label=\"better\">▲</b></span></td>"));
   EXPECT_THAT(html, Not(HasSubstr("Condition")));
-  EXPECT_THAT(OverviewTableMarkdown(Transition()), HasSubstr("| fuzzy-bridge | 29.6 cm ▲ |"));
+  EXPECT_THAT(OverviewTableMarkdown(TransitionScenario()), HasSubstr("| fuzzy-bridge | 29.6 cm ▲ |"));
 }
 
 TEST(OverviewTable, HasNoSignWhereNothingWasComparedAndADashWhereNothingWasMeasured) {
-  ScenarioSummary scenario = Transition();
+  ScenarioSummary scenario = TransitionScenario();
   std::erase_if(scenario.conditions[0].comparisons, [](const Comparison& c) { return c.method == "wait-for-end"; });
   scenario.headline_metrics.push_back("sparc");
   const std::string text = OverviewTableMarkdown(scenario);
@@ -34,7 +34,7 @@ TEST(OverviewTable, HasNoSignWhereNothingWasComparedAndADashWhereNothingWasMeasu
 }
 
 TEST(OverviewTable, NamesTheConditionOfEachRowAndKeepsNamesFromSpeakingMarkup) {
-  ScenarioSummary scenario = Transition();
+  ScenarioSummary scenario = TransitionScenario();
   scenario.conditions.push_back(scenario.conditions.front());
   scenario.conditions[0].condition = {{"threshold", "0.2"}};
   scenario.conditions[1].condition = {{"threshold", "<b>|x|"}};
@@ -45,7 +45,7 @@ TEST(OverviewTable, NamesTheConditionOfEachRowAndKeepsNamesFromSpeakingMarkup) {
 }
 
 TEST(OverviewTable, IsNotNeededForOneMetric) {
-  ScenarioSummary scenario = Transition();
+  ScenarioSummary scenario = TransitionScenario();
   scenario.headline_metrics.resize(1);
   EXPECT_EQ(OverviewTableHtml(scenario), "");
   EXPECT_EQ(OverviewTableMarkdown(scenario), "");

@@ -9,6 +9,7 @@
 #include "reports/number_table.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
+#include "tests/reports/support/count_of.h"
 #include "tests/reports/support/example_run.h"
 
 namespace etude {
@@ -22,12 +23,6 @@ std::vector<std::string> Split(const std::string& text, char at) {
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
   return parts;
-}
-
-int CountOf(std::string_view text, std::string_view part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 /// The float of one condition, by its place.

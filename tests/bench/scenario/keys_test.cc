@@ -67,11 +67,11 @@ Names DocumentedAt(const std::string& path, const std::string& title) {
 TEST(Keys, OfEveryScenarioAreThoseThatAreRead) {
   const std::string scenario = kHead + kMethods;
   const auto complaint_of = [&](const std::string& line) { return AllowedBy(Complaint(scenario + line + "\n")); };
-  struct Case {
+  struct Mapping {
     const char *path, *title;
     Names read;
   };
-  const std::vector<Case> cases = {
+  const std::vector<Mapping> cases = {
       {"", "A file of several scenarios", AllowedBy(Complaint("scenarios: [{}]\nzzzz: 1\n"))},
       {"sweep.PARAMETER", "A range of values", complaint_of("sweep: {poses: {from: 0, to: 1, zzzz: 1}}")},
       {"expect[]", "An expectation", complaint_of("expect: [{metric: iterations, of: a, zzzz: 1}]")},
@@ -82,7 +82,7 @@ TEST(Keys, OfEveryScenarioAreThoseThatAreRead) {
       {"methods[]", "A method", AllowedBy(Complaint(kHead + "methods: [{name: a, exec: [x], zzzz: 1}]\n"))},
   };
   std::size_t checked = 0;
-  for (const Case& c : cases) {
+  for (const Mapping& c : cases) {
     EXPECT_THAT(Differences(DocumentedAt(c.path, c.title), c.read), IsEmpty()) << c.path;
     checked += c.read.size();
   }

@@ -86,7 +86,7 @@ TEST(CoachPanel, CutsALongMotionAroundItsSeam) {
   const auto panel = CoachPanel::Make(*cell, 60);
   ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
   EXPECT_EQ(panel->Frames(), 60);
-  EXPECT_EQ(panel->Seam(), 30);
+  EXPECT_EQ(panel->FirstPoint(), 30);
 }
 
 TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
@@ -96,7 +96,7 @@ TEST(CoachPanel, KnowsBothChangesOfAnInBetweenClip) {
       R"({"transition_frame": 80, "transition_frames": [95, 80, 5000], "from": "builtin:side_kick", "to": "clap"})";
   const auto panel = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), 500);
   ASSERT_TRUE(panel.has_value()) << ToString(panel.error());
-  EXPECT_EQ(panel->Seam(), 80);
+  EXPECT_EQ(panel->FirstPoint(), 80);
   EXPECT_THAT(panel->Title(), HasSubstr("side kick → clap"));
 }
 

@@ -29,7 +29,7 @@ Recording RecordSettling(const Settling& cell) {
   }
   Json targets = Json::array();
   for (const Effector& effector : tree.effectors) {
-    const glm::dvec3& at = truth[effector.role];
+    const glm::dvec3& at = truth[BodyTreeLimbs()[effector.joint].to];
     targets.push_back({at.x, at.y, at.z});
   }
   const Json extras = {{"iterations", cell.iterations},

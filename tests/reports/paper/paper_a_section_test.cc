@@ -7,18 +7,13 @@
 
 #include "reports/paper/membership_plot.h"
 #include "reports/paper/paper_a_figures.h"
+#include "tests/reports/support/count_of.h"
 
 namespace etude {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-int CountOf(std::string_view text, std::string_view part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 ScenarioSummary Bridging() {
   ScenarioSummary scenario;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "reports/page.h"
+#include "tests/reports/support/count_of.h"
 #include "tests/reports/support/effector_run.h"
 #include "tests/reports/support/example_run.h"
 
@@ -16,12 +17,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-int CountOf(std::string_view text, std::string_view part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 TEST(PaperBSection, IsEmptyForAScenarioThatKeepsNoSuchSeries) {
   const RunData run = ExampleRun();

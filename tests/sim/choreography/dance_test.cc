@@ -40,7 +40,7 @@ BodyMotion Danced(const Move& move, const Change& change = Unchanged) {
   return motion;
 }
 
-Move Load(const std::string& name) {
+Move LoadMove(const std::string& name) {
   auto move = LoadBuiltinMove(name);
   EXPECT_TRUE(move) << ToString(move.error());
   return std::move(*move);
@@ -49,7 +49,7 @@ Move Load(const std::string& name) {
 const std::map<std::string, BodyMotion>& AllDances() {
   static const std::map<std::string, BodyMotion> dances = [] {
     std::map<std::string, BodyMotion> danced;
-    for (const std::string& name : BuiltinMoveNames()) danced[name] = Danced(Load(name));
+    for (const std::string& name : BuiltinMoveNames()) danced[name] = Danced(LoadMove(name));
     return danced;
   }();
   return dances;
@@ -134,9 +134,9 @@ TEST(Dance, TheWeightIsOverTheStandingFoot) {
   EXPECT_GT(ImbalanceOf(AllDances().at("side_kick")).one_foot.count, 100);
 
   const Change hips_stay = [](Controls& controls) { controls[MiddleControl::kHipsSide] = 0; };
-  EXPECT_GT(ImbalanceOf(Danced(Load("side_kick"), hips_stay)).one_foot.value, kOffTheFoot);
+  EXPECT_GT(ImbalanceOf(Danced(LoadMove("side_kick"), hips_stay)).one_foot.value, kOffTheFoot);
   const Change leans = [](Controls& controls) { controls[MiddleControl::kHipsAhead] -= 0.15; };
-  EXPECT_GT(ImbalanceOf(Danced(Load("bird"), leans)).two_feet.value, kOffTheFeet);
+  EXPECT_GT(ImbalanceOf(Danced(LoadMove("bird"), leans)).two_feet.value, kOffTheFeet);
 }
 
 /// The free fall that fits best to the centre of mass while both feet are in the air.
@@ -225,7 +225,7 @@ TEST(Dance, NoJointGoesBeyondAnAdultsLimits) {
     EXPECT_EQ(beyond.count, static_cast<int>(motion.poses.size()) * MakeBodyTree({}).dof_count()) << name;
   }
   const Change wrung = [](Controls& controls) { controls.Of(Side::kLeft, SideControl::kArmTwist) -= Radians(40); };
-  EXPECT_GT(BeyondLimits(Danced(Load("robot"), wrung)).value, kBeyond);
+  EXPECT_GT(BeyondLimits(Danced(LoadMove("robot"), wrung)).value, kBeyond);
 }
 
 double TopSpeed(const BodyMotion& motion, Role role) {
@@ -249,7 +249,7 @@ TEST(Dance, SpeedsAreADancers) {
 
 TEST(Dance, StaysADancersAtEveryTempoOfTheMovesRange) {
   for (const std::string& name : BuiltinMoveNames()) {
-    const Move move = Load(name);
+    const Move move = LoadMove(name);
     for (double tempo_bpm : {move.slowest_bpm, move.fastest_bpm}) {
       const auto other = AtTempo(move, tempo_bpm, {});
       ASSERT_TRUE(other) << ToString(other.error());
@@ -280,7 +280,7 @@ double TopAcceleration(const std::vector<BodyPose>& poses, double rate_hz) {
 TEST(Dance, NothingJerks) {
   constexpr double kJerky = 110;  // m/s²: a hand that claps stops from 6 m/s within 6 hundredths of a second
   for (const std::string& name : BuiltinMoveNames()) {
-    std::vector<BodyPose> poses = Load(name).motion.poses;
+    std::vector<BodyPose> poses = LoadMove(name).motion.poses;
     EXPECT_LT(TopAcceleration(poses, kJudgedRateHz), kJerky) << name;
     if (name != "clap") continue;
     poses.erase(poses.begin() + 14);
@@ -301,7 +301,7 @@ TEST(Dance, NoJointIsBelowTheFloor) {
     EXPECT_NEAR(LowestJoint(motion), Body::kToeHeight, 1e-6) << name << ": toes are the lowest, and on the floor";
   }
   const Change deeper = [](Controls& controls) { controls[MiddleControl::kHipsDrop] += 0.3; };
-  EXPECT_LT(LowestJoint(Danced(Load("stretch"), deeper)), Body::kToeHeight) << "hands go through the floor";
+  EXPECT_LT(LowestJoint(Danced(LoadMove("stretch"), deeper)), Body::kToeHeight) << "hands go through the floor";
 }
 
 }  // namespace

@@ -34,12 +34,6 @@ const BodyPose& FrameAt(const Move& move, double beat) {
       .poses[static_cast<std::size_t>(std::lround(beat / move.beats * static_cast<double>(frames))) % frames];
 }
 
-double WorstJointDistance(const BodyPose& a, const BodyPose& b) {
-  double worst = 0;
-  for (std::size_t i = 0; i < kRoleCount; ++i) worst = std::max(worst, glm::distance(a.joints[i], b.joints[i]));
-  return worst;
-}
-
 TEST(BuiltinMoves, AreTheTenOfThePaperAndABird) {
   EXPECT_THAT(BuiltinMoveNames(), testing::ElementsAre("aerobic", "bird", "boxing", "clap", "fast_sway", "jump",
                                                        "robot", "side_kick", "side_stretch", "stretch", "sway"));

@@ -94,14 +94,14 @@ TEST(PeriodicCurve, NeverTurnsBackOnItsWayWhateverTheEase) {
 }
 
 TEST(PeriodicCurve, TakesPrescribedDerivatives) {
-  constexpr double kGravity = 2.5, kHalf = 0.4;
-  const double top = 0.5 * kGravity * kHalf * kHalf, speed = kGravity * kHalf;
+  constexpr double kFall = 2.5, kHalf = 0.4;
+  const double top = 0.5 * kFall * kHalf * kHalf, speed = kFall * kHalf;
   const PeriodicCurve curve({{0, 0},
-                             {1 - kHalf, 0, Ease::kSmooth, {{speed, -kGravity}}},
-                             {1, top, Ease::kSmooth, {{0, -kGravity}}},
-                             {1 + kHalf, 0, Ease::kSmooth, {{-speed, -kGravity}}}},
+                             {1 - kHalf, 0, Ease::kSmooth, {{speed, -kFall}}},
+                             {1, top, Ease::kSmooth, {{0, -kFall}}},
+                             {1 + kHalf, 0, Ease::kSmooth, {{-speed, -kFall}}}},
                             3);
-  for (double t = -kHalf; t <= kHalf; t += 0.05) EXPECT_NEAR(curve.At(1 + t), top - 0.5 * kGravity * t * t, 1e-12);
+  for (double t = -kHalf; t <= kHalf; t += 0.05) EXPECT_NEAR(curve.At(1 + t), top - 0.5 * kFall * t * t, 1e-12);
 }
 
 TEST(PeriodicCurve, StaysWithinItsKeys) {

@@ -221,7 +221,7 @@ std::string With(const std::string& from, const std::string& to) {
   return yaml.replace(at, from.size(), to);
 }
 
-std::string ComplaintAbout(const std::string& from, const std::string& to) {
+std::string ComplaintOfSong(const std::string& from, const std::string& to) {
   const auto song = ParseSong(With(from, to), "small.yaml");
   EXPECT_FALSE(song) << to;
   return song ? "" : ToString(song.error());
@@ -254,17 +254,17 @@ TEST(ParseSong, DancesInHalfTimeWithTwoBeatsForEveryOne) {
 }
 
 TEST(ParseSong, TellsWhereAndWhatIsWrong) {
-  EXPECT_THAT(ComplaintAbout("boxing", "boxng"), AllOf(HasSubstr("small.yaml:10:12"), HasSubstr("'boxing'")));
-  EXPECT_THAT(ComplaintAbout("boxing", "wave"), HasSubstr("unknown move 'wave'")) << "an act is no move";
-  EXPECT_THAT(ComplaintAbout("boxing", "slow_clap"), HasSubstr("unknown move 'slow_clap'"));
-  EXPECT_THAT(ComplaintAbout("boxing", "fast_sway"),
+  EXPECT_THAT(ComplaintOfSong("boxing", "boxng"), AllOf(HasSubstr("small.yaml:10:12"), HasSubstr("'boxing'")));
+  EXPECT_THAT(ComplaintOfSong("boxing", "wave"), HasSubstr("unknown move 'wave'")) << "an act is no move";
+  EXPECT_THAT(ComplaintOfSong("boxing", "slow_clap"), HasSubstr("unknown move 'slow_clap'"));
+  EXPECT_THAT(ComplaintOfSong("boxing", "fast_sway"),
               AllOf(HasSubstr("small.yaml:10:12"), HasSubstr("at 96 beats a minute"), HasSubstr("suits")));
-  EXPECT_THAT(ComplaintAbout("times: 3", "times: 1"), AllOf(HasSubstr("small.yaml:8:"), HasSubstr("out of range")));
-  EXPECT_THAT(ComplaintAbout("boxing", "clap"), AllOf(HasSubstr("small.yaml:4:"), HasSubstr("7 different moves")));
-  EXPECT_THAT(ComplaintAbout("times: 3", "tims: 3"), HasSubstr("times"));
-  EXPECT_THAT(ComplaintAbout("tempo_bpm: 96", "tempo_bpm: 9"), HasSubstr("out of range"));
-  EXPECT_THAT(ComplaintAbout("song: small\n", ""), HasSubstr("song"));
-  EXPECT_THAT(ComplaintAbout("parts:", "part:"), HasSubstr("parts"));
+  EXPECT_THAT(ComplaintOfSong("times: 3", "times: 1"), AllOf(HasSubstr("small.yaml:8:"), HasSubstr("out of range")));
+  EXPECT_THAT(ComplaintOfSong("boxing", "clap"), AllOf(HasSubstr("small.yaml:4:"), HasSubstr("7 different moves")));
+  EXPECT_THAT(ComplaintOfSong("times: 3", "tims: 3"), HasSubstr("times"));
+  EXPECT_THAT(ComplaintOfSong("tempo_bpm: 96", "tempo_bpm: 9"), HasSubstr("out of range"));
+  EXPECT_THAT(ComplaintOfSong("song: small\n", ""), HasSubstr("song"));
+  EXPECT_THAT(ComplaintOfSong("parts:", "part:"), HasSubstr("parts"));
   EXPECT_THAT(ToString(ParseSong("song: none\nparts: {}\n", "s.yaml").error()), HasSubstr("s.yaml:2:"));
   EXPECT_THAT(ToString(ParseSong("song: none\n", "s.yaml").error()), HasSubstr("found nothing"));
 }

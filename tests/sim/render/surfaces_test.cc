@@ -13,7 +13,7 @@
 namespace etude {
 namespace {
 
-constexpr auto kShadowLabel = static_cast<std::uint32_t>(Part::kShadow);
+constexpr auto kShadow = static_cast<std::uint32_t>(Part::kShadow);
 
 class RenderedSurfaces : public testing::Test {
  protected:
@@ -97,10 +97,10 @@ TEST_F(RenderedSurfaces, OfFineTrianglesLookLikeTheCapsuleTheyFollow) {
         continue;
       }
       body += label == static_cast<std::uint32_t>(Part::kTrunk);
-      shadow += label == kShadowLabel;
+      shadow += label == kShadow;
       other_depth += std::abs(exact.depth.pixels[i] - fine.depth.pixels[i]) > 1e-3;
       const Rgb8 a = exact.colour.pixels[i], b = fine.colour.pixels[i];
-      if (label == kShadowLabel) {
+      if (label == kShadow) {
         full_shadow += LargestGap(a, b) <= 2;
         lighter += b.r > a.r + 2 || b.g > a.g + 2 || b.b > a.b + 2;
       } else {
@@ -228,8 +228,8 @@ TEST_F(RenderedSurfaces, ObeyTheRoomsBrightnessAndItsShadows) {
     const Rgb8 &a = normal.colour.pixels[i], &b = dim.colour.pixels[i];
     ASSERT_LE(std::max({std::abs(0.8 * a.r - b.r), std::abs(0.8 * a.g - b.g), std::abs(0.8 * a.b - b.b)}), 1.0);
   }
-  EXPECT_GT(std::ranges::count(normal.labels.pixels, kShadowLabel), 3000);
-  EXPECT_EQ(std::ranges::count(Draw(figures, {.casts_shadows = false}).labels.pixels, kShadowLabel), 0);
+  EXPECT_GT(std::ranges::count(normal.labels.pixels, kShadow), 3000);
+  EXPECT_EQ(std::ranges::count(Draw(figures, {.casts_shadows = false}).labels.pixels, kShadow), 0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace etude {
 namespace {
 
 // A standing person with the arms half raised, about 1.8 m tall.
-BodyPose Standing() {
+BodyPose StandingBody() {
   using enum Role;
   BodyPose pose;
   pose[kHipCentre] = {0, 0.95, 0};
@@ -37,7 +37,7 @@ ColourImage Draw(const Mask& person, double error_px, int trial) {
   RandomStream random({.suite_seed = 5, .scenario = "annotator", .trial = trial}, "annotator");
   AnnotatorOptions options;
   options.error_px = error_px;
-  return Annotate(Standing(), BodyCapsules(Standing()), FrontCamera(), person, options, random);
+  return Annotate(StandingBody(), BodyCapsules(StandingBody()), FrontCamera(), person, options, random);
 }
 
 double LineDistance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
@@ -51,14 +51,14 @@ TEST(Annotator, MarksAreReadBackWithinAPixelWhenTheHandIsSteady) {
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     const StrokeMark& mark = StrokeMarks()[i];
     ASSERT_TRUE(marks.strokes[i]) << RoleName(mark.from) << " to " << RoleName(mark.to);
-    const glm::dvec2 from = *Project(matrix, Standing()[mark.from]), to = *Project(matrix, Standing()[mark.to]);
+    const glm::dvec2 from = *Project(matrix, StandingBody()[mark.from]), to = *Project(matrix, StandingBody()[mark.to]);
     EXPECT_LT(LineDistance(from, marks.strokes[i]->a, marks.strokes[i]->b), 1) << RoleName(mark.to);
     EXPECT_LT(LineDistance(to, marks.strokes[i]->a, marks.strokes[i]->b), 1) << RoleName(mark.to);
     EXPECT_GT(glm::dot(marks.strokes[i]->b - marks.strokes[i]->a, to - from), 0) << RoleName(mark.to);
   }
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     ASSERT_TRUE(marks.effectors[i]);
-    EXPECT_LT(glm::distance(*marks.effectors[i], *Project(matrix, Standing()[EffectorMarks()[i].role])), 0.3);
+    EXPECT_LT(glm::distance(*marks.effectors[i], *Project(matrix, StandingBody()[EffectorMarks()[i].role])), 0.3);
   }
 }
 
@@ -70,7 +70,7 @@ TEST(Annotator, ErrsByItsDeviation) {
     const Marks marks = ReadMarks(Draw(kEverywhere, 2, trial));
     for (std::size_t i = 0; i < kEffectorCount; ++i) {
       ASSERT_TRUE(marks.effectors[i]);
-      const glm::dvec2 off = *marks.effectors[i] - *Project(matrix, Standing()[EffectorMarks()[i].role]);
+      const glm::dvec2 off = *marks.effectors[i] - *Project(matrix, StandingBody()[EffectorMarks()[i].role]);
       squares += glm::dot(off, off) / 2;
       ++count;
     }
@@ -82,7 +82,7 @@ TEST(Annotator, LeavesOutWhatIsNotOnTheExtractedPerson) {
   // The extraction lost everything left of the picture's middle: the person's right arm.
   Mask half(640, 480);
   const ProjectionMatrix matrix = MatrixOf(FrontCamera());
-  const double middle = Project(matrix, Standing()[Role::kRightShoulder])->x;
+  const double middle = Project(matrix, StandingBody()[Role::kRightShoulder])->x;
   for (int y = 0; y < 480; ++y) {
     for (int x = 0; x < 640; ++x) half.At(x, y) = x > middle;
   }
@@ -101,7 +101,7 @@ TEST(Annotator, LeavesOutWhatIsNotOnTheExtractedPerson) {
 TEST(Annotator, ErrsMoreAtAJointItCannotSee) {
   // From the person's left side the right hip is behind the body.
   const Camera side = LookAt({}, {3.8, 1.2, 0}, {0, 0.95, 0});
-  BodyPose pose = Standing();
+  BodyPose pose = StandingBody();
   pose[Role::kRightWrist] = {-0.3, 1.05, 0};
   pose[Role::kRightHand] = {-0.25, 0.98, 0};
   const auto body = BodyCapsules(pose);

@@ -150,7 +150,9 @@ TEST(IkExchange, TheTruthIsAPerfectAnswer) {
 TEST(IkExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
   const KinematicTree tree = MakeBodyTree({});
   const IkWorld world = MakeIkWorld(tree, {}, kExchangeWorld);
-  IkMethod method{"today", FindIkSolver("damped-least-squares"), {}};
+  IkMethod method;
+  method.name = "today";
+  method.solver = FindIkSolver("damped-least-squares");
   const IkSolution solution = method.solver->solve(tree, world.problem, method.options);
   const CellResult built_in = RunIkCell(tree, world, method, {});
   const CellResult judged =

@@ -85,7 +85,10 @@ TEST_F(TransitionTaskTest, TalliesThePairsThatTheThresholdLetsThrough) {
       for (int enter : to.bridge_frames) pairs += enter < to.FrameCount() - 1 ? 1 : 0;
     }
     const auto tally = [&](double threshold) {
-      return TallyMatches(stage, request, {.choice = &choice, .rules = {.threshold = threshold}});
+      TransitionWay way;
+      way.choice = &choice;
+      way.rules.threshold = threshold;
+      return TallyMatches(stage, request, way);
     };
     EXPECT_EQ(tally(0).matching, 0);
     EXPECT_EQ(tally(6).matching, pairs) << "no distance is larger";
