@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kColumns = 9;
-using Line = std::array<std::string, kColumns>;
+constexpr std::size_t kMoveColumns = 9;
+using Line = std::array<std::string, kMoveColumns>;
 
 Line LineOf(const GateTableRow& row) {
   return {row.verdict,    row.scenario + (row.condition == "-" ? "" : " " + row.condition),
@@ -35,13 +35,13 @@ void PrintMoves(const SnapshotComparison& comparison, const std::string& before,
   if (rows.empty()) return;
   std::vector<Line> lines = {{"", "", "method", "metric", before, after, "difference (95 %)", "p (Holm)", "in worlds"}};
   for (std::size_t i = 0; i < std::min(most, rows.size()); ++i) lines.push_back(LineOf(rows[i]));
-  std::array<std::size_t, kColumns> widths{};
+  std::array<std::size_t, kMoveColumns> widths{};
   for (const Line& line : lines) {
-    for (std::size_t c = 0; c < kColumns; ++c) widths[c] = std::max(widths[c], WidthOf(line[c]));
+    for (std::size_t c = 0; c < kMoveColumns; ++c) widths[c] = std::max(widths[c], WidthOf(line[c]));
   }
   for (const Line& line : lines) {
     std::string text = " ";
-    for (std::size_t c = 0; c < kColumns; ++c)
+    for (std::size_t c = 0; c < kMoveColumns; ++c)
       text += " " + line[c] + std::string(widths[c] - WidthOf(line[c]) + 1, ' ');
     fmt::print("{}\n", text.substr(0, text.find_last_not_of(' ') + 1));
   }

@@ -36,10 +36,10 @@ std::string WhySkipped(const ConditionSummary& condition, const std::string& sce
 
 /// One small table per condition: methods down, headline metrics across.
 void PrintTables(const ScenarioSummary& scenario, const std::vector<Row>& rows) {
-  constexpr std::size_t kColumns = 4;
+  constexpr std::size_t kShownMetrics = 4;
   std::vector<const MetricInfo*> metrics;
   for (const std::string& id : scenario.headline_metrics) {
-    if (metrics.size() < kColumns) metrics.push_back(FindMetric(id));
+    if (metrics.size() < kShownMetrics) metrics.push_back(FindMetric(id));
   }
   std::size_t width = 6;
   for (const std::string& method : scenario.methods) width = std::max(width, method.size());
