@@ -83,7 +83,10 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
         [](Fields& method, MethodEntry& entry) { entry.name = ReadPlainName(method, "name"); }},
        {{"against", TextKind("a method"), "(the first method)", "The method it is compared with."},
         [](Fields&, MethodEntry&) {}},  // read when all names are known
-       {{"exec", ListKind("a list: a program and its arguments", TextKind("")), "(the method is built in)",
+       {{"exec",
+         {"a list: a program and its arguments",
+          R"({"type":"array","minItems":1,"items":{"type":["string","number"],"minLength":1}})"},
+         "(the method is built in)",
          "Another program that answers; such a method has none of its task's keys."},
         ReadProgram},
        {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Told to that program as JSON."},

@@ -116,7 +116,11 @@ Json ScenarioSchema() {
     tops.push_back(If({{"properties", {{"defaults", Says("task", kind.name)}}}, {"required", {"defaults"}}},
                       {{"properties", {{"scenarios", std::move(in_list)}}}}));
   }
-  tops.push_back({{"if", has_defaults}, {"else", {{"properties", {{"scenarios", ListOf({{"required", required}})}}}}}});
+  for (const std::string& key : required) {
+    const Json default_says{{"properties", {{"defaults", {{"required", {key}}}}}}, {"required", {"defaults"}}};
+    tops.push_back({{"if", {{"anyOf", {default_says, Has("include")}}}},
+                    {"else", {{"properties", {{"scenarios", ListOf({{"required", {key}}})}}}}}});
+  }
   Json of_list = MappingSchema(FileKeys());
   of_list["properties"]["scenarios"]["items"] = std::move(listed);
   of_list["properties"]["defaults"] = {{"allOf", {Ref("scenario")}}, {"properties", {{"scenario", false}}}};

@@ -99,11 +99,11 @@ class Scenarios(EtudeCase):
         transition = self.write("suite/transition.yaml", named)
         clips = ["--clips", "builtin:clap", "builtin:boxing"]
         rows = self.run_suite(transition, *clips)  # it names none
-        self.assertEqual([row["clip"] for row in rows], ["clap", "boxing"])
+        self.assertEqual([row["clip"] for row in rows], ["builtin:clap", "builtin:boxing"])
         ik = self.write("suite/ik.yaml", IK)
         rows = self.run_suite(suite, *clips, out=self.folder / "both")
         self.assertEqual({row["clip"] for row in rows if row["task"] == "ik"}, {None})
-        self.assertEqual({row["clip"] for row in rows if row["task"] == "transition"}, {"clap", "boxing"})
+        self.assertEqual({row["clip"] for row in rows if row["task"] == "transition"}, {"builtin:clap", "builtin:boxing"})
         for paths in ([ik], [transition, ik]):
             refused = self.folder / "refused"
             result = self.etude("run", *paths, *clips, "-o", refused)

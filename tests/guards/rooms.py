@@ -8,10 +8,9 @@ renames or joins rooms edits this file, and only this. The rooms form no circle.
 MAY_INCLUDE = {
     # engine/
     "engine/base": "",
-    "engine/bridging": "engine/base engine/bridging/search engine/fuzzy engine/motion",
-    "engine/bridging/search": "engine/fuzzy",
-    "engine/bridging/tags_file": "engine/base engine/bridging engine/fuzzy",
     "engine/cameras": "engine/base",
+    "engine/capture":
+        "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
@@ -21,9 +20,21 @@ MAY_INCLUDE = {
     "engine/motion": "engine/base",
     "engine/recognition": "engine/base engine/fuzzy engine/motion",
     "engine/retargeting": "engine/base engine/document engine/motion",
-    "engine/switching": "engine/switching/choices engine/switching/joins",
-    "engine/switching/choices": "engine/base engine/bridging engine/bridging/search engine/fuzzy",
-    "engine/switching/joins": "engine/base engine/bridging engine/motion",
+    "engine/transitions": "engine/transitions/choices engine/transitions/joins",
+    "engine/transitions/base": "engine/fuzzy engine/motion",
+    "engine/transitions/bridge_frames":
+        "engine/base engine/fuzzy engine/motion engine/transitions/base engine/transitions/search",
+    "engine/transitions/choices":
+        "engine/base engine/fuzzy engine/motion engine/transitions/base engine/transitions/bridge_frames "
+        "engine/transitions/in_betweens engine/transitions/library engine/transitions/search",
+    "engine/transitions/in_betweens":
+        "engine/base engine/motion engine/transitions/base engine/transitions/bridge_frames",
+    "engine/transitions/joins": "engine/base engine/motion engine/transitions/base",
+    "engine/transitions/library":
+        "engine/fuzzy engine/motion engine/transitions/bridge_frames engine/transitions/in_betweens",
+    "engine/transitions/search": "engine/fuzzy engine/transitions/base",
+    "engine/transitions/tags_file":
+        "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
     "sim/body": "engine/motion",
@@ -36,16 +47,18 @@ MAY_INCLUDE = {
         "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
     # bench/
     "bench/clips":
-        "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/character sim/choreography "
-        "bench/files",
+        "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/character "
+        "sim/choreography bench/files",
     "bench/dataset": "engine/base bench/files bench/run bench/scenario",
     "bench/files": "engine/base",
     "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",
     "bench/gate": "engine/base sim/random bench/files bench/metrics bench/model bench/statistics",
-    "bench/metrics": "engine/base engine/cameras engine/fuzzy engine/kinematics engine/motion bench/files",
+    "bench/keys": "engine/base engine/document bench/files",
+    "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
-        "engine/base engine/bridging/search engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers "
-        "engine/motion engine/switching/choices sim/character sim/choreography sim/random sim/render bench/clips",
+        "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
+        "engine/transitions/choices engine/transitions/search sim/character sim/choreography sim/random sim/render "
+        "bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
@@ -55,52 +68,56 @@ MAY_INCLUDE = {
     "bench/run":
         "engine/base bench/files bench/metrics bench/outside bench/process bench/results bench/scenario "
         "bench/statistics bench/tasks bench/tasks/base",
-    "bench/scenario": "engine/base engine/document bench/files bench/metrics bench/model bench/tasks bench/tasks/base",
+    "bench/scenario":
+        "engine/base engine/document bench/files bench/keys bench/metrics bench/model bench/tasks bench/tasks/base",
     "bench/statistics": "sim/random bench/metrics bench/model",
     "bench/tasks":
-        "bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik bench/tasks/pose_distance "
-        "bench/tasks/search bench/tasks/tracking bench/tasks/transition",
+        "engine/base bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik "
+        "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
     "bench/tasks/base":
-        "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion sim/random "
-        "bench/clips bench/files bench/model",
+        "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
+        "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
-        "engine/base engine/cameras engine/document engine/formats engine/kinematics engine/kinematics/solvers "
-        "engine/motion engine/vision sim/body sim/random sim/render sim/sensors bench/clips bench/metrics "
-        "bench/recordings bench/tasks/base",
+        "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
+        "sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
-        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips "
+        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
     "bench/tasks/ik":
-        "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics bench/tasks/base",
-    "bench/tasks/pose_distance":
-        "engine/base engine/bridging engine/fuzzy engine/switching/choices sim/choreography sim/random bench/clips "
-        "bench/metrics bench/tasks/base bench/training",
-    "bench/tasks/search":
-        "engine/base engine/bridging/search engine/fuzzy sim/choreography sim/random bench/clips bench/metrics "
+        "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
         "bench/tasks/base",
-    "bench/tasks/tracking":
-        "engine/base engine/formats engine/kinematics engine/kinematics/solvers sim/random bench/clips bench/files "
+    "bench/tasks/pose_distance":
+        "engine/base engine/fuzzy engine/transitions/base engine/transitions/choices engine/transitions/library "
+        "sim/choreography sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
+    "bench/tasks/search":
+        "engine/base engine/fuzzy engine/transitions/search sim/choreography sim/random bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
+    "bench/tasks/tracking":
+        "engine/base engine/formats engine/kinematics engine/kinematics/solvers engine/motion sim/random bench/clips "
+        "bench/files bench/metrics bench/model bench/tasks/base",
     "bench/tasks/transition":
-        "engine/base engine/bridging engine/document engine/formats engine/fuzzy engine/motion engine/switching "
-        "engine/switching/choices engine/switching/joins sim/choreography sim/random bench/clips bench/metrics "
-        "bench/tasks/base bench/training",
-    "bench/training": "engine/base engine/bridging engine/fuzzy sim/choreography sim/random bench/metrics",
+        "engine/base engine/formats engine/fuzzy engine/motion engine/transitions engine/transitions/base "
+        "engine/transitions/bridge_frames engine/transitions/joins engine/transitions/library sim/choreography "
+        "sim/random bench/clips bench/keys bench/metrics bench/tasks/base bench/training",
+    "bench/training":
+        "engine/base engine/fuzzy engine/transitions/base engine/transitions/library sim/choreography sim/random "
+        "bench/metrics",
     # reports/
     "reports":
         "engine/base bench/files bench/gate bench/model bench/recordings reports/assets reports/films reports/growth "
-        "reports/paper reports/switches reports/words",
+        "reports/paper reports/transitions reports/words",
     "reports/assets": "",
-    "reports/bridges": "engine/base engine/bridging engine/fuzzy bench/files",
+    "reports/bridges":
+        "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
     "reports/clips":
         "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
         "bench/files reports/films reports/words",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
-        "bench/files bench/metrics bench/model bench/recordings reports/switches reports/words",
+        "bench/files bench/metrics bench/model bench/recordings reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/words",
-    "reports/switches": "engine/base engine/fuzzy bench/files bench/model reports/words",
+    "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/
     "cli": "any",
@@ -117,6 +134,6 @@ NEVER_INCLUDES = [
     ("bench/model", "bench/metrics bench/results bench/statistics bench/gate bench/recordings reports"),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate reports", TASKS),
     ("bench/model bench/recordings bench/results bench/statistics bench/metrics bench/gate", MATERIAL),
-    ("reports/words reports/growth reports/switches reports/paper", "bench/clips engine/retargeting sim"),
+    ("reports/words reports/growth reports/transitions reports/paper", "bench/clips engine/retargeting sim"),
     ("reports/films", "bench/clips"),
 ]

@@ -16,11 +16,11 @@ from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema  # noqa: E402
 
 SCHEMA = load_schema("scenario.schema.json")
-TRANSITION = "scenario: t\nquestion: q?\ntask: transition\nclips: ['builtin:*']\nmethods: [{name: a}]\n"
+TRANSITION = "scenario: t\nquestion: why\ntask: transition\nclips: ['builtin:*']\nmethods: [{name: a}]\n"
 SEVERAL = """defaults: {task: ik, methods: [{name: a}]}
 scenarios:
-  - {scenario: one, question: q?}
-  - {scenario: two, question: q?, start: middle, sweep: {max_sweeps: [1, 2]}}
+  - {scenario: one, question: why}
+  - {scenario: two, question: why, start: middle, sweep: {max_sweeps: [1, 2]}}
 """
 
 
@@ -56,7 +56,7 @@ class Schema(EtudeCase):
                      IK + "  - {name: mine, exec: [python3, x.py], options: {any: [1]}, time_s: 2, against: fixed}\n",
                      "include: [shared/ik.yaml]\nscenario: s\nnoise: uniform\n",
                      "defaults: {task: ik, trials: 40}\n",
-                     SEVERAL.replace("task: ik, ", "").replace("question: q?", "question: q?, task: ik")):
+                     SEVERAL.replace("task: ik, ", "").replace("question: why", "question: why, task: ik")):
             self.assertEqual(refused(text), [], text)
 
     def test_what_is_wrong_is_marked_and_refused_by_the_program_too(self):
