@@ -11,7 +11,7 @@ namespace {
 
 /// `goal` in centimetres and in degrees.
 bool AreWithin(const IkErrorSummary& errors, const IkAsked& asked, double goal) {
-  return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.orientation_max_deg < goal);
+  return (!asked.positions || errors.position_max_cm < goal) && (!asked.axes || errors.axis_max_deg < goal);
 }
 
 }  // namespace
@@ -21,11 +21,13 @@ IkErrorSummary SummariseIkErrors(std::span<const EffectorError> errors) {
   IkErrorSummary summary;
   for (const EffectorError& error : errors) {
     const double cm = 100 * error.position;
-    const double degrees = Degrees((error.axis_angles.x + error.axis_angles.y + error.axis_angles.z) / 3);
+    const glm::dvec3& angles = error.axis_angles;
+    const double degrees = Degrees((angles.x + angles.y + angles.z) / 3);
     summary.position_cm += cm;
     summary.orientation_deg += degrees;
     summary.position_max_cm = std::max(summary.position_max_cm, cm);
     summary.orientation_max_deg = std::max(summary.orientation_max_deg, degrees);
+    summary.axis_max_deg = std::max({summary.axis_max_deg, Degrees(angles.x), Degrees(angles.y), Degrees(angles.z)});
   }
   summary.position_cm /= static_cast<double>(errors.size());
   summary.orientation_deg /= static_cast<double>(errors.size());

@@ -13,6 +13,7 @@ struct IkErrorSummary {
   double position_max_cm = 0;  ///< the worst effector
   double orientation_deg = 0;  ///< of each effector the mean over its three axes; then the mean over the effectors
   double orientation_max_deg = 0;
+  double axis_max_deg = 0;  ///< the worst single axis of any effector
 };
 
 /// Needs at least one effector.
@@ -24,9 +25,9 @@ struct IkAsked {
   bool axes = true;
 };
 
-/// All effectors within 0.1 cm and 0.1°.
+/// All effectors within 0.1 cm, and every axis of theirs within 0.1°.
 bool IsSolvedPractically(const IkErrorSummary& errors, const IkAsked& asked = {});
-/// All effectors within 10⁻³ cm and 10⁻³°.
+/// All effectors within 10⁻³ cm, and every axis of theirs within 10⁻³°.
 bool IsSolvedTightly(const IkErrorSummary& errors, const IkAsked& asked = {});
 
 /// How many angles lie beyond their limits by more than 10⁻⁶ degrees, which is rounding. Both of one size.

@@ -14,7 +14,7 @@ struct TrackedFrame {
   bool keeps_limits = true;
 };
 
-/// Practically: 0.1 cm and 0.1°, all limits kept.
+/// Practically: 0.1 cm and 0.1° of every axis, all limits kept.
 bool IsFrameSolved(const TrackedFrame& frame);
 
 /// `frames_solved` and `frames_solved_tight`: shares of frames. Needs a frame.

@@ -169,7 +169,9 @@ WorstError FindWorst(std::span<const EffectorError> errors, std::span<const Effe
   WorstError worst;
   for (std::size_t e = 0; e < errors.size(); ++e) {
     if (targets[e].position_weight > 0) worst.position = std::max(worst.position, errors[e].position);
-    worst.axis = std::max(worst.axis, errors[e].MeanAxisAngle(targets[e].axis_weights));
+    for (int k = 0; k < 3; ++k) {
+      if (targets[e].axis_weights[k] > 0) worst.axis = std::max(worst.axis, errors[e].axis_angles[k]);
+    }
   }
   return worst;
 }

@@ -40,10 +40,11 @@ struct IkOptions {
   /// Paper B, section 3.7.2: no angle may leave its start angle by more than this (radians). Empty: no such bound.
   std::optional<double> angle_change_tolerance;
   int max_iterations = 200;
-  /// Converged when every effector is nearer than both (axes and positions of weight 0 do not count). The defaults
-  /// are "solved practically": 0.1 cm and 0.1°.
+  /// Converged when every effector is nearer than the one, and every single axis of it than the other (axes and
+  /// positions of weight 0 do not count): a mean over the axes would pass a limb that is twisted too far, since the
+  /// axis that it is twisted about stays. The defaults are "solved practically": 0.1 cm and 0.1°.
   double position_goal = 0.001;     ///< metres
-  double axis_goal = Radians(0.1);  ///< radians, mean over the three axes
+  double axis_goal = Radians(0.1);  ///< radians
   /// Stalled when no angle moves further than this in one iteration (radians): far below what any goal can see, and
   /// above rounding.
   double stall_change = 1e-10;
@@ -71,8 +72,9 @@ struct EffectorError {
 
 /// The state after one iteration; entry 0 is the start.
 struct IkTraceEntry {
-  double worst_position = 0;  ///< metres, the largest over the effectors
-  double worst_axis = 0;      ///< radians, the largest mean axis angle over the effectors
+  double worst_position = 0;   ///< metres, the largest over the effectors
+  double worst_axis = 0;       ///< radians, the largest of a single axis: what the goal is compared with
+  double worst_mean_axis = 0;  ///< radians, the largest mean over an effector's axes
   std::vector<EffectorError> errors;
   std::vector<double> angles;
 };
@@ -104,7 +106,7 @@ EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);
 /// The largest errors over all effectors, counting only what has weight.
 struct WorstError {
   double position = 0;  ///< metres
-  double axis = 0;      ///< radians
+  double axis = 0;      ///< radians, of a single axis
 
   bool Within(const IkOptions& options) const { return position < options.position_goal && axis < options.axis_goal; }
 };

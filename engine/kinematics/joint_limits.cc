@@ -5,8 +5,8 @@
 #include <cassert>
 
 #include "engine/base/angles.h"
-#include "engine/kinematics/body_tree.h"
 #include "engine/base/named.h"
+#include "engine/kinematics/body_tree.h"
 
 namespace etude {
 namespace {

@@ -11,11 +11,9 @@ namespace etude {
 
 /// How far the joints of `MakeBodyTree` may turn: the tree's own limits, or a column of paper B's table 3.1.
 enum class LimitSet {
-  /// The limits that `MakeBodyTree` gives its tree, which measurements were made with. Against the table, its left
-  /// hip's abduction (30°) and adduction (45°) and its wrists' radial (30°) and ulnar (20°) deviation are exchanged.
-  kAdult,
-  kAaos,        ///< American Academy of Orthopaedic Surgeons
-  kKendall,     ///< Kendall and McCreary; what they do not give is taken from the first column, as in the next two
+  kAdult,    ///< *ours*, round figures, partly narrower than the table: the limits that `MakeBodyTree` gives its tree
+  kAaos,     ///< American Academy of Orthopaedic Surgeons
+  kKendall,  ///< Kendall and McCreary; what they do not give is taken from the first column, as in the next two
   kHoppenfeld,  ///< Hoppenfeld
   /// American Medical Association. Its trunk is two parts in the table: flexion and rotation are the chest's, extension
   /// and the side the loins'.

@@ -60,6 +60,11 @@ constexpr std::string_view kNeckNames[] = {"shouldercentre", "shouldercenter", "
                                            "neck",           "necklower",      "upperneck"};
 constexpr std::string_view kHeadNames[] = {"head"};
 
+constexpr std::pair<std::string_view, Finger> kFingerNames[] = {
+    {"thumb", Finger::kThumb}, {"mid", Finger::kMiddle},    {"index", Finger::kIndex},
+    {"ring", Finger::kRing},   {"little", Finger::kLittle}, {"pink", Finger::kLittle},  // "pinky", "pinkie"
+};
+
 constexpr std::string_view kTechnicalWords[] = {"jnt", "joint", "jt", "bone"};
 constexpr std::size_t kMostSuffixes = 2;
 constexpr std::size_t kLongestName = 64;
@@ -112,6 +117,16 @@ std::span<const LimbNames> ArmSchemes() { return kArmSchemes; }
 std::span<const LimbNames> LegSchemes() { return kLegSchemes; }
 std::span<const std::string_view> NeckNames() { return kNeckNames; }
 std::span<const std::string_view> HeadNames() { return kHeadNames; }
+
+Finger FingerOf(std::string_view name) {
+  name.remove_prefix(name.find_last_of(":|") + 1);
+  std::string letters(name);
+  for (char& c : letters) c = IsUpper(c) ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const auto& [part, finger] : kFingerNames) {
+    if (letters.find(part) != std::string::npos) return finger;
+  }
+  return Finger::kNotNamed;
+}
 
 JointNames::JointNames(const Skeleton& skeleton) {
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {

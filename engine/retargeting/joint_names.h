@@ -26,6 +26,12 @@ std::span<const LimbNames> LegSchemes();
 std::span<const std::string_view> NeckNames();
 std::span<const std::string_view> HeadNames();
 
+/// What finger a joint belongs to by its own name alone, in the order in which they suit as the tip of a hand.
+enum class Finger { kMiddle, kIndex, kRing, kLittle, kNotNamed, kThumb };
+/// "LeftHandThumb2", "thumb_01_l" and "lthumb" are thumbs. 3ds Max' biped numbers its fingers, the thumb being
+/// "Finger0", as others begin with the index finger: such names say nothing.
+Finger FingerOf(std::string_view name);
+
 /// A joint that bears a name.
 struct NamedJoint {
   int joint = -1;

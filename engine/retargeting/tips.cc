@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/retargeting/joint_names.h"
 #include "engine/retargeting/limbs.h"
 
 namespace etude {
@@ -28,20 +30,41 @@ constexpr Believed kBelievedFoot{0.4, 3.0};
 // A lone "Head" joint lies at the skull's base, at 0.2 of the trunk.
 constexpr Believed kBelievedHead{0.5, 1.6};
 
+// Tips as far as that from each other are equally far: files print six decimals, also of metres.
+constexpr double kEquallyFar = 1e-4;
+
+/// The finger that a joint below `top` belongs to: its own name's, else that of the next joint above it that is named
+/// so. End sites have no names of their own.
+Finger FingerBelow(const SkeletonTree& tree, int joint, int top) {
+  for (; joint != top; joint = tree.ParentOf(joint)) {
+    const Finger finger = FingerOf(tree.NameOf(joint));
+    if (finger != Finger::kNotNamed) return finger;
+  }
+  return Finger::kNotNamed;
+}
+
 /// The farthest descendant of `top` (or `top` itself) from `base` at a believable distance, of those that `may_be` it.
+/// Of several equally far ones that of the longest finger by name, else the skeleton's first: rounding would choose
+/// another one on the left than on the right.
 template <typename MayBe>
 std::optional<int> FarthestTip(const SkeletonTree& tree, int top, const glm::dvec3& base, double proportion,
                                const Believed& believed, MayBe may_be) {
-  std::optional<int> farthest;
-  double length = 0;
+  struct Tip {
+    int joint;
+    double distance;
+  };
+  std::vector<Tip> tips;
+  double longest = 0;
   for (int i = top; i < tree.size(); ++i) {
     const double distance = glm::distance(tree.RestOf(i), base);
     const bool is_believed = distance >= believed.shortest * proportion && distance <= believed.longest * proportion;
-    if (!is_believed || distance <= length || (i != top && !tree.HangsFrom(i, top)) || !may_be(i)) continue;
-    farthest = i;
-    length = distance;
+    if (!is_believed || (i != top && !tree.HangsFrom(i, top)) || !may_be(i)) continue;
+    tips.push_back({i, distance});
+    longest = std::max(longest, distance);
   }
-  return farthest;
+  if (longest == 0) return std::nullopt;
+  std::erase_if(tips, [&](const Tip& tip) { return tip.distance < (1 - kEquallyFar) * longest; });
+  return std::ranges::min_element(tips, {}, [&](const Tip& tip) { return FingerBelow(tree, tip.joint, top); })->joint;
 }
 
 glm::dvec3 RestForward(const RolePlaces& places) {
@@ -57,7 +80,9 @@ void FindLimbTip(RolePlaces& places, const Limb& limb) {
   // What hangs from a control is no part of the body.
   if (!IsFree(places, last)) {
     const Believed& believed = limb.is_arm ? kBelievedHand : kBelievedFoot;
-    const auto tip = FarthestTip(places.tree(), places.JointOf(last), end, length, believed, [](int) { return true; });
+    const int top = places.JointOf(last);
+    const auto is_no_thumb = [&](int joint) { return FingerBelow(places.tree(), joint, top) != Finger::kThumb; };
+    const auto tip = FarthestTip(places.tree(), top, end, length, believed, is_no_thumb);
     if (tip) return places.Set(limb.tip, *tip);
   }
   const glm::dvec3 direction = limb.is_arm ? last_bone : RestForward(places);

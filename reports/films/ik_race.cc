@@ -105,7 +105,7 @@ Result<IkPath> ReadPath(const Row& row, const Recording& recording) {
   const std::size_t count = motion->poses.size();
   auto iterations = ReadNumbers(extras, "iterations", count, place);
   auto position = ReadNumbers(extras, "position_error_max_cm", count, place);
-  auto orientation = ReadNumbers(extras, "orientation_error_max_deg", count, place);
+  auto orientation = ReadNumbers(extras, "axis_error_max_deg", count, place);
   for (const auto* list : {&iterations, &position, &orientation}) {
     if (!*list) return tl::unexpected(list->error());
   }

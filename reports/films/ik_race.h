@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// What "solved" means on every picture: both errors of the worst effector below these.
+/// What "solved" means on every picture: the worst effector and the worst axis below these.
 inline const double kGoalCm = 100 * IkOptions{}.position_goal;
 inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 
@@ -21,7 +21,7 @@ struct IkPath {
   std::vector<BodyPose> poses;
   std::vector<int> iterations;          ///< never falling, the start (0) first
   std::vector<double> position_cm;      ///< of the worst effector
-  std::vector<double> orientation_deg;  ///< of the worst effector, mean over its axes
+  std::vector<double> orientation_deg;  ///< of the worst single axis of any effector
   std::optional<int> solved_at;         ///< from this iteration on, both errors are below the goal
   std::string ending;                   ///< "solved", "not solved", or the status
   std::string reason;                   ///< why it is not solved; empty when it is

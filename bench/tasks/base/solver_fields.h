@@ -64,7 +64,7 @@ void ReadIkGoals(Fields& condition, IkOptions& options);
 template <typename Options>
 Field<Options> GoalsField(IkOptions Options::*options) {
   return {{"stop_at", NameKind(std::vector<std::string>{"practical", "tight"}), "practical",
-           "Solvers stop when every effector is within 0.1 cm and 0.1°, or within 10⁻³ cm and 10⁻³°."},
+           "Solvers stop when every effector is within 0.1 cm and each of its axes within 0.1°, or 10⁻³ cm and 10⁻³°."},
           [=](Fields& condition, Options& o) { ReadIkGoals(condition, o.*options); }};
 }
 

@@ -34,7 +34,8 @@ namespace etude {
 /// rotation is R_i.
 Json DescribeBodyTree(const KinematicTree& tree);
 
-/// {"max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}: what built-in solvers stop at.
+/// {"max_steps": 200, "position_goal_cm": 0.1, "orientation_goal_deg": 0.1}: what built-in solvers stop at,
+/// the latter for every single axis of an effector.
 Json DescribeGoals(const IkOptions& options);
 
 /// {"position_m": [0, 0, 0], "rotation": [[…], […], […]]}

@@ -27,7 +27,7 @@ Payload DescribeIkSetting(const KinematicTree& tree, const IkOptions& options, c
 ///      "targets": [{"effector": "right_foot", "position_m": [x, y, z], "rotation": [[…], […], […]]}, …]}
 ///
 /// Asked for are angles that bring every effector to its target (or to `asked` of it): the distance below
-/// `position_goal_cm`, and the mean of the angles between its three axes (the columns of its rotation) and the target's
+/// `position_goal_cm`, and each of the angles between its three axes (the columns of its rotation) and the target's
 /// below `orientation_goal_deg`.
 Payload DescribeProblem(const KinematicTree& tree, const IkProblem& problem);
 

@@ -43,7 +43,8 @@ std::vector<IkRecordedStep> StepsOf(std::span<const IkTraceEntry> trace) {
   std::vector<IkRecordedStep> steps;
   for (const int iteration : RecordedIterations(static_cast<int>(trace.size()) - 1)) {
     const IkTraceEntry& entry = trace[static_cast<std::size_t>(iteration)];
-    steps.push_back({iteration, entry.angles, 100 * entry.worst_position, Degrees(entry.worst_axis)});
+    steps.push_back({iteration, entry.angles, 100 * entry.worst_position, Degrees(entry.worst_mean_axis),
+                     Degrees(entry.worst_axis)});
   }
   return steps;
 }
@@ -52,7 +53,7 @@ Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<co
   Track truth{"truth", {}}, start{"start", {}}, solution{"solution", {}};
   TreeState state = world.problem.start;
   const BodyPose true_pose = ToBodyPose(tree, world.truth), start_pose = ToBodyPose(tree, state);
-  Json iterations = Json::array(), position = Json::array(), orientation = Json::array();
+  Json iterations = Json::array(), position = Json::array(), orientation = Json::array(), axis = Json::array();
   for (const IkRecordedStep& step : steps) {
     state.angles = step.angles;
     truth.motion.poses.push_back(true_pose);
@@ -61,10 +62,12 @@ Recording RecordIk(const KinematicTree& tree, const IkWorld& world, std::span<co
     iterations.push_back(step.iteration);
     position.push_back(step.position_error_max_cm);
     orientation.push_back(step.orientation_error_max_deg);
+    axis.push_back(step.axis_error_max_deg);
   }
   const Json extras = {{"iterations", std::move(iterations)},
                        {"position_error_max_cm", std::move(position)},
                        {"orientation_error_max_deg", std::move(orientation)},
+                       {"axis_error_max_deg", std::move(axis)},
                        {"targets_m", TargetPlaces(world.problem)}};
   return {{std::move(truth), std::move(start), std::move(solution)}, extras.dump()};
 }

@@ -74,7 +74,7 @@ CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const 
   if (records.motion) {
     const auto step = [&](int iteration, const std::vector<double>& angles, std::span<const EffectorError> errors) {
       const IkErrorSummary worst = SummariseIkErrors(errors);
-      return IkRecordedStep{iteration, angles, worst.position_max_cm, worst.orientation_max_deg};
+      return IkRecordedStep{iteration, angles, worst.position_max_cm, worst.orientation_max_deg, worst.axis_max_deg};
     };
     cell.recording = RecordIk(tree, world,
                               std::array{step(0, world.problem.start.angles, begun),

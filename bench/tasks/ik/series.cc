@@ -52,9 +52,9 @@ Series Differences(std::string name, std::span<const double> angles, std::span<c
 }  // namespace
 
 std::vector<Series> WorstErrorCurves(std::span<const IkTraceEntry> trace) {
-  return {
-      Curve("position_error_max_cm", trace, [](const IkTraceEntry& entry) { return 100 * entry.worst_position; }),
-      Curve("orientation_error_max_deg", trace, [](const IkTraceEntry& entry) { return Degrees(entry.worst_axis); })};
+  return {Curve("position_error_max_cm", trace, [](const IkTraceEntry& entry) { return 100 * entry.worst_position; }),
+          Curve("orientation_error_max_deg", trace,
+                [](const IkTraceEntry& entry) { return Degrees(entry.worst_mean_axis); })};
 }
 
 std::vector<Series> EffectorCurves(const KinematicTree& tree, std::span<const IkTraceEntry> trace) {

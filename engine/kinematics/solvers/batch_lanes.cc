@@ -106,14 +106,15 @@ class Batch {
         sines_(dof_count) {}
 
   void Run() {
-    const Lanes<T> squared_goal(rules_.position_goal * rules_.position_goal), axis_goal(rules_.axis_goal);
+    const Lanes<T> squared_goal(rules_.position_goal * rules_.position_goal);
+    const Lanes<T> squared_axis_goal(rules_.axis_goal * rules_.axis_goal);
     const Lanes<T> squared_stall(rules_.stall_change * rules_.stall_change);
     while (FillLanes()) {
       const Lanes<T> chord = SweepHinges(tree_, rules_.formula, state_);
       PlaceLimbs(tree_, state_);
       ++sweeps_;
       const LaneMask<T> moves = AtLeast(chord, squared_stall);
-      const LaneMask<T> may_have_met = !MissesGoals(squared_goal, axis_goal, state_);
+      const LaneMask<T> may_have_met = !MissesGoals(squared_goal, squared_axis_goal, state_);
       if (!rules_.reports_every_sweep && sweeps_ < next_last_sweep_ && !Any(may_have_met || !moves)) continue;
       for (std::size_t n = 0; n < lanes_.size(); ++n) {
         const int lane = static_cast<int>(n);

@@ -23,22 +23,28 @@ void IkRun::RecordErrors(std::span<const EffectorError> errors, int fk_evaluatio
   worst_ = FindWorst(errors, problem_.targets);
 }
 
-// An angle is never smaller than its chord, nor a sum than the root of the sum of squares.
+double IkRun::WorstMeanAxis() const {
+  double worst = 0;
+  for (std::size_t e = 0; e < solution_.errors.size(); ++e) {
+    worst = std::max(worst, solution_.errors[e].MeanAxisAngle(problem_.targets[e].axis_weights));
+  }
+  return worst;
+}
+
+// An angle is never smaller than its chord.
 bool IkRun::MissesByFar(const TreeFrames& frames) const {
   const double farthest = options_.position_goal * options_.position_goal;
+  const double longest_chord = options_.axis_goal * options_.axis_goal;
   for (std::size_t e = 0; e < problem_.targets.size(); ++e) {
     const EffectorTarget& target = problem_.targets[e];
     const LimbFrame& X_WE = frames.effectors[e];
     const glm::dvec3 gap = target.position - X_WE.position;
     if (target.position_weight > 0 && glm::dot(gap, gap) >= farthest) return true;
-    double chords = 0, sum_goal = 0;
     for (int k = 0; k < 3; ++k) {
       if (target.axis_weights[k] <= 0) continue;
       const glm::dvec3 chord = target.axes[k] - X_WE.axes[k];
-      chords += glm::dot(chord, chord);
-      sum_goal += options_.axis_goal;
+      if (glm::dot(chord, chord) >= longest_chord) return true;
     }
-    if (sum_goal > 0 && chords >= sum_goal * sum_goal) return true;
   }
   return false;
 }

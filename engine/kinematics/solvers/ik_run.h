@@ -32,6 +32,7 @@ class IkRun {
     IkTraceEntry& entry = solution_.trace.emplace_back();
     entry.worst_position = worst_.position;
     entry.worst_axis = worst_.axis;
+    entry.worst_mean_axis = WorstMeanAxis();
     entry.errors = solution_.errors;
     if constexpr (requires { angles(); }) {
       entry.angles = angles();
@@ -80,6 +81,7 @@ class IkRun {
   void RecordErrors(std::span<const EffectorError> errors, int fk_evaluations);
   void ClearErrors();
   bool MissesByFar(const TreeFrames& frames) const;
+  double WorstMeanAxis() const;
 
   const KinematicTree& tree_;
   const IkProblem& problem_;

@@ -12,7 +12,7 @@ struct MomentSweep::State {
   State(const KinematicTree& body, const IkProblem& asked, const IkOptions& options)
       : formula(FormulaOf(options.weights)),
         squared_position_goal(options.position_goal * options.position_goal),
-        axis_goal(options.axis_goal),
+        squared_axis_goal(options.axis_goal * options.axis_goal),
         tree(body),
         problem(tree, asked, AllowedRanges(asked, options)),
         sweep(tree, body.dof_count()) {
@@ -20,7 +20,7 @@ struct MomentSweep::State {
   }
 
   const WeightFormula formula;
-  const double squared_position_goal, axis_goal;
+  const double squared_position_goal, squared_axis_goal;
   const SweepTree tree;
   const SweepProblem problem;
   lanes::SweepState<double> sweep;
@@ -80,7 +80,7 @@ void MomentSweep::SetHalfTangents(std::span<const double> half_tangents) {
 }
 
 bool MomentSweep::MissesGoals() const {
-  return lanes::MissesGoals(state_->squared_position_goal, state_->axis_goal, state_->sweep);
+  return lanes::MissesGoals(state_->squared_position_goal, state_->squared_axis_goal, state_->sweep);
 }
 
 std::vector<double> MomentSweep::Angles() const {

@@ -314,7 +314,7 @@ V SweepHinges(const SweepTree& tree, const WeightFormula& formula, SweepState<V>
 
 /// Whether an effector certainly misses its goals: no angle is smaller than its chord.
 template <class V>
-auto MissesGoals(const V& squared_position_goal, const V& axis_goal, const SweepState<V>& state) {
+auto MissesGoals(const V& squared_position_goal, const V& squared_axis_goal, const SweepState<V>& state) {
   V farthest = V(0.0), worst = V(0.0);
   for (const GoalOf<V>& goal : state.goals) {
     const V distance = goal.position_share * goal.squared_distance;
@@ -323,11 +323,12 @@ auto MissesGoals(const V& squared_position_goal, const V& axis_goal, const Sweep
   auto misses = AtLeast(farthest, squared_position_goal);
   if (!Any(!misses)) return misses;
   for (const GoalOf<V>& goal : state.goals) {
-    V chord = V(0.0);
-    for (int k = 0; k < 3; ++k) chord = chord + goal.axis_shares[k] * Sqrt(goal.squared_chords[k]);
-    worst = Select(AtLeast(chord, worst), chord, worst);
+    for (int k = 0; k < 3; ++k) {
+      const V chord = goal.axis_shares[k] * goal.squared_chords[k];
+      worst = Select(AtLeast(chord, worst), chord, worst);
+    }
   }
-  return misses || AtLeast(worst, axis_goal);
+  return misses || AtLeast(worst, squared_axis_goal);
 }
 
 }  // namespace etude::HWY_NAMESPACE

@@ -28,12 +28,10 @@ SweepProblem::Goal GoalOf(const SweepTree::Effector& effector, const EffectorTar
   Copy(target.position - root, goal.position);
   goal.position_weight = target.position_weight;
   goal.position_share = target.position_weight > 0 ? 1 : 0;
-  int count = 0;
-  for (int k = 0; k < 3; ++k) count += target.axis_weights[k] > 0 ? 1 : 0;
   for (int k = 0; k < 3; ++k) {
     Copy(effector.signs[k] * target.axes[effector.names[k]], goal.axes[k]);
     goal.axis_weights[k] = target.axis_weights[effector.names[k]];
-    goal.axis_shares[k] = goal.axis_weights[k] > 0 ? 1.0 / count : 0;
+    goal.axis_shares[k] = goal.axis_weights[k] > 0 ? 1 : 0;
   }
   return goal;
 }

@@ -63,7 +63,7 @@ struct SweepProblem {
   struct Range {
     double cos_middle, sin_middle, cos_half, sin_half;
   };
-  /// The goal of an effector. A share is 1 / the number of axes that count, 0 for those that do not.
+  /// The goal of an effector. A share is 1 for a position or an axis that counts, else 0.
   struct Goal {
     double axes[3][3];  ///< of each axis: its coordinates
     double position[3];

@@ -19,6 +19,7 @@ TEST(IkError, TakesMeansOverAxesThenMeansAndWorstOverEffectors) {
   EXPECT_NEAR(summary.position_max_cm, 6, 1e-12);
   EXPECT_NEAR(summary.orientation_deg, (6 + 0 + 10 + 1) / 4.0, 1e-12);
   EXPECT_NEAR(summary.orientation_max_deg, 10, 1e-12);
+  EXPECT_NEAR(summary.axis_max_deg, 30, 1e-12);
 }
 
 TEST(IkError, SolvedMeansEveryEffectorIsNearInBothRespects) {
@@ -31,6 +32,18 @@ TEST(IkError, SolvedMeansEveryEffectorIsNearInBothRespects) {
   EXPECT_FALSE(IsSolvedTightly(summary(0.09, 0.09)));
   EXPECT_TRUE(IsSolvedTightly(summary(0.0009, 0.0009)));
   EXPECT_FALSE(IsSolvedTightly(summary(0.0011, 0.0)));
+}
+
+TEST(IkError, SolvedMeansEveryAxisNotTheirMean) {
+  for (const auto& twisted :
+       {Off(0, 0.12, 0.12, 0), Off(0, 0.12, 0, 0.12), Off(0, 0, 0.12, 0.12), Off(0, 0, 0, 0.12)}) {
+    const IkErrorSummary errors = SummariseIkErrors(std::vector{Off(0, 0, 0, 0), twisted});
+    EXPECT_LT(errors.orientation_max_deg, 0.1) << "the mean would pass";
+    EXPECT_FALSE(IsSolvedPractically(errors));
+    EXPECT_TRUE(IsSolvedPractically(errors, {.positions = true, .axes = false}));
+  }
+  EXPECT_FALSE(IsSolvedTightly(SummariseIkErrors(std::vector{Off(0, 0.0012, 0.0012, 0)})));
+  EXPECT_TRUE(IsSolvedTightly(SummariseIkErrors(std::vector{Off(0, 0.0009, 0.0009, 0)})));
 }
 
 TEST(IkError, HiddenAnglesDifferByTheirRootMeanSquare) {

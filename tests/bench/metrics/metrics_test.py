@@ -28,13 +28,13 @@ MUTANTS = {
         "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
         "mpjpe_before_ik_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg",
         "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "ldlj", "roc_auc", "frames_solved", "frames_solved_tight",
+        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "ldlj", "roc_auc",
         "iterations_per_frame", "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "worst for mean": (common, {"mean": or_nothing(max)}, [
         "position_error_cm", "orientation_error_deg", "orientation_error_max_deg", "hidden_angle_error_deg",
         "mpjpe_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg", "triangulation_error_mm",
         "reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-        "mean_joint_jump_cm", "foot_slide_cmps", "ldlj", "frames_solved", "frames_solved_tight", "iterations_per_frame",
+        "mean_joint_jump_cm", "foot_slide_cmps", "ldlj", "iterations_per_frame",
         "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "mean for worst": (common, {"worst": lambda values: statistics.fmean(values) if values else 0.0}, [
         "position_error_max_cm", "orientation_error_max_deg", "solved_practical", "jump_cm", "mean_joint_jump_cm",
@@ -86,6 +86,8 @@ MUTANTS = {
         "alike": lambda given, pair: pair["distance"] <= given["threshold"]}, ["called_alike", "close_f1"]),
     "padding by 3": (transition, {"SPARC_PADDING": 3}, ["sparc"]),
     "all asked of every world": (ik, {"asked": lambda given: "both"}, ["solved_practical", "solved_tight"]),
+    "the mean of an effector's axes for each of them": (ik, {"axis_angles_deg": ik.effector_angles_deg}, [
+        "solved_practical", "solved_tight", "frames_solved", "frames_solved_tight"]),
     "limits to a hundredth of a degree": (ik, {"ROUNDING": 0.01}, ["limit_violations"]),
     "limits to the last bit": (ik, {"ROUNDING": 0}, ["limit_violations"]),
     "PAR-10": (ik, {"PENALTY": 10}, ["iterations_par2", "fk_evaluations_par2"]),

@@ -86,6 +86,21 @@ TEST(AllowedRanges, AreTheLimitsAndTheToleranceAroundTheStart) {
   expect({{-0.2, 0.2}, {0.7, 1.1}, {1.2, 1.6}});
 }
 
+TEST(WorstError, IsOfTheWorstSingleAxisNotOfTheMeanOfThree) {
+  IkProblem problem = PositionsOf({kEndHead});
+  std::vector<EffectorError> errors(4);
+  errors[kEndHead] = {0.5e-3, {Radians(0.05), Radians(0.12), Radians(0.06)}};
+  errors[kEndLeftHand] = {7, glm::dvec3(7)};  // which nobody asked for
+  for (const int e : {kEndHead, kEndRightFoot}) problem.targets[e].axis_weights = glm::dvec3(1);
+  EXPECT_EQ(FindWorst(errors, problem.targets).position, 0.5e-3);
+  EXPECT_EQ(FindWorst(errors, problem.targets).axis, Radians(0.12));
+  EXPECT_LT(errors[kEndHead].MeanAxisAngle(glm::dvec3(1)), IkOptions{}.axis_goal) << "the mean would pass";
+  EXPECT_FALSE(FindWorst(errors, problem.targets).Within({}));
+  problem.targets[kEndHead].axis_weights.y = 0;
+  EXPECT_EQ(FindWorst(errors, problem.targets).axis, Radians(0.06)) << "an axis of weight 0 does not count";
+  EXPECT_TRUE(FindWorst(errors, problem.targets).Within({}));
+}
+
 TEST(Faults, AreAxesThatAreNoRotation) {
   const IkProblem sound = PositionsOf({kEndRightFoot});
   EXPECT_EQ(FindFault(Body(), sound, {}), "");

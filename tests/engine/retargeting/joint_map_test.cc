@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "engine/retargeting/map_file.h"
 #include "tests/support/body_of_person.h"
 
@@ -103,6 +108,65 @@ TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
   ExpectNear(body[kLeftHand], {90, 137, 0});
   ExpectNear(body[kRightHand], {-90, 137, 0});
   ExpectNear(body[kHead], {0, 165, 0});
+}
+
+/// Hangs chains of one joint and its end site from both hands of the person, whose own ends they replace: names without
+/// the side, and places of the ends from the left wrist.
+Skeleton WithFingers(const std::vector<std::pair<std::string, glm::dvec3>>& fingers) {
+  Skeleton person = Without(Without(testing::PersonSkeleton(), "LeftHand_End"), "RightHand_End");
+  for (const auto& [side, sign] : {std::pair("Left", 1.0), std::pair("Right", -1.0)}) {
+    for (const auto& [finger, place] : fingers) {
+      const glm::dvec3 half = 0.5 * glm::dvec3(sign * place.x, place.y, place.z);
+      const std::string name = side + finger;
+      person.joints.push_back({name, person.Find(side + std::string("Hand")), {.translation = half}, false});
+      person.joints.push_back({name + "_End", person.Find(name), {.translation = half}, true});
+    }
+  }
+  return person;
+}
+
+/// What plays the hands, without the side; "" when a point is composed.
+std::pair<std::string, std::string> TipsOf(const Skeleton& skeleton) {
+  const auto map = FindJointMap(skeleton, "person.bvh");
+  EXPECT_TRUE(map) << ToString(map.error());
+  const auto name_of = [&](Role hand, std::size_t side) {
+    const bool is_composed = std::ranges::find(map->composed, hand) != map->composed.end();
+    return is_composed ? "" : skeleton.joints[(*map)[hand].joint].name.substr(side);
+  };
+  return {name_of(kLeftHand, 4), name_of(kRightHand, 5)};
+}
+
+TEST(JointMap, TakesNoThumbForTheTipOfAHand) {
+  using Both = std::pair<std::string, std::string>;
+  for (const char* thumb : {"Thumb", "HandThumb1", "_thumb_01"}) {
+    EXPECT_EQ(TipsOf(WithFingers({{thumb, {20, 0, 2}}, {"Pinky", {12, 0, 0}}})), Both("Pinky_End", "Pinky_End"));
+    EXPECT_EQ(TipsOf(WithFingers({{thumb, {18, 0, 0}}})), Both("", "")) << "composed rather than a thumb";
+  }
+  EXPECT_EQ(TipsOf(WithFingers({{"Digit", {20, 0, 2}}, {"Pinky", {12, 0, 0}}})), Both("Digit_End", "Digit_End"))
+      << "the control: by another name it is the tip";
+}
+
+TEST(JointMap, ChoosesAmongEquallyFarTipsAlikeOnBothSides) {
+  using Both = std::pair<std::string, std::string>;
+  const glm::dvec3 straight(18, 0, 0), aside(18 * 0.6, 0, 18 * 0.8);
+  // Rounding as six decimals in metres leave it, the other way round on the right.
+  const auto choose = [&](const std::string& a, const std::string& b, double rounding) {
+    Skeleton person = WithFingers({{a, straight}, {b, aside}});
+    person.joints[person.Find("Left" + a)].rest.translation.x += rounding;
+    person.joints[person.Find("Right" + b)].rest.translation.x -= rounding;
+    return TipsOf(person);
+  };
+  for (const double rounding : {0.0, 1e-15, -1e-15, 1e-9, -1e-9, 1e-4, -1e-4}) {
+    SCOPED_TRACE(rounding);
+    EXPECT_EQ(choose("Index1", "Middle1", rounding), Both("Middle1_End", "Middle1_End"));
+    EXPECT_EQ(choose("Middle1", "Index1", rounding), Both("Middle1_End", "Middle1_End"));
+    EXPECT_EQ(choose("Ring1", "Index1", rounding), Both("Index1_End", "Index1_End"));
+    EXPECT_EQ(choose("Pinky1", "Ring1", rounding), Both("Ring1_End", "Ring1_End"));
+    EXPECT_EQ(choose("FingerA", "FingerB", rounding), Both("FingerA_End", "FingerA_End")) << "the first";
+    EXPECT_EQ(choose("FingerB", "FingerA", rounding), Both("FingerB_End", "FingerB_End")) << "the first";
+    EXPECT_EQ(choose("Thumb1", "FingerA", rounding), Both("FingerA_End", "FingerA_End"));
+  }
+  EXPECT_EQ(choose("Index1", "Middle1", 0.1), Both("Index1_End", "Middle1_End")) << "the control: really farther";
 }
 
 TEST(JointMap, TakesNoEyeForTheCrownOfTheHead) {

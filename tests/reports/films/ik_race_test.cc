@@ -91,7 +91,7 @@ TEST(IkRace, KnowsWhereTheEndsShouldBeWhateverTheTruth) {
   RunData run = RaceRun({{"a", 0, 1, EveryIteration(2)}, {"b", 0, 1, EveryIteration(2)}});
   const auto with = [&](const std::string& targets) {
     run.recordings[0].recording.extras_json =
-        R"({"iterations": [0, 1, 2], "position_error_max_cm": [3, 2, 1], "orientation_error_max_deg": [0, 0, 0],
+        R"({"iterations": [0, 1, 2], "position_error_max_cm": [3, 2, 1], "axis_error_max_deg": [0, 0, 0],
             "targets_m": )" +
         targets + "}";
     return Find(run);
@@ -121,7 +121,7 @@ TEST(IkRace, RefusesRecordingsThatDoNotSayWhatTheyShow) {
     run.recordings[1].recording.extras_json = extras;
     return WhyNone(run);
   };
-  const std::string errors = R"(, "position_error_max_cm": [3, 2, 1], "orientation_error_max_deg": [3, 2, 1]})";
+  const std::string errors = R"(, "position_error_max_cm": [3, 2, 1], "axis_error_max_deg": [3, 2, 1]})";
   EXPECT_EQ(complaint(R"({"iterations": [0, 1, 2])" + errors), "there is one");
   EXPECT_THAT(complaint("{}"), HasSubstr("race/-/000/b: its extras' iterations is no list of 3 numbers"));
   EXPECT_THAT(complaint("[]"), HasSubstr("no JSON object"));

@@ -34,7 +34,7 @@ Recording RecordSettling(const Settling& cell) {
   }
   const Json extras = {{"iterations", cell.iterations},
                        {"position_error_max_cm", position},
-                       {"orientation_error_max_deg", orientation},
+                       {"axis_error_max_deg", orientation},
                        {"targets_m", targets}};
   return {{truths, starts, solutions}, extras.dump()};
 }

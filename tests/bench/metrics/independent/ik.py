@@ -18,9 +18,13 @@ def effector_angles_deg(given):
             for e in given["effectors"]]
 
 
+def axis_angles_deg(given):
+    return [common.degrees(angle(a, b)) for e in given["effectors"] for a, b in zip(e["axes"], e["target_axes"])]
+
+
 def solved(given, goal):
-    judged = {"position": [effector_positions_cm], "orientation": [effector_angles_deg],
-              "both": [effector_positions_cm, effector_angles_deg]}[asked(given)]
+    judged = {"position": [effector_positions_cm], "orientation": [axis_angles_deg],
+              "both": [effector_positions_cm, axis_angles_deg]}[asked(given)]
     return int(all(common.worst(errors(given)) < goal for errors in judged))
 
 

@@ -140,7 +140,8 @@ TEST(IkRecording, HoldsTruthStartAndTheSolutionFrameByFrameWithItsErrors) {
     const auto& entry = run.solution.trace[extras["iterations"][i].get<std::size_t>()];
     EXPECT_NEAR(glm::distance(pose(2, i)[Role::kHead], pose(0, i)[Role::kHead]), entry.errors[3].position, 1e-9);
     EXPECT_EQ(extras["position_error_max_cm"][i].get<double>(), 100 * entry.worst_position);
-    EXPECT_EQ(extras["orientation_error_max_deg"][i].get<double>(), Degrees(entry.worst_axis));
+    EXPECT_EQ(extras["orientation_error_max_deg"][i].get<double>(), Degrees(entry.worst_mean_axis));
+    EXPECT_EQ(extras["axis_error_max_deg"][i].get<double>(), Degrees(entry.worst_axis));
   }
 }
 

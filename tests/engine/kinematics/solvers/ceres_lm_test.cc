@@ -35,10 +35,12 @@ double Sum(const IkProblem& problem, const std::vector<double>& angles) {
 
 // A wrong Jacobian would still come home, by many small steps.
 TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
+  constexpr int kTrials = 40;
   for (const glm::dvec3& weights : {glm::dvec3(1), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
     IkOptions options;
     options.position_goal = options.axis_goal = 1e-9;
-    for (int trial = 0; trial < 5; ++trial) {
+    int in_few = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
       IkProblem problem = PosedProblem(trial, 5);
       for (EffectorTarget& target : problem.targets) {
         target.axis_weights = weights;
@@ -46,8 +48,10 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
       }
       const IkSolution solution = SolveCeresLm(Body(), problem, options);
       EXPECT_EQ(solution.status, IkStatus::kConverged);
-      EXPECT_LE(solution.iterations, 10);
+      EXPECT_LE(solution.iterations, 12);
+      in_few += solution.iterations <= 8;
     }
+    EXPECT_GE(in_few, 0.85 * kTrials) << "0.94 of 600 trials";
   }
 }
 

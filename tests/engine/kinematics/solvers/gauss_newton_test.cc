@@ -193,7 +193,7 @@ TEST(GaussNewton, GoesAsNearAsItCanToTargetsThatContradictEachOther) {
 // The share of frames that are solved along motions of which the first pose is far off; every frame begins at the
 // answer to the one before.
 double ShareFollowed(int max_iterations) {
-  constexpr int kMotions = 40, kFrames = 60;
+  constexpr int kMotions = 120, kFrames = 60;
   IkOptions options;
   options.max_iterations = max_iterations;
   int solved = 0;
@@ -223,7 +223,8 @@ double ShareFollowed(int max_iterations) {
 
 TEST(GaussNewton, FollowsAMotionWithFewIterationsAFrameAndTheBetterTheMoreItHas) {
   double fewer = 0;
-  for (const auto& [budget, at_least] : {std::pair(3, 0.88), {5, 0.92}, {10, 0.95}, {20, 0.99}, {50, 0.998}}) {
+  // Of 400 motions, 0.858, 0.946, 0.979, 0.988 and 0.9985 are.
+  for (const auto& [budget, at_least] : {std::pair(3, 0.84), {5, 0.93}, {10, 0.965}, {20, 0.975}, {50, 0.997}}) {
     const double share = ShareFollowed(budget);
     EXPECT_GE(share, at_least) << budget;
     EXPECT_GE(share, fewer) << budget;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "engine/kinematics/body_tree.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
@@ -41,6 +44,39 @@ TEST(IkRun, GoesOnUntilBothGoalsAreReached) {
   run.Record(ErrorsOf(1e-4, 1e-4), run.start_angles());
   EXPECT_FALSE(run.MustGoOn());
   EXPECT_EQ(run.Finish(run.start_angles()).status, IkStatus::kConverged);
+}
+
+TEST(IkRun, GoesOnWhileOneAxisIsOffAndTracesTheMeanToo) {
+  Trial trial;
+  trial.options.trace = true;
+  IkRun run(trial.tree, trial.problem, trial.options);
+  std::vector<EffectorError> errors = ErrorsOf(1e-4, Radians(0.08));
+  errors[1].axis_angles = {Radians(0.12), Radians(0.12), 0};
+  run.Record(errors, run.start_angles());
+  EXPECT_TRUE(run.MustGoOn());
+  errors[1].axis_angles = {Radians(0.09), Radians(0.09), 0};
+  run.Record(errors, run.start_angles());
+  EXPECT_FALSE(run.MustGoOn());
+  const IkSolution solution = run.Finish(run.start_angles());
+  EXPECT_EQ(solution.trace[0].worst_axis, Radians(0.12));
+  EXPECT_NEAR(solution.trace[0].worst_mean_axis, Radians(0.08), 1e-15);
+  EXPECT_EQ(solution.trace[1].worst_axis, Radians(0.09));
+}
+
+// Frames of which one limb is twisted about itself: two of its axes move, its own stays.
+TEST(IkRun, SeesATwistedLimbByItsFramesToo) {
+  const Trial trial;
+  TreeState truth = RandomPose(trial.tree, 1, 0.5);
+  const IkProblem problem = DisturbedProblem(trial.tree, truth, 1, 0);
+  for (const auto& [degrees, is_met] : {std::pair(0.099, true), std::pair(0.101, false), std::pair(0.149, false)}) {
+    TreeFrames frames = ComputeFrames(trial.tree, truth);
+    glm::dmat3& R_WE = frames.effectors[2].axes;
+    const double c = std::cos(Radians(degrees)), s = std::sin(Radians(degrees));
+    R_WE = R_WE * glm::dmat3(c, s, 0, -s, c, 0, 0, 0, 1);
+    IkRun run(trial.tree, problem, trial.options);
+    run.RecordFrames(frames, truth.angles);
+    EXPECT_EQ(run.HasConverged(), is_met) << degrees;
+  }
 }
 
 TEST(IkRun, TellsAStallFromAnExhaustedBudget) {
