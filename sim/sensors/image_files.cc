@@ -4,17 +4,35 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <png.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 namespace etude {
 namespace {
+
+// A picture of the largest size that does not compress at all, with room to spare.
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 28;
+
+Result<std::string> ReadBytes(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return Fail({path}, "no such file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return Fail({path}, "cannot be read: {}", error.message());
+  if (size > kLargestFile) return Fail({path}, "{} bytes; a picture file has at most {}", size, kLargestFile);
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(size, '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) return Fail({path}, "cannot be read");
+  return bytes;
+}
 
 Result<void> WriteBytes(const std::string& bytes, const std::string& path) {
   errno = 0;
@@ -23,6 +41,59 @@ Result<void> WriteBytes(const std::string& bytes, const std::string& path) {
   file.close();
   if (file.fail()) return Fail({path}, "cannot be written: {}", std::strerror(errno));
   return {};
+}
+
+// --- PNG
+
+std::string EncodePixels(const void* pixels, int width, int height, png_uint_32 format) {
+  assert(width > 0 && height > 0);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(width);
+  png.height = static_cast<png_uint_32>(height);
+  png.format = format;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string bytes(size, '\0');
+  const int written = png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr);
+  assert(written && "the buffer has the size of the worst case");
+  bytes.resize(written ? size : 0);
+  return bytes;
+}
+
+template <typename Pixel>
+Result<Image<Pixel>> LoadPixels(const std::string& path, png_uint_32 format) {
+  ASSIGN_OR_RETURN(const auto bytes, ReadBytes(path));
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
+    return Fail({path}, "not a PNG picture: {}", png.message);
+  }
+  if (png.width > kLargestPicture || png.height > kLargestPicture) {
+    png_image_free(&png);
+    return Fail({path}, "{} x {} pixels; allowed: at most {} a side", png.width, png.height, kLargestPicture);
+  }
+  png.format = format;
+  Image<Pixel> image(static_cast<int>(png.width), static_cast<int>(png.height));
+  const png_color black{};
+  if (!png_image_finish_read(&png, &black, image.pixels.data(), 0, nullptr)) {
+    return Fail({path}, "a damaged PNG picture: {}", png.message);
+  }
+  return image;
+}
+
+// --- OpenEXR
+
+Imf::Slice SliceOf(Imf::PixelType type, const void* pixels, const Imath::Box2i& window, std::size_t stride) {
+  return Imf::Slice::Make(type, pixels, window, stride);
+}
+
+constexpr const char* kColourChannels[] = {"R", "G", "B"};
+constexpr const char* kDepthChannel = "Z";
+constexpr const char* kLabelChannel = "label";
+
+std::uint8_t ToByte(half value) {
+  const float scaled = static_cast<float>(value) * 255.0f;
+  return static_cast<std::uint8_t>(std::isnan(scaled) ? 0.0f : std::clamp(scaled + 0.5f, 0.0f, 255.0f));
 }
 
 // Where OpenEXR puts a file's bytes.
@@ -55,7 +126,7 @@ void WriteExr(const View& view, Imf::OStream& out) {
   Imf::FrameBuffer channels;
   const auto add = [&](const char* name, Imf::PixelType type, const void* pixels, std::size_t stride) {
     header.channels().insert(name, Imf::Channel(type));
-    channels.insert(name, Imf::Slice::Make(type, pixels, window, stride));
+    channels.insert(name, SliceOf(type, pixels, window, stride));
   };
 
   std::vector<half> colour;
@@ -63,33 +134,74 @@ void WriteExr(const View& view, Imf::OStream& out) {
     for (const std::uint8_t value : {pixel.r, pixel.g, pixel.b}) colour.push_back(half(value / 255.0f));
   }
   if (!colour.empty()) {
-    add("R", Imf::HALF, colour.data(), 3 * sizeof(half));
-    add("G", Imf::HALF, colour.data() + 1, 3 * sizeof(half));
-    add("B", Imf::HALF, colour.data() + 2, 3 * sizeof(half));
+    for (int i = 0; i < 3; ++i) add(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
   }
-  if (!view.depth.pixels.empty()) add("Z", Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
-  if (!view.labels.pixels.empty()) add("label", Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
+  if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
+  if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
 
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);
 }
 
+// Throws what OpenEXR throws, for instance on more than kLargestPicture pixels a side.
+View ReadExr(const std::string& path) {
+  Imf::Header::setMaxImageSize(kLargestPicture, kLargestPicture);
+  Imf::InputFile file(path.c_str(), 0);
+  const Imath::Box2i window = file.header().dataWindow();
+  const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+  const Imf::ChannelList& present = file.header().channels();
+  Imf::FrameBuffer channels;
+  const auto want = [&](const char* name, Imf::PixelType type, void* pixels, std::size_t stride) {
+    channels.insert(name, SliceOf(type, pixels, window, stride));
+  };
+
+  View view;
+  std::vector<half> colour;
+  if (present.findChannel("R") && present.findChannel("G") && present.findChannel("B")) {
+    colour.resize(3 * static_cast<std::size_t>(width) * height);
+    for (int i = 0; i < 3; ++i) want(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
+  }
+  if (present.findChannel(kDepthChannel)) {
+    view.depth = DepthImage(width, height);
+    want(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
+  }
+  if (present.findChannel(kLabelChannel)) {
+    view.labels = LabelImage(width, height);
+    want(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
+  }
+  file.setFrameBuffer(channels);
+  file.readPixels(window.min.y, window.max.y);
+
+  if (!colour.empty()) view.colour = ColourImage(width, height);
+  for (std::size_t i = 0; i < view.colour.pixels.size(); ++i) {
+    view.colour.pixels[i] = {ToByte(colour[3 * i]), ToByte(colour[3 * i + 1]), ToByte(colour[3 * i + 2])};
+  }
+  return view;
+}
+
 }  // namespace
 
 std::string EncodePng(const ColourImage& image) {
-  assert(image.width > 0 && image.height > 0);
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
-  std::string bytes(size, '\0');
-  const int written = png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr);
-  assert(written && "the buffer has the size of the worst case");
-  bytes.resize(written ? size : 0);
-  return bytes;
+  return EncodePixels(image.pixels.data(), image.width, image.height, PNG_FORMAT_RGB);
+}
+
+std::string EncodePng(const Mask& mask) {
+  Mask grey = mask;
+  for (std::uint8_t& pixel : grey.pixels) pixel = pixel ? 255 : 0;
+  return EncodePixels(grey.pixels.data(), grey.width, grey.height, PNG_FORMAT_GRAY);
+}
+
+Result<void> SavePng(const ColourImage& image, const std::string& path) { return WriteBytes(EncodePng(image), path); }
+Result<void> SavePng(const Mask& mask, const std::string& path) { return WriteBytes(EncodePng(mask), path); }
+
+Result<ColourImage> LoadColourPng(const std::string& path) { return LoadPixels<Rgb8>(path, PNG_FORMAT_RGB); }
+
+Result<Mask> LoadMaskPng(const std::string& path) {
+  auto mask = LoadPixels<std::uint8_t>(path, PNG_FORMAT_GRAY);
+  if (!mask) return mask;
+  for (std::uint8_t& pixel : mask->pixels) pixel = pixel >= 128 ? 1 : 0;
+  return mask;
 }
 
 Result<std::string> EncodeExr(const View& view) {
@@ -106,6 +218,14 @@ Result<void> SaveExr(const View& view, const std::string& path) {
   const auto bytes = EncodeExr(view);
   if (!bytes) return Fail({path}, "{}", bytes.error().message);
   return WriteBytes(*bytes, path);
+}
+
+Result<View> LoadExr(const std::string& path) {
+  try {
+    return ReadExr(path);
+  } catch (const std::exception& error) {
+    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
+  }
 }
 
 }  // namespace etude

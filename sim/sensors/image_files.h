@@ -8,15 +8,29 @@
 
 namespace etude {
 
-// Pictures as files: the one door to PNG and OpenEXR. Every error names the file.
+// Pictures as files: the one door to PNG and OpenEXR. Pictures of more than kLargestPicture pixels a
+// side are refused before memory is taken. Every error names the file.
 
-/// The bytes of a PNG file; the same for the same picture. `image` has at least one pixel.
+/// The bytes of a PNG file, for embedding in a page; the same for the same picture. `image` has at least
+/// one pixel.
 std::string EncodePng(const ColourImage& image);
+/// As grey: 0 black, anything else white.
+std::string EncodePng(const Mask& mask);
+
+Result<void> SavePng(const ColourImage& image, const std::string& path);
+Result<void> SavePng(const Mask& mask, const std::string& path);
+
+/// Reads any PNG as 8-bit RGB; transparent parts lie on black.
+Result<ColourImage> LoadColourPng(const std::string& path);
+/// Reads any PNG as a mask: 1 where the grey value is at least 128.
+Result<Mask> LoadMaskPng(const std::string& path);
 
 /// The bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; the 8-bit values / 255, not
 /// linearised), Z (float, metres along the viewing axis) and label (uint). Empty pictures of `view` are
 /// left out; the others have one size. The same for the same view.
 Result<std::string> EncodeExr(const View& view);
 Result<void> SaveExr(const View& view, const std::string& path);
+/// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty.
+Result<View> LoadExr(const std::string& path);
 
 }  // namespace etude

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "sim/random/stream.h"
-#include "tests/sim/sensors/read_image_files.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {
@@ -54,19 +53,32 @@ void Write(const std::string& path, const std::string& bytes) { std::ofstream(pa
 
 TEST_F(ImageFiles, ColourComesBackFromPngBitForBit) {
   const ColourImage image = SomeView().colour;
-  Write(At("a.png"), EncodePng(image));
-  const auto back = ReadColourPng(At("a.png"));
-  ASSERT_TRUE(back);
+  ASSERT_TRUE(SavePng(image, At("a.png")));
+  const auto back = LoadColourPng(At("a.png"));
+  ASSERT_TRUE(back) << ToString(back.error());
   EXPECT_EQ(back->width, image.width);
   EXPECT_EQ(back->pixels, image.pixels);
+  EXPECT_EQ(Bytes(At("a.png")), EncodePng(image));
+}
+
+TEST_F(ImageFiles, MasksComeBackFromPng) {
+  Mask mask(19, 7);
+  for (std::size_t i = 0; i < mask.pixels.size(); i += 3) mask.pixels[i] = 1;
+  ASSERT_TRUE(SavePng(mask, At("m.png")));
+  const auto back = LoadMaskPng(At("m.png"));
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(back->pixels, mask.pixels);
+  const auto seen = LoadColourPng(At("m.png"));
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->At(0, 0), (Rgb8{255, 255, 255})) << "people see white on black";
 }
 
 TEST_F(ImageFiles, AWholeViewComesBackFromExrBitForBit) {
   const View view = SomeView();
   const auto saved = SaveExr(view, At("v.exr"));
   ASSERT_TRUE(saved) << ToString(saved.error());
-  const auto back = ReadExr(At("v.exr"));
-  ASSERT_TRUE(back);
+  const auto back = LoadExr(At("v.exr"));
+  ASSERT_TRUE(back) << ToString(back.error());
   EXPECT_EQ(back->colour.pixels, view.colour.pixels);
   EXPECT_EQ(back->labels.pixels, view.labels.pixels);
   EXPECT_EQ(back->depth.pixels, view.depth.pixels);
@@ -81,8 +93,8 @@ TEST_F(ImageFiles, AnExrHoldsOnlyThePicturesThatThereAre) {
   view.colour = {};
   view.labels = {};
   ASSERT_TRUE(SaveExr(view, At("z.exr")));
-  const auto back = ReadExr(At("z.exr"));
-  ASSERT_TRUE(back);
+  const auto back = LoadExr(At("z.exr"));
+  ASSERT_TRUE(back) << ToString(back.error());
   EXPECT_EQ(back->depth.pixels, view.depth.pixels);
   EXPECT_TRUE(back->colour.pixels.empty());
   EXPECT_TRUE(back->labels.pixels.empty());
@@ -90,9 +102,62 @@ TEST_F(ImageFiles, AnExrHoldsOnlyThePicturesThatThereAre) {
 
 TEST_F(ImageFiles, EveryComplaintNamesTheFile) {
   const std::string missing = At("missing/picture");
+  EXPECT_THAT(ToString(LoadColourPng(missing).error()), HasSubstr(missing));
+  EXPECT_THAT(ToString(LoadMaskPng(missing).error()), HasSubstr(missing));
+  EXPECT_THAT(ToString(LoadExr(missing).error()), HasSubstr(missing));
+  EXPECT_THAT(ToString(SavePng(SomeView().colour, missing).error()), HasSubstr(missing));
   EXPECT_THAT(ToString(SaveExr(SomeView(), missing).error()), HasSubstr(missing));
   const std::string folder = folder_.string();
+  EXPECT_FALSE(LoadColourPng(folder));
+  EXPECT_FALSE(LoadExr(folder));
+  EXPECT_FALSE(SavePng(SomeView().colour, folder));
   EXPECT_FALSE(SaveExr(SomeView(), folder));
+}
+
+TEST_F(ImageFiles, DamagedFilesAreRefused) {
+  ASSERT_TRUE(SavePng(SomeView().colour, At("a.png")));
+  ASSERT_TRUE(SaveExr(SomeView(), At("a.exr")));
+  const std::string png = Bytes(At("a.png")), exr = Bytes(At("a.exr"));
+  for (const std::string& bytes : {std::string(), std::string("hello"), png.substr(0, 20), png.substr(0, 300)}) {
+    Write(At("b.png"), bytes);
+    EXPECT_FALSE(LoadColourPng(At("b.png"))) << bytes.size() << " bytes";
+  }
+  for (const std::string& bytes : {std::string(), std::string("hello"), exr.substr(0, 20), exr.substr(0, 2000)}) {
+    Write(At("b.exr"), bytes);
+    EXPECT_FALSE(LoadExr(At("b.exr"))) << bytes.size() << " bytes";
+  }
+}
+
+TEST_F(ImageFiles, DamageAnywhereNeverCrashes) {
+  ASSERT_TRUE(SaveExr(SomeView(), At("a.exr")));
+  ASSERT_TRUE(SavePng(SomeView().colour, At("a.png")));
+  const std::string exr = Bytes(At("a.exr")), png = Bytes(At("a.png"));
+  RandomStream random({4, "image-files", 0}, "damage");
+  int refused = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::string bad_exr = exr, bad_png = png;
+    bad_exr[random.IndexBelow(400)] = static_cast<char>(random.Bits());
+    bad_png[random.IndexBelow(bad_png.size())] = static_cast<char>(random.Bits());
+    Write(At("b.exr"), bad_exr);
+    Write(At("b.png"), bad_png);
+    refused += !LoadExr(At("b.exr"));
+    refused += !LoadColourPng(At("b.png"));
+  }
+  EXPECT_GT(refused, 30);
+}
+
+TEST_F(ImageFiles, HugePicturesAreRefusedBeforeMemoryIsTaken) {
+  std::string png = EncodePng(ColourImage(4097, 1));
+  Write(At("wide.png"), png);
+  EXPECT_THAT(ToString(LoadColourPng(At("wide.png")).error()), HasSubstr("4097"));
+
+  ASSERT_TRUE(SaveExr(SomeView(), At("a.exr")));
+  std::string exr = Bytes(At("a.exr"));
+  const std::size_t window = exr.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4;
+  ASSERT_LT(window + 16, exr.size());
+  exr.replace(window + 8, 8, "\xff\xff\xff\x3f\xff\xff\xff\x3f");  // x max, y max = 2^30 − 1
+  Write(At("huge.exr"), exr);
+  EXPECT_FALSE(LoadExr(At("huge.exr")));
 }
 
 }  // namespace
