@@ -1,7 +1,6 @@
 #include "engine/fuzzy/defuzzify.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace etude {

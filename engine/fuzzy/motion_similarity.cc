@@ -53,19 +53,6 @@ class Band {
 
 }  // namespace
 
-double WindowDistance(std::span<const Grades> a, int frame_a, std::span<const Grades> b, int frame_b, int reach,
-                      const FeatureWeights& weights) {
-  const int before = std::min({reach, frame_a, frame_b});
-  const int after =
-      std::min({reach, static_cast<int>(a.size()) - 1 - frame_a, static_cast<int>(b.size()) - 1 - frame_b});
-  double sum = 0;
-  for (int i = -before; i <= after; ++i) {
-    sum += ComputeDistance(a[static_cast<std::size_t>(frame_a + i)], b[static_cast<std::size_t>(frame_b + i)], weights)
-               .value;
-  }
-  return sum / (before + after + 1);
-}
-
 std::optional<double> ComputeMotionSimilarity(std::span<const Grades> a, std::span<const Grades> b,
                                               const MotionSimilarityOptions& options) {
   if (a.empty() || b.empty()) return std::nullopt;

@@ -8,12 +8,6 @@
 
 namespace etude {
 
-/// How unlike the surroundings of two frames are: the mean of equation 1's distance over the frames `from_a` + i and
-/// `from_b` + i, i = −reach…reach, as far as both motions go. Reach 0 is the distance of the two frames themselves.
-/// `reach` ≥ 0; both frames must exist.
-double WindowDistance(std::span<const Grades> a, int frame_a, std::span<const Grades> b, int frame_b, int reach,
-                      const FeatureWeights& weights);
-
 struct MotionSimilarityOptions {
   FeatureWeights weights = PaperWeights();
   /// How far the warping path may leave the straight one, as a share of the motions' lengths: 0.1 lets a beat fall a

@@ -106,10 +106,6 @@ Result<TransitionFacts> ReadTransitionFacts(const Recording& recording, const st
   facts.transition_frames = TransitionFramesOf(extras, coach == nullptr ? 0 : static_cast<int>(coach->poses.size()));
   for (const Json& entry : ObjectsOf(extras, "transition_points")) facts.points.push_back(PointOf(entry));
   if (facts.points.empty()) facts.points.push_back(PointOf(extras));
-  // Of a direct transition, older recordings tell the partial distances but once.
-  if (facts.points.size() == 1 && !facts.points[0].partials) {
-    facts.points[0].partials = FeaturesOf(extras, "partials");
-  }
   for (const Json& entry : ObjectsOf(extras, "candidates")) {
     if (auto candidate = CandidateOf(entry)) facts.candidates.push_back(*std::move(candidate));
   }

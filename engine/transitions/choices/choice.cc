@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "engine/base/named.h"
 #include "engine/transitions/choices/abrupt.h"
 #include "engine/transitions/choices/fuzzy_bridge.h"
 #include "engine/transitions/choices/matching.h"
@@ -85,17 +86,7 @@ std::span<const Choice> Table() {
 
 std::span<const Choice> AllChoices() { return Table(); }
 
-std::vector<std::string> ChoiceNames() {
-  std::vector<std::string> names;
-  for (const Choice& choice : AllChoices()) names.push_back(choice.name);
-  return names;
-}
-
-const Choice* FindChoice(std::string_view name) {
-  for (const Choice& choice : AllChoices()) {
-    if (choice.name == name) return &choice;
-  }
-  return nullptr;
-}
+std::vector<std::string> ChoiceNames() { return NamesOf(AllChoices()); }
+const Choice* FindChoice(std::string_view name) { return FindByName(AllChoices(), name); }
 
 }  // namespace etude

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// WindowDistance of all pairs of a row, `reach` frames to each side: two frames are compared once, not once per
-/// window.
+/// The mean of equation 1's distance over the frames around each pair of a row, `reach` to each side as far as both
+/// motions go: two frames are compared once, not once per window.
 class FuzzyWindowRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`; the playing clip's grades must outlive this.

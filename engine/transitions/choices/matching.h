@@ -47,7 +47,7 @@ struct FuzzyWindowOptions {
 const SettingTable<FuzzyWindowOptions>& FuzzyWindowSettings();
 
 /// The fuzzy similarity between motions that paper A leaves as future work, used for transitions: the fuzzy gate over
-/// all frames, ranked by the mean fuzzy distance over `reach_s` before and as much after the pair (WindowDistance);
+/// all frames, ranked by the mean fuzzy distance over `reach_s` before and as much after the pair;
 /// where no pair passes, through an in-between.
 TransitionRecord PlanFuzzyWindow(const MotionLibrary& library, const TransitionRequest& request,
                                  const MatchRules& rules, const FuzzyWindowOptions& options = {});

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "engine/base/named.h"
 #include "engine/transitions/joins/crossfade.h"
 #include "engine/transitions/joins/inertialise.h"
 
@@ -42,17 +43,7 @@ std::span<const Join> Table() {
 
 std::span<const Join> AllJoins() { return Table(); }
 
-std::vector<std::string> JoinNames() {
-  std::vector<std::string> names;
-  for (const Join& join : AllJoins()) names.push_back(join.name);
-  return names;
-}
-
-const Join* FindJoin(std::string_view name) {
-  for (const Join& join : AllJoins()) {
-    if (join.name == name) return &join;
-  }
-  return nullptr;
-}
+std::vector<std::string> JoinNames() { return NamesOf(AllJoins()); }
+const Join* FindJoin(std::string_view name) { return FindByName(AllJoins(), name); }
 
 }  // namespace etude

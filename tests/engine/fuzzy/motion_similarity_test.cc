@@ -83,21 +83,5 @@ TEST(MotionSimilarity, HoldsForMotionsOfOneFrameAndOfNone) {
   EXPECT_FALSE(ComputeMotionSimilarity({}, a));
 }
 
-TEST(WindowDistance, IsTheMeanOverTheSurroundings) {
-  const Motion a = ArmRaise(40, 170), b = ArmRaise(40, 60);
-  double sum = 0;
-  for (int i = -2; i <= 2; ++i) sum += ComputeDistance(a[10 + i], b[20 + i], PaperWeights()).value;
-  EXPECT_NEAR(WindowDistance(a, 10, b, 20, 2, PaperWeights()), sum / 5, 1e-12);
-  EXPECT_EQ(WindowDistance(a, 10, b, 20, 0, PaperWeights()), ComputeDistance(a[10], b[20], PaperWeights()).value);
-}
-
-TEST(WindowDistance, EndsWhereAMotionDoes) {
-  const Motion a = ArmRaise(40, 170), b = ArmRaise(40, 60);
-  double sum = 0;
-  for (int i = -1; i <= 3; ++i) sum += ComputeDistance(a[1 + i], b[20 + i], PaperWeights()).value;
-  EXPECT_NEAR(WindowDistance(a, 1, b, 20, 3, PaperWeights()), sum / 5, 1e-12);
-  EXPECT_EQ(WindowDistance(a, 0, b, 39, 5, PaperWeights()), ComputeDistance(a[0], b[39], PaperWeights()).value);
-}
-
 }  // namespace
 }  // namespace etude

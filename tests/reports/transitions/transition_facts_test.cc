@@ -38,10 +38,9 @@ TEST(TransitionFacts, AreReadAsTheRecordingTellsThem) {
   EXPECT_EQ((*facts->weights)[9], 0.5);
 }
 
-TEST(TransitionFacts, OfOlderRecordingsAreWhatTheseTold) {
+TEST(TransitionFacts, OfARecordingThatListsNoPointsAreThoseOfItsOnePoint) {
   const auto facts = ReadTransitionFacts(With(R"({"transition_frame": 40, "from": "clap", "to": "b", "distance": 0.31,
-    "partials": {"RH":0.1,"LH":0,"RHE":0,"LHE":0,"Posture":0,"Trunk":0,"RF":0,"LF":0,"RFK":0,"LFK":0},
-    "transition_points": [{"from": "clap", "from_frame": 9, "to": "b", "to_frame": 0, "distance": 0.31}]})"),
+    "partials": {"RH":0.1,"LH":0,"RHE":0,"LHE":0,"Posture":0,"Trunk":0,"RF":0,"LF":0,"RFK":0,"LFK":0}})"),
                                          "a cell");
   ASSERT_TRUE(facts.has_value());
   EXPECT_THAT(facts->transition_frames, ElementsAre(40));

@@ -1,8 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "engine/fuzzy/motion_similarity.h"
+#include "engine/fuzzy/distance.h"
 #include "engine/transitions/choices/diagonal_sums.h"
 #include "engine/transitions/choices/fuzzy_rows.h"
 #include "engine/transitions/choices/fuzzy_window_rows.h"
@@ -47,6 +48,20 @@ TEST(ReachAround, EndsWithTheShorterClipOnEachSide) {
   const Reach cut = ReachAround(2, 100, 98, 100, 5);
   EXPECT_EQ(cut.before, 2);
   EXPECT_EQ(cut.after, 1);
+}
+
+// The second implementation: every window from scratch.
+double WindowDistance(std::span<const Grades> a, int frame_a, std::span<const Grades> b, int frame_b, int reach,
+                      const FeatureWeights& weights) {
+  const int before = std::min({reach, frame_a, frame_b});
+  const int after =
+      std::min({reach, static_cast<int>(a.size()) - 1 - frame_a, static_cast<int>(b.size()) - 1 - frame_b});
+  double sum = 0;
+  for (int i = -before; i <= after; ++i) {
+    sum += ComputeDistance(a[static_cast<std::size_t>(frame_a + i)], b[static_cast<std::size_t>(frame_b + i)], weights)
+               .value;
+  }
+  return sum / (before + after + 1);
 }
 
 TEST(FuzzyWindowRows, AreTheWindowDistance) {
