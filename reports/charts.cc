@@ -75,7 +75,7 @@ std::string WorstOf(const std::string& metric) {
 
 // The scenario's first metric that cells have along the axis, or have of the worst effector; else the first of any.
 // Curves that are no metric, such as one effector's, have pictures of their own; zeros are errors of what was not asked
-// for; the middle of yes and no says nothing.
+// for; a median of yes and no says nothing.
 std::optional<std::string> FindCurve(const RunData& run, const ScenarioSummary& scenario, const std::string& axis,
                                      const std::map<std::string, std::string>& method_of) {
   std::vector<std::string> found;

@@ -31,7 +31,7 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   int broken = 0;
   std::string detail;
   for (const ReasonCount& reason : findings.reasons) {
-    // Unsolved and skipped are honest answers; what a method may expect of itself is an expectation.
+    // Unsolved and skipped cells are no test failures; a scenario that forbids them says so in `expect`.
     if (reason.status == Status::kUnsolved || reason.status == Status::kSkipped) continue;
     broken += reason.cells;
     detail += fmt::format("{} x {} in {}: {}\n", reason.cells, StatusName(reason.status), reason.method, reason.reason);

@@ -18,7 +18,7 @@
 namespace etude {
 namespace {
 
-// Even if a name slipped past the escaping, the page may load nothing from anywhere.
+// A second line of defence behind the escaping: the page may load nothing from anywhere.
 constexpr std::string_view kPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:; media-src data:";
 

@@ -37,7 +37,7 @@ std::string VerdictOf(const Row& row) {
 
 std::vector<PosePair> PairsOf(const RunData& run, const ScenarioSummary& scenario) {
   std::vector<PosePair> pairs;
-  // A sweep, or worlds of many pairs: no single verdict to tell.
+  // Under a sweep, or with many pairs a world, a pair has no single verdict.
   if (scenario.task != "pose-distance" || scenario.conditions.size() != 1) return pairs;
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name) continue;

@@ -52,7 +52,7 @@ Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folde
 
 Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const std::filesystem::path folder = run_folder / "report";
-  // The cheap texts first: whatever happens to the film, they stand.
+  // The cheap texts first, so that they are there even when rendering the film fails.
   auto written = WriteFileAtomically(folder / "summary.md", WriteMarkdown(run));
   if (!written) return written;
   written = WriteFileAtomically(folder / "junit.xml", WriteJunit(run));

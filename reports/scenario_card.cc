@@ -23,7 +23,7 @@
 namespace etude {
 namespace {
 
-// The data lies in an island beside the canvas: text, never code.
+// The data is embedded as a JSON element beside the canvas, which the browser never runs.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
   const std::string shape = chart.rows > 0 ? fmt::format(" style=\"height:{}px\"", 64 + 38 * chart.rows) : "";
   return fmt::format(
@@ -45,7 +45,7 @@ std::string Charts(const RunData& run, const ScenarioSummary& scenario, std::siz
 }
 
 std::string Methods(const ScenarioFindings& findings) {
-  // With one alternative the answer has said it all.
+  // With one alternative the table would only repeat the answer.
   const std::size_t others = findings.methods.size() > 1 ? findings.methods.size() : 0;
   if (others + findings.yardsticks.size() == 0) return "";
   std::string html = "<ul class=\"methods\" aria-label=\"Every method compared with its baseline\">";

@@ -63,7 +63,7 @@ Result<std::vector<std::string>> ExpandReference(const std::string& reference, c
 SplitReference Split(const std::string& reference) {
   std::error_code ignored;
   if (std::filesystem::exists(reference, ignored)) return {reference, std::nullopt};
-  // An animation's name may hold a '#' as well as a file's: what is left of one of them is there, or nothing is.
+  // Both a file's and an animation's name may hold a '#': try each as the separator until the part before it exists.
   for (std::size_t hash = reference.rfind('#'); hash != std::string::npos && hash > 0;
        hash = reference.rfind('#', hash - 1)) {
     std::string path = reference.substr(0, hash);

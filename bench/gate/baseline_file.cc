@@ -155,8 +155,8 @@ Result<void> CheckScenario(const SnapshotScenario& scenario, const Snapshot& sna
 
 Result<void> FillCells(const Json& json, const Place& place, Snapshot& snapshot) {
   const Json &statuses = json.at("statuses"), &values = json.at("values");
-  // Counted before memory is taken, for two long lists of names would make very many cells; and as no line
-  // may come twice, as many lines as places fill them all.
+  // Counted before allocating: two long lists of names in a small file would make a huge table. No line may come
+  // twice, so a file with as many lines as cells fills every cell.
   std::size_t cells = 0, lists = 0;
   for (const SnapshotScenario& scenario : snapshot.scenarios) {
     cells += scenario.worlds.size() * scenario.methods.size();

@@ -142,7 +142,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
                                                {values, other_values, compared}, scenario.seed));
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
-      // To the letter, `unsolved` for `failed` is a difference too.
+      // An exact comparison also counts `unsolved` against `failed`, which the share of ok cells does not see.
       if (exact.contains(scenario.name)) comparison.moves.back().differing = CountDiffering(cells, *others, compared);
       for (const SnapshotValues& values : cells.metrics) {
         const SnapshotValues* other = FindValues(*others, values.metric);

@@ -53,13 +53,13 @@ std::optional<double> KaplanMeierMedian(std::span<const Wait> waits);
 /// The frames [begin, end) in which a performance is judged.
 struct MoveWindow {
   std::string asked;   ///< the move that the coach asked for
-  std::string danced;  ///< the move really danced; empty when none was
+  std::string danced;  ///< the move really performed; empty when none was
   int begin = 0;
   int end = 0;
 };
 
 /// Whether a recogniser that fires for `move` at `frame` does so outside every performance of that move, asked for or
-/// danced.
+/// performed.
 bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows);
 
 /// `false_alarms_per_min`, over the whole session, performances included: needs a session longer than nothing.

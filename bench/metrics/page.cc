@@ -19,7 +19,7 @@ The JSON (`docs/schemas/metrics.schema.json`) holds every definition below with 
 
 - **Identity.** An id carries its unit. A definition that changes raises its version: values of two versions are two things.
 - **Motions** are judged at 30 Hz, in metres, Y up, as positions of twenty joints; a limb is the line from a joint to its
-  parent (`joints` of the JSON). In transitions the dancer's hips stand at 0.90 m.
+  parent (`joints` of the JSON). In transitions the body's hips stand at 0.90 m.
 - **A missing value** is null with its reason in `null_reasons`, never zero. A cell without an answer (failed, timeout,
   crashed, out_of_memory, bad_output) has no values, but for those metrics that give failing a value (0 for a solved
   share, twice the limit for PAR-2), so that it stays in the denominator; a skipped one has none at all.

@@ -13,7 +13,7 @@ namespace etude {
 /// fewer than two samples or nothing moves.
 std::optional<double> SpectralArcLength(std::span<const double> speed, double rate_hz);
 
-/// The speed that SPARC judges a switch by: the mean over joints of the speed between each frame and
+/// The speed that SPARC judges a transition by: the mean over joints of the speed between each frame and
 /// the next, from `first` to `last` of the motion (clamped to it), metres per second.
 std::vector<double> MeanJointSpeed(const BodyMotion& motion, int first, int last);
 

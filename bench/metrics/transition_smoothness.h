@@ -9,7 +9,7 @@
 namespace etude {
 
 /// The smoothness of a motion around given frames (docs/metrics.md, Transitions). Motions are judged
-/// at 30 Hz, in metres, danced by a body whose hips stand at 0.90 m.
+/// at 30 Hz, in metres, of a body whose hips stand at 0.90 m.
 
 /// How unevenly a motion moves close to a transition point.
 struct TransitionSmoothness {

@@ -192,19 +192,19 @@ void RegisterBuild(Libraries& libraries, int count, const std::string& name, aut
   benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond)->MinTime(0.2);
 }
 
-/// Every frame's partners in every other clip, and the matrix.
-void FindAllPartners(benchmark::State& state, const std::vector<std::vector<Grades>>& clips) {
-  std::vector<MatchClip> partner_clips;
+/// Every frame's matches in every other clip, and the matrix.
+void FindAllMatches(benchmark::State& state, const std::vector<std::vector<Grades>>& clips) {
+  std::vector<MatchClip> match_clips;
   double frames = 0;
   for (const std::vector<Grades>& clip : clips) {
-    partner_clips.push_back({.grades = clip});
+    match_clips.push_back({.grades = clip});
     frames += static_cast<double>(clip.size());
   }
   double shares = 0;
   SearchWork work;
   for (auto _ : state) {
     work = {};
-    const MatchTable table = FindMatches(partner_clips, {}, &work);
+    const MatchTable table = FindMatches(match_clips, {}, &work);
     shares = 0;
     for (int a = 0; a < table.ClipCount(); ++a) {
       for (int b = 0; b < table.ClipCount(); ++b) shares += table.Share(a, b);
@@ -240,18 +240,18 @@ void AskForPartners(benchmark::State& state, const std::vector<std::vector<Grade
   state.counters["share"] = found / (count * (count - 1) * static_cast<double>(clips[0].size()));
 }
 
-void RegisterPartners(Libraries& libraries, int count) {
+void RegisterMatches(Libraries& libraries, int count) {
   constexpr std::size_t kClipLength = 1000;
-  const std::string name = "partners/" + std::to_string(count) + "/";
+  const std::string name = "matches/" + std::to_string(count) + "/";
   const auto add = [&](const std::string& variant, auto run) {
     benchmark::RegisterBenchmark((name + variant).c_str(), [=, &libraries](benchmark::State& state) {
       run(state, libraries.Of(count).data);
     })->Unit(benchmark::kMillisecond);
   };
   add("1000-each/index", [](benchmark::State& state, const SearchData& data) {
-    FindAllPartners(state, ClipsOfLength(data.frames, kClipLength));
+    FindAllMatches(state, ClipsOfLength(data.frames, kClipLength));
   });
-  add("as-they-are/index", [](benchmark::State& state, const SearchData& data) { FindAllPartners(state, data.clips); });
+  add("as-they-are/index", [](benchmark::State& state, const SearchData& data) { FindAllMatches(state, data.clips); });
   add("1000-each/loop", [](benchmark::State& state, const SearchData& data) {
     AskForPartners<LoopPeer>(state, ClipsOfLength(data.frames, kClipLength));
   });
@@ -271,7 +271,7 @@ void RegisterAll(Libraries& libraries) {
     }
 #endif
     RegisterSearches(libraries, count);
-    if (count == 10'000 || count == 100'000) RegisterPartners(libraries, count);
+    if (count == 10'000 || count == 100'000) RegisterMatches(libraries, count);
   }
 }
 

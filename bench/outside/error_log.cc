@@ -52,7 +52,7 @@ std::string ErrorLog::LastLine() const {
   return tail.substr(tail.find_last_of('\n') + 1);  // npos + 1 = 0
 }
 
-// Not sooner than there is something to keep: most runs have no such folder.
+// The folder is made only when there is something to keep: most runs have none.
 void ErrorLog::MakeItsFolder() const {
   std::error_code ignored;  // what a program says is not worth failing a cell
   std::filesystem::create_directories(std::filesystem::path(file_).parent_path(), ignored);

@@ -209,7 +209,7 @@ Failure OutsideMethod::State::HowItEnded() {
 }
 
 std::string OutsideMethod::State::Stop(int patience_ms) {
-  setting_files = {};  // first: whoever waits for us may lose patience while the program takes its time to end
+  setting_files = {};  // deleted first: we may be killed while we wait for the program to end
   setting_in_force.reset();
   const std::string end = child ? child->Finish(patience_ms) : "not running";
   child.reset();

@@ -25,7 +25,7 @@ HeldTree::HeldTree(pid_t root) {
 }
 
 void HeldTree::Kill() {
-  // One that stands still starts no other. It may have been about to: so stop and look until nothing is new, twice.
+  // A stopped process starts no other, but may have just forked: stop and list until two passes find nothing new.
   for (int i = 0, quiet = 0; i < kMostLooks && quiet < 2; ++i) {
     SignalAll(SIGSTOP);
     quiet = Grow() ? 0 : quiet + 1;

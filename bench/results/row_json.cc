@@ -63,7 +63,7 @@ Json EncodeRow(const Row& row) {
   json["task"] = row.task;
   json["condition"] = CompactLabel(row.condition);
   for (const SweptValue& swept : row.condition) {
-    // A parameter named like a metric (a transition's wait_s) leaves the column to what was measured.
+    // A parameter named like a metric (a transition's wait_s) gets no column: the measured value has it.
     if (FindMetric(swept.key) == nullptr) json[swept.key] = ValueAsJson(swept.value);
   }
   json["trial"] = row.trial;

@@ -114,7 +114,7 @@ class Supervisor {
       const bool has_input = watched[2 * i].revents != 0 || watched[2 * i + 1].revents != 0;
       RETURN_IF_ERROR(WatchOver(workers_[i], has_input));
     }
-    // One that is still in its set-up is not waited for when there is nothing left to give it.
+    // With no orders left, idle workers are dropped, also those still in their set-up.
     std::erase_if(workers_,
                   [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && !worker.order); });
     return {};

@@ -24,9 +24,9 @@ using Deliver = std::function<Result<void>(std::size_t cell, FinishedCell finish
 /// Hands worlds to worker processes and collects their cells. A worker that dies, takes longer or holds more
 /// than the scenario's limits allow is ended and takes only the cell in progress with it: that cell's row becomes
 /// `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs the world's other methods.
-/// When it ends while it builds the world, all methods share that fate. A worker that dies in its set-up
-/// has no world to lose. False when stopped early; fails when no worker can start, or when several in a row die in
-/// their set-up.
+/// When it ends while it builds the world, all methods of the world get that row. One that dies in its set-up
+/// holds no world and costs no cell. False when stopped early; fails when no worker can start, or when several in a row
+/// die in their set-up.
 Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Order> orders,
                        const SupervisorOptions& options, const Deliver& deliver);
 

@@ -42,7 +42,7 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
 
 int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
-  // A job scheduler signals every process of a job; whether to stop is the parent's to say.
+  // A job scheduler signals every process of a job; only the parent decides whether workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
   std::string line;

@@ -54,7 +54,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
     }
     where.push_back({entry.key, entry.value.scalar});
   }
-  // Values that are stepped through together do not meet in every combination.
+  // `together` steps parameters in parallel, so not every combination of known values is a condition.
   const auto has = [](const Condition& condition, const SweptValue& swept) {
     return std::find(condition.swept.begin(), condition.swept.end(), swept) != condition.swept.end();
   };

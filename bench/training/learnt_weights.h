@@ -31,8 +31,8 @@ class LearntWeights {
  public:
   explicit LearntWeights(TrainingClips training, const FuzzySystem& system = {});
 
-  /// The weights of `source` for a switch between clips of these identities, in either order; the system's own where
-  /// nothing could be learnt.
+  /// The weights of `source` for a transition between clips of these identities, in either order; the system's own
+  /// where nothing could be learnt.
   const FeatureWeights& For(WeightSource source, const std::string& judged_a, const std::string& judged_b);
 
   /// How the learning went; `source` is not kFixed.

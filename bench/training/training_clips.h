@@ -16,7 +16,8 @@ struct TrainingFrame {
   PoseFeatures features;
 };
 
-/// Clips to learn from, danced by one body. What is learnt for a switch never saw the two clips that it is judged by.
+/// Clips to learn from, performed by one body. What is learnt for a transition never saw the two clips that it is
+/// judged by.
 struct TrainingClips {
   std::vector<std::string> identities;             ///< equal for equal dances: "builtin:clap", or the file
   std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
@@ -26,15 +27,15 @@ struct TrainingClips {
 /// all frames of a shorter clip.
 constexpr int kFramesPerClip = 16;
 
-/// Samples clips as they came, after `proportions` has danced them.
+/// Samples clips as they came, retargeted to `proportions`.
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions);
 
 /// Pairs grow with the square of the clips: more would make learning slow, and teach little.
 constexpr std::size_t kMostTrainingClips = 40;
 
-/// Every built-in move, and those of `clips` that are none, by their identities; all danced by `proportions`. Of more
-/// than kMostTrainingClips, evenly chosen ones.
+/// Every built-in move, and those of `clips` that are none, by their identities; all retargeted to `proportions`. Of
+/// more than kMostTrainingClips, evenly chosen ones.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 

@@ -11,7 +11,8 @@ namespace etude {
 
 struct BridgeOptions {
   /// How many frames a measurement is used before and after its own. 15 is half a second at 30 Hz, after which a
-  /// dancer's limb may be anywhere. Scale it with the rate; when only every n-th frame is marked, make it n at least.
+  /// performer's limb may be anywhere. Scale it with the rate; when only every n-th frame is marked, make it n at
+  /// least.
   int longest_gap = 15;
 };
 

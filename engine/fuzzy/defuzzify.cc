@@ -106,7 +106,7 @@ Moment AreaUnder(std::span<const ActivatedTerm> terms, const Universe& universe)
   Moment area;
   for (std::size_t i = 0; i + 1 < bends.size(); ++i) {
     const double low = bends[i], high = bends[i + 1], middle = 0.5 * (low + high);
-    // An upright side belongs to the piece that it stands in, so ends are taken a hair inside.
+    // At a vertical side the curve has two values; sample just inside the piece to get the piece's own.
     const double hair = (high - low) * 1e-9;
     const double at_low = height(low + hair), at_middle = height(middle), at_high = height(high - hair);
     area.weight += (high - low) / 6 * (at_low + 4 * at_middle + at_high);

@@ -17,7 +17,7 @@ constexpr double kWeightSum = 8;
 /// feet; the values are ours).
 FeatureWeights PaperWeights();
 
-/// Two frames closer than this may be switched (paper A).
+/// Two frames closer than this may be a transition point (paper A).
 constexpr double kPaperThreshold = 0.4;
 
 /// Δ_k² = Σ over the terms of feature k of (μ₁ − μ₂)².

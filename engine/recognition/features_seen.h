@@ -18,7 +18,7 @@ struct FeatureFrame {
 /// The ten features of every frame. `standing_hip_height` in metres, > 0.
 std::vector<FeatureFrame> SeeFeatures(const SkeletonStream& stream, double standing_hip_height);
 
-/// The hip height this dancer has when standing: the median, over the first second in which the body
+/// The hip height this performer has when standing: the median, over the first second in which the body
 /// was seen, of what the limb lengths say (single frames vary by 4–12 %). 0.9 m for a stream without a body.
 double EstimateStandingHipHeight(const SkeletonStream& stream);
 

@@ -72,7 +72,7 @@ class OneEuroFilter {
 enum class FilterKind { kNone, kHolt, kOneEuro };
 
 struct FilterOptions {
-  /// None: key poses must be held over several frames anyway, and nothing lags. Holt, which Kinect's programmers switch
+  /// None: key poses must be held over several frames anyway, and nothing lags. Holt, which Kinect's programmers turn
   /// on, finds a little more with fewer false alarms (`scenarios/quick/detection.yaml`); 1€ where joints must both rest
   /// quietly and move quickly.
   FilterKind kind = FilterKind::kNone;

@@ -56,7 +56,7 @@ bool KeyPoseRecogniser::Update(const FeatureFrame& frame) {
   if (!frame.body_seen) return false;
   const std::size_t slot = static_cast<std::size_t>(seen_++ % options_.hold_frames);
 
-  // From the last pose to the first, so that each builds on what the one before had reached earlier.
+  // From the last pose to the first: each reads its predecessor's state of the previous frame, not of this one.
   constexpr double kRounding = 1e-9;  // a share of exactly the threshold counts, whatever the weights
   for (std::size_t k = poses_.size(); k-- > 0;) {
     PoseProgress& progress = poses_[k];

@@ -26,7 +26,7 @@ struct TaughtPose {
 struct TaughtMove {
   std::string name;
   std::vector<TaughtPose> poses;  ///< at least one
-  /// From the first pose reached to the last at most so many frames may pass where nobody says when the move is danced
+  /// From the first pose reached to the last at most so many frames may pass where nobody says when the move is due
   /// (FindMove): one performance at the slowest tempo allowed. By default any number, so that poses of two performances
   /// may be taken for one.
   int span_frames = std::numeric_limits<int>::max();
@@ -52,7 +52,7 @@ struct KeyPoseOptions {
   double threshold = 0.8;
   /// For how many seen frames in a row a pose must be met, ≥ 1. Three (ours), 0.1 s at 30 Hz, so that a pose which
   /// noise passes through is none. Change it with the frame rate; every frame more delays each answer by one, and a
-  /// quick dancer does not hold a pose for long.
+  /// quick performer does not hold a pose for long.
   int hold_frames = 3;
   /// What an angle counts whose joints are all tracked. The yardstick of the other two: leave it.
   double tracked_weight = 1.0;
@@ -112,7 +112,7 @@ struct Judgement {
   std::vector<double> running_score;  ///< per frame of the window
 };
 
-/// Judges `window`, the frames in which the move was to be danced: its length bounds the performance.
+/// Judges `window`, the frames in which the move was to be performed: its length bounds the performance.
 Judgement JudgeWindow(std::span<const FeatureFrame> window, const TaughtMove& move, const KeyPoseOptions& options);
 
 /// Every frame at which the move was recognised, with the recogniser running all the time.

@@ -32,17 +32,18 @@ struct SeenStream {
   std::vector<FeatureFrame> frames;  ///< one per frame of the stream
 };
 
-/// Filters the stream and reads the pose features off it, by the hip height that the dancer has in the filtered stream.
+/// Filters the stream and reads the pose features off it, by the hip height that the performer has in the filtered
+/// stream.
 SeenStream SeeStream(const SkeletonStream& stream, const FilterOptions& filter);
 
 /// What recognition works on; all of it must outlive the call.
 struct RecognitionInput {
   const SeenStream& seen;
   std::span<const AskedMove> asked;    ///< windows within the stream; they may overlap
-  std::span<const TaughtMove> taught;  ///< every move that may be danced, names all different
+  std::span<const TaughtMove> taught;  ///< every move that may be performed, names all different
 };
 
-/// A recogniser took a move for danced.
+/// A recogniser took a move for performed.
 struct Detection {
   std::string move;
   int frame = 0;  ///< of the stream, the one in which the last key pose had been held long enough
@@ -53,7 +54,7 @@ struct Recognition {
   std::vector<Judgement> judgements;
   /// Everything the recognisers of all moves saw when they ran through the whole stream, asked for or not: by move in
   /// the order of `taught`, then by time. Those in no performance of their move are false alarms, which only someone
-  /// who knows what was danced can tell.
+  /// who knows what was performed can tell.
   std::vector<Detection> detections;
 };
 

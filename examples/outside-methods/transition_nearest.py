@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Switches where the two clips look most alike: of all pairs of a frame that clip `from` shows soon enough and a frame
+"""Goes over where the two clips look most alike: of all pairs of a frame that clip `from` shows soon enough and a frame
 of clip `to`, the pair with the smallest distance between poses (as in motion graphs: Kovar, Gleicher, Pighin 2002).
 
 Poses are compared as Etude lays them on each other: hip centre over hip centre on the floor, heading on heading.

@@ -20,7 +20,7 @@ namespace {
 
 // Drawn this much larger and shrunk, which smooths edges.
 constexpr double kDetail = 1.5;
-// Of the panel's width, on its left: the words' room.
+// The share of the panel's width, on its left, that the text gets.
 constexpr double kWordsShare = 0.34;
 // From the front, turned far enough to tell near from far.
 constexpr double kTurn = Radians(25);
@@ -64,7 +64,7 @@ void DrawMarks(Canvas& canvas, const std::vector<std::pair<glm::dvec2, glm::dvec
   }
 }
 
-// Far below the goal, how far does not matter.
+// Errors far below the goal are drawn alike.
 std::string ShortNumber(double value) { return value < 0.001 ? "< 0.001" : FormatNumber(value); }
 
 double LargestShift(const BodyPose& a, const BodyPose& b) {
@@ -105,7 +105,7 @@ Sight ConvergenceStage::SightOf(const IkRace& race) const {
     constexpr double kMargin = 0.05;  // metres, for the ring
     if (target) Studio::Include({{{Part::kHead, Placed(*target), Placed(*target), kMargin}}}, sight);
   }
-  // The bodies in the middle of what the words leave over.
+  // The bodies are centred in the space beside the text.
   const double left_over = box_.width * (1 - kWordsShare) / box_.height;
   const glm::dvec2 extent = sight.high - sight.low;
   const double width = std::max(extent.x, extent.y * left_over);
@@ -150,12 +150,12 @@ void ConvergencePanel::Draw(Canvas& canvas, const Box& panel, Renderer& renderer
     figure(y, label, ShortNumber(now) + suffix, now < goal ? kGood : kInk);
   };
   canvas.DrawText({x, panel.y + 36}, path_.method, 25, colour_, panel.width - 36, true);
-  // The clock's, which both methods show, not the latest that was recorded.
+  // The iteration that the shared clock shows, not the latest that was recorded.
   const int reached = std::min(static_cast<int>(iteration), path_.iterations.back());
   figure(84, "iteration", FormatCount(reached), kInk);
   error(164, "worst position error", path_.position_cm, kGoalCm, " cm");
   error(244, "worst orientation error", path_.orientation_deg, kGoalDeg, "°");
-  // A method that has ended says so, and waits for the other.
+  // A method that has ended says so and keeps its last pose until the other has ended.
   if (entry + 1 == path_.poses.size()) {
     const Paint& paint = path_.solved_at ? kGood : kWarn;
     canvas.DrawText({x, panel.y + 342}, path_.ending, 25, paint, panel.width - 36, true);

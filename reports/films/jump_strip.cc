@@ -17,7 +17,7 @@ constexpr Paint kFaint{0.95, 0.955, 0.96, 0.18};
 constexpr double kTextSize = 13, kJumpRoom = 184;
 constexpr double kSide = 12, kStripTop = 24, kStripBottom = 34, kClipHeight = 6;
 
-// The metric jump_cm, as far as it is known at a frame.
+// The metric jump_cm, from the frames shown so far.
 std::optional<double> JumpAtPoints(const TransitionPath& path, int frame) {
   std::optional<double> most;
   for (const int point : path.facts.transition_frames) {

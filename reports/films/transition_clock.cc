@@ -6,9 +6,9 @@ namespace etude {
 namespace {
 
 constexpr int kBefore = kFilmRate, kAfter = 3 * kFilmRate / 2;
-// Who waits longer than this is seen waiting.
+// The film ends by then: a method that waits longer is seen still waiting.
 constexpr int kLatest = 4 * kFilmRate;
-// Enough to see what leads to a transition, and what comes of it; and as much as one watches slowly.
+// Long enough to see what leads to a transition and what follows it; the same stretch is shown in slow motion.
 constexpr int kSlowBefore = kFilmRate / 3, kSlowAfter = 2 * kFilmRate / 3;
 constexpr int kLongestSlow = 5 * kFilmRate / 2;
 

@@ -13,7 +13,7 @@ namespace etude {
 /// `time` and `last_point` are frames after the request.
 std::string CountdownWords(const std::string& wanted, int time, int last_point, double rate_hz);
 
-/// One method's column of the film that compares transitions: the dancer, how jerky it is, and the distances at its
+/// One method's column of the film that compares transitions: the performer, how jerky it is, and the distances at its
 /// transition points.
 class TransitionPanel {
  public:
@@ -23,7 +23,7 @@ class TransitionPanel {
   TransitionPanel(const TransitionPath& path, std::size_t index, const TransitionStage& stage, const JumpStrip& strip)
       : path_(path), index_(index), stage_(stage), strip_(strip) {}
 
-  /// The part of a column of the film that shows the dancer; its caption is beneath.
+  /// The part of a column of the film that shows the performer; its caption is beneath.
   static Box BodyBox(const Box& column);
   void Draw(Canvas& canvas, const Box& column, Renderer& renderer, int time);
 

@@ -25,7 +25,7 @@ TransitionStage StageFor(const TransitionRace& race, const TransitionClock& cloc
   return {race, clock.First(), clock.Last(), static_cast<int>(body.width), static_cast<int>(body.height)};
 }
 
-// One scale for all methods: who jumps is seen beside who does not.
+// One scale for all methods, so that jumps compare across columns.
 double HighestJump(const TransitionRace& race, const TransitionClock& clock) {
   double highest = 1;
   for (const TransitionPath& path : race.paths) {

@@ -8,7 +8,7 @@ namespace etude {
 namespace {
 
 constexpr double kStageDetail = 1.5;
-// Who walks is followed slowly: a second to either side.
+// The camera follows a walking body smoothly: a mean over a second to either side.
 constexpr int kFollowFrames = 30;
 // Poses change little from one frame to the next: enough to know how much room they need.
 constexpr int kLookedAtEvery = 3;

@@ -90,7 +90,7 @@ std::string PaperBHtml(const RunData& run, const ScenarioSummary& scenario) {
       with_angles = with_angles || !set.angles.empty();
     }
   }
-  // Nothing was open to be closed: there are no tables to compare with the paper's.
+  // No trial left a distance to close, so there are no tables to compare with the paper's.
   return open ? html : html + PrintedHtml(with_angles);
 }
 

@@ -149,7 +149,7 @@ class Study {
     return found;
   }
 
-  // All methods meet the same start: each trial's first cell that tells it is enough.
+  // All methods start from the same pose, so the first cell of a trial that records it is enough.
   Rows OnePerTrial(std::span<const Row* const> rows) const {
     Rows found;
     std::set<int> trials;

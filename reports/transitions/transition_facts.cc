@@ -18,7 +18,7 @@ std::optional<double> NumberOf(const Json& json, const char* key) {
   return found != json.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-// Larger ones are no frames, and would overflow where they are added up.
+// Larger values are not frame numbers and would overflow when added.
 std::optional<int> FrameOf(const Json& json) {
   constexpr long long kMost = 100'000'000;
   if (!json.is_number_integer()) return std::nullopt;

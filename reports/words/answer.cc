@@ -136,7 +136,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
                      RangeOfChanges(judged, words));
 }
 
-// Whoever gives up on hard worlds must not look good on the easy ones alone.
+// A method that fails in hard worlds must not look better for being judged on the easy ones alone.
 std::string UnpairedWords(const std::vector<Judged>& judged) {
   int only_baseline = 0, only_method = 0;
   for (const Judged& j : judged) {
@@ -173,7 +173,8 @@ MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string&
 
 MethodFinding AnswerInWords(const ScenarioSummary& scenario, const std::string& metric) {
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
-    if (!IsComparedWithNone(scenario, scenario.methods[i])) return CompareInWords(scenario, scenario.methods[i], metric);
+    if (!IsComparedWithNone(scenario, scenario.methods[i]))
+      return CompareInWords(scenario, scenario.methods[i], metric);
   }
   return {"", "", Verdict::kInconclusive, "Only one method ran, so there is nothing to compare it with."};
 }

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-// Less than any unit here can mean: what computing leaves over of zero.
+// Smaller than any meaningful value of any unit: rounding error where the result is zero.
 constexpr double kRounding = 1e-12;
 
 // Angles read better with their sign; every other unit stands in the catalogue as people write it.

@@ -5,10 +5,10 @@
 namespace etude {
 
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method) {
-  // Nobody is compared by no metric: that says nothing of this method.
+  // A scenario without metrics compares no method; that says nothing about this one.
   if (scenario.methods.empty() || method == scenario.methods.front()) return false;
   if (scenario.headline_metrics.empty() || scenario.conditions.empty()) return false;
-  // Whoever is compared is compared under every condition.
+  // A method that is compared at all is compared under every condition.
   const std::vector<Comparison>& comparisons = scenario.conditions.front().comparisons;
   return std::ranges::find(comparisons, method, &Comparison::method) == comparisons.end();
 }

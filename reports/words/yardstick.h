@@ -6,7 +6,7 @@
 
 namespace etude {
 
-/// Whether a method is compared with none, as its scenario wishes (`against` itself). The first method is everyone's
+/// Whether a method is compared with none, as its scenario says (`against` itself). The first method is everyone's
 /// baseline, and not meant.
 bool IsComparedWithNone(const ScenarioSummary& scenario, const std::string& method);
 

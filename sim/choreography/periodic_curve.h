@@ -15,7 +15,7 @@ enum class Ease {
 };
 
 /// A smooth closed curve through given values: twice continuously differentiable, also across the
-/// seam of the loop, flat at every extreme of the given values (it never overshoots them visibly) and
+/// ends of the loop, flat at every extreme of the given values (it never overshoots them visibly) and
 /// exactly constant between equal neighbours — a foot that is to stand, stands.
 ///
 /// An ease bends the time between two keys, never the way: the curve passes the same values, and joins its neighbours

@@ -35,7 +35,7 @@ struct SessionOptions {
 struct SessionEvent {
   std::string move;            ///< the move asked for
   Fault fault = Fault::kNone;  ///< the truth
-  std::string danced;          ///< the move really danced; empty when skipped
+  std::string danced;          ///< the move really performed; empty when skipped
   double start_s = 0;          ///< the first beat
   double end_s = 0;            ///< the last beat
   double delay_s = 0;          ///< the learner's reaction time
@@ -55,7 +55,7 @@ struct SessionPlan {
   double duration_s = 0;
 };
 
-/// A session as it was truly danced: what the sensor looks at.
+/// A session as it was truly performed: what the sensor looks at.
 struct Performance {
   BodyMotion motion;                 ///< the whole session, 30 Hz, canonical body
   std::vector<SessionEvent> events;  ///< with `first_right_s`

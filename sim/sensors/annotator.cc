@@ -32,7 +32,7 @@ bool IsOnPerson(const Mask& person, const glm::dvec2& pixel, int margin) {
   return false;
 }
 
-// One frame as the human sees it.
+// One frame as the annotator sees it.
 struct Scene {
   const BodyPose& truth;
   const std::vector<Capsule>& body;

@@ -25,7 +25,7 @@ struct AnnotatorOptions {
 };
 
 /// The annotation picture of one frame: on black, a stroke along every limb and a disc on every end
-/// effector (engine/vision/strokes.h) that lies on `person`, the extracted person the human is shown.
+/// effector (engine/vision/strokes.h) that lies on `person`, the extracted person the annotator is shown.
 /// Draws the same dice whatever is marked, so a better mask never changes the errors of other marks.
 /// @param body the performer's shape, which decides what is hidden from the camera
 ColourImage Annotate(const BodyPose& truth, const std::vector<Capsule>& body, const Camera& camera, const Mask& person,

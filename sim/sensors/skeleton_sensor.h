@@ -43,8 +43,8 @@ struct SkeletonSensorOptions {
   double outlier_size_m = 0.15;   ///< uniform in a cube of this half side (ours)
 };
 
-/// A Kinect's depth camera (v1: 57° × 43°) at `distance` metres in front of a dancer who stands at the
-/// origin facing +Z, 1 m above the floor; the dancer is seen turned by `turn` radians.
+/// A Kinect's depth camera (v1: 57° × 43°) at `distance` metres in front of a performer who stands at the
+/// origin facing +Z, 1 m above the floor; the performer is seen turned by `turn` radians.
 Camera SkeletonSensorAt(double distance, double turn);
 
 /// What `sensor` would report of a body moving as `truth`: one frame per frame. A joint is inferred

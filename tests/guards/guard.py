@@ -4,9 +4,11 @@
     guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
     guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
 
-Rules: imports, rooms (rooms.py), doors, determinism. Prints how many files it checked, so that a guard that looks
-at nothing cannot pass for one that finds nothing.
+Rules: imports, rooms (rooms.py), doors, determinism, pages (files that .md files mention). Prints how many files it
+checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
 """
+import fnmatch
+import functools
 import pathlib
 import re
 import sys
@@ -15,6 +17,7 @@ sys.dont_write_bytecode = True  # the sources stay as they are
 from rooms import MAY_INCLUDE, NEVER_INCLUDES
 
 LAYERS = ["engine", "sim", "bench", "reports", "cli"]
+FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake"]  # where pages stand
 
 # Heavy libraries, by the start of their include, and the only folders that may know them.
 DOORS = {
@@ -202,7 +205,25 @@ def check_determinism(relative, path):
                 yield number, f"'{re.search(pattern, line).group()}': {why}"
 
 
-RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_determinism}
+@functools.lru_cache
+def known_names(root):
+    """Every file and folder of the tree, by the end of its path of any length, with and without its ending."""
+    paths = [path.relative_to(root) for folder in FOLDERS for path in [root / folder, *(root / folder).rglob("*")]]
+    ends = {"/".join(path.parts[i:]) for path in paths for i in range(len(path.parts))}
+    return ends | {re.sub(r"\.\w+$", "", end) for end in ends if "/" in end}
+
+
+def check_pages(relative, path):
+    names = known_names(path.parents[len(relative.parts) - 1])
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        for name in re.findall(r"`([\w.*/-]+?)/?`", line):
+            in_tree = name.split("/")[0] in FOLDERS and "/" in name
+            is_source = re.search(r"[\w*]\.(h|cc|py)$", name)
+            if (in_tree or is_source) and name not in names and not fnmatch.filter(names, name):
+                yield number, f"mentions {name}, which does not exist"
+
+
+RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_determinism, "pages": check_pages}
 
 
 def main():
@@ -210,10 +231,11 @@ def main():
     rule = Rooms(root) if sys.argv[1] == "rooms" else RULES[sys.argv[1]]
     must_flag = sys.argv[3:] == ["--must-flag"]
     checked, flagged = 0, set()
-    for layer in LAYERS:
+    for layer in FOLDERS if rule is check_pages else LAYERS:
         for path in sorted((root / layer).rglob("*")):
             is_build_file = path.name == "CMakeLists.txt" and rule is check_determinism
-            if path.suffix not in {".h", ".cc"} and not is_build_file:
+            kinds = {".md"} if rule is check_pages else {".h", ".cc"}
+            if (path.suffix not in kinds and not is_build_file) or "must_flag" in path.relative_to(root).parts:
                 continue
             checked += 1
             for number, message in rule(path.relative_to(root), path):

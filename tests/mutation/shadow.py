@@ -73,7 +73,7 @@ class Shadow:
         return (self.root / file).read_text(encoding="utf-8")
 
     def digest(self):
-        """Of everything that a mutant's fate depends on."""
+        """Of everything that a mutant's outcome depends on."""
         state = hashlib.sha256()
         for file in self._git_files():
             used = file.startswith(("engine/", "tests/engine/", "tests/support/", "tests/mutation/", "sim/", "cmake/"))

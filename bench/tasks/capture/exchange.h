@@ -18,7 +18,7 @@ namespace etude {
 ///      "joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
 ///      "strokes": [{"from": "left_hip", "to": "left_knee"}, …], "discs": ["left_foot", …]}
 ///
-/// `strokes` are the thirteen limbs that the human marks with a line, `discs` the five ends marked with a point.
+/// `strokes` are the thirteen limbs that the annotator marks with a line, `discs` the five ends marked with a point.
 Payload DescribeStudio();
 
 /// Problem: who is filmed, and per camera its calibration points (a place in the world and the pixel clicked on for
@@ -30,10 +30,10 @@ Payload DescribeStudio();
 ///                   "pictures": ["camera-1-0000.png", …]}, …],
 ///      "marks": {"hue": [[{"strokes": [[u, v, u, v], null, …], "discs": [[u, v], null, …]}, …], […]], "hue-gated": …}}
 ///
-/// `marks`, for methods that want no vision of their own: what a human drew on each camera's frames, as built-in
+/// `marks`, for methods that want no vision of their own: what the annotator drew on each camera's frames, as built-in
 /// methods see it. It is drawn on the person that a segmenter has cut out, so that what the segmenter lost is not
-/// marked; by the segmenter's name, then [camera][frame]; null is a frame that nobody looked at, a mark that is
-/// missing or could not be read. A stroke goes from its limb's `from` to its `to`.
+/// marked; by the segmenter's name, then [camera][frame]; null is a frame that the annotator did not see, a mark that
+/// is missing or could not be read. A stroke goes from its limb's `from` to its `to`.
 ///
 /// Fails when there is no renderer, and for takes of more than kMostPictures pictures.
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);

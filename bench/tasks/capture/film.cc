@@ -66,7 +66,7 @@ class Crew {
     return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {}});
   }
 
-  // What the human draws on this cut-out, read back. The dice depend on camera and frame alone.
+  // The annotator's marks on this cut-out, read back. Their dice depend on camera and frame alone.
   Marks Mark(const Mask& person, std::size_t camera, std::size_t frame) const {
     if (frame % static_cast<std::size_t>(options_.mark_every) != 0) return {};
     RandomStream random(key_, fmt::format("capture/camera-{}/annotator/{}", camera, frame));

@@ -24,7 +24,7 @@ struct PersonSource {
 /// What one way of cutting out the person makes of a take. Indices: [camera][frame].
 struct Observation {
   PersonSource source;
-  std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that no human looked at
+  std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
   std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for
   MaskScore score;                        ///< mean over all pictures
   std::string masks_digest;
@@ -39,7 +39,7 @@ struct Take {
 /// Takes each picture as it is shot, because there are too many to keep. `frame` is empty for the background.
 using PictureSink = std::function<void(std::size_t camera, std::optional<std::size_t> frame, const ColourImage&)>;
 
-/// Films the world and shows the pictures to the human: every picture is rendered once, cut out by each of
+/// Films the world and shows the pictures to the annotator: every picture is rendered once, cut out by each of
 /// `sources`, and marked on each cut-out with the same dice.
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink = {});

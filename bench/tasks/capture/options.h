@@ -30,7 +30,7 @@ struct StudioOptions {
   int calibration_pairs = 24;  ///< measured points per camera
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
-  int mark_every = 1;  ///< a human marks every n-th frame; directions are interpolated in between
+  int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
 };
 
 /// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error.

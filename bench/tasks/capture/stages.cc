@@ -35,7 +35,7 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, bool is_truth, 
   return CalibratedCameras{std::move(matrices), rms_px, digest.Hex()};
 }
 
-/// What a method with these oracles is told of the frames that the human looks at.
+/// What a method with these oracles is told of the frames that the annotator marks.
 std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
   for (std::size_t k = 0; k < known.size(); ++k) {

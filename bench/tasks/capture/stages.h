@@ -39,7 +39,7 @@ class CaptureStages {
                 std::span<const PersonSource> sources, bool keeps_masks);
 
   const CaptureWorld& world() const { return world_; }
-  /// Which frames the human looks at.
+  /// Which frames the annotator marks.
   const std::vector<bool>& marked() const { return marked_; }
   /// The renderer of this world; fails, saying why, when there can be none.
   Result<Renderer*> GetRenderer();

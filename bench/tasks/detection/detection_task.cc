@@ -138,7 +138,7 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
 TaskKind MakeDetectionTaskKind() {
   const std::vector<std::string> metrics = DetectionMetrics();
   return {.name = "detection",
-          .question = "Does the coach notice which moves were danced right, and how soon?",
+          .question = "Does the coach notice which moves were performed right, and how soon?",
           .default_metrics = metrics,
           .metrics = metrics,
           .make = MakeDetectionTask,

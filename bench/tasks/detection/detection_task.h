@@ -4,7 +4,7 @@
 
 namespace etude {
 
-/// "Does the coach notice which moves were danced right, and how soon?" One world: a learner's session
+/// "Does the coach notice which moves were performed right, and how soon?" One world: a learner's session
 /// of built-in moves, right and wrong, and what a Kinect-like sensor saw of it.
 TaskKind MakeDetectionTaskKind();
 

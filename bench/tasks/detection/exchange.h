@@ -9,14 +9,14 @@ namespace etude {
 /// What methods outside the program are told about a session, and what they answer. Frames count from the session's
 /// first; a pose is sixty numbers (EncodePose).
 ///
-/// Setting, what may be danced, as built-in recognisers are taught it:
+/// Setting, what may be performed, as built-in recognisers are taught it:
 ///
 ///     {"joints": ["hip_centre", …], "parents": [null, "hip_centre", …],
 ///      "moves": [{"name": "clap", "tempo_bpm": 120, "beats": 8, "rate_hz": 30, "poses": [[x, y, z, …], …],
 ///                 "key_poses": [{"beat": 1, "targets": [{"feature": "RH", "degrees": 90, "tolerance_deg": 20}]}],
 ///                 "file": "clap.bvh"}, …]}
 ///
-/// `poses` is one performance of the move, danced perfectly; a key pose is reached when all its angles are (features:
+/// `poses` is one performance of the move, done perfectly; a key pose is reached when all its angles are (features:
 /// paper A's ten, engine/fuzzy).
 Payload MovesPayload(const Repertoire& repertoire);
 
@@ -29,7 +29,7 @@ Payload MovesPayload(const Repertoire& repertoire);
 /// The file holds the same positions, for other tools.
 Payload SessionPayload(const DetectionWorld& world);
 
-/// Truth: the session as it was danced. `first_right_s` is absent when the performance was not right.
+/// Truth: the session as it was performed. `first_right_s` is absent when the performance was not right.
 ///
 ///     {"rate_hz": 30, "poses": [[x, y, z, …], …],
 ///      "events": [{"move": "clap", "is_right": true, "fault": "none", "danced": "clap", "begin_frame": 30,
@@ -39,8 +39,8 @@ Payload TruthPayload(const DetectionWorld& world);
 
 /// Answer: for each performance asked for, in order, the frame at which the method calls it right (in its window; null:
 /// it is wrong), and how right it looks, higher = righter, on any scale; then every frame at which it takes one of the
-/// moves for danced. Alarms in a window in which their move was asked for or danced are none (IsPerformance), so a
-/// method need not know where they are.
+/// moves for performed. Alarms in a window in which their move was asked for or performed are none (IsPerformance), so
+/// a method need not know where they are.
 ///
 ///     {"events": [{"right_at_frame": 88, "score": 0.83}, {"right_at_frame": null, "score": 0.1}, …],
 ///      "alarms": [{"move": "sway", "frame": 215}, …]}

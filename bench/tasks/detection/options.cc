@@ -18,12 +18,12 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
            "How many performances a session holds."),
        Key::Number(
            "fault_share", [](auto& o) -> auto& { return o.session.fault_share; }, kShare,
-           "Which share of them is danced wrong."),
+           "Which share of them is performed wrong."),
        Key::Number(
            "skill", [](auto& o) -> auto& { return o.session.skill; }, kShare,
            "The learner's: 1 is careful, at 0 every deviation is twice as large."),
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
-       Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the dancer is turned away from the sensor.")
+       Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),
        Key::Number(
            "threshold", [](auto& o) -> auto& { return o.recogniser.threshold; }, kThresholds,
@@ -43,7 +43,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
            "filter", [](auto& m) -> auto& { return m.filter.kind; }, FilterNames(), FilterOf,
            "How the sensed joints are smoothed first."),
        Key::Flags("oracle", {{"stream", &Method::sees_truth}},
-                  "What is replaced by the truth: the skeletons as danced instead of as sensed, so what the sensor "
+                  "What is replaced by the truth: the skeletons as performed instead of as sensed, so what the sensor "
                   "costs."),
        Key{{"recogniser", NameKind(recognisers), recognisers.front(),
             "How a move is recognised: by passing its key poses in order."},

@@ -15,7 +15,7 @@ namespace etude {
 ///     fault_share: 0.5 # of them are wrong
 ///     skill: 1         # 1 = careful learner, 0 = sloppy
 ///     noise: 1         # times every error of the sensor
-///     turn_deg: 0      # how far the dancer is turned away from the sensor
+///     turn_deg: 0      # how far the performer is turned away from the sensor
 struct DetectionOptions {
   SessionOptions session;
   double noise = 1;

@@ -15,7 +15,7 @@ struct SessionVerdict {
   std::vector<Detection> alarms;  ///< false ones: by move, then by time
 };
 
-/// Filters what the sensor saw, or, for an oracle, how it was truly danced.
+/// Filters what the sensor saw, or, for an oracle, how it was truly performed.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
 /// Lets the method judge every event in its window and look for all moves through the whole session

@@ -33,7 +33,7 @@ StageDigests VerdictDigests(const SessionVerdict& verdict);
 /// One letter per joint: tracked, inferred, not tracked.
 std::string StateLetters(const SensedFrame& frame);
 
-/// Per frame, how well the move asked for was seen to be danced so far in its window; 0 between windows.
+/// Per frame, how well the move asked for was seen to be performed so far in its window; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
 /// The session: tracks "truth" and "sensed" (as the recogniser saw it), and in `extras_json`

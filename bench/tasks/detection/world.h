@@ -10,7 +10,7 @@
 
 namespace etude {
 
-/// What may be danced, and what recognisers were taught of it.
+/// What may be performed, and what recognisers were taught of it.
 struct Repertoire {
   std::vector<Move> moves;
   std::vector<TaughtMove> taught;  ///< sorted by name
@@ -19,7 +19,7 @@ struct Repertoire {
 /// The labelled clips of the library, each move once. Empty when there are none.
 Repertoire RepertoireOf(const ClipLibrary& library);
 
-/// One trial: a session as it was truly danced, and as the sensor saw it.
+/// One trial: a session as it was truly performed, and as the sensor saw it.
 struct DetectionWorld {
   Performance session;
   SkeletonStream stream;
@@ -30,7 +30,7 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
 /// The frames in which an event is judged: first beat to half a second after the last.
 FrameInterval WindowOf(const SessionEvent& event, const SkeletonStream& stream);
 
-/// Whether the frame lies in a window in which the move was asked for or danced: taking it for danced is no false
+/// Whether the frame lies in a window in which the move was asked for or performed: taking it for performed is no false
 /// alarm there.
 bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world);
 

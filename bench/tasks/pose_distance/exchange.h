@@ -24,7 +24,7 @@ Payload PairsPayload(const PairWorld& world);
 Payload GapsPayload(const PairWorld& world);
 
 /// Answer: how unlike the two poses of each pair are, larger = more unlike, on any scale from 0 up; and whether a
-/// switch from the one to the other would go unnoticed.
+/// transition from the one to the other would go unnoticed.
 ///
 ///     {"distances": [0.31, …], "alike": [true, …]}
 ///

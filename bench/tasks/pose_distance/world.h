@@ -34,7 +34,7 @@ enum class PairSource {
   kFrames,      ///< any frames of two different clips
 };
 
-/// Clips danced by one body, to draw frames of.
+/// Clips of one body, to draw frames of.
 struct DancedClips {
   BodyProportions proportions;
   std::vector<std::string> names;
@@ -42,7 +42,7 @@ struct DancedClips {
   std::vector<BodyMotion> motions;
 };
 
-/// Whoever danced the clips, they are danced by the body of the built-in moves now.
+/// The clips are retargeted to the body of the built-in moves.
 DancedClips DanceClips(const ClipLibrary& library);
 
 /// Whether there are clips of two different identities.

@@ -34,12 +34,13 @@ const FieldTable<TransitionCondition>& TransitionConditionFields() {
       {Key::Number("threshold", &Options::threshold, kThresholds,
                    "Two bridge frames match when their fuzzy distance is below it; for all methods."),
        Key::Number("wait_s", &Options::wait_s, kWaits_s,
-                   "How long after the request a switch may come; for all methods, those outside are told it as "
+                   "How long after the request a transition may come; for all methods, those outside are told it as "
                    "max_wait_s.")
            .Unit("seconds"),
-       Key::Flag("explain", &Options::explain,
-                 "Whether every cell keeps the ten partial distances of its seams and its candidates, as series; "
-                 "filmed cells are explained in the report anyway."),
+       Key::Flag(
+           "explain", &Options::explain,
+           "Whether every cell keeps the ten partial distances of its transition points and its candidates, as series; "
+           "filmed cells are explained in the report anyway."),
        Key::Name(
            "asked_for", [](auto& o) -> auto& { return o.stage.asks_for_acts; }, {{"any", false}, {"acts", true}},
            "Which clips are asked for: any other one, or, while the other clips play, the coach's acts, where there "
@@ -79,7 +80,7 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
     FieldTable<TransitionMethod> made{
         {Key::Name(
              "choice", [](auto& m) -> auto& { return m.way.choice; }, ChoiceNames(), FindChoice,
-             "Which frames are switched, and when: paper A's bridge frames, or what one would use otherwise."),
+             "Which frames a transition takes, and when: paper A's bridge frames, or what one would use otherwise."),
          Key::Name(
              "join", [](auto& m) -> auto& { return m.way.join; }, JoinNames(), FindJoin,
              "How the clips are put together: the next frame is the new clip's, or what was off dies away smoothly."),
@@ -99,7 +100,7 @@ const FieldTable<TransitionMethod>& TransitionMethodFields() {
              "pick", [](auto& m) -> auto& { return m.way.rules.pick; },
              {{"first", Pick::kFirst}, {"smallest", Pick::kSmallest}}, "Which of several matching pairs is taken.")
              .With("choice", {"fuzzy-bridge"}),
-         Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a switch may come.")
+         Key::Number("wait_s", &TransitionMethod::wait_s, kWaits_s, "How long after the request a transition may come.")
              .Unit("seconds")
              .WhenAbsent("(the scenario's)")}};
     for (const Key& key : SettingFields<TransitionMethod>(

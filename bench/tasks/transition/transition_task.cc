@@ -60,7 +60,7 @@ Result<std::unique_ptr<Task>> MakeTransitionTask(TaskInput& input) {
 
 TaskKind MakeTransitionTaskKind() {
   return {.name = "transition",
-          .question = "How smoothly does a dancer get from one clip into another when called?",
+          .question = "How smoothly does a body get from one clip into another when called?",
           .default_metrics = {"jump_cm", "natural_share", "pose_gap_cm", "false_smooth", "foot_slide_cmps", "wait_s"},
           .metrics = TransitionMetrics(),
           .make = MakeTransitionTask,

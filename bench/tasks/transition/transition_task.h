@@ -4,7 +4,7 @@
 
 namespace etude {
 
-/// "How smoothly can a dancer be called from one clip into another?" One world: two clips of the
+/// "How smoothly does a body get from one clip into another when called?" One world: two clips of the
 /// library and the moment at which the second is asked for.
 TaskKind MakeTransitionTaskKind();
 

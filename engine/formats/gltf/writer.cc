@@ -118,7 +118,7 @@ class GlbWriter {
       if (!has_skin) continue;
       for (const double weight : vertex.weights) bytes.Float(weight);
       for (std::size_t k = 0; k < 4; ++k) {
-        // Joints of no weight are written as 0, as the specification wishes.
+        // Joints of no weight are written as 0, as the specification demands.
         const auto binding = static_cast<std::uint32_t>(vertex.weights[k] != 0 ? vertex.bindings[k] : 0);
         if (short_joints) {
           bytes.Short(binding);

@@ -81,7 +81,8 @@ void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames,
     };
     const CloudSum p = of_cloud(playing_sums_, row - first_frame_), q = of_cloud(next_sums_, column);
     const double share = 1.0 / (static_cast<double>(kRoleCount) * reach.Count());  // of one point
-    // The best shift lays the clouds' centres onto each other; the best turn makes the most of what is left.
+    // Closed form (Kovar): the best shift aligns the clouds' centroids, the best turn maximises the remaining
+    // correlation.
     const double along = of_pair[0] - (p.x * q.x + p.z * q.z) * share;
     const double across = of_pair[1] - (p.x * q.z - p.z * q.x) * share;
     const double of_p = p.square - (p.x * p.x + p.z * p.z) * share;

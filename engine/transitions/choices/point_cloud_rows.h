@@ -14,8 +14,8 @@ namespace etude {
 /// the shift on the floor that lay the one cloud best onto the other (in closed form). All points weigh the same, and
 /// the cost is the root mean square of their distances, centimetres; so clouds cut short by a clip's end compare, too.
 ///
-/// In the paper the one cloud begins and the other ends at the frame, since they are blended there; here the pair is in
-/// the middle, since a cut is.
+/// In the paper the one cloud begins and the other ends at the frame, since they are crossfaded there; here the pair is
+/// in the middle, since a cut is.
 class PointCloudRows : public PairRows {
  public:
   /// Rows begin at `first_leave_frame`; `playing` must outlive this.

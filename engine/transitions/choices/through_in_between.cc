@@ -145,7 +145,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   const FrameWindow window = WaitWindow(playing, request.request_frame, request.budget_s);
   const std::vector<int> exit_frames = BridgeFramesWithin(playing, window);
   const KeyPoint exit = exits.Find(exit_frames, FramesWithin(window));
-  // In rising order the front half comes first by itself.
+  // Frames are in rising order, so those of the front half come first.
   const std::vector<int> entrance_frames = BridgeFramesWithin(next, EntryWindow(next));
   const KeyPoint entrance = entrances.Find(entrance_frames, FramesWithin({0, std::max(next.FrameCount() / 2, 1) - 1}));
 

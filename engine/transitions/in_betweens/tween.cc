@@ -44,7 +44,7 @@ double LongestTween(const TweenRules& rules) { return std::max(rules.shortest_s,
 glm::dvec3 Tween::Turn::At(double part) const { return angle > 0 ? glm::angleAxis(part * angle, axis) * start : start; }
 
 Tween::Turn Tween::MakeTurn(const glm::dvec3& from, const glm::dvec3& to) {
-  // Opposite directions have no shorter way: limbs then swing sideways, about the axis that points to the front.
+  // Opposite directions leave the axis undefined: then limbs swing sideways, about the body's forward axis.
   const glm::dvec3 aside = UnitOr(glm::dvec3(0, 0, 1) - from.z * from, {0, 1, 0});
   return {.start = from, .axis = UnitOr(glm::cross(from, to), aside), .angle = AngleBetween(from, to)};
 }

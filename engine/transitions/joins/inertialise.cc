@@ -32,7 +32,7 @@ Inertialiser::Inertialiser(const JoinInput& input, DecayLaw law) : law_(std::mov
   for (const Bone& bone : AllBones()) {
     const LimbTurn before = TurnBetween(Limb(target.before, bone), Limb(shown.before, bone));
     const LimbTurn now = TurnBetween(Limb(target.now, bone), Limb(shown.now, bone));
-    // Near a half turn the axis may flip between two frames; that is no velocity.
+    // Near half a turn the rotation vector may flip sign between two frames; a velocity from that would be an artefact.
     const bool flipped = glm::dot(before, now) < 0 && glm::length(now) > 0.5 * kPi;
     limbs_[Index(bone.child)] = measure(flipped ? now : before, now);
   }

@@ -61,7 +61,7 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     const std::span<const BodyPose> frames = FramesOf(segments[i], clips);
     PlacedSegment next{.frames = frames, .first = entered, .place = {}, .blend = {}};
     if (!segments[i].in_place) next.place = AlignOnFloor(frames[entered], old.At(left));
-    // The clips' own frames, not what a join made of them: the gap between them belongs to the choice of frames.
+    // Of the clips themselves, not of the joined motion: the gap at the point measures the choice of frames alone.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
                             .leaving = old.At(left),

@@ -95,9 +95,9 @@ class PairSearch {
     }
   }
 
-  /// No frame of the block is nearer to the frame that asks now.
+  /// A lower bound of the distance from the frame that asks to any frame of the block.
   double LeastDistance(const NearBlock& near) const {
-    // Far above what distances and their sums are rounded by, far below what would cost a look.
+    // Larger than the rounding errors of distances and their sums, too small to cause needless block evaluations.
     constexpr double kRounding = 1e-9, kTiniest = 1e-150;
     const double rest = near.reach - way_ - kRounding * (near.reach + way_) - kTiniest;
     return std::max(near.bound, rest);
@@ -111,7 +111,7 @@ class PairSearch {
       if (LeastDistance(near_[next]) < rules_.threshold) first = Look(asking, near_[next], nearest, work);
     }
     if (!first) return std::nullopt;
-    // Where the frame before has its nearest this one is likely to have it, too: then few others need a look.
+    // Try the block that held the previous frame's nearest match first: a small distance early excludes most others.
     const auto hint = std::ranges::lower_bound(near_, hint_, {}, &NearBlock::block);
     if (hint != near_.end() && hint - near_.begin() >= static_cast<std::ptrdiff_t>(next)) {
       Look(asking, *hint, nearest, work);
@@ -127,7 +127,7 @@ class PairSearch {
   ///
   /// While nothing is found, `nearest` is at the threshold, and the first frame that improves it is the first match.
   std::optional<int> Look(std::size_t asking, NearBlock& near, Best& nearest, SearchWork& work) const {
-    // Beyond the threshold, too, distances are worth knowing: they tell for how long the block need not be looked at.
+    // Distances up to twice the threshold are computed: they bound for how many frames the block can be skipped.
     const double farthest = 2 * rules_.threshold;
     const int start = near.block * kBlockLanes;
     const int count = std::min(kBlockLanes, to_.targets.frame_count - start);
@@ -143,7 +143,7 @@ class PairSearch {
       if (result.squared[lane] > limit) return;
       const double distance = std::sqrt(result.squared[lane]);
       const int place = start + lane;
-      // Blocks are not looked at in order: of equals the earlier one counts.
+      // Blocks are not visited in frame order; ties go to the earlier frame.
       const bool is_nearer = distance < nearest.distance ||
                              (distance == nearest.distance && distance < rules_.threshold && place < nearest.place);
       if (!is_nearer || (rules_.within_class && from_.tags[asking] != to_.tags[place])) return;

@@ -10,7 +10,7 @@
 #define HWY_TARGET_INCLUDE "engine/transitions/search/grade_blocks.cc"
 #include "hwy/foreach_target.h"  // before highway.h
 
-// In this order: per target.
+// Included after foreach_target.h, once per target.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,7 +31,7 @@ HWY_INLINE BlockResult SumSquares(const GradeMetric& metric, double limit, const
   const Vec most = hn::Set(tag, limit);
   Vec least = most;
   BlockResult result;
-  // Two vectors at a time: their sums do not wait for each other.
+  // Two vectors at a time: two independent sums hide the latency of addition.
   for (std::size_t lane = 0; lane < kBlockLanes; lane += 2 * lanes) {
     Vec sum_a = hn::Zero(tag), sum_b = hn::Zero(tag);
     bool goes_on = true;
@@ -87,7 +87,7 @@ HWY_EXPORT(Distances);
 HWY_EXPORT(Bounds);
 
 GradeMetric::GradeMetric(const FeatureWeights& feature_weights) : weights(feature_weights) {
-  // Sums must only grow.
+  // SumSquares stops early because partial sums never decrease; negative weights would break that.
   for ([[maybe_unused]] double weight : weights) assert(weight >= 0);
   for (std::size_t k = 0; k < kFeatureCount; ++k) first_term[k] = FirstTermOf(AllFeatures()[k]);
   first_term[kFeatureCount] = kTermCount;
@@ -141,7 +141,7 @@ void SetBlockTarget(const std::string& target) {
 }
 
 double SquaredLimit(double distance) {
-  // The root and the square are each off by half a unit in the last place at most, and less than the least number.
+  // Root and square are each rounded by at most half a unit in the last place, or by the smallest denormal near zero.
   constexpr double kSlack = 1 + 4 * std::numeric_limits<double>::epsilon();
   return distance * distance * kSlack + std::numeric_limits<double>::denorm_min();
 }

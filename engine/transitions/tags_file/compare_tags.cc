@@ -59,7 +59,7 @@ TagsComparison CompareTags(const BridgeTags& file, const BridgeTags& now) {
   compare("the set of weights", file.weights, now.weights);
   compare("the body's height", file.standing_hip_height_m, now.standing_hip_height_m);
 
-  // What is missing comes before what it has changed: fewer clips make other frames frequent.
+  // Missing clips are reported first: they are the cause of differing bridge frames (other poses become frequent).
   std::map<std::string, const ClipTags*> clips_now;
   for (const ClipTags& clip : now.clips) clips_now[clip.name] = &clip;
   std::vector<std::pair<const ClipTags*, const ClipTags*>> in_both;

@@ -137,7 +137,7 @@ class TagsReader {
     const ClipTags& of_clip = tags_.clips[clip->second];
     const auto is_it = [&](const TaggedFrame& frame) { return frame.frame == key.frame; };
     const bool is_bridge_frame = std::any_of(of_clip.bridge_frames.begin(), of_clip.bridge_frames.end(), is_it);
-    // A library without any bridge frame has keys of other frames.
+    // In a library without any bridge frame, keys may be any frames.
     if (has_bridge_frames ? !is_bridge_frame : key.frame >= of_clip.frames) {
       return Complain("a key at frame {} of clip {}, which is no bridge frame", key.frame, Quote(key.clip));
     }

@@ -39,7 +39,8 @@ Result<void> CheckBeforeParsing(std::string_view text, const std::string& file) 
     return Fail({file, LineOf(text, at), 0},
                 "a document type declaration; a tags file has none (entities are not expanded)");
   }
-  // Two names of 4096 bytes, each written as &quot;, fit. Time grows with the square of a tag's attributes.
+  // Long enough for two names of 4096 bytes written as &quot; entities. A limit, because libxml2 takes quadratic time
+  // in the number of a tag's attributes.
   constexpr std::size_t kLongestTag = 65536;
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t next = std::min(text.find('<', start + 1), text.size());
@@ -97,7 +98,8 @@ Result<XmlReader> XmlReader::Open(std::string_view text, std::string_view schema
   state->text = text;
   state->schema = Compile(schema);
   RETURN_IF_ERROR(CheckBeforeParsing(text, file));
-  // Twice: while libxml2 2.9 holds elements against a schema, an error of syntax, or a warning, makes it crash.
+  // Parsed twice, first without the schema: libxml2 2.9 crashes when a syntax error or a warning occurs while it
+  // validates.
   state->Start();
   int read = 1;
   while (state->reader && read == 1 && !state->complaint) read = xmlTextReaderRead(state->reader.get());

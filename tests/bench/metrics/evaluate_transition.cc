@@ -32,22 +32,22 @@ bool IsNaturalJump(const Json& in) {
 double WorstFootSlide(const Json& in) {
   const BodyMotion motion = ReadMotion(in.at("motion"));
   double worst = 0;
-  for (int seam : TransitionFramesOf(in)) worst = std::max(worst, FootSlideCmps(motion, seam));
+  for (int point : TransitionFramesOf(in)) worst = std::max(worst, FootSlideCmps(motion, point));
   return worst;
 }
 
 double WorstPoseGap(const Json& in) {
   double worst = 0;
-  for (const Json& meeting : in.at("meetings")) {
-    worst = std::max(worst, PoseGapCm(ReadPose(meeting.at("leaving")), ReadPose(meeting.at("arriving"))));
+  for (const Json& point : in.at("meetings")) {
+    worst = std::max(worst, PoseGapCm(ReadPose(point.at("leaving")), ReadPose(point.at("arriving"))));
   }
   return worst;
 }
 
 double WorstVelocityGap(const Json& in) {
   double worst = 0;
-  for (const Json& meeting : in.at("meetings")) {
-    const auto pose = [&](const char* key) { return ReadPose(meeting.at(key)); };
+  for (const Json& point : in.at("meetings")) {
+    const auto pose = [&](const char* key) { return ReadPose(point.at(key)); };
     worst = std::max(worst, VelocityGapCmps(pose("leaving_before"), pose("leaving"), pose("arriving"),
                                             pose("arriving_after"), in.at("rate_hz").get<double>()));
   }
@@ -86,9 +86,9 @@ struct SpeedProfile {
 SpeedProfile SpeedOf(const Json& in) {
   if (in.contains("speed_mps")) return {in.at("speed_mps").get<std::vector<double>>(), in.at("rate_hz").get<double>()};
   const BodyMotion motion = ReadMotion(in.at("motion"));
-  const std::vector<int> seams = TransitionFramesOf(in);
+  const std::vector<int> points = TransitionFramesOf(in);
   const int second = static_cast<int>(motion.rate_hz);
-  return {MeanJointSpeed(motion, seams.at(0) - second, seams.back() + second), motion.rate_hz};
+  return {MeanJointSpeed(motion, points.at(0) - second, points.back() + second), motion.rate_hz};
 }
 
 Value SparcOf(const Json& in) {

@@ -52,8 +52,8 @@ MUTANTS = {
     "counts for shares": (common, {"share": sum}, [
         "limb_direction_coverage", "triangulation_coverage", "frames_recovered", "precision", "recall", "frames_solved",
         "frames_solved_tight"]),
-    "a window of nine frames": (transition, {"SEAM_REACH": 4}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
-    "a window of thirteen": (transition, {"SEAM_REACH": 6}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
+    "a window of nine frames": (transition, {"REACH": 4}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
+    "a window of thirteen": (transition, {"REACH": 6}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
     "joints within 49 mm": (capture, {"PCK_MM": 49}, ["pck_50mm"]),
     "joints within 51 mm": (capture, {"PCK_MM": 51}, ["pck_50mm"]),
     "an area up to 15 cm": (capture, {"AUC_MM": 150}, ["auc_200mm"]),

@@ -70,7 +70,7 @@ TEST(Jump, OfOneJointAloneIsAveragedByTheMeanOnly) {
 }
 
 TEST(RotationStepChange, IsTheChangeOfALimbsTurningSpeed) {
-  // The left hand circles the wrist by 3° a frame, from the seam on by 10° a frame.
+  // The left hand circles the wrist by 3° a frame, from the transition point on by 10° a frame.
   BodyMotion motion = MotionAlongX([](int) { return 0; });
   for (int f = 0; f < kFrames; ++f) {
     const double degrees = f <= kSeam ? 3 * f : 3 * kSeam + 10 * (f - kSeam);

@@ -72,7 +72,7 @@ TEST(FuzzyDistance, IsBlindToTheEightMeasuredPairs) {
   };
   for (const BlindSpot& pair : pairs) {
     EXPECT_NEAR(DistanceOf(pair.a, pair.b), pair.stated_distance, 0.065) << pair.name;
-    EXPECT_LT(DistanceOf(pair.a, pair.b), kPaperThreshold) << pair.name << " would be switched";
+    EXPECT_LT(DistanceOf(pair.a, pair.b), kPaperThreshold) << pair.name << " would be a transition point";
     EXPECT_NEAR(WorstJointCm(pair.a, pair.b), pair.stated_gap_cm, 3.5) << pair.name;
   }
 }

@@ -17,7 +17,7 @@ inline MotionLibrary BuiltinLibrary() {
   return MakeLibrary(names, clips, MakeBodyProportions(PoseOf(Controls{}), 0.9));
 }
 
-/// What switching through in-betweens came to.
+/// What transitions through in-betweens came to.
 struct Connections {
   int tried = 0, found = 0;
   int forced = 0;

@@ -238,7 +238,7 @@ Recording CoachRecording() {
 }
 
 /// A coach who dances as one clip does until `first`, as an in-between until `second`, and then as the wanted clip.
-BodyMotion Switching(int first, int second) {
+BodyMotion WithTransition(int first, int second) {
   BodyMotion coach;
   for (int frame = 0; frame < 150; ++frame) {
     const double t = frame / 30.0;
@@ -260,7 +260,7 @@ std::string Partials(double unit) {
 
 Recording Explained(int first, int second, const std::string& rest) {
   return {
-      {{"coach", Switching(first, second)}},
+      {{"coach", WithTransition(first, second)}},
       fmt::format(R"({{"request_frame": 60, "transition_frame": {}, "from": "builtin:clap", "to": "builtin:side_kick",)"
                   R"( "threshold": 0.4, "natural_limit_cm": 4.5, "weights": {}, {}}})",
                   first, kWeights, rest)};

@@ -12,8 +12,9 @@ RunData ExampleRun();
 /// whose recovered skeleton is slightly off.
 void AddRecordings(RunData& run);
 
-/// Adds one request of the scenario "transition" as three methods recorded it, with everything that explains a switch:
-/// "now" cuts, "fuzzy-bridge" goes through an in-between, "gate-inertialised" takes the best of its candidates.
+/// Adds one request of the scenario "transition" as three methods recorded it, with everything that explains a
+/// transition: "now" cuts, "fuzzy-bridge" goes through an in-between, "gate-inertialised" takes the best of its
+/// candidates.
 void AddTransitions(RunData& run);
 
 }  // namespace etude

@@ -227,7 +227,7 @@ SkeletonSensorOptions Faultless() {
 }
 
 TEST(SkeletonSensor, InfersTheArmBehindTheBodyAndTracksTheOneBeforeIt) {
-  // Seen from the dancer's left, the trunk stands before the right arm.
+  // Seen from the performer's left, the trunk stands before the right arm.
   const BodyMotion motion = StandingStill(5);
   const SkeletonStream stream = SenseSkeleton(motion, SkeletonSensorAt(2.75, Radians(90)), Faultless(), World(0));
   for (const SensedFrame& frame : stream.frames) {

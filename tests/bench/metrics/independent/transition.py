@@ -4,7 +4,7 @@ import math
 from independent import common
 from independent.common import BONES, ROLES, angle, cross, distance, dot, frames_of, minus, norm, pose_of
 
-SEAM_REACH = 5
+REACH = 5
 FOOT_HEIGHT_CM = 2.5
 FALSE_SMOOTH_CM = 20
 NATURAL_QUANTILE = 0.95
@@ -16,11 +16,11 @@ def difference(frames, joint, f, coefficients):
     return norm([math.fsum(c * frames[f + i - 1][joint][k] for i, c in enumerate(coefficients)) for k in range(3)])
 
 
-def over_seam_frames(given, needed_after, value):
-    """The worst of value(frames, f) over the frames within reach of a seam that have their neighbours."""
+def over_frames_near(given, needed_after, value):
+    """The worst of value(frames, f) over the frames within reach of a transition point that have their neighbours."""
     frames = frames_of(given["motion"])
-    return common.worst([value(frames, f) for seam in given["seams"]
-                         for f in range(seam - SEAM_REACH, seam + SEAM_REACH + 1)
+    return common.worst([value(frames, f) for point in given["seams"]
+                         for f in range(point - REACH, point + REACH + 1)
                          if f >= 1 and f + needed_after < len(frames)])
 
 
@@ -29,17 +29,17 @@ def jump_at(frames, f):
 
 
 def jump(given):
-    return over_seam_frames(given, 1, jump_at)
+    return over_frames_near(given, 1, jump_at)
 
 
 def mean_jump(given):
-    return over_seam_frames(given, 1, lambda frames, f: common.mean(
+    return over_frames_near(given, 1, lambda frames, f: common.mean(
         [common.CM * difference(frames, joint, f, (1, -2, 1)) for joint in ROLES]))
 
 
 def jerk(given):
     rate = given["motion"].get("rate_hz", 30)
-    return over_seam_frames(given, 2, lambda frames, f: common.worst(
+    return over_frames_near(given, 2, lambda frames, f: common.worst(
         [rate ** 3 * difference(frames, joint, f, (-1, 3, -3, 1)) for joint in ROLES]))
 
 
@@ -67,21 +67,21 @@ def rotation_step_change(given):
             trace = quotient[0][0] + quotient[1][1] + quotient[2][2]
             changes.append(common.degrees(math.atan2(norm(twist), trace - 1)))
         return common.worst(changes)
-    return over_seam_frames(given, 1, change)
+    return over_frames_near(given, 1, change)
 
 
 def foot_slide(given):
     frames, rate = frames_of(given["motion"]), given["motion"].get("rate_hz", 30)
 
-    def slide(seam):
+    def slide(point):
         speeds = []
-        for f in range(seam, min(seam + int(rate), len(frames) - 1)):
+        for f in range(point, min(point + int(rate), len(frames) - 1)):
             for foot in ("left_foot", "right_foot"):
                 here, there = frames[f][foot], frames[f + 1][foot]
                 speed = common.CM * rate * math.hypot(there[0] - here[0], there[2] - here[2])
                 speeds.append(speed * min(1, max(0, 2 - 2 ** (common.CM * here[1] / FOOT_HEIGHT_CM))))
         return common.mean(speeds)
-    return common.worst([slide(seam) for seam in given["seams"]])
+    return common.worst([slide(point) for point in given["seams"]])
 
 
 def natural(given):
@@ -90,7 +90,7 @@ def natural(given):
     jumps = []
     for clip in given["clips"]:
         frames = frames_of(clip)
-        window = 2 * SEAM_REACH + 1
+        window = 2 * REACH + 1
         for first in range(1, len(frames) - window):
             jumps.append(common.worst([jump_at(frames, f) for f in range(first, first + window)]))
     jumps.sort()
@@ -108,8 +108,8 @@ def pose_gap(given):
 
 def velocity_gap(given):
     gaps = []
-    for meeting in given["meetings"]:
-        a, b, c, d = (pose_of(meeting[key]) for key in ("leaving_before", "leaving", "arriving", "arriving_after"))
+    for point in given["meetings"]:
+        a, b, c, d = (pose_of(point[key]) for key in ("leaving_before", "leaving", "arriving", "arriving_after"))
         gaps += [common.CM * given["rate_hz"] * distance(minus(b[role], a[role]), minus(d[role], c[role]))
                  for role in ROLES]
     return common.worst(gaps)

@@ -55,7 +55,7 @@ TEST_F(TransitionTaskTest, CountsAWorldWithoutAWayAndSaysWhy) {
     EXPECT_EQ((*task)->ValueOfFailure(metric.id), metric.value) << metric.id;
     EXPECT_EQ(metric.value.has_value(), metric.null_reason.empty()) << metric.id;
   }
-  EXPECT_EQ(ValueOf(*cell, "natural_share"), 0) << "a switch that never came was not natural";
+  EXPECT_EQ(ValueOf(*cell, "natural_share"), 0) << "a transition that never came was not natural";
 }
 
 TEST_F(TransitionTaskTest, GoesThroughAnInBetweenWhereNothingMatches) {

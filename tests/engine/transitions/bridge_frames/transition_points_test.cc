@@ -34,7 +34,7 @@ TEST(FindTransitionPoint, LooksAtTheFrontHalfBeforeTheRearHalf) {
   const TaggedClip rear_only = ClipOfLevels({5, 5, 5, 0.3, 0, 5}, {0, 3, 4});
   ExpectPoint(FindTransitionPoint(playing, kAll, rear_only, {}), 0, 3);
   ExpectPoint(FindTransitionPoint(playing, kAll, rear_only, smallest), 0, 4);
-  // A later frame with a partner in the front half goes before an earlier one with a nearer one in the rear half.
+  // A later frame with a match in the front half goes before an earlier one with a nearer one in the rear half.
   const TaggedClip later = ClipOfLevels({0, 0.5}, {0, 1});
   ExpectPoint(FindTransitionPoint(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), smallest), 1, 1);
   ExpectPoint(FindTransitionPoint(later, kAll, ClipOfLevels({5, 0.8, 5, 0, 5}, {1, 3}), {}), 0, 3);

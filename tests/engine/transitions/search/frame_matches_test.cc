@@ -44,21 +44,21 @@ std::vector<FrameMatches> LoopOverAll(const MatchClip& from, const MatchClip& to
   };
   std::vector<FrameMatches> found;
   for (int a : frames_of(from)) {
-    std::optional<FrameMatches> partners;
+    std::optional<FrameMatches> matches;
     for (int b : frames_of(to)) {
       if (b + 1 == static_cast<int>(to.grades.size())) continue;
       if (rules.within_class && from.tags[a] != to.tags[b]) continue;
       const double distance = ComputeDistance(from.grades[a], to.grades[b], rules.weights).value;
       if (!(distance < rules.threshold)) continue;
-      if (!partners) partners = {a, b, b, distance};
-      if (distance < partners->distance) partners = {a, partners->first, b, distance};
+      if (!matches) matches = {a, b, b, distance};
+      if (distance < matches->distance) matches = {a, matches->first, b, distance};
     }
-    if (partners) found.push_back(*partners);
+    if (matches) found.push_back(*matches);
   }
   return found;
 }
 
-/// Compares every pair of clips; returns how many frames had partners.
+/// Compares every pair of clips; returns how many frames had matches.
 std::size_t ExpectSameMatches(std::span<const MatchClip> clips, const MatchRules& rules) {
   const MatchTable table = FindMatches(clips, rules);
   EXPECT_EQ(table.ClipCount(), static_cast<int>(clips.size()));
