@@ -111,8 +111,8 @@ class TagsReader {
       return Complain("frame {} after frame {}; bridge frames rise", frame.frame, clip.bridge_frames.back().frame);
     }
     const double time_s = Number("time-s"), expected_s = frame.frame / clip.rate_hz;
-    constexpr double kRounding = 1e-6;
-    if (std::abs(time_s - expected_s) > kRounding * (1 + expected_s)) {
+    constexpr double kRoundingOfFile = 1e-6;
+    if (std::abs(time_s - expected_s) > kRoundingOfFile * (1 + expected_s)) {
       return Complain("time-s is {}, but frame {} at {} Hz is at {}", time_s, frame.frame, clip.rate_hz, expected_s);
     }
     clip.bridge_frames.push_back(frame);
