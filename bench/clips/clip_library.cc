@@ -24,6 +24,12 @@ Result<void> AddFile(const std::string& reference, const OpenOptions& options, C
 
 }  // namespace
 
+std::string CollectionOf(const LibraryClip& clip) {
+  if (clip.source.starts_with(kBuiltinPrefix)) return std::string(kBuiltinPrefix.substr(0, kBuiltinPrefix.size() - 1));
+  const std::size_t slash = clip.source.rfind('/');
+  return slash == std::string::npos ? "." : clip.source.substr(0, slash);
+}
+
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
                               const OpenOptions& options) {
   ClipLibrary library;

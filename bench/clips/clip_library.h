@@ -25,6 +25,9 @@ struct ClipLibrary {
   std::vector<LibraryClip> clips;
 };
 
+/// What the clip was recorded with: the folder of its file, or "builtin".
+std::string CollectionOf(const LibraryClip& clip);
+
 /// Loads every reference, in order: what ExpandReference knows; every animation of a glTF file is a clip of its own.
 /// Fails with the name of what cannot be found, read or understood. `place` is where the reference stands, for
 /// complaints.

@@ -16,7 +16,7 @@ SnapshotScenario TakeScenario(const FinishedScenario& one, const std::map<std::s
     for (const ComparedMethod& method : study.methods) {
       SnapshotCells& cells = taken.cells.emplace_back(SnapshotCells{CompactLabel(condition), method.name, "", {}});
       for (const std::string& id : metrics) cells.metrics.push_back({id, {}});
-      Row identity{study.scenario, study.task, condition, 0, "", method.name, {}};
+      Row identity{study.scenario, study.task, condition, 0, "", {}, method.name, {}};
       for (; identity.trial < study.trials; ++identity.trial) {
         const Row& row = *rows.at(identity.Id());
         cells.statuses += StatusLetter(row.result.status);

@@ -22,7 +22,8 @@ struct Row {
   std::string task;
   std::vector<SweptValue> condition;  ///< empty when nothing is swept
   int trial = 0;
-  std::string clip;  ///< "" for tasks without clips
+  std::string clip;                ///< "" for tasks without clips
+  std::vector<std::string> units;  ///< that the world was drawn from (Study::unit); empty = it is its own
   std::string method;
   CellResult result;  ///< `series` and `recording` live in files of their own
 

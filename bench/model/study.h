@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/model/row.h"
+#include "bench/model/unit.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -46,6 +47,7 @@ struct Study {
   std::string scenario;
   std::string task;
   std::string question;
+  SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 1;
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one

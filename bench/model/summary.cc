@@ -12,6 +12,8 @@ std::string_view IntervalKindName(IntervalKind kind) {
       return "wilson";
     case IntervalKind::kAdjustedWald:
       return "adjusted wald";
+    case IntervalKind::kStudent:
+      return "student";
     case IntervalKind::kNone:
       break;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/model/row.h"
+#include "bench/model/unit.h"
 
 namespace etude {
 
@@ -17,6 +18,7 @@ enum class IntervalKind {
   kPercentile,    ///< bootstrap whose correction is undefined, e.g. of values that are all the same
   kWilson,        ///< score interval of a share
   kAdjustedWald,  ///< Bonett and Price's, of the difference of two shares on the same worlds
+  kStudent,       ///< Student's t, of a mean over units
 };
 std::string_view IntervalKindName(IntervalKind kind);
 
@@ -48,6 +50,24 @@ struct PairedTest {
   std::string how;          ///< "exact", "normal approximation", "9,999 draws"
 };
 
+/// What is left of a comparison's mean difference when one unit's worlds are left out.
+struct LeftOut {
+  std::string unit;
+  double difference = 0;
+};
+
+/// What a comparison says beyond its worlds: about other units (clips, people, …) like those it was sampled from
+/// (bench/statistics/beyond.h). Where every world is its own unit this says what the worlds say.
+struct Beyond {
+  int units = 0;                                ///< that have a pair
+  std::optional<double> difference, low, high;  ///< mean over units of their mean difference; 95 % interval
+  PairedTest test;                              ///< that decides
+  std::optional<double> p_holm;                 ///< corrected over the scenario's comparisons (Holm)
+  std::optional<Verdict> verdict;               ///< nothing = there are too few units for any
+  std::string why_open;                         ///< why there is no verdict, or it is inconclusive, in words
+  std::vector<LeftOut> left_out;                ///< in the order of the units' names; empty where worlds are units
+};
+
 /// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares and
 /// penalised costs) of the paired differences method − baseline.
 struct Comparison {
@@ -66,15 +86,17 @@ struct Comparison {
   double share_better = 0;            ///< of the pairs, ties count half
   std::optional<double> effect_size;  ///< rank-biserial correlation, −1…1; positive speaks for `method`, or, without
                                       ///< a direction, for larger values
-  Verdict verdict = Verdict::kInconclusive;
+  Verdict verdict = Verdict::kInconclusive;  ///< on these worlds
   std::string why_open;            ///< when it is inconclusive: what is lacking, in words, if that can be named
   std::vector<std::string> notes;  ///< what else to know before believing the figures, in words
+  Beyond beyond;                   ///< these worlds, for other units like theirs
 };
 
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
   std::vector<Comparison> comparisons;  ///< every method against its baseline, headline metrics
+  std::vector<Comparison> rivals;       ///< every method against the strongest other one, headline metrics
 };
 
 /// Whether something that was said to come out did: an expectation, a time rule.
@@ -92,6 +114,7 @@ struct ScenarioSummary {
   std::string name;
   std::string task;
   std::string question;
+  SamplingUnit unit = SamplingUnit::kWorld;
   std::vector<std::string> methods;
   std::vector<std::string> headline_metrics;
   std::vector<ConditionSummary> conditions;

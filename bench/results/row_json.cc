@@ -68,6 +68,7 @@ Json EncodeRow(const Row& row) {
   }
   json["trial"] = row.trial;
   json["clip"] = row.clip.empty() ? Json(nullptr) : Json(row.clip);
+  if (!row.units.empty()) json["units"] = row.units;
   json["method"] = row.method;
   json["status"] = StatusName(row.result.status);
   json["reason"] = row.result.reason.empty() ? Json(nullptr) : Json(row.result.reason);
@@ -89,6 +90,7 @@ Result<Row> DecodeRow(const Json& json, const Place& place) {
     row.condition = SplitCondition(json.at("condition").get<std::string>());
     row.trial = json.at("trial").get<int>();
     row.clip = json.at("clip").is_null() ? "" : json.at("clip").get<std::string>();
+    row.units = json.value("units", std::vector<std::string>{});
     row.method = json.at("method").get<std::string>();
     const auto status = FindStatus(json.at("status").get<std::string>());
     if (!status) return Fail(place, "unknown status {}", json.at("status").dump());

@@ -5,6 +5,8 @@
 namespace etude {
 namespace {
 
+constexpr int kVerdicts = 4, kIntervalKinds = 6;
+
 Json Number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 std::optional<double> AsOptional(const Json& json) {
@@ -18,6 +20,11 @@ Enum ByName(const std::string& name, std::string_view (*name_of)(Enum), int coun
     if (name_of(static_cast<Enum>(i)) == name) return static_cast<Enum>(i);
   }
   throw Json::other_error::create(501, "unknown name '" + name + "'", nullptr);
+}
+
+SamplingUnit FindUnit(const std::string& name) {
+  if (const auto unit = FindValue(kSamplingUnits, name)) return *unit;
+  throw Json::other_error::create(501, "unknown unit '" + name + "'", nullptr);
 }
 
 Json Encode(const std::vector<SweptValue>& condition) {
@@ -53,6 +60,20 @@ Json Encode(const MethodSummary& method) {
 
 Json Encode(const PairedTest& test) { return {{"p", Number(test.p)}, {"how", test.how}}; }
 
+Json Encode(const Beyond& beyond) {
+  Json left_out = Json::array();
+  for (const LeftOut& left : beyond.left_out) left_out.push_back({{"unit", left.unit}, {"mean", left.difference}});
+  return {{"units", beyond.units},
+          {"mean", Number(beyond.difference)},
+          {"ci95_low", Number(beyond.low)},
+          {"ci95_high", Number(beyond.high)},
+          {"test", Encode(beyond.test)},
+          {"p_holm", Number(beyond.p_holm)},
+          {"verdict", beyond.verdict ? Json(VerdictName(*beyond.verdict)) : Json(nullptr)},
+          {"why_open", beyond.why_open},
+          {"left_out", std::move(left_out)}};
+}
+
 Json Encode(const Comparison& comparison) {
   return {{"metric", comparison.metric},
           {"baseline", comparison.baseline},
@@ -76,7 +97,8 @@ Json Encode(const Comparison& comparison) {
           {"effect_size", Number(comparison.effect_size)},
           {"verdict", VerdictName(comparison.verdict)},
           {"why_open", comparison.why_open},
-          {"notes", comparison.notes}};
+          {"notes", comparison.notes},
+          {"beyond", Encode(comparison.beyond)}};
 }
 
 std::vector<SweptValue> DecodeCondition(const Json& json) {
@@ -96,7 +118,7 @@ MetricSummary DecodeMetric(const Json& json) {
   metric.mean = AsOptional(json.at("mean"));
   metric.ci_low = AsOptional(json.at("ci95_low"));
   metric.ci_high = AsOptional(json.at("ci95_high"));
-  metric.interval = ByName<IntervalKind>(json.at("interval").get<std::string>(), IntervalKindName, 5);
+  metric.interval = ByName<IntervalKind>(json.at("interval").get<std::string>(), IntervalKindName, kIntervalKinds);
   return metric;
 }
 
@@ -117,6 +139,24 @@ MethodSummary DecodeMethod(const Json& json) {
 
 PairedTest DecodeTest(const Json& json) { return {AsOptional(json.at("p")), json.at("how").get<std::string>()}; }
 
+Beyond DecodeBeyond(const Json& json) {
+  Beyond beyond;
+  beyond.units = json.at("units").get<int>();
+  beyond.difference = AsOptional(json.at("mean"));
+  beyond.low = AsOptional(json.at("ci95_low"));
+  beyond.high = AsOptional(json.at("ci95_high"));
+  beyond.test = DecodeTest(json.at("test"));
+  beyond.p_holm = AsOptional(json.at("p_holm"));
+  if (!json.at("verdict").is_null()) {
+    beyond.verdict = ByName<Verdict>(json.at("verdict").get<std::string>(), VerdictName, kVerdicts);
+  }
+  beyond.why_open = json.at("why_open").get<std::string>();
+  for (const Json& left : json.at("left_out")) {
+    beyond.left_out.push_back({left.at("unit").get<std::string>(), left.at("mean").get<double>()});
+  }
+  return beyond;
+}
+
 Comparison DecodeComparison(const Json& json) {
   Comparison comparison;
   comparison.metric = json.at("metric").get<std::string>();
@@ -130,7 +170,7 @@ Comparison DecodeComparison(const Json& json) {
   comparison.difference = AsOptional(json.at("difference"));
   comparison.ci_low = AsOptional(json.at("ci95_low"));
   comparison.ci_high = AsOptional(json.at("ci95_high"));
-  comparison.interval = ByName<IntervalKind>(json.at("interval").get<std::string>(), IntervalKindName, 5);
+  comparison.interval = ByName<IntervalKind>(json.at("interval").get<std::string>(), IntervalKindName, kIntervalKinds);
   comparison.mean = AsOptional(json.at("mean"));
   comparison.mean_low = AsOptional(json.at("mean_ci95_low"));
   comparison.mean_high = AsOptional(json.at("mean_ci95_high"));
@@ -139,9 +179,10 @@ Comparison DecodeComparison(const Json& json) {
   comparison.p_holm = AsOptional(json.at("p_holm"));
   comparison.share_better = json.at("share_better").get<double>();
   comparison.effect_size = AsOptional(json.at("effect_size"));
-  comparison.verdict = ByName<Verdict>(json.at("verdict").get<std::string>(), VerdictName, 4);
+  comparison.verdict = ByName<Verdict>(json.at("verdict").get<std::string>(), VerdictName, kVerdicts);
   comparison.why_open = json.at("why_open").get<std::string>();
   comparison.notes = json.at("notes").get<std::vector<std::string>>();
+  comparison.beyond = DecodeBeyond(json.at("beyond"));
   return comparison;
 }
 
@@ -152,12 +193,14 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
   for (const ScenarioSummary& scenario : scenarios) {
     Json conditions = Json::array();
     for (const ConditionSummary& condition : scenario.conditions) {
-      Json methods = Json::array(), comparisons = Json::array();
+      Json methods = Json::array(), comparisons = Json::array(), rivals = Json::array();
       for (const MethodSummary& method : condition.methods) methods.push_back(Encode(method));
       for (const Comparison& comparison : condition.comparisons) comparisons.push_back(Encode(comparison));
+      for (const Comparison& comparison : condition.rivals) rivals.push_back(Encode(comparison));
       conditions.push_back({{"condition", Encode(condition.condition)},
                             {"methods", std::move(methods)},
-                            {"comparisons", std::move(comparisons)}});
+                            {"comparisons", std::move(comparisons)},
+                            {"rivals", std::move(rivals)}});
     }
     Json expectations = Json::array();
     for (const ExpectationResult& expectation : scenario.expectations) {
@@ -167,6 +210,7 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
     list.push_back({{"name", scenario.name},
                     {"task", scenario.task},
                     {"question", scenario.question},
+                    {"unit", SamplingUnitName(scenario.unit)},
                     {"methods", scenario.methods},
                     {"headline_metrics", scenario.headline_metrics},
                     {"comparisons_in_family", scenario.family},
@@ -183,15 +227,17 @@ Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Pla
       ScenarioSummary scenario{entry.at("name").get<std::string>(),
                                entry.at("task").get<std::string>(),
                                entry.at("question").get<std::string>(),
+                               FindUnit(entry.at("unit").get<std::string>()),
                                entry.at("methods").get<std::vector<std::string>>(),
                                entry.at("headline_metrics").get<std::vector<std::string>>(),
                                {},
                                {},
                                entry.at("comparisons_in_family").get<int>()};
       for (const Json& part : entry.at("conditions")) {
-        ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}};
+        ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}, {}};
         for (const Json& method : part.at("methods")) condition.methods.push_back(DecodeMethod(method));
         for (const Json& row : part.at("comparisons")) condition.comparisons.push_back(DecodeComparison(row));
+        for (const Json& row : part.at("rivals")) condition.rivals.push_back(DecodeComparison(row));
         scenario.conditions.push_back(std::move(condition));
       }
       for (const Json& expectation : entry.at("expectations")) {

@@ -1,7 +1,10 @@
 #include "bench/run/setup.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
@@ -43,6 +46,24 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, c
     tasks.push_back(std::move(task));
   }
   return tasks;
+}
+
+/// What a world of these clips was drawn from, each once and in order; nothing where every world is its own.
+std::vector<std::string> UnitsOf(const std::vector<std::string>& clips, SamplingUnit unit, const ClipLibrary& library) {
+  if (IsEveryWorldItsOwn(unit)) return {};
+  if (unit == SamplingUnit::kLibrary) {
+    std::set<std::string> collections;
+    for (const LibraryClip& clip : library.clips) {
+      const bool is_shown = std::find(clips.begin(), clips.end(), clip.name) != clips.end();
+      if (is_shown || clips.empty()) collections.insert(CollectionOf(clip));
+    }
+    // A world of all clips is made of all collections at once.
+    if (clips.empty()) return {fmt::format("{}", fmt::join(collections, " + "))};
+    return {collections.begin(), collections.end()};
+  }
+  std::set<std::string> names(clips.begin(), clips.end());
+  if (unit == SamplingUnit::kClip && !clips.empty()) names = {clips.front()};
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -149,12 +170,14 @@ Result<void> AddScoredMethod(const ScoredMethod& method, Scenario& scenario) {
 }
 
 Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) const {
+  const std::vector<std::string> clips = tasks_[condition]->ClipsOf(KeyOf(trial));
   Row row;
   row.scenario = scenario_.name;
   row.task = scenario_.task;
   row.condition = scenario_.conditions[condition].swept;
   row.trial = trial;
-  row.clip = tasks_[condition]->ClipOf(KeyOf(trial));
+  if (!clips.empty()) row.clip = clips.front();
+  row.units = UnitsOf(clips, scenario_.unit, *clips_);
   row.method = scenario_.methods[method].name;
   return row;
 }

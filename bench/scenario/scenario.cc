@@ -41,6 +41,12 @@ void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingSelecti
   selection.methods = read.empty() ? names : read;
 }
 
+SamplingUnit ReadUnit(Fields& fields, const TaskKind& kind) {
+  std::vector<std::string> names;
+  for (SamplingUnit unit : kind.units) names.emplace_back(SamplingUnitName(unit));
+  return ValueNamed(kSamplingUnits, fields.Choice("unit", names, names.front()));
+}
+
 }  // namespace
 
 const FieldTable<Limits>& LimitFields() {
@@ -85,6 +91,9 @@ const FieldTable<Scenario>& ScenarioFields() {
        Key::Number("trials", &Scenario::trials, {1, kTrials.highest}, "Worlds per condition."),
        Key::Number("seed", &Scenario::seed, {0, kLargestSeed}, "Of all worlds; `etude run --seed` wins over it.")
            .WhenAbsent("1"),
+       {{"unit", NameKind(NamesOf(kSamplingUnits)), "(the task's)",
+         "What worlds are drawn from: what a claim beyond these worlds counts."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.unit = ReadUnit(fields, kind); })},
        {{"sweep",
          {"a mapping of the task's parameters to lists or ranges", R"({"type":"object"})"},
          "{}",

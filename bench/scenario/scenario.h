@@ -50,6 +50,7 @@ struct Scenario {
   std::string task;
   std::vector<std::string> clips;  ///< references as written
   std::string joint_map;           ///< file that teaches the joints of the clips (docs/clips.md), "" = none
+  SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;
   std::vector<Condition> conditions;  ///< at least one

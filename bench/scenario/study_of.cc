@@ -6,6 +6,7 @@ Study StudyOf(const Scenario& scenario) {
   Study study{.scenario = scenario.name,
               .task = scenario.task,
               .question = scenario.question,
+              .unit = scenario.unit,
               .trials = scenario.trials,
               .methods = {},
               .conditions = {},

@@ -107,7 +107,7 @@ std::vector<Asked> CompareAll(const Study& study, const std::vector<SweptValue>&
 }  // namespace
 
 ScenarioSummary Summarise(const Study& study, std::span<const Row> rows, std::uint64_t seed) {
-  ScenarioSummary summary{study.scenario, study.task, study.question, {}, study.metrics, {}, {}};
+  ScenarioSummary summary{study.scenario, study.task, study.question, study.unit, {}, study.metrics, {}, {}};
   for (const ComparedMethod& entry : study.methods) summary.methods.push_back(entry.name);
   std::vector<std::optional<Comparison>> with_failures;  // of all conditions' comparisons, in order
   for (const std::vector<SweptValue>& condition : study.conditions) {

@@ -12,6 +12,7 @@
 #include "bench/keys/key_info.h"
 #include "bench/model/cell_result.h"
 #include "bench/model/payload.h"
+#include "bench/model/unit.h"
 #include "engine/document/fields.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "sim/random/stream.h"
@@ -51,8 +52,9 @@ class Task {
   /// The task must outlive its worlds.
   virtual std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const = 0;
 
-  /// The name of the clip that this trial uses, or "" for tasks without clips.
-  virtual std::string ClipOf(const WorldKey& key) const = 0;
+  /// The names of the clips that this trial was drawn from, in the order of their parts (clip left, clip entered). None
+  /// where a world is made of no clip, or of all of them.
+  virtual std::vector<std::string> ClipsOf(const WorldKey& key) const = 0;
 
   /// What all problems of this condition share (the body's tree, the library of clips, …): told to methods
   /// outside once, before their first problem.
@@ -84,6 +86,8 @@ struct TaskKind {
   std::vector<KeyInfo> condition_keys;  ///< its keys of a scenario
   std::vector<KeyInfo> method_keys;     ///< its keys of a method, beside `name`
   bool uses_clips = true;               ///< whether its worlds are made of a scenario's `clips`
+  /// What its worlds are drawn from, and what else a scenario may say they are; at least one.
+  std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
   /// What its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".
   std::string (*platform)() = nullptr;
 };

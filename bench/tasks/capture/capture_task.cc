@@ -59,7 +59,7 @@ class CaptureTask : public Task {
     return std::make_unique<CaptureTaskWorld>(study_, ClipFor(key), key, keeps_motion);
   }
 
-  std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {ClipFor(key).name}; }
 
   Result<Payload> Setting() const override { return DescribeStudio(); }
 
@@ -107,6 +107,7 @@ TaskKind MakeCaptureTaskKind() {
           .make = MakeCaptureTask,
           .condition_keys = CaptureConditionFields().Describe(),
           .method_keys = CaptureMethodFields().Describe(),
+          .units = {SamplingUnit::kClip, SamplingUnit::kLibrary, SamplingUnit::kWorld},
           .platform = RendererVersion};
 }
 

@@ -93,9 +93,10 @@ class DetectionTask final : public Task {
   }
 
   /// A session mixes all labelled clips, so only a clip that has to be left out is named.
-  std::string ClipOf(const WorldKey& key) const override {
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override {
     const TrialClip& clip = ClipAt(key);
-    return clip.is_labelled ? "" : clip.name;
+    if (clip.is_labelled) return {};
+    return {clip.name};
   }
 
   Result<Payload> Setting() const override { return MovesPayload(repertoire_); }
@@ -143,7 +144,8 @@ TaskKind MakeDetectionTaskKind() {
           .metrics = metrics,
           .make = MakeDetectionTask,
           .condition_keys = DetectionConditionFields().Describe(),
-          .method_keys = DetectionMethodFields().Describe()};
+          .method_keys = DetectionMethodFields().Describe(),
+          .units = {SamplingUnit::kPerson, SamplingUnit::kLibrary}};
 }
 
 }  // namespace etude

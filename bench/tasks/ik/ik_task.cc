@@ -50,7 +50,7 @@ class IkTask : public Task {
     return std::make_unique<IkTaskWorld>(study_, key, keeps_motion);
   }
 
-  std::string ClipOf(const WorldKey&) const override { return ""; }
+  std::vector<std::string> ClipsOf(const WorldKey&) const override { return {}; }
 
   Result<Payload> Setting() const override {
     return DescribeIkSetting(study_.tree, study_.condition.common, study_.condition.trial);

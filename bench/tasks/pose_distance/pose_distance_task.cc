@@ -52,10 +52,11 @@ class PoseDistanceTask final : public Task {
     return std::make_unique<PoseDistanceWorld>(study_, WorldOf(key));
   }
 
-  /// The blind spot, or the clip of the pairs' first poses.
-  std::string ClipOf(const WorldKey& key) const override {
-    if (study_.options.source == PairSource::kBlindSpots) return ShowBlindSpot(key.trial).name;
-    return study_.clips.names[static_cast<std::size_t>(key.trial) % study_.clips.names.size()];
+  /// The blind spot, or the clips of the pairs' first and second poses.
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override {
+    if (study_.options.source == PairSource::kBlindSpots) return {ShowBlindSpot(key.trial).name};
+    const auto [first, second] = DrawClips(study_.clips, key);
+    return {study_.clips.names[first], study_.clips.names[second]};
   }
 
   Result<Payload> Setting() const override { return BodyPayload(); }
@@ -94,7 +95,8 @@ TaskKind MakePoseDistanceTaskKind() {
           .metrics = PoseDistanceMetrics(),
           .make = MakePoseDistanceTask,
           .condition_keys = PoseDistanceConditionFields().Describe(),
-          .method_keys = PoseDistanceMethodFields().Describe()};
+          .method_keys = PoseDistanceMethodFields().Describe(),
+          .units = {SamplingUnit::kClipPair, SamplingUnit::kClip, SamplingUnit::kLibrary, SamplingUnit::kWorld}};
 }
 
 }  // namespace etude

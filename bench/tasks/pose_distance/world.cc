@@ -19,6 +19,16 @@ const BodyPose& DrawFrame(const BodyMotion& motion, RandomStream& dice) {
   return motion.poses[dice.IndexBelow(motion.poses.size())];
 }
 
+std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, int trial, RandomStream& dice) {
+  const std::size_t first = static_cast<std::size_t>(trial) % clips.motions.size();
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < clips.motions.size(); ++i) {
+    if (clips.identities[i] != clips.identities[first]) others.push_back(i);
+  }
+  assert(!others.empty());
+  return {first, others[dice.IndexBelow(others.size())]};
+}
+
 }  // namespace
 
 DancedClips DanceClips(const ClipLibrary& library) {
@@ -46,16 +56,14 @@ PairWorld ShowBlindSpot(int trial) {
   return {std::string(spot.name), "", "", {MakePair(PoseOf(spot.a), PoseOf(spot.b), standing_hip_height)}};
 }
 
-PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key) {
-  const std::size_t first = static_cast<std::size_t>(key.trial) % clips.motions.size();
-  std::vector<std::size_t> others;
-  for (std::size_t i = 0; i < clips.motions.size(); ++i) {
-    if (clips.identities[i] != clips.identities[first]) others.push_back(i);
-  }
-  assert(!others.empty());
+std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key) {
   RandomStream dice(key, "pose-pairs");
-  const std::size_t second = others[dice.IndexBelow(others.size())];
+  return DrawClips(clips, key.trial, dice);
+}
 
+PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key) {
+  RandomStream dice(key, "pose-pairs");
+  const auto [first, second] = DrawClips(clips, key.trial, dice);
   PairWorld world{.name = "", .clip_a = clips.identities[first], .clip_b = clips.identities[second], .pairs = {}};
   for (int i = 0; i < count; ++i) {
     const BodyPose& a = DrawFrame(clips.motions[first], dice);

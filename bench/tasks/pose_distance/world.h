@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/clips/clip_library.h"
@@ -50,8 +51,12 @@ bool HoldsTwoDances(const DancedClips& clips);
 
 PairWorld ShowBlindSpot(int trial);
 
-/// Two clips of different identities, and `count` pairs of a frame of the one and a frame of the other, each pair drawn
-/// evenly. The first clip goes round-robin with the trials. The clips must hold two dances.
+/// Two clips of different identities, by index; the first goes round-robin with the trials. The clips must hold two
+/// dances.
+std::pair<std::size_t, std::size_t> DrawClips(const DancedClips& clips, const WorldKey& key);
+
+/// Those two clips, and `count` pairs of a frame of the one and a frame of the other, each pair drawn
+/// evenly.
 PairWorld DrawFramePairs(const DancedClips& clips, int count, const WorldKey& key);
 
 }  // namespace etude

@@ -77,7 +77,7 @@ class SearchTask final : public Task {
     return std::make_unique<SearchWorld>(study_, library_.Get(), key);
   }
 
-  std::string ClipOf(const WorldKey&) const override { return ""; }
+  std::vector<std::string> ClipsOf(const WorldKey&) const override { return {}; }
 
   Result<Payload> Setting() const override {
     return LibraryPayload(ProblemOf(study_, library_.Get()), study_.options.question);
@@ -119,7 +119,8 @@ TaskKind MakeSearchTaskKind() {
           .metrics = {"search_agreement", "matches_per_query", "distances_per_query", "boxes_per_query"},
           .make = MakeSearchTask,
           .condition_keys = SearchConditionFields().Describe(),
-          .method_keys = SearchMethodFields().Describe()};
+          .method_keys = SearchMethodFields().Describe(),
+          .units = {SamplingUnit::kLibrary, SamplingUnit::kWorld}};
 }
 
 }  // namespace etude

@@ -62,7 +62,7 @@ class TrackingTask : public Task {
     return std::make_unique<TrackingTaskWorld>(study_, ClipFor(key), key, keeps_motion);
   }
 
-  std::string ClipOf(const WorldKey& key) const override { return ClipFor(key).name; }
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override { return {ClipFor(key).name}; }
 
   Result<Payload> Setting() const override { return DescribeTrackingSetting(study_.options, study_.options.common); }
 
@@ -104,7 +104,8 @@ TaskKind MakeTrackingTaskKind() {
                       "iterations_per_frame_p95"},
           .make = MakeTrackingTask,
           .condition_keys = TrackingConditionFields().Describe(),
-          .method_keys = TrackingMethodFields().Describe()};
+          .method_keys = TrackingMethodFields().Describe(),
+          .units = {SamplingUnit::kClip, SamplingUnit::kLibrary, SamplingUnit::kWorld}};
 }
 
 }  // namespace etude

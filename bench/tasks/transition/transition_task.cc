@@ -23,8 +23,13 @@ class TransitionTask final : public Task {
     return std::make_unique<TransitionRun>(basis, DrawRequest(stage_, key), keeps_motion);
   }
 
-  std::string ClipOf(const WorldKey& key) const override {
-    return stage_.library.names.empty() ? "" : stage_.library.names[FromClip(stage_, key)];
+  /// The clip left and the clip entered.
+  std::vector<std::string> ClipsOf(const WorldKey& key) const override {
+    const std::vector<std::string>& names = stage_.library.names;
+    if (names.empty()) return {};
+    const auto request = DrawRequest(stage_, key);
+    if (!request) return {names[FromClip(stage_, key)]};
+    return {names[request->from], names[request->to]};
   }
 
   Result<Payload> Setting() const override { return StagePayload(stage_); }
@@ -65,7 +70,8 @@ TaskKind MakeTransitionTaskKind() {
           .metrics = TransitionMetrics(),
           .make = MakeTransitionTask,
           .condition_keys = TransitionConditionFields().Describe(),
-          .method_keys = TransitionMethodFields().Describe()};
+          .method_keys = TransitionMethodFields().Describe(),
+          .units = {SamplingUnit::kClipPair, SamplingUnit::kClip, SamplingUnit::kLibrary, SamplingUnit::kWorld}};
 }
 
 }  // namespace etude

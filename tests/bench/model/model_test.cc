@@ -27,7 +27,7 @@ TEST(CellResult, KeepsAMissingValueWithItsReasonAndNeverAsZero) {
 }
 
 TEST(Row, IsNamedByItsIdentity) {
-  Row row{"ik-weights", "ik", {{"noise", "5"}, {"limits", "tight"}}, 7, "", "ccd", {}};
+  Row row{"ik-weights", "ik", {{"noise", "5"}, {"limits", "tight"}}, 7, "", {}, "ccd", {}};
   EXPECT_EQ(row.Id(), "ik-weights/noise=5,limits=tight/007/ccd");
   EXPECT_EQ(ConditionLabel(row.condition), "noise=5, limits=tight");
   row.condition.clear();

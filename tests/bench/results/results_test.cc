@@ -18,7 +18,8 @@ using testing::HasSubstr;
 const Place kPlace{"cells.jsonl", 1, 0};
 
 Row SampleRow() {
-  Row row{"ik-weights", "ik", {{"joint_noise_deg", "10"}, {"noise", "gaussian"}}, 7, "builtin:clap", "adaptive", {}};
+  Row row{"ik-weights", "ik", {{"joint_noise_deg", "10"}, {"noise", "gaussian"}}, 7, "builtin:clap", {},
+          "adaptive",   {}};
   row.result.status = Status::kUnsolved;
   row.result.reason = "worst effector 0.8 cm";
   row.result.Measure("position_error_cm", 0.1 + 0.2);

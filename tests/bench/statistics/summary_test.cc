@@ -31,7 +31,7 @@ std::vector<Row> Rows(const Study& study) {
   for (const std::vector<SweptValue>& condition : study.conditions) {
     for (int trial = 0; trial < 10; ++trial) {
       for (const char* method : {"a", "b"}) {
-        Row row{"s", "ik", condition, trial, "", method, {}};
+        Row row{"s", "ik", condition, trial, "", {}, method, {}};
         row.result.status = Status::kOk;
         if (method[0] == 'b' && trial == 9) {
           row.result = CellResult::Ended(Status::kCrashed, "its worker ended");

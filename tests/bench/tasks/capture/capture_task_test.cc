@@ -39,7 +39,7 @@ TEST(CaptureTask, ShowsEveryMethodTheSameMarksAndRepeatsItself) {
       "duration_s: 0.1\nmethods:\n- {name: fixed, solver: ccd, weights: fixed}\n- {name: adaptive, solver: ccd, "
       "weights: adaptive}\n");
   ASSERT_TRUE(task) << ToString(task.error());
-  EXPECT_EQ((*task)->ClipOf(kKey), "builtin:boxing");
+  EXPECT_EQ((*task)->ClipsOf(kKey).front(), "builtin:boxing");
   const auto cells = RunWorld(**task, kKey, 2), again = RunWorld(**task, kKey, 2);
   ASSERT_EQ(cells.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -56,7 +56,7 @@ TEST_F(DetectionTask, SkipsClipsThatNobodyLabelledAndNamesThem) {
   ClipLibrary clips = FourMoves();
   clips.clips.insert(clips.clips.begin(), Unlabelled());
   const auto task = *MakeTask(std::string("events: 2\n") + kFourMethods, clips);
-  EXPECT_EQ(task->ClipOf(World(0)), "walk");
+  EXPECT_EQ(task->ClipsOf(World(0)).front(), "walk");
   for (const CellResult& cell : CellsOf(*task, 0)) {
     EXPECT_EQ(cell.status, Status::kSkipped);
     EXPECT_EQ(cell.reason, "clip walk has no labelled moves: detection needs to know what was danced");

@@ -57,7 +57,7 @@ TEST_F(PoseDistanceTask, EveryBlindSpotIsCalledAlikeByPaperAsDistance) {
   const double gaps[] = {103, 103, 86, 77, 75, 25, 25, 16};
   for (int trial = 0; trial < 16; ++trial) {
     const CellResult cell = RunWorld(**task, {.scenario = "s", .trial = trial}, 1).front();
-    EXPECT_LT(ValueOf(cell, "fuzzy_distance"), 0.07) << (*task)->ClipOf({.scenario = "s", .trial = trial});
+    EXPECT_LT(ValueOf(cell, "fuzzy_distance"), 0.07) << (*task)->ClipsOf({.scenario = "s", .trial = trial}).front();
     EXPECT_EQ(ValueOf(cell, "called_alike"), 1);
     EXPECT_NEAR(ValueOf(cell, "pose_gap_cm"), gaps[trial % 8], 0.6);
     EXPECT_EQ(ValueOf(cell, "false_smooth"), gaps[trial % 8] > 20);

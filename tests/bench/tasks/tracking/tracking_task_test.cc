@@ -50,7 +50,7 @@ const std::vector<double>& SeriesOf(const CellResult& cell, std::string_view nam
 TEST(TrackingTask, GivesEveryMethodACellWithAllMetricsAndSeriesAlongTheFrames) {
   const auto task = Make("{duration_s: 1}");
   ASSERT_TRUE(task) << ToString(task.error());
-  EXPECT_EQ((*task)->ClipOf(kWorld), "builtin:clap");
+  EXPECT_EQ((*task)->ClipsOf(kWorld).front(), "builtin:clap");
   const auto cells = RunWorld(**task, kWorld, 3);
   const TaskKind kind = MakeTrackingTaskKind();
   for (const CellResult& cell : cells) {

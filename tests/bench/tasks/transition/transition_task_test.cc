@@ -26,7 +26,7 @@ TEST_F(TransitionTaskTest, MeasuresEveryMethodInTheSameWorld) {
   ASSERT_TRUE(task) << ToString(task.error());
   int smoother = 0;
   for (int trial = 0; trial < 6; ++trial) {
-    EXPECT_EQ((*task)->ClipOf(Trial(trial)), library.clips[trial % 3].name);
+    EXPECT_EQ((*task)->ClipsOf(Trial(trial)).front(), library.clips[trial % 3].name);
     const std::vector<CellResult> cells = CellsOf(**task, trial);
     ASSERT_EQ(cells.size(), 6u);
     EXPECT_EQ(cells[0].status, Status::kOk);

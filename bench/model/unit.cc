@@ -1,0 +1,29 @@
+#include "bench/model/unit.h"
+
+#include <fmt/core.h>
+
+namespace etude {
+
+std::string_view SamplingUnitName(SamplingUnit unit) {
+  for (const Named<SamplingUnit>& row : kSamplingUnits) {
+    if (row.value == unit) return row.name;
+  }
+  return "world";
+}
+
+std::string CountUnits(int count, SamplingUnit unit) {
+  switch (unit) {
+    case SamplingUnit::kWorld:
+      return fmt::format("{} world{}", count, count == 1 ? "" : "s");
+    case SamplingUnit::kPerson:
+      return fmt::format("{} {}", count, count == 1 ? "person" : "people");
+    case SamplingUnit::kLibrary:
+      return fmt::format("{} librar{}", count, count == 1 ? "y" : "ies");
+    case SamplingUnit::kClip:
+    case SamplingUnit::kClipPair:
+      break;
+  }
+  return fmt::format("{} clip{}", count, count == 1 ? "" : "s");
+}
+
+}  // namespace etude
