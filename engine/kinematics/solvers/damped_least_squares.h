@@ -12,9 +12,9 @@ struct DampedLeastSquaresOptions {
   /// angles end 0.44 of the noise from the truth, from 10⁻⁴ 0.71. Raise it where the answer shall stay near the start.
   double first_damping = 1e-2;
   /// How a step keeps to the limits. Clamped is what most who write this method do, and what `damped-least-squares`
-  /// always was here; it crawls along the limits, where one angle's lost share is made up for by others only step by
-  /// step: of 200 starts off by 15° (poses of the joints' whole ranges) it solves 96 %, in 28 steps at the median, the
-  /// active set 99.5 %, in 6 (`damped-least-squares-active-set`).
+  /// always was here; it crawls along the limits, where others make up for an angle's lost share only step by step: of
+  /// 200 starts off by 15° (poses of the joints' whole ranges) it solves 96 % to 10⁻³ cm and 10⁻³°, in 28 steps at the
+  /// median, the active set all, in 6 (`damped-least-squares-active-set`).
   Bounds bounds = Bounds::kClamped;
 };
 
