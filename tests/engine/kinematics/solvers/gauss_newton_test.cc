@@ -223,8 +223,9 @@ double ShareFollowed(int max_iterations) {
 
 TEST(GaussNewton, FollowsAMotionWithFewIterationsAFrameAndTheBetterTheMoreItHas) {
   double fewer = 0;
-  // Of 400 motions, 0.858, 0.946, 0.979, 0.988 and 0.9985 are.
-  for (const auto& [budget, at_least] : {std::pair(3, 0.84), {5, 0.93}, {10, 0.965}, {20, 0.975}, {50, 0.997}}) {
+  // Of these, 0.8625, 0.9485, 0.983, 0.988 and 0.9985 are; of 400 motions 0.858, 0.946, 0.979, 0.988 and 0.9985. Any
+  // 40 motions make a test of luck: ten lots of 40 lie between 0.80 and 0.92 with three iterations.
+  for (const auto& [budget, at_least] : {std::pair(3, 0.86), {5, 0.945}, {10, 0.98}, {20, 0.985}, {50, 0.998}}) {
     const double share = ShareFollowed(budget);
     EXPECT_GE(share, at_least) << budget;
     EXPECT_GE(share, fewer) << budget;
