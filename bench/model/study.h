@@ -39,7 +39,8 @@ struct GateRules {
 /// One of the methods compared.
 struct ComparedMethod {
   std::string name;
-  std::string against;  ///< the method it is compared with; the first is its own
+  std::string against;      ///< the method it is compared with; the first is its own
+  bool has_oracle = false;  ///< part of its work is done by the truth: it shows what could be, and competes with none
 };
 
 /// What a scenario compares and what it expects, without how its worlds are made: all that judging its rows takes.
@@ -52,6 +53,7 @@ struct Study {
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
+  std::string rival;                                ///< the method that all others must beat; "" = the best is found
   std::vector<Expectation> expectations;
   GateRules gate;
 };

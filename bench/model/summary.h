@@ -59,13 +59,15 @@ struct LeftOut {
 /// What a comparison says beyond its worlds: about other units (clips, people, …) like those it was sampled from
 /// (bench/statistics/beyond.h). Where every world is its own unit this says what the worlds say.
 struct Beyond {
-  int units = 0;                                ///< that have a pair
-  std::optional<double> difference, low, high;  ///< mean over units of their mean difference; 95 % interval
-  PairedTest test;                              ///< that decides
-  std::optional<double> p_holm;                 ///< corrected over the scenario's comparisons (Holm)
-  std::optional<Verdict> verdict;               ///< nothing = there are too few units for any
-  std::string why_open;                         ///< why there is no verdict, or it is inconclusive, in words
-  std::vector<LeftOut> left_out;                ///< in the order of the units' names; empty where worlds are units
+  int units = 0;                                  ///< that have a pair
+  int differing = 0;                              ///< of these, whose mean difference is not zero
+  std::optional<double> difference, low, high;    ///< mean over units of their mean difference; 95 % interval
+  std::optional<double> median_low, median_high;  ///< 95 % interval of the median of the units' mean differences
+  PairedTest test;                                ///< that decides
+  std::optional<double> p_holm;                   ///< corrected over the scenario's comparisons (Holm)
+  std::optional<Verdict> verdict;                 ///< nothing = there are too few units for any
+  std::string why_open;                           ///< why there is no verdict, or it is inconclusive, in words
+  std::vector<LeftOut> left_out;                  ///< in the order of the units' names; empty where worlds are units
 };
 
 /// `method` against `baseline` on the same worlds: the aggregate (MetricInfo: median, or mean for shares and

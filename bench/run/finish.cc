@@ -31,7 +31,8 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable cells
     const Scenario& scenario = prepared.scenario();
     const std::size_t count =
         scenario.conditions.size() * static_cast<std::size_t>(scenario.trials) * scenario.methods.size();
-    summaries.push_back(Summarise(StudyOf(scenario), std::span(rows).subspan(at, count), prepared.setup().seed));
+    const Study study = StudyOf(scenario);
+    summaries.push_back(Summarise(study, Tabulate(study, std::span(rows).subspan(at, count)), prepared.setup().seed));
     at += count;
   }
   RETURN_IF_ERROR(SaveResults(folder, rows, summaries));

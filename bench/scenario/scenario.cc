@@ -104,6 +104,11 @@ const FieldTable<Scenario>& ScenarioFields() {
          "",
          "What is compared, on the same worlds."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
+       {{"rival", TextKind("a method"), "(the best is found)",
+         "The strongest method, against which all others are judged beside their baseline."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind&) {
+          s.rival = fields.Choice("rival", MethodNames(s), "");
+        })},
        {{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(the task's)",
          "The headline metrics, most important first."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.metrics = ReadMetrics(fields, kind); })},

@@ -11,9 +11,14 @@ Study StudyOf(const Scenario& scenario) {
               .methods = {},
               .conditions = {},
               .metrics = scenario.metrics,
+              .rival = scenario.rival,
               .expectations = scenario.expectations,
               .gate = scenario.gate};
-  for (const MethodEntry& method : scenario.methods) study.methods.push_back({method.name, method.against});
+  for (const MethodEntry& method : scenario.methods) {
+    const Node* oracle = method.node.Find("oracle");
+    const bool has_oracle = oracle != nullptr && (oracle->kind != Node::Kind::kSequence || !oracle->items.empty());
+    study.methods.push_back({method.name, method.against, has_oracle});
+  }
   for (const Condition& condition : scenario.conditions) study.conditions.push_back(condition.swept);
   return study;
 }

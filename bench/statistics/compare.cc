@@ -12,18 +12,6 @@
 namespace etude {
 namespace {
 
-bool AreShares(std::span<const Pair> pairs) {
-  const auto is_share = [](double value) { return value == 0 || value == 1; };
-  return std::all_of(pairs.begin(), pairs.end(),
-                     [&](const Pair& pair) { return is_share(pair.baseline) && is_share(pair.method); });
-}
-
-/// Without rounding: what differs in the last bits alone is a tie, of ranks as of values.
-double DifferenceOf(const Pair& pair, const MetricInfo& metric) {
-  const double difference = pair.method - pair.baseline;
-  return std::abs(difference) <= 1e-9 * metric.practical ? 0 : KeepThirtyBits(difference);
-}
-
 Interval ShareInterval(std::span<const double> differences, double confidence) {
   const auto gained = std::count(differences.begin(), differences.end(), 1.0);
   const auto lost = std::count(differences.begin(), differences.end(), -1.0);
@@ -39,6 +27,17 @@ double ShareBetter(std::span<const double> differences, double sign) {
 }
 
 }  // namespace
+
+double DifferenceOf(const Pair& pair, const MetricInfo& metric) {
+  const double difference = pair.method - pair.baseline;
+  return std::abs(difference) <= 1e-9 * metric.practical ? 0 : KeepThirtyBits(difference);
+}
+
+bool AreShares(std::span<const Pair> pairs) {
+  const auto is_share = [](double value) { return value == 0 || value == 1; };
+  return std::all_of(pairs.begin(), pairs.end(),
+                     [&](const Pair& pair) { return is_share(pair.baseline) && is_share(pair.method); });
+}
 
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,
                          const std::string& purpose, double confidence) {
@@ -76,22 +75,6 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   return result;
 }
 
-std::optional<Comparison> CompareWithFailures(std::span<const Pair> pairs, const FailedWorlds& failed,
-                                              const MetricInfo& metric, std::uint64_t seed, const std::string& purpose,
-                                              double confidence) {
-  if (failed.baseline + failed.method == 0 || pairs.empty() || metric.direction == Direction::kNeither) {
-    return std::nullopt;
-  }
-  double largest = AreShares(pairs) ? 1 : metric.practical;
-  for (const Pair& pair : pairs) largest = std::max(largest, std::abs(pair.method - pair.baseline));
-  const bool lower = metric.direction == Direction::kLowerIsBetter;
-  const Pair loss = lower ? Pair{0, largest} : Pair{largest, 0}, win{loss.method, loss.baseline};
-  std::vector<Pair> all(pairs.begin(), pairs.end());
-  all.insert(all.end(), failed.method, loss);
-  all.insert(all.end(), failed.baseline, win);
-  return ComparePaired(all, metric, seed, purpose + "/failures", confidence);
-}
-
 std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& metric) {
   return metric.aggregate == Aggregate::kMedian ? comparison.signed_rank.p : comparison.sign_flip.p;
 }
@@ -104,8 +87,10 @@ bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric) {
 Verdict VerdictOf(const Comparison& comparison, const MetricInfo& metric, double confidence) {
   if (!comparison.ci_low || !comparison.p_holm) return Verdict::kInconclusive;
   const double low = *comparison.ci_low, high = *comparison.ci_high, difference = *comparison.difference;
-  if (low >= -metric.practical && high <= metric.practical) {
-    return SeesTooFewDiffer(comparison, metric) ? Verdict::kInconclusive : Verdict::kNoDifference;
+  const auto is_within = [&](double from, double to) { return from >= -metric.practical && to <= metric.practical; };
+  if (is_within(low, high)) {
+    const bool holds = is_within(*comparison.mean_low, *comparison.mean_high) && !SeesTooFewDiffer(comparison, metric);
+    return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
   }
   const bool beyond_zero = low > 0 || high < 0;
   const bool significant = *comparison.p_holm <= 1 - confidence;

@@ -15,6 +15,12 @@ struct Pair {
   double method = 0;
 };
 
+/// Whether all values are 0 or 1.
+bool AreShares(std::span<const Pair> pairs);
+
+/// method − baseline, without rounding: what differs in the last bits alone is a tie, of ranks as of values.
+double DifferenceOf(const Pair& pair, const MetricInfo& metric);
+
 /// Compares two methods on the worlds in which both have a value: the paired differences' aggregate with its BCa
 /// interval (of shares, whose values are all 0 or 1: PairedShareInterval), their mean with its own, both tests, the
 /// effect size, and the verdict if this were the only comparison. Differences below a billionth of the practical
@@ -22,18 +28,6 @@ struct Pair {
 /// worlds without a pair and the notes are left for the caller.
 Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, std::uint64_t seed,
                          const std::string& purpose, double confidence = kConfidence);
-
-/// Worlds in which one method has a value, and the other's cell failed.
-struct FailedWorlds {
-  int baseline = 0, method = 0;  ///< whose cell failed
-};
-
-/// The same comparison with failures in the denominator: each world in which one method alone failed counts as the
-/// largest difference among the pairs, or one that just matters, against the method that failed (worst ranks,
-/// Lachin 1999). Nothing when there is no such world, no pair, or no better direction.
-std::optional<Comparison> CompareWithFailures(std::span<const Pair> pairs, const FailedWorlds& failed,
-                                              const MetricInfo& metric, std::uint64_t seed, const std::string& purpose,
-                                              double confidence = kConfidence);
 
 /// The p of the test that decides, fixed by the metric and never by the result: of Wilcoxon's where the aggregate is
 /// the median, of the sign flips where it is the mean.
@@ -44,8 +38,8 @@ std::optional<double> DecidingP(const Comparison& comparison, const MetricInfo& 
 bool SeesTooFewDiffer(const Comparison& comparison, const MetricInfo& metric);
 
 /// What the interval, `p_holm` and the metric's practical threshold say, alpha = 1 − confidence:
-///   no difference    the interval lies within ± threshold (equivalence; at 95 % stricter than two one-sided 5 %
-///   tests);
+///   no difference    the intervals of the metric's own aggregate and of the mean both lie within ± threshold
+///                    (equivalence; at 95 % stricter than two one-sided 5 % tests): a median alone hides behind ties;
 ///                    of a bootstrapped mean only when kSmallestSample pairs differ, for it can't see what is rare
 ///   better / worse   p_holm ≤ alpha, the interval lies on one side of zero, the difference is at least the threshold
 ///   inconclusive     anything else; always with fewer than kSmallestSample pairs

@@ -1,5 +1,6 @@
 #include "bench/statistics/distributions.h"
 
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
@@ -14,6 +15,15 @@ const double kRootTwo = std::sqrt(2.0);
 double NormalCdf(double x) { return 0.5 * boost::math::erfc(-x / kRootTwo); }
 
 double NormalQuantile(double p) { return -kRootTwo * boost::math::erfc_inv(2 * p); }
+
+double StudentQuantile(double p, int freedom) {
+  return boost::math::quantile(boost::math::students_t_distribution<double>(freedom), p);
+}
+
+double StudentTwoSided(double t, int freedom) {
+  const boost::math::students_t_distribution<double> distribution(freedom);
+  return 2 * boost::math::cdf(boost::math::complement(distribution, std::abs(t)));
+}
 
 double FairCoinUpperTail(int successes, int trials) {
   if (successes == 0) return 1;

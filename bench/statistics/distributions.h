@@ -7,6 +7,10 @@ double NormalCdf(double x);
 /// Φ⁻¹(p), 0 < p < 1.
 double NormalQuantile(double p);
 
+/// Student's t of so many degrees of freedom (> 0): the p-quantile, and P(|T| ≥ |t|).
+double StudentQuantile(double p, int freedom);
+double StudentTwoSided(double t, int freedom);
+
 /// P(B ≥ successes) of B ~ Binomial(trials, ½), 0 ≤ successes ≤ trials.
 double FairCoinUpperTail(int successes, int trials);
 

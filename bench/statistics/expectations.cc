@@ -36,14 +36,16 @@ struct Finding {
   std::string detail;
 };
 
-Finding JudgeComparison(const Expectation& expectation, std::span<const Row* const> rows, const std::string& other,
+Finding JudgeComparison(const Expectation& expectation, const ConditionTable& table, const std::string& other,
                         bool wants_lower, std::uint64_t seed, const std::string& purpose) {
   MetricInfo metric = *FindMetric(expectation.metric);
   metric.direction = wants_lower ? Direction::kLowerIsBetter : Direction::kHigherIsBetter;
-  const PairedWorlds worlds = PairsOf(rows, other, expectation.of, expectation.metric);
+  const PairedWorlds worlds = PairsOf(table, other, expectation.of, expectation.metric);
   Comparison found = ComparePaired(worlds.pairs, metric, seed, purpose, expectation.confidence);
-  const auto with_failures =
-      CompareWithFailures(worlds.pairs, worlds.failed, metric, seed, purpose, expectation.confidence);
+  std::optional<Comparison> with_failures;
+  if (const auto all = WithFailures(worlds, metric)) {
+    with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures", expectation.confidence);
+  }
   const Verdict of_pairs = JudgeBothWays(found, with_failures, metric, expectation.confidence);
   const int without = worlds.only_baseline + worlds.only_method + worlds.neither;
   const std::string missing = without == 0 ? "" : fmt::format(", {} more have no pair of values", without);
@@ -64,9 +66,9 @@ Finding JudgeComparison(const Expectation& expectation, std::span<const Row* con
   return {ruling, detail};
 }
 
-Finding JudgeBound(const Expectation& expectation, std::span<const Row* const> rows) {
+Finding JudgeBound(const Expectation& expectation, const ConditionTable& table) {
   int missing = 0;
-  const std::vector<double> values = ValuesOf(rows, expectation.of, expectation.metric, missing);
+  const std::vector<double> values = table.Of(expectation.of).ValuesOf(expectation.metric, missing);
   if (values.empty()) return {Ruling::kUndecided, "no cell has a value"};
   const double value = expectation.statistic == "mean"  ? Mean(values)
                        : expectation.statistic == "p95" ? Quantile(values, 0.95)
@@ -80,18 +82,18 @@ Finding JudgeBound(const Expectation& expectation, std::span<const Row* const> r
 
 }  // namespace
 
-ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, std::span<const Row> rows,
+ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed) {
   ExpectationResult result{Claim(expectation), Ruling::kMet, ""};
   const bool wants_lower = !expectation.below.empty();
   const std::string& other = wants_lower ? expectation.below : expectation.above;
-  for (const std::vector<SweptValue>& condition : study.conditions) {
-    if (!Matches(condition, expectation.where)) continue;
-    const auto selected = RowsIn(rows, condition);
-    const std::string purpose = PurposeOf(study.scenario, condition, expectation.metric, other, expectation.of);
-    const Finding finding = other.empty() ? JudgeBound(expectation, selected)
-                                          : JudgeComparison(expectation, selected, other, wants_lower, seed, purpose);
-    const std::string label = ConditionLabel(condition);
+  for (const ConditionTable& condition : table.conditions()) {
+    if (!Matches(condition.condition, expectation.where)) continue;
+    const std::string purpose =
+        PurposeOf(study.scenario, condition.condition, expectation.metric, other, expectation.of);
+    const Finding finding = other.empty() ? JudgeBound(expectation, condition)
+                                          : JudgeComparison(expectation, condition, other, wants_lower, seed, purpose);
+    const std::string label = ConditionLabel(condition.condition);
     if (!result.detail.empty()) result.detail += "; ";
     result.detail += label.empty() ? finding.detail : label + ": " + finding.detail;
     // One condition that fails decides; else one that is undecided does.

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <span>
-
-#include "bench/model/study.h"
 #include "bench/model/summary.h"
+#include "bench/statistics/scenario_table.h"
 
 namespace etude {
 
@@ -12,7 +10,7 @@ namespace etude {
 /// no difference in one, else undecided. Because every condition must hold, none needs a correction for the others
 /// (intersection–union test, Berger 1982). A bound (at_most, at_least) compares the statistic itself; cells
 /// without a value leave it undecided, for a missing value is never a good one.
-ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, std::span<const Row> rows,
+ExpectationResult JudgeExpectation(const Expectation& expectation, const Study& study, const ScenarioTable& table,
                                    std::uint64_t seed);
 
 }  // namespace etude

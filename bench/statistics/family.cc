@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/compare.h"
 #include "bench/statistics/holm.h"
@@ -12,8 +13,6 @@
 
 namespace etude {
 namespace {
-
-constexpr double kAlpha = 1 - kConfidence;
 
 /// Whoever gives up on hard worlds is compared on the easy ones alone.
 std::string NoteOnMissing(const Comparison& c) {
@@ -30,6 +29,19 @@ std::string NoteOnMissing(const Comparison& c) {
                      c.pairs > 0 && c.only_baseline + c.only_method > 0 ? " (survivorship)" : "");
 }
 
+std::string NotWithFailures(Verdict of_pairs) {
+  return fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
+}
+
+/// A median does not see what happens in fewer than half of the worlds.
+std::string WhatTheMedianHides(const Comparison& c) {
+  const int tied = c.pairs - c.differing;
+  const long better = std::lround(c.share_better * c.pairs - 0.5 * tied);  // ties count half
+  const std::string ties = 2 * tied > c.pairs ? "in most worlds the same, " : "";
+  return fmt::format("the median lies within what matters, but the mean may not: {}in {} of {} better, in {} worse",
+                     ties, better, c.pairs, c.differing - better);
+}
+
 /// Why the verdict is open, in the order in which one would ask.
 std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int comparisons) {
   if (c.verdict != Verdict::kInconclusive) return "";
@@ -39,6 +51,8 @@ std::string WhyOpen(const Comparison& c, const MetricInfo& metric, int compariso
     return fmt::format("{} of {} pairs differ: too few to exclude rare differences that would move the mean",
                        c.differing, c.pairs);
   }
+  const bool within = c.ci_low && *c.ci_low >= -metric.practical && *c.ci_high <= metric.practical;
+  if (within && metric.aggregate == Aggregate::kMedian) return WhatTheMedianHides(c);
   if (c.differing == 0 && c.ci_low) {
     return fmt::format("no pair differs, but {} worlds are too few to exclude a difference that matters", c.pairs);
   }
@@ -80,33 +94,77 @@ std::string NoteOnMean(const Comparison& c, const MetricInfo& metric) {
                      unit, amount(*c.mean_low), amount(*c.mean_high));
 }
 
-}  // namespace
-
-void JudgeFamily(std::span<const Question> family) {
+void JudgeOnTheseWorlds(std::span<Question* const> family) {
   std::vector<std::optional<double>> pairs_alone, all_worlds;
-  for (const Question& question : family) {
-    const MetricInfo& metric = *FindMetric(question.comparison->metric);
-    pairs_alone.push_back(DecidingP(*question.comparison, metric));
-    all_worlds.push_back(question.with_failures ? DecidingP(*question.with_failures, metric) : pairs_alone.back());
+  for (const Question* question : family) {
+    const MetricInfo& metric = *FindMetric(question->comparison.metric);
+    pairs_alone.push_back(DecidingP(question->comparison, metric));
+    all_worlds.push_back(question->with_failures ? DecidingP(*question->with_failures, metric) : pairs_alone.back());
   }
   const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
   for (std::size_t i = 0; i < family.size(); ++i) {
-    Comparison& comparison = *family[i].comparison;
+    Comparison& comparison = family[i]->comparison;
     const MetricInfo& metric = *FindMetric(comparison.metric);
     comparison.p_holm = corrected_alone[i];
-    std::optional<Comparison> with_failures = family[i].with_failures;
-    if (with_failures) with_failures->p_holm = corrected[i];
-    const Verdict of_pairs = JudgeBothWays(comparison, with_failures, metric);
+    if (family[i]->with_failures) family[i]->with_failures->p_holm = corrected[i];
+    const Verdict of_pairs = JudgeBothWays(comparison, family[i]->with_failures, metric);
     if (comparison.verdict == of_pairs) {
       comparison.why_open = WhyOpen(comparison, metric, static_cast<int>(family.size()));
     } else if (comparison.verdict == Verdict::kInconclusive) {
-      comparison.why_open =
-          fmt::format("“{}” where both have a value, but not when failing counts as losing", VerdictName(of_pairs));
+      comparison.why_open = NotWithFailures(of_pairs);
     }
     for (const std::string& note : {NoteOnMissing(comparison), NoteOnMean(comparison, metric)}) {
       if (!note.empty()) comparison.notes.push_back(note);
     }
   }
+}
+
+/// Where every world is its own unit, these worlds are a sample of all.
+void SayTheSameBeyond(Comparison& comparison) {
+  Beyond& beyond = comparison.beyond;
+  beyond.units = comparison.pairs;
+  beyond.differing = comparison.differing;
+  beyond.difference = comparison.difference;
+  beyond.low = comparison.ci_low;
+  beyond.high = comparison.ci_high;
+  const MetricInfo& metric = *FindMetric(comparison.metric);
+  beyond.test = metric.aggregate == Aggregate::kMedian ? comparison.signed_rank : comparison.sign_flip;
+  beyond.p_holm = comparison.p_holm;
+  if (comparison.pairs >= kSmallestSample) beyond.verdict = comparison.verdict;
+  beyond.why_open = comparison.why_open;
+}
+
+void JudgeBeyond(std::span<Question* const> family, SamplingUnit unit) {
+  std::vector<std::optional<double>> pairs_alone, all_worlds;
+  for (const Question* question : family) {
+    pairs_alone.push_back(question->comparison.beyond.test.p);
+    all_worlds.push_back(question->with_failures ? question->with_failures->beyond.test.p : pairs_alone.back());
+  }
+  const auto corrected_alone = HolmCorrected(pairs_alone), corrected = HolmCorrected(all_worlds);
+  const int comparisons = static_cast<int>(family.size());
+  for (std::size_t i = 0; i < family.size(); ++i) {
+    Beyond& beyond = family[i]->comparison.beyond;
+    const MetricInfo& metric = *FindMetric(family[i]->comparison.metric);
+    beyond.p_holm = corrected_alone[i];
+    beyond.verdict = VerdictBeyond(beyond, metric);
+    beyond.why_open = WhyOpenBeyond(beyond, metric, unit, comparisons);
+    if (!family[i]->with_failures || !beyond.verdict) continue;
+    Beyond& with_failures = family[i]->with_failures->beyond;
+    with_failures.p_holm = beyond.p_holm = corrected[i];
+    const Verdict of_pairs = *beyond.verdict;
+    const auto with_their_p = VerdictBeyond(beyond, metric);
+    if (with_their_p == of_pairs && VerdictBeyond(with_failures, metric) == of_pairs) continue;
+    beyond.verdict = Verdict::kInconclusive;
+    if (of_pairs != Verdict::kInconclusive) beyond.why_open = NotWithFailures(of_pairs);
+  }
+}
+
+}  // namespace
+
+void JudgeFamily(std::span<Question* const> family, SamplingUnit unit) {
+  JudgeOnTheseWorlds(family);
+  if (!IsEveryWorldItsOwn(unit)) return JudgeBeyond(family, unit);
+  for (Question* question : family) SayTheSameBeyond(question->comparison);
 }
 
 }  // namespace etude

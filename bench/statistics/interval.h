@@ -5,6 +5,7 @@
 namespace etude {
 
 constexpr double kConfidence = 0.95;
+constexpr double kAlpha = 1 - kConfidence;
 
 /// A confidence interval, and how it was computed.
 struct Interval {

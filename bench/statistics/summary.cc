@@ -2,24 +2,23 @@
 
 #include <algorithm>
 
+#include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/expectations.h"
 #include "bench/statistics/family.h"
 #include "bench/statistics/proportion.h"
+#include "bench/statistics/rival.h"
 #include "bench/statistics/select.h"
 
 namespace etude {
 namespace {
 
-/// The metrics that a method's cells report, in the order of the catalogue.
-std::vector<const MetricInfo*> MetricsIn(std::span<const Row* const> rows) {
+/// The metrics that the condition's cells report, in the order of the catalogue.
+std::vector<const MetricInfo*> MetricsIn(const ConditionTable& table) {
   std::vector<const MetricInfo*> present;
   for (const MetricInfo& metric : AllMetrics()) {
-    const auto reports = [&](const Row* row) {
-      return std::any_of(row->result.metrics.begin(), row->result.metrics.end(),
-                         [&](const MetricValue& value) { return value.id == metric.id; });
-    };
-    if (std::any_of(rows.begin(), rows.end(), reports)) present.push_back(&metric);
+    const auto reports = [&](const MethodColumns& method) { return method.Reports(metric.id); };
+    if (std::any_of(table.methods.begin(), table.methods.end(), reports)) present.push_back(&metric);
   }
   return present;
 }
@@ -34,11 +33,11 @@ std::optional<Interval> IntervalOf(std::span<const double> values, Aggregate agg
   return WilsonInterval(static_cast<int>(count), static_cast<int>(values.size()));
 }
 
-MetricSummary SummariseMetric(const MetricInfo& metric, std::span<const Row* const> rows, const std::string& method,
-                              std::uint64_t seed, const std::string& purpose) {
+MetricSummary SummariseMetric(const MetricInfo& metric, const MethodColumns& method, std::uint64_t seed,
+                              const std::string& purpose) {
   MetricSummary summary;
   summary.id = metric.id;
-  const std::vector<double> values = ValuesOf(rows, method, metric.id, summary.missing);
+  const std::vector<double> values = method.ValuesOf(metric.id, summary.missing);
   summary.present = static_cast<int>(values.size());
   if (values.empty()) return summary;
   summary.median = Quantile(values, 0.5);
@@ -51,19 +50,17 @@ MetricSummary SummariseMetric(const MetricInfo& metric, std::span<const Row* con
   return summary;
 }
 
-MethodSummary SummariseMethod(const std::string& method, std::span<const Row* const> rows,
-                              std::span<const MetricInfo* const> metrics, const Study& study,
-                              const std::vector<SweptValue>& condition, std::uint64_t seed) {
+MethodSummary SummariseMethod(const MethodColumns& method, const ConditionTable& table,
+                              std::span<const MetricInfo* const> metrics, const Study& study, std::uint64_t seed) {
   MethodSummary summary;
-  summary.method = method;
+  summary.method = method.name();
   for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
     const auto status = static_cast<Status>(i);
-    const auto count = std::count_if(rows.begin(), rows.end(), [&](const Row* row) {
-      return row->method == method && row->result.status == status;
-    });
-    if (count > 0) summary.statuses.emplace_back(status, static_cast<int>(count));
-    if (status == Status::kOk) summary.ok = static_cast<int>(count);
-    if (status != Status::kSkipped) summary.attempted += static_cast<int>(count);
+    int count = 0;
+    for (int trial = 0; trial < table.trials(); ++trial) count += method.StatusAt(trial) == status;
+    if (count > 0) summary.statuses.emplace_back(status, count);
+    if (status == Status::kOk) summary.ok = count;
+    if (status != Status::kSkipped) summary.attempted += count;
   }
   if (summary.attempted > 0) {
     const Interval interval = WilsonInterval(summary.ok, summary.attempted);
@@ -71,68 +68,126 @@ MethodSummary SummariseMethod(const std::string& method, std::span<const Row* co
     summary.ok_high = interval.high;
   }
   for (const MetricInfo* metric : metrics) {
-    const std::string purpose = PurposeOf(study.scenario, condition, metric->id, "", method);
-    summary.metrics.push_back(SummariseMetric(*metric, rows, method, seed, purpose));
+    const std::string purpose = PurposeOf(study.scenario, table.condition, metric->id, "", method.name());
+    summary.metrics.push_back(SummariseMetric(*metric, method, seed, purpose));
   }
   return summary;
 }
 
-struct Asked {
-  Comparison comparison;
-  std::optional<Comparison> with_failures;
+/// What the comparisons of a scenario have in common.
+struct Family {
+  const Study& study;
+  std::uint64_t seed = 1;
+  int size = 0;  ///< comparisons that are judged together
+
+  Beyond MeasureUnits(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
+                      const std::string& purpose) const {
+    if (IsEveryWorldItsOwn(study.unit)) return {};
+    return MeasureBeyond(UnitsOf(worlds, table, metric), size, seed, purpose);
+  }
+
+  /// One comparison, verdict left open: that depends on the others.
+  Question Ask(const PairedWorlds& worlds, const ConditionTable& table, const MetricInfo& metric,
+               const std::string& purpose) const {
+    Question question{ComparePaired(worlds.pairs, metric, seed, purpose), std::nullopt};
+    question.comparison.only_baseline = worlds.only_baseline;
+    question.comparison.only_method = worlds.only_method;
+    question.comparison.neither = worlds.neither;
+    question.comparison.beyond = MeasureUnits(worlds, table, metric, purpose);
+    if (const auto all = WithFailures(worlds, metric)) {
+      question.with_failures = ComparePaired(all->pairs, metric, seed, purpose + "/failures");
+      question.with_failures->beyond = MeasureUnits(*all, table, metric, purpose + "/failures");
+    }
+    return question;
+  }
 };
 
-/// All comparisons of one condition, verdicts left open: they depend on the other conditions too.
-std::vector<Asked> CompareAll(const Study& study, const std::vector<SweptValue>& condition,
-                              std::span<const Row* const> rows, std::uint64_t seed) {
-  std::vector<Asked> asked;
-  for (const ComparedMethod& entry : study.methods) {
-    if (entry.name == entry.against) continue;
-    for (const std::string& id : study.metrics) {
-      const MetricInfo& metric = *FindMetric(id);
-      const PairedWorlds worlds = PairsOf(rows, entry.against, entry.name, id);
-      const std::string purpose = PurposeOf(study.scenario, condition, id, entry.against, entry.name);
-      Comparison comparison = ComparePaired(worlds.pairs, metric, seed, purpose);
-      comparison.baseline = entry.against;
-      comparison.method = entry.name;
-      comparison.only_baseline = worlds.only_baseline;
-      comparison.only_method = worlds.only_method;
-      comparison.neither = worlds.neither;
-      asked.push_back({std::move(comparison), CompareWithFailures(worlds.pairs, worlds.failed, metric, seed, purpose)});
+/// Every method against its baseline.
+std::vector<std::vector<Question>> AskAgainstBaselines(const Study& study, const ScenarioTable& table,
+                                                       std::uint64_t seed) {
+  const auto compared = std::count_if(study.methods.begin(), study.methods.end(),
+                                      [](const ComparedMethod& method) { return method.name != method.against; });
+  const Family family{
+      study, seed,
+      static_cast<int>(static_cast<std::size_t>(compared) * study.metrics.size() * table.conditions().size())};
+  std::vector<std::vector<Question>> asked;
+  for (const ConditionTable& condition : table.conditions()) {
+    std::vector<Question>& questions = asked.emplace_back();
+    for (const ComparedMethod& entry : study.methods) {
+      if (entry.name == entry.against) continue;
+      for (const std::string& id : study.metrics) {
+        const std::string purpose = PurposeOf(study.scenario, condition.condition, id, entry.against, entry.name);
+        const PairedWorlds worlds = PairsOf(condition, entry.against, entry.name, id);
+        questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
+        questions.back().comparison.baseline = entry.against;
+        questions.back().comparison.method = entry.name;
+      }
     }
   }
   return asked;
 }
 
+/// Every method that competes against the strongest other one.
+std::vector<std::vector<Question>> AskAgainstRivals(const Study& study, const ScenarioTable& table,
+                                                    std::uint64_t seed) {
+  const auto competing = std::count_if(study.methods.begin(), study.methods.end(),
+                                       [&](const ComparedMethod& method) { return Competes(study, method); });
+  const Family family{
+      study, seed,
+      static_cast<int>(static_cast<std::size_t>(competing) * study.metrics.size() * table.conditions().size())};
+  std::vector<std::vector<Question>> asked(table.conditions().size());
+  if (competing < 2) return asked;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const ConditionTable& condition = table.conditions()[i];
+    for (const ComparedMethod& entry : study.methods) {
+      if (!Competes(study, entry)) continue;
+      for (const std::string& id : study.metrics) {
+        const RivalWorlds found = FindRival(study, condition, entry.name, id);
+        if (found.rival.empty()) continue;
+        const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
+        asked[i].push_back(family.Ask(found.worlds, condition, *FindMetric(id), purpose));
+        asked[i].back().comparison.baseline = found.rival;
+        asked[i].back().comparison.method = entry.name;
+        if (!found.note.empty()) asked[i].back().comparison.notes.push_back(found.note);
+      }
+    }
+  }
+  return asked;
+}
+
+/// Judges all of them together and gives each condition its own; returns how many they are.
+int JudgeTogether(std::vector<std::vector<Question>>& asked, SamplingUnit unit,
+                  std::vector<Comparison> ConditionSummary::*member, std::vector<ConditionSummary>& conditions) {
+  std::vector<Question*> family;
+  for (std::vector<Question>& questions : asked) {
+    for (Question& question : questions) family.push_back(&question);
+  }
+  JudgeFamily(family, unit);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    for (Question& question : asked[i]) (conditions[i].*member).push_back(std::move(question.comparison));
+  }
+  return static_cast<int>(family.size());
+}
+
 }  // namespace
 
-ScenarioSummary Summarise(const Study& study, std::span<const Row> rows, std::uint64_t seed) {
+ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed) {
   ScenarioSummary summary{study.scenario, study.task, study.question, study.unit, {}, study.metrics, {}, {}};
   for (const ComparedMethod& entry : study.methods) summary.methods.push_back(entry.name);
-  std::vector<std::optional<Comparison>> with_failures;  // of all conditions' comparisons, in order
-  for (const std::vector<SweptValue>& condition : study.conditions) {
-    const std::vector<const Row*> selected = RowsIn(rows, condition);
-    const std::vector<const MetricInfo*> metrics = MetricsIn(selected);
+  for (const ConditionTable& condition : table.conditions()) {
+    const std::vector<const MetricInfo*> metrics = MetricsIn(condition);
     ConditionSummary& part = summary.conditions.emplace_back();
-    part.condition = condition;
-    for (const ComparedMethod& entry : study.methods) {
-      part.methods.push_back(SummariseMethod(entry.name, selected, metrics, study, condition, seed));
-    }
-    for (Asked& asked : CompareAll(study, condition, selected, seed)) {
-      part.comparisons.push_back(std::move(asked.comparison));
-      with_failures.push_back(std::move(asked.with_failures));
+    part.condition = condition.condition;
+    for (const MethodColumns& method : condition.methods) {
+      part.methods.push_back(SummariseMethod(method, condition, metrics, study, seed));
     }
   }
-  std::vector<Question> family;
-  for (ConditionSummary& part : summary.conditions) {
-    for (Comparison& comparison : part.comparisons) {
-      family.push_back({&comparison, std::move(with_failures[family.size()])});
-    }
-  }
-  JudgeFamily(family);
-  summary.family = static_cast<int>(family.size());
+  auto against_baselines = AskAgainstBaselines(study, table, seed),
+       against_rivals = AskAgainstRivals(study, table, seed);
+  summary.family = JudgeTogether(against_baselines, study.unit, &ConditionSummary::comparisons, summary.conditions);
+  JudgeTogether(against_rivals, study.unit, &ConditionSummary::rivals, summary.conditions);
   for (const Expectation& expectation : study.expectations) {
-    summary.expectations.push_back(JudgeExpectation(expectation, study, rows, seed));
+    summary.expectations.push_back(JudgeExpectation(expectation, study, table, seed));
   }
   return summary;
 }

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "bench/statistics/compare.h"
+#include "bench/statistics/select.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -31,15 +33,18 @@ std::vector<double> Falling(int count) {
   return differences;
 }
 
+void Judge(std::vector<Question>& questions) {
+  std::vector<Question*> family;
+  for (Question& question : questions) family.push_back(&question);
+  JudgeFamily(family);
+}
+
 /// The first of `count` comparisons of which all others show nothing.
 Comparison JudgedAmong(int count, const Comparison& first, const std::optional<Comparison>& with_failures = {}) {
-  std::vector<Comparison> all(count, Compared(std::vector<double>(20, 0.0)));
-  all[0] = first;
-  std::vector<Question> family;
-  for (Comparison& comparison : all) family.push_back({&comparison, {}});
-  family[0].with_failures = with_failures;
-  JudgeFamily(family);
-  return all[0];
+  std::vector<Question> all(count, Question{Compared(std::vector<double>(20, 0.0)), {}});
+  all[0] = {first, with_failures};
+  Judge(all);
+  return all[0].comparison;
 }
 
 TEST(JudgeFamily, TakesBackWhatManyQuestionsWouldFindByChance) {
@@ -104,16 +109,20 @@ TEST(JudgeFamily, WarnsOfWorldsThatOnlyOneSurvived) {
 }
 
 TEST(JudgeFamily, FindsNobodyBetterWhoFailsWhereTheOtherDoesNot) {
-  std::vector<Pair> pairs;
-  for (double difference : Falling(20)) pairs.push_back({0, difference});
-  const auto judged = [&](const FailedWorlds& failed) {
-    return JudgedAmong(1, Compared(Falling(20)),
-                       CompareWithFailures(pairs, failed, *FindMetric("position_error_cm"), 1, "x"));
+  PairedWorlds pairs;
+  for (double difference : Falling(20)) pairs.pairs.push_back({0, difference});
+  pairs.trials.resize(20);
+  const MetricInfo& metric = *FindMetric("position_error_cm");
+  const auto judged = [&](std::size_t baseline_failed, std::size_t method_failed) {
+    PairedWorlds worlds = pairs;
+    worlds.baseline_failed.resize(baseline_failed);
+    worlds.method_failed.resize(method_failed);
+    return JudgedAmong(1, Compared(Falling(20)), ComparePaired(WithFailures(worlds, metric)->pairs, metric, 1, "x"));
   };
   // A few failures don't turn twenty wins, as many as the wins do; those of the other speak for the method.
-  EXPECT_EQ(judged({.baseline = 0, .method = 2}).verdict, Verdict::kBetter);
-  EXPECT_EQ(judged({.baseline = 20, .method = 0}).verdict, Verdict::kBetter);
-  const Comparison open = judged({.baseline = 0, .method = 12});
+  EXPECT_EQ(judged(0, 2).verdict, Verdict::kBetter);
+  EXPECT_EQ(judged(20, 0).verdict, Verdict::kBetter);
+  const Comparison open = judged(0, 12);
   EXPECT_EQ(open.verdict, Verdict::kInconclusive);
   EXPECT_EQ(open.why_open, "“better” where both have a value, but not when failing counts as losing");
   EXPECT_GT(*open.p_holm, 0.05);
@@ -131,30 +140,35 @@ TEST(JudgeFamily, CallsAMeanEqualOnlyWhenEnoughPairsDiffer) {
   EXPECT_EQ(JudgedAmong(1, Compared(std::vector<double>(40, 0.0), "iterations")).verdict, Verdict::kNoDifference);
 }
 
-TEST(JudgeFamily, WarnsWhenTheMedianHidesWhatFewWorldsShow) {
+TEST(JudgeFamily, CallsNothingEqualOfWhichTheMedianHidesWhatFewWorldsShow) {
   std::vector<double> rare(40, 0.0);
   for (int i = 0; i < 12; ++i) rare[i] = 50 + i;
   const Comparison judged = JudgedAmong(1, Compared(rare));
-  EXPECT_EQ(judged.verdict, Verdict::kNoDifference);
+  EXPECT_EQ(judged.verdict, Verdict::kInconclusive);
+  EXPECT_EQ(*judged.ci_high, 0);
+  EXPECT_THAT(judged.why_open, HasSubstr("in most worlds the same, in 0 of 40 better, in 12 worse"));
   EXPECT_THAT(judged.notes, ElementsAre(HasSubstr("which the median does not show")));
+  // The control: the same ties, and differences that matter to neither.
+  for (double& difference : rare) difference *= 1e-4;
+  EXPECT_EQ(JudgedAmong(1, Compared(rare)).verdict, Verdict::kNoDifference);
 }
 
 /// Scenarios of twelve comparisons each: how often does one of them find what is not there?
 int FalseAlarms(double effect, bool corrected) {
   int alarms = 0;
   for (int scenario = 0; scenario < 100; ++scenario) {
-    std::vector<Comparison> all;
+    std::vector<Question> all;
     for (int c = 0; c < 12; ++c) {
       RandomStream dice({.suite_seed = 4, .scenario = "family", .trial = scenario * 12 + c}, "x");
       std::vector<double> differences(20);
       for (double& difference : differences) difference = dice.Normal(effect, 1);
-      all.push_back(Compared(differences));
+      all.push_back({Compared(differences), {}});
     }
-    std::vector<Question> family;
-    for (Comparison& comparison : all) family.push_back({&comparison, {}});
-    if (corrected) JudgeFamily(family);
-    bool alarm = false;
-    for (const Comparison& c : all) alarm |= c.verdict == Verdict::kBetter || c.verdict == Verdict::kWorse;
+    if (corrected) Judge(all);
+    const auto is_clear = [](const Question& question) {
+      return question.comparison.verdict == Verdict::kBetter || question.comparison.verdict == Verdict::kWorse;
+    };
+    const bool alarm = std::any_of(all.begin(), all.end(), is_clear);
     alarms += alarm;
   }
   return alarms;

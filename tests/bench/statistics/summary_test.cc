@@ -51,7 +51,7 @@ class SummaryTest : public testing::Test {
  protected:
   Study study = StudyOf(ParseOne(kYaml));
   std::vector<Row> rows = Rows(study);
-  ScenarioSummary summary = Summarise(study, rows, 1);
+  ScenarioSummary summary = Summarise(study, Tabulate(study, rows), 1);
 };
 
 TEST_F(SummaryTest, KeepsFailuresInTheCount) {
@@ -97,7 +97,7 @@ TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
-  const ScenarioSummary skipped = Summarise(study, rows, 1);
+  const ScenarioSummary skipped = Summarise(study, Tabulate(study, rows), 1);
   EXPECT_EQ(skipped.conditions[0].comparisons[0].only_baseline, 0);
   EXPECT_EQ(skipped.conditions[0].comparisons[0].neither, 0);
   EXPECT_TRUE(skipped.conditions[0].comparisons[0].notes.empty());
@@ -107,7 +107,7 @@ TEST_F(SummaryTest, CountsTheWorldsWithoutAPairAndSaysSo) {
 TEST_F(SummaryTest, DependsOnNoOtherMethodNorCondition) {
   Study smaller = study;
   smaller.conditions.pop_back();
-  const ScenarioSummary alone = Summarise(smaller, std::span(rows).first(20), 1);
+  const ScenarioSummary alone = Summarise(smaller, Tabulate(smaller, std::span(rows).first(20)), 1);
   const Comparison &a = alone.conditions[0].comparisons[0], &b = summary.conditions[0].comparisons[0];
   EXPECT_EQ(a.ci_low, b.ci_low);
   EXPECT_EQ(a.sign_flip.p, b.sign_flip.p);
@@ -126,7 +126,7 @@ TEST_F(SummaryTest, PairsByWorldAgainstTheFirstMethod) {
   for (Row& row : rows) {
     if (row.trial == 9) row.result = CellResult::Ended(Status::kSkipped, "no labels");
   }
-  EXPECT_EQ(Summarise(study, rows, 1).conditions[0].comparisons[0].verdict, Verdict::kBetter);
+  EXPECT_EQ(Summarise(study, Tabulate(study, rows), 1).conditions[0].comparisons[0].verdict, Verdict::kBetter);
 }
 
 TEST_F(SummaryTest, JudgesExpectations) {
@@ -149,7 +149,7 @@ TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
     Study alone = study;
     alone.conditions.pop_back();
     alone.metrics = {"position_error_cm"};
-    const ScenarioSummary judged = Summarise(alone, std::span(fewer).first(20), 1);
+    const ScenarioSummary judged = Summarise(alone, Tabulate(alone, std::span(fewer).first(20)), 1);
     return std::pair(judged.conditions[0].comparisons[0].verdict, judged.expectations[0].ruling);
   };
   EXPECT_EQ(verdict_when_b_ends(Status::kFailed), std::pair(Verdict::kInconclusive, Ruling::kUndecided));
@@ -159,7 +159,7 @@ TEST_F(SummaryTest, TakesAFailureForALossAndAMetricThatDoesNotApplyForNone) {
 TEST_F(SummaryTest, AnExpectationIsHeldToItsConfidence) {
   Expectation below = study.expectations[0];
   below.confidence = 0.999;  // nine pairs reach p = 0.0039 at best
-  const ExpectationResult result = JudgeExpectation(below, study, rows, 1);
+  const ExpectationResult result = JudgeExpectation(below, study, Tabulate(study, rows), 1);
   EXPECT_EQ(result.ruling, Ruling::kUndecided);
   EXPECT_THAT(result.detail, testing::HasSubstr("9 of them differ, and 99.9 % needs at least 11"));
   EXPECT_THAT(result.detail, testing::HasSubstr("on 9 worlds, 1 more have no pair of values"));
@@ -170,7 +170,7 @@ TEST_F(SummaryTest, AMissingValueNeverMeetsABound) {
   bound.metric = "position_error_cm";
   bound.of = "b";
   bound.at_most = 100;
-  EXPECT_EQ(JudgeExpectation(bound, study, rows, 1).ruling, Ruling::kUndecided);
+  EXPECT_EQ(JudgeExpectation(bound, study, Tabulate(study, rows), 1).ruling, Ruling::kUndecided);
 }
 
 }  // namespace

@@ -1,0 +1,172 @@
+#include "bench/statistics/beyond.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "bench/statistics/bootstrap.h"
+#include "bench/statistics/distributions.h"
+#include "bench/statistics/paired_tests.h"
+
+namespace etude {
+namespace {
+
+/// Sign flips of more units are drawn, and no drawn p lies below 1 / 10,000.
+constexpr int kMostDrawnComparisons = 500;
+
+/// Sums over the worlds of each unit, and over all.
+struct UnitSums {
+  std::vector<double> sums;
+  std::vector<int> worlds;
+  double total = 0;
+};
+
+UnitSums SumUnits(const UnitSample& sample) {
+  UnitSums found{std::vector<double>(sample.names.size()), std::vector<int>(sample.names.size())};
+  for (std::size_t i = 0; i < sample.differences.size(); ++i) {
+    found.total += sample.differences[i];
+    for (int unit : sample.units[i]) {
+      found.sums[static_cast<std::size_t>(unit)] += sample.differences[i];
+      ++found.worlds[static_cast<std::size_t>(unit)];
+    }
+  }
+  return found;
+}
+
+/// Indices of the units that have a world, by name.
+std::vector<std::size_t> OrderOfUnits(const UnitSample& sample, const UnitSums& sums) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < sample.names.size(); ++i) {
+    if (sums.worlds[i] > 0) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return sample.names[a] < sample.names[b]; });
+  return order;
+}
+
+/// The standard error of an estimate from its values with one unit left out each (Tukey 1958).
+double JackknifeError(std::span<const LeftOut> left_out) {
+  const double n = static_cast<double>(left_out.size());
+  double mean = 0, squares = 0;
+  for (const LeftOut& left : left_out) mean += left.difference / n;
+  for (const LeftOut& left : left_out) squares += (left.difference - mean) * (left.difference - mean);
+  return std::sqrt((n - 1) / n * squares);
+}
+
+/// An exact interval of the median of at least kFewestUnits values (order statistics), whatever their distribution.
+std::pair<double, double> MedianInterval(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const int n = static_cast<int>(values.size());
+  int rank = 1;  // of the interval's ends, counted from outside
+  while (2 * FairCoinUpperTail(n - rank, n) <= kAlpha) ++rank;
+  return {values[static_cast<std::size_t>(rank - 1)], values[static_cast<std::size_t>(n - rank)]};
+}
+
+bool CanFlipSigns(int units, int comparisons) {
+  return SmallestP(units) * comparisons <= kAlpha && comparisons <= kMostDrawnComparisons;
+}
+
+/// Of an estimate whose error is zero the signs' smallest p: an error of no size is none that a t distribution knows.
+PairedTest StudentTest(double estimate, double error, int units, std::string how) {
+  if (estimate == 0) return {1.0, std::move(how)};
+  if (error <= 1e-12 * std::abs(estimate)) return {SmallestP(units), std::move(how)};
+  return {KeepThirtyBits(StudentTwoSided(estimate / error, units - 1)), std::move(how)};
+}
+
+}  // namespace
+
+bool UnitSample::IsOneWay() const {
+  return std::all_of(units.begin(), units.end(), [](const std::vector<int>& of_world) { return of_world.size() == 1; });
+}
+
+UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, const MetricInfo& metric) {
+  UnitSample sample;
+  sample.names = table.units;
+  for (std::size_t i = 0; i < paired.pairs.size(); ++i) {
+    const std::vector<int>& units = table.world_units[static_cast<std::size_t>(paired.trials[i])];
+    if (units.empty()) continue;
+    sample.differences.push_back(DifferenceOf(paired.pairs[i], metric));
+    sample.units.push_back(units);
+  }
+  return sample;
+}
+
+Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose) {
+  Beyond beyond;
+  const UnitSums sums = SumUnits(sample);
+  const std::vector<std::size_t> order = OrderOfUnits(sample, sums);
+  beyond.units = static_cast<int>(order.size());
+  if (beyond.units < kFewestUnits) return beyond;
+  std::vector<double> means;
+  for (std::size_t unit : order) means.push_back(KeepThirtyBits(sums.sums[unit] / sums.worlds[unit]));
+  beyond.differing = static_cast<int>(std::count_if(means.begin(), means.end(), [](double mean) { return mean != 0; }));
+  const bool one_way = sample.IsOneWay();
+  const double n = static_cast<double>(means.size()), worlds = static_cast<double>(sample.differences.size());
+  const double sum_of_means = std::accumulate(means.begin(), means.end(), 0.0);
+  const double estimate = one_way ? sum_of_means / n : sums.total / worlds;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double rest = one_way ? (sum_of_means - means[i]) / (n - 1)
+                                : (sums.total - sums.sums[order[i]]) / (worlds - sums.worlds[order[i]]);
+    beyond.left_out.push_back({sample.names[order[i]], rest});
+  }
+  const double error = JackknifeError(beyond.left_out);
+  const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
+  beyond.difference = estimate;
+  beyond.low = KeepThirtyBits(estimate - half);
+  beyond.high = KeepThirtyBits(estimate + half);
+  std::tie(beyond.median_low, beyond.median_high) = MedianInterval(means);
+  if (!one_way) {
+    beyond.test = StudentTest(estimate, error, beyond.units, "t test, clips left out in turn");
+  } else if (CanFlipSigns(beyond.units, comparisons)) {
+    beyond.test = SignFlipTest(means, Aggregate::kMean, seed, purpose + "/beyond");
+    beyond.test.how = "sign flips of units' means, " + beyond.test.how;
+  } else {
+    beyond.test = StudentTest(estimate, error, beyond.units, "t test of units' means");
+  }
+  return beyond;
+}
+
+std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
+  if (beyond.units < kFewestUnits || !beyond.p_holm) return std::nullopt;
+  const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
+  if (is_within(*beyond.low, *beyond.high)) {
+    const bool holds = is_within(*beyond.median_low, *beyond.median_high) && beyond.differing >= kFewestUnits;
+    return holds ? Verdict::kNoDifference : Verdict::kInconclusive;
+  }
+  const bool beyond_zero = *beyond.low > 0 || *beyond.high < 0;
+  if (!beyond_zero || *beyond.p_holm > kAlpha || std::abs(*beyond.difference) < metric.practical ||
+      metric.direction == Direction::kNeither) {
+    return Verdict::kInconclusive;
+  }
+  const bool lower = *beyond.difference < 0;
+  return lower == (metric.direction == Direction::kLowerIsBetter) ? Verdict::kBetter : Verdict::kWorse;
+}
+
+std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons) {
+  if (beyond.units < kFewestUnits) {
+    return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit),
+                       kFewestUnits);
+  }
+  if (beyond.verdict != Verdict::kInconclusive) return "";
+  const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
+  if (within && beyond.differing < kFewestUnits) {
+    return fmt::format("{} of {} differ: too few to exclude rare ones that do", beyond.differing,
+                       CountUnits(beyond.units, unit));
+  }
+  if (within) return "the mean lies within what matters, but whether the median does is open";
+  if (*beyond.low <= 0 && *beyond.high >= 0) return "the interval holds zero, and differences that matter";
+  if (*beyond.p_holm > kAlpha) {
+    return *beyond.test.p > kAlpha
+               ? "the interval excludes zero, but the test does not confirm it"
+               : fmt::format("p = {:.2g} alone, but not among {} comparisons (Holm)", *beyond.test.p, comparisons);
+  }
+  if (std::abs(*beyond.difference) < metric.practical) return "it differs, but whether by as much as matters is open";
+  return "it differs, but neither way is better";
+}
+
+int UnitsNeeded(int comparisons) { return std::max(PairsNeeded(comparisons, kAlpha), kFewestUnits); }
+
+}  // namespace etude

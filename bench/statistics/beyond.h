@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/statistics/select.h"
+
+namespace etude {
+
+/// Differences of worlds, and the units (clips, libraries) that each world was drawn from.
+struct UnitSample {
+  std::vector<double> differences;      ///< of worlds, method − baseline
+  std::vector<std::vector<int>> units;  ///< of each world one or more, indices of `names`
+  std::vector<std::string> names;
+
+  /// Whether each world was drawn from one unit.
+  bool IsOneWay() const;
+};
+
+/// The pairs of a condition by unit; worlds that name no unit are left out.
+UnitSample UnitsOf(const PairedWorlds& paired, const ConditionTable& table, const MetricInfo& metric);
+
+/// Fewer units than this have no verdict beyond them: no test of the signs of five can reach 5 %.
+constexpr int kFewestUnits = 6;
+
+/// What the sample says about other units like its own, verdict left open.
+///
+/// *One unit a world*: the estimate is the mean of the units' mean differences, its interval Student's over those
+/// means. The test flips the means' signs where that can reach 5 % among `comparisons` (2^(1 − units) × comparisons ≤
+/// 0.05), else it is the t test: fixed by numbers of units and comparisons, never by the result.
+///
+/// *Several units a world* (clip left × clip entered): worlds that share a clip, in whatever part, resemble each other.
+/// The estimate is the mean over worlds; its standard error is the jackknife's that leaves out one clip with all its
+/// worlds (Tukey 1958; of nodes of a network Snijders & Borgatti 1999), with Student's t of clips − 1 degrees of
+/// freedom. With one unit a world this is the interval above.
+///
+/// Nothing but the number of units below kFewestUnits.
+Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose);
+
+/// What the measured says, given its `p_holm`:
+///   nothing          fewer than kFewestUnits units
+///   no difference    the intervals of mean and median over units lie within ± threshold, and kFewestUnits differ
+///   better / worse   p_holm ≤ alpha, the interval lies on one side of zero, the mean is at least the threshold
+///   inconclusive     anything else
+std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric);
+
+/// Why there is no verdict, or it is inconclusive, in words; "" when it is clear. `comparisons` were made together.
+std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons);
+
+/// How many units the sign flips need among so many comparisons.
+int UnitsNeeded(int comparisons);
+
+}  // namespace etude

@@ -1,0 +1,152 @@
+#include "bench/statistics/beyond.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+const MetricInfo& Metric() { return *FindMetric("mpjpe_mm"); }  // lower is better, 1 mm matters
+
+/// Worlds of one unit each; `means` are the units' means, spread by ±1 within.
+UnitSample OneWay(const std::vector<double>& means, int worlds_each = 3) {
+  UnitSample sample;
+  for (std::size_t unit = 0; unit < means.size(); ++unit) {
+    sample.names.push_back("clip-" + std::string(1, static_cast<char>('a' + unit)));
+    for (int i = 0; i < worlds_each; ++i) {
+      sample.differences.push_back(means[unit] + (i - (worlds_each - 1) / 2.0));
+      sample.units.push_back({static_cast<int>(unit)});
+    }
+  }
+  return sample;
+}
+
+Beyond Judged(const UnitSample& sample, int comparisons = 1) {
+  Beyond beyond = MeasureBeyond(sample, comparisons, 1, "x");
+  beyond.p_holm = beyond.test.p;
+  beyond.verdict = VerdictBeyond(beyond, Metric());
+  beyond.why_open = WhyOpenBeyond(beyond, Metric(), SamplingUnit::kClip, comparisons);
+  return beyond;
+}
+
+TEST(MeasureBeyond, IsStudentsIntervalOfTheUnitsMeans) {
+  // scipy.stats.ttest_1samp([-4, -6, -5, -9, -3, -7, -8], 0).confidence_interval(): −7.9979, −4.0021
+  const Beyond beyond = Judged(OneWay({-4, -6, -5, -9, -3, -7, -8}));
+  EXPECT_EQ(beyond.units, 7);
+  EXPECT_DOUBLE_EQ(*beyond.difference, -6);
+  EXPECT_NEAR(*beyond.low, -7.997895, 1e-6);
+  EXPECT_NEAR(*beyond.high, -4.002105, 1e-6);
+  EXPECT_EQ(*beyond.median_low, -9);
+  EXPECT_EQ(*beyond.median_high, -3);
+  EXPECT_DOUBLE_EQ(*beyond.test.p, 2.0 / 128) << "all seven signs agree";
+  EXPECT_EQ(beyond.verdict, Verdict::kBetter);
+}
+
+TEST(MeasureBeyond, CountsUnitsAndNotWorlds) {
+  const Beyond few = Judged(OneWay({-4, -6, -5, -9}, 300));
+  EXPECT_EQ(few.units, 4);
+  EXPECT_FALSE(few.verdict);
+  EXPECT_FALSE(few.difference);
+  EXPECT_EQ(few.why_open, "4 clips: no verdict beyond them; at least 6 are needed");
+  EXPECT_EQ(*Judged(OneWay({-4, -6, -5, -9, 3, 2}, 1)).low, *Judged(OneWay({-4, -6, -5, -9, 3, 2}, 99)).low);
+}
+
+TEST(MeasureBeyond, TakesTheTTestWhereSignsCannotReachFivePercent) {
+  const std::vector<double> means = {-4, -6, -5, -9, -3, -7};
+  EXPECT_THAT(Judged(OneWay(means)).test.how, HasSubstr("sign flips"));
+  const Beyond among_two = Judged(OneWay(means), 2);  // 2⁻⁵ × 2 > 0.05
+  EXPECT_EQ(among_two.test.how, "t test of units' means");
+  EXPECT_NEAR(*among_two.test.p, 0.0013559, 1e-6);  // scipy.stats.ttest_1samp
+  EXPECT_EQ(UnitsNeeded(1), 6);
+  EXPECT_EQ(UnitsNeeded(2), 7);
+}
+
+TEST(MeasureBeyond, ShowsWhichUnitCarriesTheDifference) {
+  const Beyond beyond = Judged(OneWay({0, 0, 0, 0, 0, -60}));
+  ASSERT_EQ(beyond.left_out.size(), 6u);
+  EXPECT_DOUBLE_EQ(beyond.left_out[0].difference, -12);
+  EXPECT_EQ(beyond.left_out[5].unit, "clip-f");
+  EXPECT_DOUBLE_EQ(beyond.left_out[5].difference, 0);
+  EXPECT_EQ(beyond.verdict, Verdict::kInconclusive);
+}
+
+TEST(MeasureBeyond, SaysNoDifferenceOnlyOfUnitsThatDiffer) {
+  EXPECT_EQ(Judged(OneWay({0.1, -0.1, 0.2, -0.2, 0.1, -0.1, 0.05})).verdict, Verdict::kNoDifference);
+  const Beyond equal = Judged(OneWay({0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(equal.verdict, Verdict::kInconclusive);
+  EXPECT_THAT(equal.why_open, HasSubstr("0 of 8 clips differ"));
+}
+
+/// Each pair of clips once, the difference the sum of what its clips bring.
+UnitSample TwoWay(const std::vector<double>& effects) {
+  UnitSample sample;
+  for (std::size_t a = 0; a < effects.size(); ++a) {
+    sample.names.push_back("clip-" + std::string(1, static_cast<char>('a' + a)));
+    for (std::size_t b = 0; b < effects.size(); ++b) {
+      if (a == b) continue;
+      sample.differences.push_back(effects[a] + effects[b]);
+      sample.units.push_back({static_cast<int>(a), static_cast<int>(b)});
+    }
+  }
+  return sample;
+}
+
+TEST(MeasureBeyond, LeavesOutAClipInWhateverPart) {
+  const std::vector<double> effects = {-1, -3, -2, -5, -4, -3};
+  const Beyond beyond = Judged(TwoWay(effects));
+  const double sum = std::accumulate(effects.begin(), effects.end(), 0.0);
+  EXPECT_DOUBLE_EQ(*beyond.difference, 2 * sum / 6);
+  double squares = 0;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const double without = 2 * (sum - effects[i]) / 5;  // closed form of a complete design
+    EXPECT_NEAR(beyond.left_out[i].difference, without, 1e-12);
+    squares += (without - 2 * sum / 6) * (without - 2 * sum / 6);
+  }
+  const double half = 2.570582 * std::sqrt(5.0 / 6 * squares);  // t of 5 degrees of freedom
+  EXPECT_NEAR(*beyond.high, 2 * sum / 6 + half, 1e-5);
+  EXPECT_EQ(beyond.test.how, "t test, clips left out in turn");
+  EXPECT_EQ(beyond.verdict, Verdict::kBetter);
+}
+
+/// How many of 400 samples without an effect get a clear verdict.
+int AlarmsBeyond(bool two_way, bool as_worlds) {
+  MetricInfo metric = Metric();
+  metric.practical = 1e-9;
+  int alarms = 0;
+  for (int i = 0; i < 400; ++i) {
+    RandomStream dice({.suite_seed = 3, .scenario = "beyond", .trial = i}, "x");
+    std::vector<double> effects(8);
+    for (double& effect : effects) effect = dice.Normal(0, 3);
+    UnitSample sample = two_way ? TwoWay(effects) : OneWay(effects);
+    for (double& difference : sample.differences) difference += dice.Normal();
+    if (as_worlds) {
+      sample.names.assign(sample.differences.size(), "");
+      for (std::size_t world = 0; world < sample.units.size(); ++world) {
+        sample.names[world] = std::to_string(world);
+        sample.units[world] = {static_cast<int>(world)};
+      }
+    }
+    Beyond beyond = MeasureBeyond(sample, 1, 1, "x");
+    beyond.p_holm = beyond.test.p;
+    const auto verdict = VerdictBeyond(beyond, metric);
+    alarms += verdict == Verdict::kBetter || verdict == Verdict::kWorse;
+  }
+  return alarms;
+}
+
+TEST(MeasureBeyond, SeldomFindsWhatTheClipsMadeUp) {
+  EXPECT_LE(AlarmsBeyond(false, false), 30);
+  EXPECT_LE(AlarmsBeyond(true, false), 30);
+  // The controls: the same worlds, each taken for a unit of its own.
+  EXPECT_GE(AlarmsBeyond(false, true), 80);
+  EXPECT_GE(AlarmsBeyond(true, true), 160);
+}
+
+}  // namespace
+}  // namespace etude
