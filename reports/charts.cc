@@ -26,7 +26,7 @@ constexpr double kLogarithmicFrom = 100;
 std::string Caption(const std::string& what, const MetricWords& words) {
   std::string unit = words.suffix;
   unit.erase(0, unit.find_first_not_of(' '));
-  std::string caption = what + " of the " + words.label;
+  std::string caption = what + " of the " + words.plain_label;
   if (!unit.empty()) caption += fmt::format(" ({})", unit);
   if (const auto direction = DirectionWords(words.direction); !direction.empty())
     caption += fmt::format("; {}", direction);
@@ -109,7 +109,7 @@ std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
   const MetricWords words = WordsFor(metric);
 
   Chart chart;
-  chart.caption = Caption(words.is_share ? "Mean with 95 % interval" : "Median with 95 % interval", words);
+  chart.caption = Caption(words.by_mean ? "Mean with 95 % interval" : "Median with 95 % interval", words);
   Json groups = Json::array(), methods = Json::array();
   for (const ConditionSummary& condition : scenario.conditions)
     groups.push_back(Joined(condition.condition, &SweptValue::value));

@@ -53,7 +53,7 @@ std::string Methods(const ScenarioFindings& findings) {
     const MethodFinding& method = findings.methods[i];
     html +=
         fmt::format("<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
-                    EscapeMarkup(method.sentence), VerdictBadge(method.verdict), EscapeMarkup(method.method),
+                    EscapeMarkup(method.sentence), VerdictBadges(method), EscapeMarkup(method.method),
                     EscapeMarkup(method.baseline));
   }
   for (const std::string& yardstick : findings.yardsticks) {
@@ -86,7 +86,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
 
 std::string Failures(const ScenarioFindings& findings) {
   if (findings.reasons.empty()) return "";
-  std::string html = "<details><summary>What did not end well, and why</summary><ul class=\"reasons\">";
+  std::string html = "<details><summary>Cells that did not end ok, and why</summary><ul class=\"reasons\">";
   for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
     html += fmt::format("<li><b>{} × {}</b> in {}: {}</li>", FormatCount(reason.cells), StatusName(reason.status),
                         EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
@@ -100,7 +100,22 @@ std::string StatusBar(const ScenarioFindings& findings) {
   for (const auto& [status, count] : findings.statuses) {
     html += fmt::format("<i class=\"s-{}\" style=\"flex-grow:{}\"></i>", StatusName(status), count);
   }
-  return html + fmt::format("</div><p>{}</p></div>", EscapeMarkup(StatusSentence(findings)));
+  html += fmt::format("</div><p>{}</p>", EscapeMarkup(StatusSentence(findings)));
+  for (const SuccessFinding& success : findings.successes) {
+    html += fmt::format("<p>{}</p>", EscapeMarkup(SuccessSentence(success)));
+  }
+  return html + "</div>";
+}
+
+/// The answer in a line, then with its figures: against the baseline, and against the strongest other method.
+std::string Answer(const ScenarioFindings& findings) {
+  std::string html;
+  if (!findings.headline.empty()) html += fmt::format("<p class=\"headline\">{}</p>", EscapeMarkup(findings.headline));
+  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadges(findings.answer),
+                      EscapeMarkup(findings.answer.sentence));
+  if (!findings.rival.is_compared) return html;
+  return html + fmt::format("<p class=\"answer\"><b>Against the strongest other method.</b> {} {}</p>",
+                            VerdictBadges(findings.rival), EscapeMarkup(findings.rival.sentence));
 }
 
 std::string ScenarioFilms(const ScenarioSummary& scenario, const Media& media) {
@@ -132,8 +147,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   std::string html = fmt::format("<article class=\"card\" id=\"{}\" aria-labelledby=\"{}-title\">", anchor, anchor);
   html += fmt::format("<p class=\"eyebrow\">{}</p><h2 id=\"{}-title\">{}</h2>", EscapeMarkup(scenario.name), anchor,
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
-  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadge(findings.answer.verdict),
-                      EscapeMarkup(findings.answer.sentence));
+  html += Answer(findings);
   html += Strip(scenario, media);
   html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);

@@ -1,0 +1,45 @@
+#include "reports/words/judged.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace etude {
+
+std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
+                             Against against) {
+  std::vector<Judged> found;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const Comparison& c : against == Against::kBaseline ? condition.comparisons : condition.rivals) {
+      if (c.method == method && c.metric == metric) found.push_back({&c, &condition});
+    }
+  }
+  return found;
+}
+
+std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged) {
+  const Verdict first = judged.front().comparison->verdict;
+  const bool agree = std::ranges::all_of(judged, [&](const Judged& j) { return j.comparison->verdict == first; });
+  return agree ? std::optional(first) : std::nullopt;
+}
+
+std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions) {
+  std::string text;
+  for (const Verdict verdict : {Verdict::kBetter, Verdict::kWorse, Verdict::kNoDifference, Verdict::kInconclusive}) {
+    const auto count = static_cast<std::size_t>(std::ranges::count(verdicts, verdict));
+    if (count == 0) continue;
+    if (!text.empty()) text += ", ";
+    text += fmt::format("{} under {}", VerdictName(verdict),
+                        count == conditions ? fmt::format("all {} conditions", count)
+                                            : fmt::format("{} of {}", count, conditions));
+  }
+  return text;
+}
+
+std::vector<Verdict> VerdictsOf(const std::vector<Judged>& judged) {
+  std::vector<Verdict> verdicts;
+  for (const Judged& j : judged) verdicts.push_back(j.comparison->verdict);
+  return verdicts;
+}
+
+}  // namespace etude
