@@ -23,17 +23,6 @@ std::optional<double> TypicalOf(const ConditionSummary& condition, const std::st
   return summary == nullptr ? std::nullopt : TypicalValue(*summary, words);
 }
 
-/// "“a”", or where conditions have other rivals "“a” or “b”"
-std::string OthersOf(const std::vector<Judged>& judged) {
-  std::vector<std::string> names;
-  for (const Judged& j : judged) {
-    if (std::ranges::find(names, j.comparison->baseline) == names.end()) names.push_back(j.comparison->baseline);
-  }
-  std::string text;
-  for (const std::string& name : names) text += fmt::format("{}“{}”", text.empty() ? "" : " or ", name);
-  return text;
-}
-
 std::string RatioText(const CostRatio& ratio) {
   const std::string least = FormatNumber(ratio.least), most = FormatNumber(ratio.most);
   return least == most ? least : fmt::format("{} to {}", least, most);
@@ -114,11 +103,13 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
     const MetricWords words = WordsFor(c.metric);
     if (info == nullptr || words.is_share || words.direction != Direction::kLowerIsBetter) return std::nullopt;
     const auto mine = TypicalOf(*j.condition, c.method, c.metric, words);
-    const auto theirs = TypicalOf(*j.condition, c.baseline, c.metric, words);
-    if (!mine || !theirs || *theirs <= kLeastOfThreshold * info->practical) return std::nullopt;
-    const double ratio = *mine / *theirs;
-    if (ratio < kTelling) return std::nullopt;
-    range = range ? CostRatio{std::min(range->least, ratio), std::max(range->most, ratio)} : CostRatio{ratio, ratio};
+    for (const std::string& baseline : BaselinesOf(j)) {
+      const auto theirs = TypicalOf(*j.condition, baseline, c.metric, words);
+      if (!mine || !theirs || *theirs <= kLeastOfThreshold * info->practical) return std::nullopt;
+      const double ratio = *mine / *theirs;
+      if (ratio < kTelling) return std::nullopt;
+      range = range ? CostRatio{std::min(range->least, ratio), std::max(range->most, ratio)} : CostRatio{ratio, ratio};
+    }
   }
   return range;
 }

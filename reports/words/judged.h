@@ -22,6 +22,12 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
+/// The methods that a comparison's baseline names: itself, or of a rival "a or b" both (bench/statistics/rival.h).
+std::vector<std::string> BaselinesOf(const Judged& judged);
+
+/// "“a”", or where conditions or halves of the worlds have other rivals "“a” or “b”"
+std::string OthersOf(const std::vector<Judged>& judged);
+
 /// The verdict on these worlds that all of them agree in; nothing when they differ. `judged` must not be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
 

@@ -86,6 +86,18 @@ TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
   EXPECT_THAT(HeadlineOfSolvers(scenario), ::testing::EndsWith(", on these clips"));
 }
 
+TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
+  ScenarioSummary scenario = Solvers();
+  scenario.headline_metrics = {"iterations"};
+  scenario.conditions[0].methods[0] = Method("fixed", 8.8, 8);
+  scenario.conditions[0].rivals = {Compared("iterations", "fixed or gauss-newton", Verdict::kWorse)};
+  EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"),
+              HasSubstr("needs 70.0 to 140 × the solver steps of “fixed” or “gauss-newton”"));
+  // A method may be called so itself.
+  scenario.conditions[0].methods[2].method = "fixed or gauss-newton";
+  EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"), HasSubstr("needs 140 × the solver steps of “fixed or "));
+}
+
 TEST(Headline, NamesABaselineThatIsTheBestOtherOnce) {
   ScenarioSummary scenario = Solvers();
   scenario.conditions[0].rivals = {Compared("orientation_error_deg", "fixed", Verdict::kBetter)};
