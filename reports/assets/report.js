@@ -80,7 +80,8 @@
     const methods = of.a ? [of.a, of.b] : [dot.parentElement.dataset.m];
     const ids = methods.map((m) => [of.s, of.c, trial, m].join('/'));
     card.replaceChildren();
-    line('p', dot.querySelector('title')?.textContent ?? 'trial ' + Number(trial));
+    const titled = figure.querySelector('use[data-t="' + dot.dataset.t + '"] title');
+    line('p', titled?.textContent ?? 'trial ' + Number(trial));
     ids.forEach((id) => line('code', "etude replay DIR --cell '" + id.replaceAll("'", "'\\''") + "'"));
     const article = figure.closest('.card');
     const film = article.querySelector('.film') ?? document.querySelector('.film');

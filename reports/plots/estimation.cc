@@ -51,7 +51,8 @@ class Plot {
       const PairedWorld& world = pairs_.worlds[i];
       const double y1 = axis.At(world.baseline), y2 = axis.At(world.method);
       lines += fmt::format("M{:.0f} {:.1f}L{:.0f} {:.1f}", kBaselineX + left[i], y1, kMethodX + right[i], y2);
-      dots += Dot(cast_.baseline, world, kBaselineX + left[i], y1) + Dot(cast_.method, world, kMethodX + right[i], y2);
+      dots += Dot(cast_.baseline, world, kBaselineX + left[i], y1, "") +
+              Dot(cast_.method, world, kMethodX + right[i], y2, "");
     }
     return BeginPanel(kHeight, fmt::format("{} under both methods", words_.plain_label)) + UprightGrid(axis) +
            fmt::format("<path class=\"pairs\" d=\"{}\"/>", lines) + dots +
@@ -71,7 +72,10 @@ class Plot {
     for (const PairedWorld& world : pairs_.worlds) places.push_back(axis.At(world.Difference()));
     const std::vector<double> aside = SwarmOffsets(places, kSwarm);
     std::string dots;
-    for (std::size_t i = 0; i < places.size(); ++i) dots += Dot(cast_.method, pairs_.worlds[i], kWorldsX + aside[i], places[i]);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const PairedWorld& world = pairs_.worlds[i];
+      dots += Dot(cast_.method, world, kWorldsX + aside[i], places[i], Title(world));
+    }
     const double high = axis.At(practical), low = axis.At(-practical);
     const std::string band = fmt::format("<rect class=\"band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
                                          kPanelLeft, high, kPanelRight - kPanelLeft, std::max(1.0, low - high));
@@ -80,7 +84,7 @@ class Plot {
            dots + Interval(axis, kAggregateX, c_.difference, c_.ci_low, c_.ci_high) + Units(axis) +
            PanelText(kWorldsX, kBottom + 18, "each world", "middle") +
            PanelText(kAggregateX, kBottom + 18, words_.by_mean ? "their mean" : "their median", "middle") +
-           (ShowsUnits() ? PanelText(kUnitsX, kBottom + 18, UnitsWords(), "middle", 14) : "") + "</svg>";
+           (ShowsUnits() ? PanelText(kUnitsX, kBottom + 18, UnitsWords(), "middle") : "") + "</svg>";
   }
 
  private:
@@ -96,7 +100,9 @@ class Plot {
     return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
   }
   bool ShowsUnits() const { return !pairs_.units.empty(); }
-  std::string UnitsWords() const { return c_.beyond.difference ? "mean of units" : "units"; }
+  std::string_view UnitsWords() const {
+    return scenario_.unit == SamplingUnit::kLibrary ? "mean, libraries" : "mean, clips";
+  }
 
   std::vector<double> Column(const Axis& axis, double PairedWorld::*value) const {
     std::vector<double> places;
@@ -110,8 +116,8 @@ class Plot {
                        FormatNumber(world.method), words_.suffix);
   }
 
-  std::string Dot(std::size_t shape, const PairedWorld& world, double x, double y) const {
-    return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, Attributes(world.trial), Title(world));
+  std::string Dot(std::size_t shape, const PairedWorld& world, double x, double y, const std::string& title) const {
+    return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, Attributes(world.trial), title);
   }
 
   /// A bar from low to high with a dot for the estimate. All in the metric's unit.
@@ -127,6 +133,9 @@ class Plot {
   /// Each unit's mean difference beside the interval that counts units.
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
+    // A world of two clips belongs to both: no clip has a mean of its own.
+    const std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
+    if (scenario_.unit == SamplingUnit::kClipPair) return interval;
     std::map<std::size_t, std::pair<double, int>> sums;
     for (const PairedWorld& world : pairs_.worlds) {
       sums[world.unit].first += world.Difference();
@@ -144,7 +153,7 @@ class Plot {
                                   Plural(sum.second, "world")));
       ++i;
     }
-    return dots + Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
+    return dots + interval;
   }
 
   const ScenarioSummary& scenario_;
@@ -168,7 +177,9 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
   text += fmt::format(": {}{}{}{}", words.plain_label, unit.empty() ? "" : ", " + unit, direction.empty() ? "" : "; ",
                       direction);
   text += fmt::format(". Each dot a world, {}",
-                      pairs.units.empty() ? "coloured by method" : "coloured by what it was drawn from");
+                      pairs.units.empty()                           ? "coloured by method"
+                      : scenario.unit == SamplingUnit::kClipPair ? "coloured by the clip left"
+                                                                     : "coloured by what it was drawn from");
   if (pairs.worlds.size() < pairs.total) {
     text += fmt::format(" ({} of {} drawn, at equal steps)", FormatCount(static_cast<long long>(pairs.worlds.size())),
                         FormatCount(static_cast<long long>(pairs.total)));

@@ -14,10 +14,13 @@ namespace {
 
 constexpr double kStripHeight = 58, kStripTop = 6, kStripBottom = 36;
 
-/// The unit without which the difference is the farthest from what it is with all.
-const LeftOut& Extreme(const Beyond& beyond) {
-  return *std::ranges::max_element(beyond.left_out, {}, [&](const LeftOut& left) {
-    return std::abs(left.difference - *beyond.difference);
+/// The unit that matters most: of a difference that matters the one without which least of it is left, else the one
+/// without which most would be there.
+const LeftOut& Extreme(const Beyond& beyond, double practical) {
+  const double all = *beyond.difference;
+  const bool matters = std::abs(all) >= practical;
+  return *std::ranges::min_element(beyond.left_out, {}, [&](const LeftOut& left) {
+    return matters ? std::copysign(1.0, all) * left.difference : -std::abs(left.difference);
   });
 }
 
@@ -50,10 +53,11 @@ std::string WithoutEachUnit(const Comparison& c, SamplingUnit unit) {
   if (beyond.left_out.empty() || !beyond.difference) return "";
   const MetricWords words = WordsFor(c.metric);
   const auto [low, high] = std::ranges::minmax_element(beyond.left_out, {}, &LeftOut::difference);
-  const LeftOut& extreme = Extreme(beyond);
-  return fmt::format("Mean difference without each {}: {} to {}. Without “{}” {}: {}.", OneOf(unit),
-                     Amount(low->difference, words), Amount(high->difference, words), extreme.unit,
-                     Amount(extreme.difference, words), WhatItDoes(beyond, extreme, PracticalOf(c), unit));
+  const LeftOut& extreme = Extreme(beyond, PracticalOf(c));
+  return fmt::format("“{}” against “{}”, mean difference without each {}: {} to {}. Without “{}” {}: {}.", c.method,
+                     c.baseline, OneOf(unit), Amount(low->difference, words), Amount(high->difference, words),
+                     extreme.unit, Amount(extreme.difference, words),
+                     WhatItDoes(beyond, extreme, PracticalOf(c), unit));
 }
 
 std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
@@ -71,9 +75,10 @@ std::string LeftOutStripHtml(const Comparison& c, SamplingUnit unit) {
                                 kStripBottom - kStripTop) +
                     LyingGrid(axis, kStripTop, kStripBottom) +
                     fmt::format("<path class=\"zero\" d=\"M{:.1f} {}V{}\"/>", axis.At(0), kStripTop, kStripBottom);
+  const LeftOut& extreme = Extreme(c.beyond, PracticalOf(c));
   for (const LeftOut& left : c.beyond.left_out) {
     svg += fmt::format("<path class=\"left{}\" d=\"M{:.1f} {}V{}\"><title>{}</title></path>",
-                       &left == &Extreme(c.beyond) ? " extreme" : "", axis.At(left.difference * words.scale), kStripTop + 6,
+                       &left == &extreme ? " extreme" : "", axis.At(left.difference * words.scale), kStripTop + 6,
                        kStripBottom - 6, EscapeMarkup(fmt::format("without {}: {}", left.unit, Amount(left.difference, words))));
   }
   svg += fmt::format("<circle class=\"estimate\" cx=\"{:.1f}\" cy=\"{}\" r=\"4.5\"/></svg>",

@@ -48,6 +48,12 @@ std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, s
   return title.empty() ? head + "/>" : fmt::format("{}><title>{}</title></use>", head, EscapeMarkup(title));
 }
 
+std::string_view MarkDashes(std::size_t method) {
+  // As in assets/report.js: colours alone do not tell methods apart for everyone.
+  constexpr std::array<std::string_view, 4> kDashes{"", "", " stroke-dasharray=\"6 4\"", " stroke-dasharray=\"2 3\""};
+  return method < 8 ? kDashes[method / 2] : " stroke-dasharray=\"10 3 2 3\"";
+}
+
 std::string MarkKeySvg(std::size_t shape, std::size_t colour) {
   return "<svg class=\"key\" viewBox=\"-6 -6 12 12\" aria-hidden=\"true\">" + MarkUse(shape, colour, 0, 0) + "</svg>";
 }

@@ -34,6 +34,9 @@ std::string MarkDefsSvg();
 std::string MarkUse(std::size_t shape, std::size_t colour, double x, double y, std::string_view rest = "",
                     std::string_view title = "");
 
+/// A line's dashes, by its method: an attribute with a space before it, or "".
+std::string_view MarkDashes(std::size_t method);
+
 /// A mark alone, for a legend.
 std::string MarkKeySvg(std::size_t shape, std::size_t colour);
 

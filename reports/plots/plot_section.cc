@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 constexpr std::size_t kMostOpen = 4;     // conditions whose pictures are not folded away
-constexpr std::size_t kMostFolded = 12;  // plots
+constexpr std::size_t kMostFolded = 8;  // plots
 constexpr std::size_t kMostStrips = 12;
 
 std::string Folded(std::string_view title, const std::string& html) {

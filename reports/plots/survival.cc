@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
@@ -42,23 +43,17 @@ std::vector<std::pair<std::size_t, std::vector<Outcome>>> OutcomesUnder(const Ru
                                                                         const ConditionSummary& condition,
                                                                         const Censored& rule) {
   std::map<std::size_t, std::vector<Outcome>> outcomes;
+  std::set<std::size_t> measured;
   for (const Row& row : run.rows) {
     if (row.scenario != scenario.name || row.condition != condition.condition) continue;
     const auto outcome = OutcomeOf(row, rule);
     if (!outcome) continue;
-    outcomes[static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin())]
-        .push_back(*outcome);
+    const auto method = static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
+    outcomes[method].push_back(*outcome);
+    if (ValueOf(row, rule.metric)) measured.insert(method);
   }
-  std::erase_if(outcomes, [](const auto& entry) {
-    return std::ranges::none_of(entry.second, [](const Outcome& o) { return o.took.has_value(); });
-  });
+  std::erase_if(outcomes, [&](const auto& entry) { return !measured.contains(entry.first); });
   return {outcomes.begin(), outcomes.end()};
-}
-
-std::string_view DashesOf(std::size_t method) {
-  constexpr std::array<std::string_view, 4> kDashes{"", " stroke-dasharray=\"7 3\"", " stroke-dasharray=\"2 3\"",
-                                                    " stroke-dasharray=\"9 3 2 3\""};
-  return kDashes[method / 2 % kDashes.size()];
 }
 
 std::string Line(std::size_t method, const std::vector<Outcome>& outcomes, const Axis& time, const Axis& share) {
@@ -71,14 +66,14 @@ std::string Line(std::size_t method, const std::vector<Outcome>& outcomes, const
     }
   }
   return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}H{:.1f}\"/>",
-                     method % kPlotColours.size(), DashesOf(method), path, time.to);
+                     method % kPlotColours.size(), MarkDashes(method), path, time.to);
 }
 
 std::string KeyOf(std::size_t method, const std::string& name) {
   return fmt::format(
       "<span><svg class=\"linekey\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line\" "
       "style=\"stroke:var(--m{})\"{} d=\"M1 5H27\"/></svg>{}</span> ",
-      method % kPlotColours.size(), DashesOf(method), EscapeMarkup(name));
+      method % kPlotColours.size(), MarkDashes(method), EscapeMarkup(name));
 }
 
 std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,

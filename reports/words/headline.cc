@@ -36,7 +36,7 @@ std::string_view VerbOf(const Comparison& c) {
 
 std::string CostPhrase(const std::vector<Judged>& judged, const CostRatio& ratio) {
   const Comparison& c = *judged.front().comparison;
-  return fmt::format("{} {} × the {} of {}", VerbOf(c), RatioText(ratio), WordsFor(c.metric).label, OthersOf(judged));
+  return fmt::format("{} {} × the {}", VerbOf(c), RatioText(ratio), WordsFor(c.metric).label);
 }
 
 std::string VerdictPhrase(const std::vector<Judged>& judged) {
@@ -58,7 +58,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
 
 std::string PhraseOf(const std::vector<Judged>& judged) {
   const auto ratio = CommonVerdict(judged) == Verdict::kWorse ? CostRatioOf(judged) : std::nullopt;
-  return ratio ? CostPhrase(judged, *ratio) : VerdictPhrase(judged);
+  return ratio ? fmt::format("{} of {}", CostPhrase(judged, *ratio), OthersOf(judged)) : VerdictPhrase(judged);
 }
 
 /// Where the rival's lead is not in the metric that the question is about, in another headline metric: the largest
@@ -81,15 +81,17 @@ std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& me
 }
 
 std::string AgainstRival(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
-                         const std::string& baseline) {
+                         const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kRival);
   if (judged.empty()) return "";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, metric, rival);
   // Where the baseline is the strongest other one, the first half has said how it compares.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
-  const std::string phrase = PhraseOf(judged);
-  const bool is_led = CommonVerdict(judged) == Verdict::kWorse;
+  const auto verdict = CommonVerdict(judged);
+  const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
+  const std::string phrase = twice_better ? "better than the strongest other one too, " + rival : PhraseOf(judged);
+  const bool is_led = verdict == Verdict::kWorse;
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
@@ -118,7 +120,7 @@ std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& metho
   const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kBaseline);
   if (judged.empty()) return "";
   std::string text = fmt::format("“{}”: {}{}", method, PhraseOf(judged),
-                                 AgainstRival(scenario, method, metric, OthersOf(judged)));
+                                 AgainstRival(scenario, method, metric, OthersOf(judged), CommonVerdict(judged)));
   if (BeyondInWords(judged, scenario.unit).on_these_only) text += fmt::format(", on {}", TheseUnits(scenario.unit));
   return text;
 }

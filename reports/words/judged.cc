@@ -50,6 +50,10 @@ std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged) {
   return agree ? std::optional(first) : std::nullopt;
 }
 
+std::string AllConditions(std::size_t count) {
+  return count == 2 ? "both conditions" : fmt::format("all {} conditions", count);
+}
+
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions) {
   std::string text;
   for (const Verdict verdict : {Verdict::kBetter, Verdict::kWorse, Verdict::kNoDifference, Verdict::kInconclusive}) {
@@ -57,7 +61,7 @@ std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t cond
     if (count == 0) continue;
     if (!text.empty()) text += ", ";
     text += fmt::format("{} under {}", VerdictName(verdict),
-                        count == conditions ? fmt::format("all {} conditions", count)
+                        count == conditions ? AllConditions(count)
                                             : fmt::format("{} of {}", count, conditions));
   }
   return text;

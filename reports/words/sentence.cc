@@ -94,9 +94,8 @@ std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords&
 // All conditions agree that it is better, or worse: "lowers the error under both conditions".
 std::string ClearSentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
   const Comparison& first = *judged.front().comparison;
-  const std::string all = judged.size() == 2 ? "both" : fmt::format("all {}", judged.size());
-  return fmt::format("“{}” {} the {} compared with {} under {} conditions{} — {}", first.method,
-                     VerbFor(*first.difference, words), words.label, OthersOf(judged), all, RangeOfChanges(judged, words),
+  return fmt::format("“{}” {} the {} compared with {} under {}{} — {}", first.method,
+                     VerbFor(*first.difference, words), words.label, OthersOf(judged), AllConditions(judged.size()), RangeOfChanges(judged, words),
                      VerdictName(first.verdict));
 }
 
