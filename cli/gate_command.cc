@@ -12,6 +12,7 @@
 #include "cli/move_table.h"
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
+#include "reports/gate_tail.h"
 
 namespace etude {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostRows = 40;
+constexpr std::size_t kMostWorldsEach = 5, kMostWorlds = 20;
 
 int ExitCode(GateVerdict verdict) {
   switch (verdict) {
@@ -32,8 +34,21 @@ int ExitCode(GateVerdict verdict) {
   return kIncomplete;
 }
 
+/// Each world in two lines: what became of it, and the command that runs it again.
+void PrintWorlds(const std::string& title, const std::vector<TailLine>& lines) {
+  std::vector<std::string> text;
+  for (const TailLine& line : lines) {
+    text.push_back(line.world);
+    if (!line.replay.empty()) text.push_back("  " + line.replay);
+  }
+  PrintList(title, text);
+}
+
 void PrintReport(const GateReport& report) {
   PrintMoves(report.comparison, "baseline", "now", kMostRows);
+  PrintWorlds("Worlds that are far worse:", TailLines(report, true, kMostWorldsEach, kMostWorlds));
+  PrintWorlds("Single worlds that are far worse, too few to fail:",
+              TailLines(report, false, kMostWorldsEach, kMostWorlds));
   for (const GateExpectation& e : report.expectations) {
     if (e.result.ruling == Ruling::kMet) continue;
     fmt::print("{}: {}: {} [{}]\n", RulingName(e.result.ruling), e.scenario, e.result.text, e.result.detail);
@@ -55,8 +70,9 @@ int Judge(const GateOptions& options, const FinishedRun& run) {
     if (!loaded) return Complain(loaded.error());
     baseline = std::move(*loaded);
   }
-  const auto report = JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline);
+  auto report = JudgeRun(run, baseline ? &*baseline : nullptr, options.baseline);
   if (!report) return Complain(report.error());
+  report->run_folder = options.target;
   const fs::path folder = fs::path(options.target) / "report";
   if (auto saved = WriteFileAtomically(folder / "gate.md", WriteGateMarkdown(*report)); !saved) {
     return Complain(saved.error());
@@ -69,9 +85,9 @@ int Judge(const GateOptions& options, const FinishedRun& run) {
 }
 
 /// What moved from an old baseline to a new one, as far as their worlds are the same.
-void PrintDifference(Snapshot before, Snapshot after, const std::set<std::string>& exact) {
+void PrintDifference(Snapshot before, Snapshot after, const FinishedRun& run) {
   PrintList("Made anew:", DropIncomparable(before, after));
-  const SnapshotComparison comparison = CompareSnapshots(before, after, exact);
+  const SnapshotComparison comparison = CompareSnapshots(before, after, ExactScenarios(run), TailRulesOf(run));
   PrintMoves(comparison, "was", "is", kMostRows);
   PrintList("Gone:", comparison.only_before);
   PrintList("New:", comparison.only_after);
@@ -87,6 +103,7 @@ int Update(const GateOptions& options, const FinishedRun& run) {
   const Snapshot now = TakeSnapshot(run);
   const auto text = WriteBaseline(now);
   if (!text) return Complain(text.error());
+  if (const auto read = ReadBaseline(*text, options.target); !read) return Complain(read.error());  // e.g. all failed
   std::optional<Snapshot> before;
   if (std::error_code none; fs::exists(options.baseline, none)) {
     auto loaded = LoadBaseline(options.baseline);  // what is no baseline is not written over
@@ -94,7 +111,7 @@ int Update(const GateOptions& options, const FinishedRun& run) {
     before = std::move(*loaded);
   }
   if (auto saved = WriteFileAtomically(options.baseline, *text); !saved) return Complain(saved.error());
-  if (before) PrintDifference(std::move(*before), now, ExactScenarios(run));
+  if (before) PrintDifference(std::move(*before), now, run);
   fmt::print("{}: {}, {} bytes\n", options.baseline, before ? "updated" : "made", text->size());
   return kSuccess;
 }
@@ -123,11 +140,13 @@ int SelfTest(const GateOptions& options) {
              rehearsal->setup.file, rehearsal->setup.trials, report->comparisons);
   fmt::print("Alarms although nothing changed\n");
   fmt::print("  reruns of the same seed, rule exact: {}\n", RateText(report->rerun_alarms));
+  fmt::print("  reruns of the same seed, tail rule:  {}\n", RateText(report->tail_rerun_alarms));
   fmt::print("  gates between two seeds:             {}; at most {:.0f} % by design\n", RateText(report->false_alarms),
              100 * kFalseAlarmLimit);
   fmt::print("  single comparisons of these gates:   {}\n", RateText(report->false_alarm_comparisons));
   for (const auto& [title, results] :
-       {std::pair{"Injected differences found", &report->injected}, std::pair{"Real changes found", &report->real}}) {
+       {std::pair{"Injected differences found", &report->injected}, std::pair{"Far worse worlds found", &report->tails},
+        std::pair{"Real changes found", &report->real}}) {
     if (!results->empty()) fmt::print("{}\n", title);
     for (const PowerResult& result : *results) fmt::print("  {}: {}\n", result.change, RateText(result.found));
   }
@@ -138,6 +157,7 @@ int SelfTest(const GateOptions& options) {
 }  // namespace
 
 int GateCommand(const GateOptions& options) {
+  if (options.verdicts) return VerdictsCommand(options.repetitions);
   if (options.self_test) return SelfTest(options);
   const auto run = LoadFinishedRun(options.target);
   if (!run) return Complain(run.error());

@@ -4,6 +4,7 @@
 
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
+#include "reports/gate_tail.h"
 #include "reports/junit_xml.h"
 
 namespace etude {
@@ -14,11 +15,16 @@ Ruling RulingOf(const MetricMove& move) {
   return move.movement == Movement::kUnclear ? Ruling::kUndecided : Ruling::kMet;
 }
 
-JunitCase CaseOf(const MetricMove& move) {
+constexpr std::size_t kMostWorldsOfCase = 20;
+
+JunitCase CaseOf(const MetricMove& move, const std::string& run_folder) {
   const GateTableRow row = TableRow(move);
-  return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move),
-          fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before, row.after,
-                      row.difference, row.p, row.worlds)};
+  std::string detail = fmt::format("{}: {} -> {}, difference {}, p {}, in {} worlds", row.verdict, row.before,
+                                   row.after, row.difference, row.p, row.worlds);
+  for (const TailLine& line : TailLines(move, run_folder, kMostWorldsOfCase)) {
+    detail += "\n" + line.world + (line.replay.empty() ? "" : ": " + line.replay);
+  }
+  return {fmt::format("{}, {}: {}", row.condition, row.method, row.metric), RulingOf(move), std::move(detail)};
 }
 
 }  // namespace
@@ -40,7 +46,9 @@ std::string WriteGateJunit(const GateReport& report) {
   for (const RatioResult& ratio : report.ratios) {
     suite_of(ratio.scenario).cases.push_back({RatioClaim(ratio), ratio.ruling, RatioDetail(ratio)});
   }
-  for (const MetricMove& move : report.comparison.moves) suite_of(move.identity.scenario).cases.push_back(CaseOf(move));
+  for (const MetricMove& move : report.comparison.moves) {
+    suite_of(move.identity.scenario).cases.push_back(CaseOf(move, report.run_folder));
+  }
   return WriteJunitXml(report.suite + " gate", suites);
 }
 

@@ -2,6 +2,7 @@
 
 #include "reports/gate_report.h"
 #include "reports/gate_table.h"
+#include "reports/gate_tail.h"
 #include "reports/words/escape.h"
 
 namespace etude {
@@ -9,6 +10,7 @@ namespace {
 
 // A comment on a pull request takes 65,536 characters; a table of more rows is read by nobody.
 constexpr std::size_t kMostRows = 100;
+constexpr std::size_t kMostWorldsEach = 5, kMostWorlds = 40;
 
 std::string MoveTable(const std::vector<GateTableRow>& rows) {
   std::string text =
@@ -33,6 +35,21 @@ std::string List(std::string_view title, const std::vector<std::string>& lines) 
   std::string text = fmt::format("\n{}\n\n", title);
   for (std::size_t i = 0; i < std::min(kMostRows, lines.size()); ++i) text += "- " + EscapeMarkdown(lines[i]) + "\n";
   if (lines.size() > kMostRows) text += fmt::format("- … and {} more\n", lines.size() - kMostRows);
+  return text;
+}
+
+/// What a shell would take, to be copied; where a name would break out of the code span, as plain text.
+std::string CommandText(const std::string& command) {
+  const bool plain = command.find_first_of("`\n\r") == std::string::npos;
+  return plain ? "`" + command + "`" : EscapeMarkdown(command);
+}
+
+std::string WorldList(std::string_view title, const std::vector<TailLine>& lines) {
+  if (lines.empty()) return "";
+  std::string text = fmt::format("\n{}\n\n", title);
+  for (const TailLine& line : lines) {
+    text += "- " + EscapeMarkdown(line.world) + (line.replay.empty() ? "" : ": " + CommandText(line.replay)) + "\n";
+  }
   return text;
 }
 
@@ -61,9 +78,12 @@ std::string WriteGateMarkdown(const GateReport& report) {
   std::vector<GateTableRow> failing, others;
   for (GateTableRow& row : MovedRows(report.comparison)) (row.fails ? failing : others).push_back(std::move(row));
   if (!failing.empty()) text += MoveTable(failing);
+  text += WorldList("**Worlds that are far worse:**", TailLines(report, true, kMostWorldsEach, kMostWorlds));
   if (!others.empty()) {
-    text += fmt::format("\n<details><summary>What else moved ({})</summary>\n{}\n</details>\n", others.size(),
-                        MoveTable(others));
+    text += fmt::format("\n<details><summary>What else moved ({})</summary>\n{}{}\n</details>\n", others.size(),
+                        MoveTable(others),
+                        WorldList("Single worlds that are far worse, too few to fail:",
+                                  TailLines(report, false, kMostWorldsEach, kMostWorlds)));
   }
   text += List("Could not be decided:", ClaimsThatAre(report, Ruling::kUndecided));
   text += List("New, not in the baseline (`--update` takes it in):", report.comparison.only_after);

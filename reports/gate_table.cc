@@ -8,16 +8,6 @@
 namespace etude {
 namespace {
 
-MetricWords GateWordsFor(const std::string& metric) {
-  if (metric != kOkShare) return WordsFor(metric);
-  return {.label = "cells that ended ok",
-          .suffix = " %",
-          .difference_suffix = " percentage points",
-          .scale = 100,
-          .is_share = true,
-          .direction = Direction::kHigherIsBetter};
-}
-
 std::string DifferenceText(const MetricMove& move, const MetricWords& words) {
   const Comparison& found = move.comparison;
   const auto difference = move.by_mean ? found.mean : found.difference;
@@ -37,6 +27,7 @@ std::string WorldsText(const MetricMove& move) {
   std::string text = fmt::format("{} of {}", FormatCount(move.differing), FormatCount(move.worlds));
   if (move.lost > 0) text += fmt::format(", {} lost", Plural(move.lost, "value"));
   if (move.gained > 0) text += fmt::format(", {} gained", Plural(move.gained, "value"));
+  if (!move.tail.empty()) text += fmt::format(", {} far worse", move.tail.size());
   return text;
 }
 
@@ -66,7 +57,22 @@ std::string RulingCounts(const Items& items, std::string_view what, RulingOf rul
   return text.empty() ? "" : Plural(static_cast<long long>(items.size()), what) + ": " + text;
 }
 
+std::string VerdictText(const MetricMove& move) {
+  const std::string words(MovementWords(move.movement));
+  return move.by_tail ? fmt::format("{} in {}", words, Plural(std::ssize(move.tail), "world")) : words;
+}
+
 }  // namespace
+
+MetricWords GateWordsFor(const std::string& metric) {
+  if (metric != kOkShare) return WordsFor(metric);
+  return {.label = "cells that ended ok",
+          .suffix = " %",
+          .difference_suffix = " percentage points",
+          .scale = 100,
+          .is_share = true,
+          .direction = Direction::kHigherIsBetter};
+}
 
 GateTableRow TableRow(const MetricMove& move) {
   const MetricWords words = GateWordsFor(move.identity.metric);
@@ -79,7 +85,7 @@ GateTableRow TableRow(const MetricMove& move) {
           .difference = DifferenceText(move, words),
           .p = TestText(move),
           .worlds = WorldsText(move),
-          .verdict = std::string(MovementWords(move.movement)),
+          .verdict = VerdictText(move),
           .fails = IsRegression(move)};
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/gate/gate.h"
+#include "reports/words/figures.h"
 
 namespace etude {
 
@@ -13,10 +14,13 @@ struct GateTableRow {
   std::string before, after;  ///< the metric's aggregate over all worlds
   std::string difference;     ///< of the pairs, with its interval
   std::string p;              ///< of the test, after Holm's correction; kNoValue when nothing was tested
-  std::string worlds;         ///< "12 of 60", lost and gained values told
-  std::string verdict;
+  std::string worlds;         ///< "12 of 60", lost and gained values and far worse worlds told
+  std::string verdict;        ///< MovementWords; "worse in 5 worlds" where the tail rule has decided
   bool fails = false;
 };
+
+/// The words for a metric, also for kOkShare.
+MetricWords GateWordsFor(const std::string& metric);
 
 /// One row per move that is not kSame: regressions first, each group in the order of the run.
 std::vector<GateTableRow> MovedRows(const SnapshotComparison& comparison);

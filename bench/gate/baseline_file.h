@@ -14,8 +14,10 @@ constexpr int kBaselineSchema = 1;
 /// version control system shows what moved. Numbers have the digits that read back the same.
 Result<std::string> WriteBaseline(const Snapshot& snapshot);
 
-/// Reads it. Fails with the path within, when anything is missing, of another schema, of another length than
-/// the trials, or of a letter or metric that nobody knows.
+/// Reads it. Fails, with the line where it can, when anything is missing, not asked for, there twice (keys, too), of
+/// another kind, schema or length than it must be, of a letter or metric that nobody knows, null beyond the number of
+/// nulls that the line tells, or when all cells of a method failed: of each of these a gate would see less than it
+/// says.
 Result<Snapshot> ReadBaseline(const std::string& text, const std::string& file);
 Result<Snapshot> LoadBaseline(const std::filesystem::path& path);
 

@@ -77,6 +77,11 @@ std::vector<std::optional<double>> OkIn(const std::string& statuses) {
   return ok;
 }
 
+TailRule RuleOf(const std::string& scenario, const TailRules& tails) {
+  const auto found = tails.find(scenario);
+  return found == tails.end() ? TailRule{} : found->second;
+}
+
 std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const SnapshotScenario& after) {
   std::vector<std::string> reasons;
   const auto differ = [&](std::string_view what, auto a, auto b) {
@@ -122,7 +127,8 @@ std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after) {
   return reasons;
 }
 
-SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact) {
+SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
+                                    const TailRules& tails) {
   SnapshotComparison comparison;
   comparison.only_before = OnlyIn(before, after);
   comparison.only_after = OnlyIn(after, before);
@@ -138,8 +144,10 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
       if (others == nullptr) continue;
       const std::vector<bool> compared = WorldsToCompare(cells, *others);
       const auto add = [&](const std::string& metric, const auto& values, const auto& other_values) {
-        comparison.moves.push_back(MeasureMove({scenario.name, cells.condition, cells.method, metric},
-                                               {values, other_values, compared}, scenario.seed));
+        const MoveColumns columns{values, other_values, compared, cells.statuses, others->statuses};
+        MetricMove& move = comparison.moves.emplace_back(
+            MeasureMove({scenario.name, cells.condition, cells.method, metric}, columns, scenario.seed));
+        move.tail = FindTail(columns, *FindGateMetric(metric), RuleOf(scenario.name, tails));
       };
       add(kOkShare, OkIn(cells.statuses), OkIn(others->statuses));
       // An exact comparison also counts `unsolved` against `failed`, which the share of ok cells does not see.
@@ -151,6 +159,7 @@ SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& afte
     }
   }
   JudgeMoves(comparison.moves, exact);
+  for (MetricMove& move : comparison.moves) JudgeTail(move, RuleOf(move.identity.scenario, tails));
   return comparison;
 }
 

@@ -6,6 +6,7 @@
 
 #include "bench/gate/metric_move.h"
 #include "bench/gate/snapshot.h"
+#include "bench/gate/tail_rule.h"
 
 namespace etude {
 
@@ -23,8 +24,10 @@ std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot
 /// Takes the scenarios that WhyNotComparable complains of out of both snapshots, and gives its reasons.
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after);
 
-/// Compares world by world and judges (JudgeMoves; `exact` names the scenarios in which nothing may differ). Worlds
-/// where either cell ended because of the machine are left out. Requires that WhyNotComparable is empty.
-SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact);
+/// Compares world by world and judges (JudgeMoves; `exact` names the scenarios in which nothing may differ; then
+/// JudgeTail). Worlds where either cell ended because of the machine are left out. Requires that WhyNotComparable is
+/// empty.
+SnapshotComparison CompareSnapshots(const Snapshot& before, const Snapshot& after, const std::set<std::string>& exact,
+                                    const TailRules& tails = {});
 
 }  // namespace etude

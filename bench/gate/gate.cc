@@ -26,6 +26,12 @@ std::set<std::string> ExactScenarios(const FinishedRun& run) {
   return exact;
 }
 
+TailRules TailRulesOf(const FinishedRun& run) {
+  TailRules tails;
+  for (const FinishedScenario& one : run.scenarios) tails[one.study.scenario] = one.study.gate.tail;
+  return tails;
+}
+
 std::vector<std::string> DescribeMachineEnds(const FinishedRun& run) {
   struct Ends {
     int cells = 0;
@@ -62,7 +68,7 @@ Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, co
   report.baseline_version = baseline->program_version;
   const Snapshot now = TakeSnapshot(run);
   RETURN_IF_ERROR(RequireComparable(*baseline, now, baseline_file));
-  report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run));
+  report.comparison = CompareSnapshots(*baseline, now, ExactScenarios(run), TailRulesOf(run));
   for (const std::string& name : report.comparison.only_before) {
     report.incomplete.push_back("the baseline holds what the run does not: " + name);
   }

@@ -19,6 +19,7 @@ struct GateExpectation {
 /// All that a gate has looked at, and what it found.
 struct GateReport {
   std::string suite;
+  std::string run_folder;        ///< as the caller names it, for `etude replay`; "" = not known
   std::string baseline_file;     ///< "" = no baseline: only what the scenarios themselves expect was judged
   std::string baseline_version;  ///< of the program that made it
   std::string program_version;   ///< of the program that made the run
@@ -32,8 +33,9 @@ struct GateReport {
 /// baseline. Fails when the baseline's worlds are not the run's (WhyNotComparable).
 Result<GateReport> JudgeRun(const FinishedRun& run, const Snapshot* baseline, const std::string& baseline_file);
 
-/// What the scenarios of a run want compared digit by digit.
+/// What the scenarios of a run want compared digit by digit, and what they call a regression of single worlds.
 std::set<std::string> ExactScenarios(const FinishedRun& run);
+TailRules TailRulesOf(const FinishedRun& run);
 
 /// One sentence per scenario and status that depends on the machine (timeout, crashed, out of memory).
 std::vector<std::string> DescribeMachineEnds(const FinishedRun& run);

@@ -35,6 +35,14 @@ struct MoveIdentity {
   std::string scenario, condition, method, metric;
 };
 
+/// A world that came out far worse than before (tail_rule.h).
+struct TailWorld {
+  int trial = 0;
+  std::optional<double> before, after;         ///< nothing = no value
+  char ended_before = 'o', ended_after = 'o';  ///< StatusLetter
+  bool lost = false;                           ///< its value, or its answer, is gone
+};
+
 /// One metric of one method under one condition, in two snapshots.
 struct MetricMove {
   MoveIdentity identity;
@@ -47,12 +55,15 @@ struct MetricMove {
   Comparison comparison;                ///< where both have a value; later − earlier
   bool by_mean = false;                 ///< the mean has decided: few worlds differ, but much
   std::optional<Comparison> presence;   ///< where values were lost or gained: of "has a value", 1 or 0
+  std::vector<TailWorld> tail;          ///< the worst first, lost ones before all others
+  bool by_tail = false;                 ///< the tail rule has decided: all worlds together would not have failed
 };
 
 /// The same trials before and after; `compared` says which of them count. All of one length.
 struct MoveColumns {
   std::vector<std::optional<double>> before, after;
   std::vector<bool> compared;
+  std::string ended_before, ended_after;  ///< StatusLetter by trial; for the tail rule only
 };
 
 /// Compares world by world; the verdict is left to JudgeMoves. `seed` keys the dice.

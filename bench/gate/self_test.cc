@@ -5,6 +5,7 @@
 
 #include "bench/gate/comparison.h"
 #include "bench/gate/gate.h"
+#include "bench/gate/injected_tails.h"
 #include "bench/statistics/proportion.h"
 #include "sim/random/stream.h"
 
@@ -63,11 +64,14 @@ void Inject(SnapshotValues& values, double size, std::uint64_t seed) {
 
 }  // namespace
 
-bool SelfTestReport::Holds() const { return rerun_alarms.count == 0 && false_alarms.low <= kFalseAlarmLimit; }
+bool SelfTestReport::Holds() const {
+  return rerun_alarms.count + tail_rerun_alarms.count == 0 && tails_found && false_alarms.low <= kFalseAlarmLimit;
+}
 
 Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
   SelfTestReport report;
-  Tally reruns, gates, comparisons;
+  Tally reruns, tail_reruns, gates, comparisons;
+  InjectedTails tails;
   std::array<Tally, kSizes.size()> injected;
   std::vector<Tally> real;
   std::string target;
@@ -79,9 +83,13 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
       if (!*one) return tl::unexpected(one->error());
     }
     const Snapshot first = TakeSnapshot(*first_run);
-    reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {first.scenarios.front().name})));
+    const std::string& name = first.scenarios.front().name;
+    const TailRules rules = TailRulesOf(*first_run), no_tails = {{name, TailRule{rules.at(name).times, 0, 0}}};
+    reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {name})));
 
-    const SnapshotComparison nothing_changed = CompareSnapshots(first, TakeSnapshot(*other_run), {});
+    tail_reruns.Add(Alarms(CompareSnapshots(first, TakeSnapshot(*same_run), {}, rules)));
+
+    const SnapshotComparison nothing_changed = CompareSnapshots(first, TakeSnapshot(*other_run), {}, no_tails);
     gates.Add(Alarms(nothing_changed));
     for (const MetricMove& move : nothing_changed.moves) comparisons.Add(IsRegression(move));
     report.comparisons = static_cast<int>(nothing_changed.moves.size());
@@ -92,17 +100,21 @@ Result<SelfTestReport> RunSelfTest(const RunUnderSeed& run, int repetitions) {
       if (values == nullptr) return Fail({}, "no gated metric is a median with a direction; name one (gate: metrics)");
       target = values->metric;
       Inject(*values, kSizes[k], first_seed);
-      injected[k].Add(Alarms(CompareSnapshots(first, worse, {})));
+      injected[k].Add(Alarms(CompareSnapshots(first, worse, {}, no_tails)));
     }
+    tails.Try(first, target, first_seed, rules.at(name));
 
     methods = first.scenarios.front().methods;
     real.resize(methods.size());
     const Snapshot before = InPlaceOfTheFirst(first, methods.front().first);
     for (std::size_t m = 1; m < methods.size(); ++m) {
-      real[m].Add(Alarms(CompareSnapshots(before, InPlaceOfTheFirst(first, methods[m].first), {})));
+      real[m].Add(Alarms(CompareSnapshots(before, InPlaceOfTheFirst(first, methods[m].first), {}, no_tails)));
     }
   }
   report.rerun_alarms = reruns.Result();
+  report.tail_rerun_alarms = tail_reruns.Result();
+  report.tails = tails.Results();
+  report.tails_found = tails.AsTheRuleSays();
   report.false_alarms = gates.Result();
   report.false_alarm_comparisons = comparisons.Result();
   for (std::size_t k = 0; k < kSizes.size(); ++k) {

@@ -51,6 +51,14 @@ char StatusLetter(Status status) {
   return 'f';
 }
 
+Status StatusOf(char letter) {
+  for (const Status status : {Status::kOk, Status::kUnsolved, Status::kTimeout, Status::kCrashed, Status::kOutOfMemory,
+                              Status::kBadOutput, Status::kSkipped}) {
+    if (StatusLetter(status) == letter) return status;
+  }
+  return Status::kFailed;
+}
+
 bool DependsOnMachine(char letter) { return letter == 't' || letter == 'c' || letter == 'm'; }
 
 Snapshot TakeSnapshot(const FinishedRun& run) {

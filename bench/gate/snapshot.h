@@ -42,6 +42,8 @@ struct Snapshot {
 
 /// 'o' ok, 'u' unsolved, 'f' failed, 't' timeout, 'c' crashed, 'm' out of memory, 'b' bad output, 's' skipped.
 char StatusLetter(Status status);
+/// The status of a letter; kFailed of any that is none.
+Status StatusOf(char letter);
 /// Whether a cell of this letter ended as it did because of the machine (timeout, crashed, out of memory): its
 /// row says nothing about the method that another run could repeat.
 bool DependsOnMachine(char letter);

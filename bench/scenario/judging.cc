@@ -140,6 +140,17 @@ FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario) {
           CheckTimeRatio};
 }
 
+FieldTable<TailRule> TailFields() {
+  using Key = Field<TailRule>;
+  constexpr Range kWorlds{0, 1e6};
+  return {{Key::Number("times", &TailRule::times, {1, 1e6},
+                       "A world is far worse when it is worse by more than so many times the practical threshold."),
+           Key::Number("worlds", &TailRule::worlds, kWorlds,
+                       "So many far worse worlds of one comparison are a regression; 0: none ever is."),
+           Key::Number("lost", &TailRule::lost, kWorlds,
+                       "So many worlds of one comparison that lost their value or answer are one; 0: none ever is.")}};
+}
+
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics) {
   using Key = Field<GateRules>;
   return {{{{"metrics", ListKind("a list of metrics that the task reports", TextKind("")), "(`metrics`)",
@@ -150,6 +161,9 @@ FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std
             }},
            Key::Name("rule", &GateRules::exact, {{"threshold", false}, {"exact", true}},
                      "Only a difference that matters is a regression, or every difference is."),
+           {{"tail", MappingKind("a mapping", TailFields().Describe()), "{}",
+             "When single worlds are a regression, whatever all of them together say; not with `exact`."},
+            [](Fields& gate, GateRules& rules) { ReadNested(gate, "tail", TailFields(), rules.tail); }},
            {{"time_ratios", ListKind("a list of ratios", MappingKind("", TimeRatioFields(scenario).Describe())), "[]",
              "How processor times may compare within the run."},
             [&](Fields& gate, GateRules& rules) {

@@ -15,6 +15,7 @@ std::vector<std::string> ReadMetrics(Fields& fields, const TaskKind& kind);
 // outlive the tables, and `metrics` of its task.
 FieldTable<Expectation> ExpectationFields(const Scenario& scenario, const std::vector<std::string>& metrics);
 FieldTable<GateRules> GateFields(const Scenario& scenario, const std::vector<std::string>& metrics);
+FieldTable<TailRule> TailFields();
 FieldTable<TimeRatio> TimeRatioFields(const Scenario& scenario);
 
 }  // namespace etude

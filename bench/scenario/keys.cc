@@ -46,6 +46,7 @@ std::vector<KeyGroup> AllKeyGroups() {
       Group("video", "What is kept for films", VideoFields(any).Describe()),
       Group("limits", "Limits", LimitFields().Describe()),
       Group("gate", "The gate", GateFields(any, {}).Describe()),
+      Group("gate.tail", "The gate's tail rule", TailFields().Describe()),
       Group("gate.time_ratios[]", "A ratio of times", TimeRatioFields(any).Describe())};
   for (const TaskKind& kind : AllTaskKinds()) {
     groups.push_back({"scenarios[]", "A scenario of task " + kind.name, kind.condition_keys});

@@ -70,6 +70,25 @@ class Gate(EtudeCase):
                 baseline.write_text(text[:value.start(1)] + other + text[value.end(1):])
                 self.assertIn("1 of 12", self.gate(run, "--baseline", baseline, expect=code))
 
+    def test_few_worlds_that_are_far_worse_fail_and_are_named_with_their_replay_command(self):
+        self.make_baseline()
+        baseline = json.loads(self.baseline.read_text())
+        line = next(line for line in baseline["values"] if line["metric"] == "position_error_cm")
+        whole = list(line["values"])
+        for far, code in (2, 0), (3, 1):
+            line["values"] = [value - 5 if trial < far else value for trial, value in enumerate(whole)]
+            self.baseline.write_text(json.dumps(baseline))
+            text = self.gate(self.out, "--baseline", self.baseline, expect=code)
+            self.assertIn(f"{far} far worse", text)
+            self.assertIn("too few to fail" if far == 2 else "worse in 3 worlds", text)
+        commands = re.findall(r"etude replay (\S+) --cell (\S+)", text)
+        self.assertEqual(commands, [(str(self.out), f"ik/joint_noise_deg=2/{trial:03}/fixed") for trial in range(3)])
+        self.assertIn(commands[0][1], (self.out / "report" / "gate.md").read_text())
+        self.assertIn(commands[0][1], (self.out / "report" / "gate.xml").read_text())
+        folder, cell = commands[0]
+        replayed = self.etude("replay", folder, "--cell", cell)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+
     def test_an_update_shows_what_moved_and_is_the_new_standard(self):
         self.make_baseline()
         before = self.baseline.read_text().splitlines()
@@ -118,7 +137,10 @@ class Gate(EtudeCase):
         self.make_baseline()
         whole = self.baseline.read_text()
         self.assertIn("no such file", self.gate(self.out, "--baseline", self.folder / "none.json", expect=2))
-        for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":1', '"schema":7'):
+        for broken in "", "{}", whole[:len(whole) // 2], whole.replace('"schema":1', '"schema":7'), \
+                whole.replace('"seed":1', '"seed":1,"seed":1'), whole.replace('"trials":12', '"trials":null'), \
+                re.sub('"cells":"[a-z]+"', '"cells":"' + 12 * "f" + '"', whole), \
+                re.sub(r'"values":\[[^,]+,', '"values":[null,', whole, count=1):
             self.baseline.write_text(broken)
             self.assertIn(str(self.baseline), self.gate(self.out, "--baseline", self.baseline, expect=2))
             # What is no baseline is not written over.
@@ -155,6 +177,9 @@ class Gate(EtudeCase):
 
         self.assertEqual(share("reruns of the same seed, rule exact"), 0)
         self.assertEqual(share("worse by 4 × what matters"), 1)
+        self.assertEqual(share("reruns of the same seed, tail rule"), 0)
+        self.assertEqual(share("in 5 of 30 worlds worse by 40 × what matters"), 1)
+        self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
         if repetitions >= 100:
             self.assertLessEqual(share("gates between two seeds"), 0.05)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/gate_table.h"
+#include "reports/gate_tail.h"
 
 namespace etude {
 namespace {
@@ -62,6 +63,72 @@ TEST(GateMarkdown, ShowsAReviewerWhatFailsBeforeWhatElseMoved) {
   EXPECT_GT(text.find("| better |"), text.find("<details>"));
   EXPECT_THAT(text, HasSubstr("50.0 % | 40.0 % | −10.00 percentage points"));
   EXPECT_THAT(text, Not(HasSubstr("effector position error")));  // it is the same
+}
+
+/// Five of 60 worlds far worse, two of them lost.
+MetricMove TailMove(Movement movement) {
+  MetricMove move = MoveOf("adaptive", "orientation_error_deg", movement, 2, 2);
+  move.by_tail = movement == Movement::kWorse;
+  move.tail = {{7, 0.05, std::nullopt, 'o', 'f', true}, {12, 2.0, std::nullopt, 'o', 'o', true}};
+  for (int trial : {3, 1, 41}) move.tail.push_back({trial, 0.05, 60.05, 'o', 'u', false});
+  return move;
+}
+
+TEST(GateMarkdown, NamesEveryFarWorseWorldWithBothValuesAndItsReplayCommand) {
+  GateReport report = Example();
+  report.run_folder = "out/my run";
+  report.comparison.moves = {TailMove(Movement::kWorse)};
+  const std::string text = WriteGateMarkdown(report);
+  EXPECT_THAT(text, HasSubstr("| **worse in 5 worlds** |"));
+  EXPECT_THAT(text, HasSubstr("12 of 60, 5 far worse |"));
+  EXPECT_THAT(text,
+              HasSubstr("**Worlds that are far worse:**\n\n- ik-weights, joint\\_noise\\_deg=5, trial 7, adaptive: "
+                        "effector orientation error 0.0500° → no value (failed): `etude replay 'out/my run' "
+                        "--cell ik-weights/joint_noise_deg=5/007/adaptive`\n"));
+  EXPECT_THAT(text, HasSubstr("trial 3, adaptive: effector orientation error 0.0500° → 60.0°: `"));
+  EXPECT_THAT(text, Not(HasSubstr("… and")));
+}
+
+TEST(GateMarkdown, CountsTheFarWorseWorldsThatItDoesNotName) {
+  GateReport report = Example();
+  MetricMove move = TailMove(Movement::kWorse);
+  move.tail.resize(30, move.tail.back());
+  report.comparison.moves = {move};
+  EXPECT_THAT(WriteGateMarkdown(report), HasSubstr("- … and 25 more worlds of ik-weights, joint\\_noise\\_deg=5"));
+  report.comparison.moves.assign(200, move);
+  const std::string text = WriteGateMarkdown(report);
+  EXPECT_LT(text.size(), 65536u);
+  EXPECT_THAT(text, HasSubstr("more worlds of other comparisons"));
+}
+
+TEST(GateMarkdown, ShowsFarWorseWorldsThatAreTooFewToFailAmongWhatElseMoved) {
+  GateReport report = Example();
+  report.comparison.moves = {TailMove(Movement::kUnclear)};
+  const std::string text = WriteGateMarkdown(report);
+  EXPECT_THAT(text, Not(HasSubstr("**Worlds that are far worse:**")));
+  EXPECT_LT(text.find("<details>"), text.find("Single worlds that are far worse, too few to fail:"));
+  EXPECT_LT(text.find("trial 7, adaptive"), text.find("</details>"));
+}
+
+TEST(GateJunit, NamesFarWorseWorldsInTheFailure) {
+  GateReport report = Example();
+  report.run_folder = "out/now";
+  report.comparison.moves = {TailMove(Movement::kWorse)};
+  EXPECT_THAT(WriteGateJunit(report),
+              HasSubstr("trial 3, adaptive: effector orientation error 0.0500° → 60.0°: etude replay out/now --cell "
+                        "ik-weights/joint_noise_deg=5/003/adaptive"));
+}
+
+TEST(GateTail, QuotesWhatAShellWouldTakeApartAndTellsStatuses) {
+  MetricMove move = TailMove(Movement::kWorse);
+  move.identity.condition = "poses={uniform: 0.5}";
+  move.identity.metric = kOkShare;
+  const auto lines = TailLines(move, "it's", 1);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].replay, "etude replay 'it'\\''s' --cell 'ik-weights/poses={uniform: 0.5}/007/adaptive'");
+  EXPECT_THAT(lines[0].world, HasSubstr("cells that ended ok ok → failed"));
+  EXPECT_THAT(lines[1].world, HasSubstr("… and 4 more worlds of"));
+  EXPECT_THAT(TailLines(move, "", 1)[0].replay, HasSubstr("etude replay RUN --cell "));
 }
 
 TEST(GateMarkdown, SaysThatNothingWasComparedWithoutABaseline) {

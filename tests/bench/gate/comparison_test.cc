@@ -13,6 +13,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+const TailRules kNoTails = {{"s", TailRule{.times = 1, .worlds = 0, .lost = 0}}};
+
 Snapshot SnapshotOf(const MakeResult& make, const std::string& extra = "") {
   return TakeSnapshot(ExampleRun(make, extra));
 }
@@ -22,8 +24,9 @@ Snapshot Reference() {
 }
 
 /// How the move of method a's metric came out, under both conditions alike.
-MetricMove MoveOf(const Snapshot& after, const std::string& metric, const std::set<std::string>& exact = {}) {
-  const SnapshotComparison comparison = CompareSnapshots(Reference(), after, exact);
+MetricMove MoveOf(const Snapshot& after, const std::string& metric, const std::set<std::string>& exact = {},
+                  const TailRules& tails = {}) {
+  const SnapshotComparison comparison = CompareSnapshots(Reference(), after, exact, tails);
   EXPECT_EQ(comparison.moves.size(), 2u * 2 * 3);  // conditions, methods; two metrics and the share of ok cells
   for (const MetricMove& move : comparison.moves) {
     if (move.identity.method == "b") {
@@ -65,7 +68,8 @@ TEST(Snapshots, TellAClearDifferenceThatMattersFromOneThatDoesNot) {
 
 TEST(Snapshots, CallADifferenceUnclearThatTheWorldsDoNotSettle) {
   const auto torn = Shifted([](int trial) { return trial % 2 == 0 ? 3.0 : -3.1; });
-  EXPECT_EQ(MoveOf(torn, "position_error_cm").movement, Movement::kUnclear);
+  EXPECT_EQ(MoveOf(torn, "position_error_cm", {}, kNoTails).movement, Movement::kUnclear);
+  EXPECT_EQ(MoveOf(torn, "position_error_cm").movement, Movement::kWorse);  // twelve worlds are far worse
 }
 
 TEST(Snapshots, SeeARegressionInFewerThanHalfOfTheWorlds) {
@@ -109,7 +113,12 @@ TEST(Snapshots, CountFailuresAndLostValuesAgainstTheMethod) {
     EXPECT_EQ(lost.comparison.pairs, 12);
     EXPECT_EQ(lost.movement, Movement::kWorse);  // the values that are left did not change at all
   }
-  EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), "position_error_cm").movement, Movement::kUnclear);
+  for (Status status : {Status::kFailed, Status::kUnsolved}) {  // of which the second lost its value here, too
+    EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm").movement, Movement::kWorse);
+    EXPECT_EQ(MoveOf(Ending(status, 1), "position_error_cm", {}, kNoTails).movement, Movement::kUnclear);
+  }
+  EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), kOkShare).movement, Movement::kWorse);
+  EXPECT_EQ(MoveOf(Ending(Status::kUnsolved, 1), kOkShare).movement, Movement::kUnclear);
   EXPECT_EQ(MoveOf(Ending(Status::kFailed, 1), "position_error_cm", {"s"}).movement, Movement::kChanged);
 }
 

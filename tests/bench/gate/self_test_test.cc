@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "sim/random/stream.h"
 #include "tests/bench/gate/example.h"
 
@@ -36,6 +38,17 @@ TEST(SelfTest, FindsNoAlarmBetweenEqualSeedsAndEveryLargeChange) {
   EXPECT_LT(report->injected.front().found.count, 20);
   ASSERT_EQ(report->real.size(), 1u);
   EXPECT_EQ(report->real[0].found.count, 20);
+  EXPECT_EQ(report->tail_rerun_alarms.of, 20);
+  EXPECT_EQ(report->tail_rerun_alarms.count, 0);
+  std::map<std::string, int> tails;
+  for (const PowerResult& tail : report->tails) {
+    EXPECT_EQ(tail.found.of, 20);
+    tails[tail.change] = tail.found.count;
+  }
+  EXPECT_EQ(tails.at("position_error_cm in 2 of 24 worlds worse by 40 × what matters"), 0);
+  EXPECT_EQ(tails.at("position_error_cm in 3 of 24 worlds worse by 40 × what matters"), 20);
+  EXPECT_EQ(tails.at("position_error_cm in 3 of 24 worlds worse by 18 × what matters"), 0);
+  EXPECT_EQ(tails.at("position_error_cm lost in 1 of 24 worlds"), 20);
   EXPECT_TRUE(report->Holds());
 }
 
@@ -50,6 +63,19 @@ TEST(SelfTest, ConvictsAGateWhoseRerunsDiffer) {
       },
       3);
   EXPECT_EQ(report->rerun_alarms.count, 3);
+  EXPECT_EQ(report->tail_rerun_alarms.count, 0);  // so little is no tail
+  EXPECT_FALSE(report->Holds());
+}
+
+TEST(SelfTest, ConvictsAGateWhoseRerunsDifferMuchInFewWorlds) {
+  int calls = 0;
+  const auto report = RunSelfTest(
+      [&](std::uint64_t) -> Result<FinishedRun> {
+        const double drift = 100 * ++calls;
+        return ExampleRun([=](int trial, const std::string&) { return ExampleResult(trial, trial < 3 ? drift : 0); });
+      },
+      3);
+  EXPECT_EQ(report->tail_rerun_alarms.count, 3);
   EXPECT_FALSE(report->Holds());
 }
 

@@ -1,0 +1,108 @@
+"""scripts/figures: what it says of the pages of this repository, and of pages that it must flag."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TOOL = ROOT / "scripts" / "figures"
+
+BASELINE = {"values": [
+    {"scenario": "s", "condition": "n=1", "method": "a", "metric": "jump_cm", "values": [1.0, 2.26, None, 1234.5]},
+    {"scenario": "s", "condition": "n=1", "method": "b", "metric": "jump_cm", "values": [2.0, 4.26, 1.0, 1235.5]},
+    {"scenario": "s", "condition": "n=2", "method": "a", "metric": "jump_cm", "values": [5.0, 5.0, 5.0, 5.0]},
+    {"scenario": "s", "condition": "n=1", "method": "a", "metric": "solved", "values": [1.0, 1.0, 0.0, 1.0]}]}
+
+
+class Figures(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.root = pathlib.Path(scratch.name)
+        (self.root / "scenarios" / "baselines").mkdir(parents=True)
+        (self.root / "docs").mkdir()
+        (self.root / "scenarios" / "baselines" / "quick.json").write_text(json.dumps(BASELINE))
+
+    def figures(self, *arguments, root=None):
+        result = subprocess.run([sys.executable, TOOL, "--root", root or self.root, *map(str, arguments)],
+                                capture_output=True, text=True)
+        return result.returncode, result.stdout + result.stderr
+
+    def of_page(self, text, *arguments):
+        (self.root / "README.md").write_text(text)
+        return self.figures(*arguments)
+
+    def assert_right(self, text):
+        code, output = self.of_page(text)
+        self.assertEqual(code, 0, output)
+
+    def assert_flagged(self, text, complaint):
+        code, output = self.of_page(text)
+        self.assertEqual(code, 1, output)
+        self.assertIn(complaint, output)
+
+    def test_of_this_repository_are_those_of_its_results(self):
+        code, output = self.figures(root=ROOT)
+        self.assertEqual(code, 0, output)
+        print(output)
+
+    def test_are_right_when_they_are(self):
+        for text in ["2.3 cm<!-- quick: s/n=1/a/jump_cm -->",
+                     "2 cm<!-- quick: s/n=1/a/jump_cm -->",
+                     "two<!-- quick: s/n=1/a/jump_cm --> steps",
+                     "412.6<!-- quick: s/n=1/a/jump_cm, mean -->",
+                     "1,234.50<!-- quick: s/n=1/a/jump_cm, max -->",
+                     "three<!-- quick: s/n=1/a/solved, ones --> of 4<!-- quick: s/n=1/a/solved, worlds -->",
+                     "75 %<!-- quick: s/n=1/a/solved, mean, times 100 -->",
+                     "−1.0 cm<!-- quick: s/n=1/a minus b/jump_cm -->",
+                     "1.0 cm<!-- quick: s/n=1/a minus b/jump_cm, without sign -->",
+                     "2 to<!-- quick: s/*/a/jump_cm, lowest --> 5<!-- quick: s/*/a/jump_cm, highest -->",
+                     "<!-- figures -->\n2<!-- quick: s/n=1/a/jump_cm -->, at 5°<!-- said -->, `x 7`, F1\n<!-- end of figures -->"]:
+            with self.subTest(text):
+                self.assert_right(text)
+
+    def test_are_flagged_when_they_are_wrong(self):
+        for text, complaint in [
+                ("2.4 cm<!-- quick: s/n=1/a/jump_cm -->", "README.md:1: 2.4 is 2.3 in quick: s/n=1/a/jump_cm"),
+                ("\n\nthree<!-- quick: s/n=1/a/jump_cm -->", "README.md:3: three is two in"),
+                ("2<!-- quick: s/n=3/a/jump_cm -->", "no jump_cm of a under n=3 in s"),
+                ("2<!-- quick: s/n=1/c/jump_cm -->", "no jump_cm of c"),
+                ("2<!-- quick: s/n=1/a/jump_cm, typical -->", "'typical' is none of median"),
+                ("2<!-- quick: s/n=1/a -->", "is not SCENARIO/CONDITION/METHOD/METRIC"),
+                ("2<!-- quick: s/*/a/jump_cm -->", "'*' and lowest or highest go together"),
+                ("2<!-- slow: s/n=1/a/jump_cm -->", "no scenarios/baselines/slow.json and no docs/figures/slow.json"),
+                ("2 is what came out of it<!-- quick: s/n=1/a/jump_cm -->", "1 of 1 bindings do not stand right behind"),
+                ("<!-- figures -->\n2<!-- quick: s/n=1/a/jump_cm --> and 9 more\n<!-- end of figures -->", "holds 9, neither"),
+                ("<!-- figures -->\n2<!-- quick: s/n=1/a/jump_cm -->", "a block of figures has no end"),
+                ("No figure at all.", "0 figures are bound")]:
+            with self.subTest(text):
+                self.assert_flagged(text, complaint)
+
+    def test_are_written_anew_in_the_manner_that_they_had(self):
+        page = ("9.99 cm<!-- quick: s/n=1/a/jump_cm -->, Nine<!-- quick: s/n=1/a/jump_cm -->, "
+                "7.5<!-- quick: s/n=1/a/jump_cm, max -->, −8<!-- quick: s/n=1/a minus b/jump_cm -->")
+        self.of_page(page, "--write")
+        self.assertEqual((self.root / "README.md").read_text(),
+                         page.replace("9.99", "2.26").replace("Nine", "Two").replace("7.5", "1,234.5").replace("−8", "−1"))
+        self.assertEqual(self.figures()[0], 0)
+
+    def test_are_taken_from_runs_that_are_too_large_to_keep(self):
+        run = self.root / "run"
+        run.mkdir()
+        (run / "manifest.json").write_text('{"suite":"large","seed":3}')
+        rows = [{"scenario": "s", "condition": "-", "method": "a", "trial": i, "jump_cm": float(i)} for i in range(5)]
+        (run / "cells.jsonl").write_text("\n".join(map(json.dumps, rows)) + "\n")
+        text = "2<!-- large: s/-/a/jump_cm --> of 5<!-- large: s/-/a/jump_cm, worlds -->"
+        self.assert_flagged(text, "no scenarios/baselines/large.json")
+        code, output = self.figures("--take", "large", run)
+        self.assertEqual(code, 0, output)
+        self.assert_right(text)
+        self.assert_flagged(text.replace("2<", "3<"), "3 is 2 in large")
+        self.assert_flagged(text.replace("jump_cm -->", "jump_cm, mean -->"), "was not taken")
+        self.assertEqual(self.figures("--take", "small", run)[0], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
