@@ -10,6 +10,7 @@
 #include "reports/growth/growth_section.h"
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/plots/marks.h"
 #include "reports/scenario_card.h"
 #include "reports/transitions/recorded_requests.h"
 #include "reports/words/escape.h"
@@ -29,7 +30,7 @@ std::string Styles(const RunData& run) {
   });
   const bool shows_transitions = std::ranges::any_of(
       run.scenarios, [&](const ScenarioSummary& scenario) { return !RecordedRequestsOf(run, scenario).empty(); });
-  return std::string(ReportCss()) + std::string(shows_curves ? PaperCss() : "") +
+  return std::string(ReportCss()) + MarksCss() + std::string(shows_curves ? PaperCss() : "") +
          std::string(shows_transitions ? TransitionsCss() : "");
 }
 
@@ -93,9 +94,9 @@ std::string WritePage(const RunData& run, const Media& media) {
 
   std::string html = Head(run);
   html += fmt::format(
-      "<body><a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
+      "<body>{}<a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
-      CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
+      MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
   html += FilmElement(media.film, true);
   html += Contents(run, findings);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);

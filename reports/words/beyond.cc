@@ -79,7 +79,7 @@ BeyondFinding BeyondInWords(const std::vector<Judged>& judged, SamplingUnit unit
   const std::vector<Verdict> verdicts = BeyondVerdictsOf(judged);
   if (verdicts.empty()) {
     const std::string why = WhyNone(judged, unit);
-    finding.words = fmt::format("on {} only{}", TheseUnits(unit), why.empty() ? "" : ": " + why);
+    finding.words = fmt::format("on {} only{}", TheseUnits(unit), why.empty() ? "" : fmt::format(" ({})", why));
     return finding;
   }
   finding.on_these_only = false;

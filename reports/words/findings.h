@@ -24,9 +24,9 @@ struct MethodFinding {
   std::string baseline;  ///< whom it was compared with; the strongest other one may be another under each condition
   SamplingUnit unit = SamplingUnit::kWorld;
   bool is_compared = false;        ///< by this metric at all
-  std::optional<Verdict> verdict;  ///< on these worlds; empty when it depends on the condition
-  BeyondFinding beyond;            ///< for others like them
-  std::string sentence;            ///< plain words with the figures that carry them, and both verdicts
+  std::optional<Verdict> verdict = {};  ///< on these worlds; empty when it depends on the condition
+  BeyondFinding beyond = {};       ///< for others like them
+  std::string sentence = {};       ///< plain words with the figures that carry them, and both verdicts
 
   /// "better on these clips"
   std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }

@@ -23,17 +23,6 @@ std::optional<double> TypicalOf(const ConditionSummary& condition, const std::st
   return summary == nullptr ? std::nullopt : TypicalValue(*summary, words);
 }
 
-/// "“a”", or where conditions have other rivals "“a” or “b”"
-std::string OthersOf(const std::vector<Judged>& judged) {
-  std::vector<std::string> names;
-  for (const Judged& j : judged) {
-    if (std::ranges::find(names, j.comparison->baseline) == names.end()) names.push_back(j.comparison->baseline);
-  }
-  std::string text;
-  for (const std::string& name : names) text += fmt::format("{}“{}”", text.empty() ? "" : " or ", name);
-  return text;
-}
-
 std::string RatioText(const CostRatio& ratio) {
   const std::string least = FormatNumber(ratio.least), most = FormatNumber(ratio.most);
   return least == most ? least : fmt::format("{} to {}", least, most);
@@ -47,7 +36,7 @@ std::string_view VerbOf(const Comparison& c) {
 
 std::string CostPhrase(const std::vector<Judged>& judged, const CostRatio& ratio) {
   const Comparison& c = *judged.front().comparison;
-  return fmt::format("{} {} × the {} of {}", VerbOf(c), RatioText(ratio), WordsFor(c.metric).label, OthersOf(judged));
+  return fmt::format("{} {} × the {}", VerbOf(c), RatioText(ratio), WordsFor(c.metric).label);
 }
 
 std::string VerdictPhrase(const std::vector<Judged>& judged) {
@@ -69,7 +58,7 @@ std::string VerdictPhrase(const std::vector<Judged>& judged) {
 
 std::string PhraseOf(const std::vector<Judged>& judged) {
   const auto ratio = CommonVerdict(judged) == Verdict::kWorse ? CostRatioOf(judged) : std::nullopt;
-  return ratio ? CostPhrase(judged, *ratio) : VerdictPhrase(judged);
+  return ratio ? fmt::format("{} of {}", CostPhrase(judged, *ratio), OthersOf(judged)) : VerdictPhrase(judged);
 }
 
 /// Where the rival's lead is not in the metric that the question is about, in another headline metric: the largest
@@ -92,15 +81,17 @@ std::string CostElsewhere(const ScenarioSummary& scenario, const std::string& me
 }
 
 std::string AgainstRival(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
-                         const std::string& baseline) {
+                         const std::string& baseline, const std::optional<Verdict>& of_baseline) {
   const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kRival);
   if (judged.empty()) return "";
   const std::string rival = OthersOf(judged);
   const std::string elsewhere = CostElsewhere(scenario, method, metric, rival);
   // Where the baseline is the strongest other one, the first half has said how it compares.
   if (rival == baseline) return elsewhere.empty() ? ", the strongest other method" : ", but " + elsewhere;
-  const std::string phrase = PhraseOf(judged);
-  const bool is_led = CommonVerdict(judged) == Verdict::kWorse;
+  const auto verdict = CommonVerdict(judged);
+  const bool twice_better = verdict == Verdict::kBetter && of_baseline == Verdict::kBetter;
+  const std::string phrase = twice_better ? "better than the strongest other one too, " + rival : PhraseOf(judged);
+  const bool is_led = verdict == Verdict::kWorse;
   return "; " + (elsewhere.empty() ? phrase : is_led ? phrase + " and " + elsewhere : phrase + ", but " + elsewhere);
 }
 
@@ -114,11 +105,13 @@ std::optional<CostRatio> CostRatioOf(const std::vector<Judged>& judged) {
     const MetricWords words = WordsFor(c.metric);
     if (info == nullptr || words.is_share || words.direction != Direction::kLowerIsBetter) return std::nullopt;
     const auto mine = TypicalOf(*j.condition, c.method, c.metric, words);
-    const auto theirs = TypicalOf(*j.condition, c.baseline, c.metric, words);
-    if (!mine || !theirs || *theirs <= kLeastOfThreshold * info->practical) return std::nullopt;
-    const double ratio = *mine / *theirs;
-    if (ratio < kTelling) return std::nullopt;
-    range = range ? CostRatio{std::min(range->least, ratio), std::max(range->most, ratio)} : CostRatio{ratio, ratio};
+    for (const std::string& baseline : BaselinesOf(j)) {
+      const auto theirs = TypicalOf(*j.condition, baseline, c.metric, words);
+      if (!mine || !theirs || *theirs <= kLeastOfThreshold * info->practical) return std::nullopt;
+      const double ratio = *mine / *theirs;
+      if (ratio < kTelling) return std::nullopt;
+      range = range ? CostRatio{std::min(range->least, ratio), std::max(range->most, ratio)} : CostRatio{ratio, ratio};
+    }
   }
   return range;
 }
@@ -127,7 +120,7 @@ std::string HeadlineOf(const ScenarioSummary& scenario, const std::string& metho
   const std::vector<Judged> judged = JudgedOf(scenario, method, metric, Against::kBaseline);
   if (judged.empty()) return "";
   std::string text = fmt::format("“{}”: {}{}", method, PhraseOf(judged),
-                                 AgainstRival(scenario, method, metric, OthersOf(judged)));
+                                 AgainstRival(scenario, method, metric, OthersOf(judged), CommonVerdict(judged)));
   if (BeyondInWords(judged, scenario.unit).on_these_only) text += fmt::format(", on {}", TheseUnits(scenario.unit));
   return text;
 }

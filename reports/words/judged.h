@@ -22,8 +22,17 @@ struct Judged {
 std::vector<Judged> JudgedOf(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
                              Against against);
 
+/// The methods that a comparison's baseline names: itself, or of a rival "a or b" both (bench/statistics/rival.h).
+std::vector<std::string> BaselinesOf(const Judged& judged);
+
+/// "“a”", or where conditions or halves of the worlds have other rivals "“a” or “b”"
+std::string OthersOf(const std::vector<Judged>& judged);
+
 /// The verdict on these worlds that all of them agree in; nothing when they differ. `judged` must not be empty.
 std::optional<Verdict> CommonVerdict(const std::vector<Judged>& judged);
+
+/// "both conditions", "all 4 conditions"
+std::string AllConditions(std::size_t count);
 
 /// "better under 3 of 4, inconclusive under 1 of 4", "worse under all 4 conditions"; "" without verdicts.
 std::string CountVerdicts(const std::vector<Verdict>& verdicts, std::size_t conditions);

@@ -31,13 +31,13 @@ std::string_view VerbFor(double difference, const MetricWords& words) {
 
 std::string_view ChangeWords(const MetricWords& words) { return words.by_mean ? "mean change" : "median change"; }
 
-std::string ClearSentence(const Comparison& c, const MetricWords& words) {
+std::string ClearSentence(const Comparison& c, const std::string& other, const MetricWords& words) {
   const double difference = *c.difference;
   const bool worse = c.verdict == Verdict::kWorse;
   const std::string worlds = WorldsWon(worse ? 1 - c.share_better : c.share_better, c.pairs);
   if (difference == 0) {
-    return fmt::format("“{}” has the {} {} than “{}” on {}, with equal halves on the others — {}", c.method,
-                       worse ? "worse" : "better", words.label, c.baseline, worlds, VerdictName(c.verdict));
+    return fmt::format("“{}” has the {} {} than {} on {}, with equal halves on the others — {}", c.method,
+                       worse ? "worse" : "better", words.label, other, worlds, VerdictName(c.verdict));
   }
   // "Lowers by 12.3 (10.1–14.0)": the verb carries the sign, so the interval is turned with it.
   std::optional<double> low = c.ci_low, high = c.ci_high;
@@ -45,19 +45,19 @@ std::string ClearSentence(const Comparison& c, const MetricWords& words) {
     low = -*c.ci_high;
     high = -*c.ci_low;
   }
-  return fmt::format("“{}” {} the {} by {} (95 % CI {}) compared with “{}”, on {} — {}", c.method,
+  return fmt::format("“{}” {} the {} by {} (95 % CI {}) compared with {}, on {} — {}", c.method,
                      VerbFor(difference, words), words.label, Amount(std::abs(difference), words),
-                     FormatInterval(low, high, words), c.baseline, worlds, VerdictName(c.verdict));
+                     FormatInterval(low, high, words), other, worlds, VerdictName(c.verdict));
 }
 
 /// Without its end: on which worlds, and why it is open.
-std::string SentenceFor(const Comparison& c, const MetricWords& words) {
+std::string SentenceFor(const Comparison& c, const std::string& other, const MetricWords& words) {
   if (c.pairs == 0 || !c.difference) {
-    return fmt::format("“{}” could not be compared with “{}” by {}: no world gave both a value — inconclusive",
-                       c.method, c.baseline, words.label);
+    return fmt::format("“{}” could not be compared with {} by {}: no world gave both a value — inconclusive",
+                       c.method, other, words.label);
   }
   if (!c.ci_low) {
-    return fmt::format("“{}” and “{}” met in {} only: too few to judge the {} — inconclusive", c.method, c.baseline,
+    return fmt::format("“{}” and {} met in {} only: too few to judge the {} — inconclusive", c.method, other,
                        Plural(c.pairs, "world"), words.label);
   }
   const std::string figures =
@@ -66,15 +66,15 @@ std::string SentenceFor(const Comparison& c, const MetricWords& words) {
   switch (c.verdict) {
     case Verdict::kBetter:
     case Verdict::kWorse:
-      return ClearSentence(c, words);
+      return ClearSentence(c, other, words);
     case Verdict::kNoDifference:
-      return fmt::format("“{}” makes no difference that matters to the {} compared with “{}”: {} — no difference",
-                         c.method, words.label, c.baseline, figures);
+      return fmt::format("“{}” makes no difference that matters to the {} compared with {}: {} — no difference",
+                         c.method, words.label, other, figures);
     case Verdict::kInconclusive:
       break;
   }
-  return fmt::format("It is open whether “{}” changes the {} compared with “{}”: {} — inconclusive", c.method,
-                     words.label, c.baseline, figures);
+  return fmt::format("It is open whether “{}” changes the {} compared with {}: {} — inconclusive", c.method,
+                     words.label, other, figures);
 }
 
 // ": median change 5.1° (noise=5) to 12.3° (noise=20)"
@@ -94,9 +94,8 @@ std::string RangeOfChanges(const std::vector<Judged>& judged, const MetricWords&
 // All conditions agree that it is better, or worse: "lowers the error under both conditions".
 std::string ClearSentenceOverConditions(const std::vector<Judged>& judged, const MetricWords& words) {
   const Comparison& first = *judged.front().comparison;
-  const std::string all = judged.size() == 2 ? "both" : fmt::format("all {}", judged.size());
-  return fmt::format("“{}” {} the {} compared with “{}” under {} conditions{} — {}", first.method,
-                     VerbFor(*first.difference, words), words.label, first.baseline, all, RangeOfChanges(judged, words),
+  return fmt::format("“{}” {} the {} compared with {} under {}{} — {}", first.method,
+                     VerbFor(*first.difference, words), words.label, OthersOf(judged), AllConditions(judged.size()), RangeOfChanges(judged, words),
                      VerdictName(first.verdict));
 }
 
@@ -104,7 +103,7 @@ std::string SentenceOverConditions(const std::vector<Judged>& judged, const Metr
   const Comparison& first = *judged.front().comparison;
   const auto verdict = CommonVerdict(judged);
   if (verdict == Verdict::kBetter || verdict == Verdict::kWorse) return ClearSentenceOverConditions(judged, words);
-  return fmt::format("“{}” compared with “{}” by {} is {}{}", first.method, first.baseline, words.label,
+  return fmt::format("“{}” compared with {} by {} is {}{}", first.method, OthersOf(judged), words.label,
                      CountVerdicts(VerdictsOf(judged), judged.size()), RangeOfChanges(judged, words));
 }
 
@@ -118,10 +117,10 @@ std::string UnpairedWords(const std::vector<Judged>& judged) {
   const Comparison& first = *judged.front().comparison;
   std::string text;
   const auto add = [&](const std::string& name, int worlds) {
-    if (worlds > 0) text += fmt::format("{}only “{}” in {}", text.empty() ? "" : ", ", name, Plural(worlds, "world"));
+    if (worlds > 0) text += fmt::format("{}only {} in {}", text.empty() ? "" : ", ", name, Plural(worlds, "world"));
   };
-  add(first.baseline, only_baseline);
-  add(first.method, only_method);
+  add(OthersOf(judged), only_baseline);
+  add(fmt::format("“{}”", first.method), only_method);
   return text.empty() ? "" : fmt::format(" Not in this difference, since one of the two has no value there: {}.", text);
 }
 
@@ -131,7 +130,7 @@ std::string SentenceOf(const std::vector<Judged>& judged, SamplingUnit unit) {
   const Comparison& first = *judged.front().comparison;
   const MetricWords words = WordsFor(first.metric);
   const bool swept = judged.size() > 1;
-  const std::string sentence = swept ? SentenceOverConditions(judged, words) : SentenceFor(first, words);
+  const std::string sentence = swept ? SentenceOverConditions(judged, words) : SentenceFor(first, OthersOf(judged), words);
   const bool is_open = !swept && first.verdict == Verdict::kInconclusive && first.pairs > 0;
   const std::string why = is_open && !first.why_open.empty() ? ": " + first.why_open : "";
   std::string beyond = BeyondInWords(judged, unit).words;

@@ -39,7 +39,7 @@ TEST(Beyond, OfTooFewClipsIsNoVerdictAndSaysWhatIsNeeded) {
   Comparison few = OnClips(Verdict::kBetter, std::nullopt, 4);
   few.beyond.why_open = "4 clips, 6 are needed";
   const BeyondFinding found = InWords({few}, SamplingUnit::kClip);
-  EXPECT_EQ(found.words, "on these clips only: 4 clips, 6 are needed");
+  EXPECT_EQ(found.words, "on these clips only (4 clips, 6 are needed)");
   EXPECT_TRUE(found.on_these_only);
   EXPECT_FALSE(found.as_on_these);
   EXPECT_EQ(ShortBeyond(few, SamplingUnit::kClip), "on these clips only (4 clips)");

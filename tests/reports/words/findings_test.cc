@@ -168,7 +168,7 @@ TEST(Findings, AnswerTwiceAndSayWhatTheVerdictIsAbout) {
   const RunData run = UnitRun();
   const ScenarioFindings capture = FindingsOf(run, run.scenarios[3]);
   EXPECT_THAT(capture.headline, ::testing::EndsWith(", on these clips"));
-  EXPECT_THAT(capture.answer.sentence, HasSubstr("On these clips only: 4 clips, 6 are needed."));
+  EXPECT_THAT(capture.answer.sentence, HasSubstr("On these clips only (4 clips, 6 are needed)."));
   EXPECT_THAT(capture.answer.Words(), ::testing::EndsWith(" on these clips"));
   const ScenarioFindings transition = FindingsOf(run, run.scenarios[0]);
   EXPECT_EQ(transition.answer.baseline, "now");

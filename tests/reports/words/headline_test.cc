@@ -52,7 +52,7 @@ std::string HeadlineOfSolvers(const ScenarioSummary& scenario) {
 TEST(Headline, AnswersAgainstTheBaselineAndAgainstTheBestOther) {
   EXPECT_EQ(HeadlineOfSolvers(Solvers()),
             "“adaptive”: better than “fixed”; no different from “gauss-newton” in the effector orientation error, but "
-            "needs 140 × the solver steps of “gauss-newton”");
+            "needs 140 × the solver steps");
 }
 
 TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
@@ -84,6 +84,25 @@ TEST(Headline, SaysWhereItIsAboutTheseClipsOnly) {
   EXPECT_THAT(HeadlineOfSolvers(scenario), Not(HasSubstr("on these clips")));
   scenario.conditions[0].comparisons[0].beyond.verdict = std::nullopt;
   EXPECT_THAT(HeadlineOfSolvers(scenario), ::testing::EndsWith(", on these clips"));
+}
+
+TEST(Headline, NamesBothRivalsWhereHalvesOfTheWorldsChoseDifferently) {
+  ScenarioSummary scenario = Solvers();
+  scenario.headline_metrics = {"iterations"};
+  scenario.conditions[0].methods[0] = Method("fixed", 8.8, 8);
+  scenario.conditions[0].rivals = {Compared("iterations", "fixed or gauss-newton", Verdict::kWorse)};
+  EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"),
+              HasSubstr("needs 70.0 to 140 × the solver steps of “fixed” or “gauss-newton”"));
+  // A method may be called so itself.
+  scenario.conditions[0].methods[2].method = "fixed or gauss-newton";
+  EXPECT_THAT(HeadlineOf(scenario, "adaptive", "iterations"), HasSubstr("needs 140 × the solver steps of “fixed or "));
+}
+
+TEST(Headline, SaysBetterTwiceInOneBreath) {
+  ScenarioSummary scenario = Solvers();
+  scenario.conditions[0].rivals = {Compared("orientation_error_deg", "gauss-newton", Verdict::kBetter)};
+  EXPECT_EQ(HeadlineOfSolvers(scenario),
+            "“adaptive”: better than “fixed”; better than the strongest other one too, “gauss-newton”");
 }
 
 TEST(Headline, NamesABaselineThatIsTheBestOtherOnce) {
