@@ -63,6 +63,14 @@ function(etude_embed)
   target_sources(${target} PRIVATE "${embedded}")
 endfunction()
 
+# etude_test_options(<target>): how tests are compiled, the headers that they share too.
+function(etude_test_options TARGET)
+  etude_unity(${TARGET})
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${TARGET} PRIVATE -O1)  # tests run once and are compiled often; what they test keeps -O2
+  endif()
+endfunction()
+
 # etude_tests(DEPENDS <folder>... LIBRARIES <target>... LABELS <label>...)
 #   Makes one test program of every .cc file of the current folder, which mirrors the folder it
 #   tests (tests/engine/motion tests engine/motion), and registers each test with ctest in the
@@ -76,9 +84,9 @@ function(etude_tests)
     return()
   endif()
   add_executable(${target} ${sources})
-  etude_unity(${target})
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${target} PRIVATE -O1)  # tests run once and are compiled often; what they test keeps -O2
+  etude_test_options(${target})
+  if(ETUDE_UNITY)
+    target_precompile_headers(${target} REUSE_FROM etude_tests_headers)
   endif()
   file(RELATIVE_PATH mirrored "${CMAKE_SOURCE_DIR}/tests" "${CMAKE_CURRENT_SOURCE_DIR}")
   etude_target_name("${CMAKE_SOURCE_DIR}/${mirrored}" subject)
