@@ -8,7 +8,7 @@
 namespace etude {
 
 /// The version of the layout of a result folder (docs/results.md), raised when old readers would fail.
-constexpr int kResultSchema = 2;
+constexpr int kResultSchema = 3;
 
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";

@@ -64,9 +64,12 @@ Json Encode(const Beyond& beyond) {
   Json left_out = Json::array();
   for (const LeftOut& left : beyond.left_out) left_out.push_back({{"unit", left.unit}, {"mean", left.difference}});
   return {{"units", beyond.units},
+          {"differing", beyond.differing},
           {"mean", Number(beyond.difference)},
           {"ci95_low", Number(beyond.low)},
           {"ci95_high", Number(beyond.high)},
+          {"median_ci95_low", Number(beyond.median_low)},
+          {"median_ci95_high", Number(beyond.median_high)},
           {"test", Encode(beyond.test)},
           {"p_holm", Number(beyond.p_holm)},
           {"verdict", beyond.verdict ? Json(VerdictName(*beyond.verdict)) : Json(nullptr)},
@@ -142,9 +145,12 @@ PairedTest DecodeTest(const Json& json) { return {AsOptional(json.at("p")), json
 Beyond DecodeBeyond(const Json& json) {
   Beyond beyond;
   beyond.units = json.at("units").get<int>();
+  beyond.differing = json.at("differing").get<int>();
   beyond.difference = AsOptional(json.at("mean"));
   beyond.low = AsOptional(json.at("ci95_low"));
   beyond.high = AsOptional(json.at("ci95_high"));
+  beyond.median_low = AsOptional(json.at("median_ci95_low"));
+  beyond.median_high = AsOptional(json.at("median_ci95_high"));
   beyond.test = DecodeTest(json.at("test"));
   beyond.p_holm = AsOptional(json.at("p_holm"));
   if (!json.at("verdict").is_null()) {

@@ -127,14 +127,27 @@ Comparison SampleComparison() {
   comparison.verdict = Verdict::kBetter;
   comparison.why_open = "few";
   comparison.notes = {"missing", "mean"};
+  Beyond& beyond = comparison.beyond;
+  beyond.units = 7;
+  beyond.differing = 6;
+  beyond.difference = -1.2;
+  beyond.low = -2.2;
+  beyond.high = -0.7;
+  beyond.median_low = -2.3;
+  beyond.median_high = -0.8;
+  beyond.test = {0.03, "t test"};
+  beyond.p_holm = 0.05;
+  beyond.verdict = Verdict::kNoDifference;
+  beyond.why_open = "few clips";
+  beyond.left_out = {{"clap", -1.3}, {"boxing", -1.4}};
   return comparison;
 }
 
 TEST(Summary, SurvivesTheWayToAFileAndBack) {
-  ScenarioSummary scenario{"s", "ik", "q?", {"a", "b"}, {"position_error_cm"}, {}, {}, 12};
+  ScenarioSummary scenario{"s", "ik", "q?", SamplingUnit::kClipPair, {"a", "b"}, {"position_error_cm"}, {}, {}, 12};
   Comparison empty;
   empty.metric = "position_error_cm";
-  scenario.conditions.push_back({{{"x", "1"}}, {SampleMethod()}, {SampleComparison(), empty}});
+  scenario.conditions.push_back({{{"x", "1"}}, {SampleMethod()}, {SampleComparison(), empty}, {empty}});
   scenario.expectations.push_back({"b below a", Ruling::kUndecided, "few"});
   const auto text = WriteJson(EncodeSummaries({scenario}));
   const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
@@ -146,6 +159,13 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(comparison.why_open, "few");
   EXPECT_EQ(comparison.notes, SampleComparison().notes);
   EXPECT_EQ(*comparison.p_holm, 0.04);
+  const Beyond &beyond = comparison.beyond, sample = SampleComparison().beyond;
+  EXPECT_EQ(beyond.differing, sample.differing);
+  EXPECT_EQ(beyond.median_low, sample.median_low);
+  EXPECT_EQ(beyond.verdict, sample.verdict);
+  EXPECT_EQ(beyond.left_out[1].unit, "boxing");
+  EXPECT_FALSE((*back)[0].conditions[0].rivals[0].beyond.verdict);
+  EXPECT_EQ((*back)[0].unit, SamplingUnit::kClipPair);
   EXPECT_EQ((*back)[0].family, 12);
   EXPECT_EQ((*back)[0].conditions[0].methods[0].attempted, 4);
   EXPECT_FALSE((*back)[0].conditions[0].comparisons[1].difference);
@@ -175,7 +195,7 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
 }
 
 TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {
-  Row row{"t", "transition", {{"wait_s", "0.5"}}, 0, "", "fuzzy", CellResult::Ended(Status::kCrashed, "died")};
+  Row row{"t", "transition", {{"wait_s", "0.5"}}, 0, "", {}, "fuzzy", CellResult::Ended(Status::kCrashed, "died")};
   const auto read = DecodeRow(EncodeRow(row), kPlace);
   ASSERT_TRUE(read);
   EXPECT_EQ(ValueOf(*read, "wait_s"), std::nullopt);
