@@ -57,6 +57,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite =
       command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
+  auto dry_run = Keep<bool>(false);
+  command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show");
   command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
@@ -70,7 +72,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
         if (!part) return Complain({{}, "--shard: " + part.error().message});
         options->shard = *part;
       }
-      return RunCommand(*options);
+      return *dry_run ? DryRunCommand(*options) : RunCommand(*options);
     };
   });
 }
@@ -129,7 +131,9 @@ void DefineGate(CLI::App& app, Action& action) {
   CLI::Option* self_test =
       command->add_flag("--self-test", options->self_test, "Measure the gate's own false alarms and power")
           ->excludes(baseline);
-  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds")
+  command->add_flag("--verdicts", options->verdicts, "Self-test: of the verdicts beyond a run's worlds instead")
+      ->needs(self_test);
+  command->add_option("--repetitions", options->repetitions, "Self-test: pairs of seeds, or samples of each design")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str()
       ->needs(self_test);

@@ -14,12 +14,14 @@ namespace etude {
 constexpr int kSuccess = 0;
 constexpr int kNothingWorked = 1;
 constexpr int kRegression = 1;
-constexpr int kBadInput = 2;
+constexpr int kUnusableInput = 2;
 constexpr int kIncomplete = 3;
 constexpr int kInterrupted = 130;
 
 /// `etude run`: runs scenarios with a progress bar and prints the verdicts.
 int RunCommand(const RunOptions& options);
+/// `etude run --dry-run`: what a run would take and could show; writes nothing.
+int DryRunCommand(const RunOptions& options);
 /// `etude merge DIR… -o DIR`: makes one run of its shards.
 int MergeCommand(const MergeOptions& options);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or
@@ -34,7 +36,11 @@ struct GateOptions {
   bool self_test = false;     ///< measure the gate's own false alarms and power
   int repetitions = 40;       ///< of the self-test: pairs of seeds
   std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
+  bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
 };
+/// `etude gate --self-test --verdicts`: the table of docs/results.md from so many samples of each design (exit 1 when a
+/// promise is broken).
+int VerdictsCommand(int repetitions);
 /// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
 int GateCommand(const GateOptions& options);
 /// `etude compare A B`: what differs between two runs of the same worlds.
@@ -70,7 +76,7 @@ enum class MetricsFormat {
 /// `etude list metrics`.
 int ListMetricsCommand(MetricsFormat format);
 
-/// Prints a complaint the one way Etude does, and gives kBadInput.
+/// Prints a complaint the one way Etude does, and gives kUnusableInput.
 int Complain(const Error& error);
 
 }  // namespace etude

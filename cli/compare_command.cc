@@ -1,36 +1,51 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include <algorithm>
 
 #include "bench/finished_runs/load.h"
 #include "bench/gate/comparison.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
 #include "reports/gate_table.h"
+#include "reports/words/beyond.h"
 
 namespace etude {
 namespace {
 
-/// A whole run's snapshot; one that is not whole cannot be paired world by world.
-Result<Snapshot> LoadWholeRun(const std::string& folder) {
-  ASSIGN_OR_RETURN(const auto run, LoadFinishedRun(folder));
+/// A whole run; one that is not whole cannot be paired world by world.
+Result<FinishedRun> LoadWholeRun(const std::string& folder) {
+  ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder));
   if (!run.incomplete.empty()) return Fail({folder, 0, 0}, "{}", run.incomplete.front());
-  return TakeSnapshot(run);
+  return run;
+}
+
+/// What the verdicts say nothing about: two runs of the same worlds show what changed in the code.
+std::string ScopeSentence(const FinishedRun& run) {
+  std::vector<std::string_view> others;
+  for (const FinishedScenario& scenario : run.scenarios) {
+    const std::string_view other = OtherUnits(scenario.study.unit);
+    if (std::ranges::find(others, other) == others.end()) others.push_back(other);
+  }
+  return fmt::format("All on these worlds; nothing is said about {}.", fmt::join(others, ", "));
 }
 
 }  // namespace
 
 int CompareCommand(const std::string& a, const std::string& b) {
-  auto before = LoadWholeRun(a);
-  if (!before) return Complain(before.error());
-  auto after = LoadWholeRun(b);
-  if (!after) return Complain(after.error());
-  const std::vector<std::string> incomparable = DropIncomparable(*before, *after);
-  const SnapshotComparison comparison = CompareSnapshots(*before, *after, {});
+  const auto run_a = LoadWholeRun(a);
+  if (!run_a) return Complain(run_a.error());
+  const auto run_b = LoadWholeRun(b);
+  if (!run_b) return Complain(run_b.error());
+  Snapshot before = TakeSnapshot(*run_a), after = TakeSnapshot(*run_b);
+  const std::vector<std::string> incomparable = DropIncomparable(before, after);
+  const SnapshotComparison comparison = CompareSnapshots(before, after, {});
   PrintMoves(comparison, "A", "B", comparison.moves.size());
   PrintList("Only in A:", comparison.only_before);
   PrintList("Only in B:", comparison.only_after);
   PrintList("Not comparable, for the worlds are not the same:", incomparable);
   PrintList("Methods with other settings:", comparison.settings_changed);
   fmt::print("{}\n", CompareSentence(comparison));
+  if (!comparison.moves.empty()) fmt::print("{}\n", ScopeSentence(*run_b));
   return kSuccess;
 }
 

@@ -157,6 +157,7 @@ int SelfTest(const GateOptions& options) {
 }  // namespace
 
 int GateCommand(const GateOptions& options) {
+  if (options.verdicts) return VerdictsCommand(options.repetitions);
   if (options.self_test) return SelfTest(options);
   const auto run = LoadFinishedRun(options.target);
   if (!run) return Complain(run.error());

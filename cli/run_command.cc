@@ -84,7 +84,7 @@ int ShowOutcome(const RunOutcome& outcome) {
 
 int Complain(const Error& error) {
   std::fputs(("etude: " + ToString(error) + "\n").c_str(), stderr);
-  return kBadInput;
+  return kUnusableInput;
 }
 
 int RunCommand(const RunOptions& given) {

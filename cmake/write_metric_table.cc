@@ -107,6 +107,11 @@ std::string FactsCode(Fields& fields) {
                             {{"lower", "kLowerIsBetter"}, {"higher", "kHigherIsBetter"}, {"neither", "kNeither"}}));
   code += fmt::format(", .aggregate = Aggregate::{}",
                       OneOf(fields, "aggregate", {{"median", "kMedian"}, {"mean", "kMean"}}));
+  if (fields.Raw("reads") != nullptr) {
+    code += fmt::format(", .reading = Reading::{}",
+                        OneOf(fields, "reads", {{"yes-no", "kYesNo"}, {"share", "kShare"}, {"score", "kScore"}}));
+  }
+  if (fields.Boolean("success", false)) code += ", .is_success = true";
   code += fmt::format(", .practical = {}", RequiredNumber(fields, "practical_threshold"));
   for (const char* key : {"definition", "practical_reason", "formula", "null_rule", "source"}) {
     code += fmt::format(", .{} = {}", key, Literal(fields.RequiredText(key)));

@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include "reports/words/findings.h"
+#include "reports/words/escape.h"
 
 namespace etude {
 namespace {
@@ -22,6 +22,9 @@ std::string_view VerdictClass(const std::optional<Verdict>& verdict) {
   return "open";
 }
 
+/// Whether a verdict is clear on these worlds, and not the same beyond them.
+bool HoldsHereOnly(const Comparison& c) { return c.verdict != Verdict::kInconclusive && c.beyond.verdict != c.verdict; }
+
 }  // namespace
 
 std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
@@ -39,14 +42,46 @@ std::string_view VerdictSign(const std::optional<Verdict>& verdict) {
   return "?";
 }
 
-std::string VerdictMark(Verdict verdict) {
-  return fmt::format("<b class=\"{}\" role=\"img\" aria-label=\"{}\">{}</b>", VerdictClass(verdict),
-                     VerdictName(verdict), VerdictSign(verdict));
+std::string ComparisonSign(const Comparison& comparison) {
+  const std::string_view sign = VerdictSign(comparison.verdict);
+  return HoldsHereOnly(comparison) ? fmt::format("({})", sign) : std::string(sign);
+}
+
+std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit) {
+  const std::string where = HoldsHereOnly(comparison) ? fmt::format(", on {} only", TheseUnits(unit)) : "";
+  return fmt::format("<b class=\"{}\" role=\"img\" aria-label=\"{}{}\">{}</b>", VerdictClass(comparison.verdict),
+                     VerdictName(comparison.verdict), where, ComparisonSign(comparison));
+}
+
+std::string FindingBadge(const MethodFinding& finding, std::string_view words) {
+  if (!finding.is_compared) return "";
+  const bool here_only = finding.verdict != Verdict::kInconclusive && !finding.beyond.as_on_these;
+  const std::string_view sign = VerdictSign(finding.verdict);
+  return fmt::format("<span class=\"badge {}\" title=\"{}\"><span role=\"img\" aria-label=\"{}\">{}</span> {}</span>",
+                     VerdictClass(finding.verdict), EscapeMarkup(finding.sentence), finding.Words(),
+                     here_only ? fmt::format("({})", sign) : std::string(sign), words);
 }
 
 std::string VerdictBadge(const std::optional<Verdict>& verdict) {
   return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", VerdictClass(verdict),
                      VerdictSign(verdict), VerdictWords(verdict));
+}
+
+std::string VerdictBadges(const MethodFinding& finding) {
+  const std::string_view others = OtherUnits(finding.unit);
+  const auto badge = [](const std::optional<Verdict>& verdict, const std::string& words) {
+    return fmt::format("<span class=\"badge {}\"><span aria-hidden=\"true\">{}</span> {}</span>", VerdictClass(verdict),
+                       VerdictSign(verdict), words);
+  };
+  if (IsEveryWorldItsOwn(finding.unit) && finding.beyond.as_on_these) {
+    return badge(finding.verdict, fmt::format("{} and {} like them", finding.Words(), others));
+  }
+  const std::string here = badge(finding.verdict, finding.Words());
+  if (!finding.is_compared) return here;
+  if (finding.beyond.on_these_only) {
+    return here + fmt::format(" <span class=\"badge none\">no verdict for {}</span>", others);
+  }
+  return here + " " + badge(finding.beyond.verdict, fmt::format("{} for {}", VerdictWords(finding.beyond.verdict), others));
 }
 
 }  // namespace etude

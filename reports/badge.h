@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bench/model/run_data.h"
+#include "reports/words/findings.h"
 
 namespace etude {
 
@@ -12,9 +13,18 @@ namespace etude {
 /// depends" on the condition.
 std::string VerdictBadge(const std::optional<Verdict>& verdict);
 
+/// Both verdicts of a finding as such labels: on these worlds, and for others like them. Where every world is its own
+/// unit and both agree, one label says so.
+std::string VerdictBadges(const MethodFinding& finding);
+
 /// The sign alone: "▲", "▼", "=", "?"; "±" when it depends.
 std::string_view VerdictSign(const std::optional<Verdict>& verdict);
-/// The sign as HTML in the label's colour; its word is for who cannot see it.
-std::string VerdictMark(Verdict verdict);
+
+/// The sign of a comparison: in brackets where it holds on these worlds only, "(▲)".
+std::string ComparisonSign(const Comparison& comparison);
+/// The same as HTML in the label's colour; its words are for who cannot see it.
+std::string ComparisonMark(const Comparison& comparison, SamplingUnit unit);
+/// The sign of a finding over all its conditions, likewise, as a label with `words` behind it; "" when not compared.
+std::string FindingBadge(const MethodFinding& finding, std::string_view words);
 
 }  // namespace etude

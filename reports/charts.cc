@@ -18,15 +18,13 @@ namespace {
 
 // More steps than a screen has room for only make the page heavy.
 constexpr std::size_t kMostSteps = 120;
-// As many marks as half the page's width has room for.
-constexpr std::size_t kMostMarks = 24;
 // Beyond this ratio a linear axis squeezes all but the largest values into one line.
 constexpr double kLogarithmicFrom = 100;
 
 std::string Caption(const std::string& what, const MetricWords& words) {
   std::string unit = words.suffix;
   unit.erase(0, unit.find_first_not_of(' '));
-  std::string caption = what + " of the " + words.label;
+  std::string caption = what + " of the " + words.plain_label;
   if (!unit.empty()) caption += fmt::format(" ({})", unit);
   if (const auto direction = DirectionWords(words.direction); !direction.empty())
     caption += fmt::format("; {}", direction);
@@ -37,34 +35,6 @@ bool NeedsLogarithm(const std::vector<double>& values) {
   if (values.empty() || std::ranges::any_of(values, [](double v) { return v <= 0; })) return false;
   const auto [low, high] = std::ranges::minmax(values);
   return high / low > kLogarithmicFrom;
-}
-
-Json OrNull(std::optional<double> value) { return value ? Json(*value) : Json(nullptr); }
-
-std::string Joined(const std::vector<SweptValue>& condition, std::string SweptValue::*part) {
-  std::string text;
-  for (const SweptValue& swept : condition) text += (text.empty() ? "" : ", ") + swept.*part;
-  return text;
-}
-
-struct Mark {
-  std::optional<double> value, low, high;
-};
-
-std::optional<double> Scaled(std::optional<double> value, double scale) {
-  return value && std::isfinite(*value) ? std::optional(*value * scale) : std::nullopt;
-}
-
-// As shown: shares are percentages already.
-Mark MarkOf(const ConditionSummary& condition, const std::string& method, const std::string& metric,
-            const MetricWords& words) {
-  for (const MethodSummary& summary : condition.methods) {
-    const MetricSummary* found = summary.method == method ? FindSummary(summary, metric) : nullptr;
-    if (found == nullptr) continue;
-    return {Scaled(TypicalValue(*found, words), words.scale), Scaled(found->ci_low, words.scale),
-            Scaled(found->ci_high, words.scale)};
-  }
-  return {};
 }
 
 // "orientation_error_deg" over all effectors is "orientation_error_max_deg" of the worst.
@@ -102,45 +72,6 @@ std::vector<double> Thinned(const std::vector<double>& curve, std::size_t stride
 }
 
 }  // namespace
-
-std::optional<Chart> IntervalChart(const ScenarioSummary& scenario) {
-  if (scenario.headline_metrics.empty()) return std::nullopt;
-  const std::string& metric = scenario.headline_metrics.front();
-  const MetricWords words = WordsFor(metric);
-
-  Chart chart;
-  chart.caption = Caption(words.is_share ? "Mean with 95 % interval" : "Median with 95 % interval", words);
-  Json groups = Json::array(), methods = Json::array();
-  for (const ConditionSummary& condition : scenario.conditions)
-    groups.push_back(Joined(condition.condition, &SweptValue::value));
-  std::vector<double> drawn;
-  for (const std::string& method : scenario.methods) {
-    Json marks = Json::array();
-    for (const ConditionSummary& condition : scenario.conditions) {
-      const Mark mark = MarkOf(condition, method, metric, words);
-      for (const auto& part : {mark.value, mark.low, mark.high}) {
-        if (part) drawn.push_back(*part);
-      }
-      marks.push_back({{"value", OrNull(mark.value)}, {"low", OrNull(mark.low)}, {"high", OrNull(mark.high)}});
-      const std::string where = scenario.conditions.size() > 1 ? ", " + ConditionLabel(condition.condition) : "";
-      chart.description += fmt::format("{}{}: {}. ", method, where,
-                                       mark.value ? FormatNumber(*mark.value) + words.suffix : std::string(kNoValue));
-    }
-    methods.push_back({{"name", MethodLabel(scenario, method)}, {"marks", std::move(marks)}});
-  }
-  if (drawn.empty()) return std::nullopt;
-
-  const bool one_condition = scenario.conditions.size() == 1;
-  if (one_condition) chart.rows = static_cast<int>(scenario.methods.size());
-  // Shares are read against 0 and 100 %.
-  const bool is_logarithmic = !words.is_share && NeedsLogarithm(drawn);
-  Json json{{"kind", "intervals"}, {"label", words.label},          {"suffix", words.suffix},
-            {"groups", groups},    {"methods", std::move(methods)}, {"logarithmic", is_logarithmic}};
-  json["groupLabel"] = Joined(scenario.conditions.front().condition, &SweptValue::key);
-  chart.is_wide = !one_condition && scenario.conditions.size() * scenario.methods.size() > kMostMarks;
-  chart.json = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  return chart;
-}
 
 std::optional<Chart> CurveChart(const RunData& run, const ScenarioSummary& scenario) {
   if (scenario.conditions.empty()) return std::nullopt;

@@ -12,13 +12,8 @@ struct Chart {
   std::string caption;      ///< what is drawn, with the unit
   std::string description;  ///< the figures in words
   std::string json;         ///< not yet escaped for HTML
-  int rows = 0;             ///< of a chart that lies on its side; 0 = upright
   bool is_wide = false;     ///< needs all the page's width
 };
-
-/// The typical value (median, or mean of a share) with its 95 % interval of the scenario's first headline
-/// metric, per method and condition; nothing when no cell has a value.
-std::optional<Chart> IntervalChart(const ScenarioSummary& scenario);
 
 /// What becomes of a method's errors with time: the median over its cells of their curves along iterations, or, of
 /// motions that it follows, along the frames of the first condition (others may have other frames); nothing when the

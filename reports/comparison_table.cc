@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "reports/badge.h"
+#include "reports/words/beyond.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/left_out.h"
@@ -17,7 +18,7 @@ constexpr std::string_view kAllComparisons = "the CSV file of comparisons in rep
 
 /// One comparison as the texts of its cells, not yet escaped.
 struct Line {
-  std::string condition, metric, methods, pairs, difference, interval, p, effect, notes;
+  std::string condition, metric, methods, pairs, difference, interval, p, effect, beyond, notes;
 };
 
 int Worlds(const Comparison& c) { return c.pairs + c.only_baseline + c.only_method + c.neither; }
@@ -34,7 +35,14 @@ std::string Notes(const Comparison& c) {
   return text;
 }
 
-Line LineOf(const ConditionSummary& condition, const Comparison& c) {
+std::string BothNotes(const Comparison& c, SamplingUnit unit) {
+  std::string text = Notes(c);
+  // Where worlds are the units, the same has been said of them.
+  if (c.beyond.why_open.empty() || IsEveryWorldItsOwn(unit)) return text;
+  return text + fmt::format("{}for {}: {}", text.empty() ? "" : "; ", OtherUnits(unit), c.beyond.why_open);
+}
+
+Line LineOf(const ConditionSummary& condition, const Comparison& c, SamplingUnit unit) {
   const MetricWords words = WordsFor(c.metric);
   Line line;
   line.condition = ConditionLabel(condition.condition);
@@ -47,19 +55,22 @@ Line LineOf(const ConditionSummary& condition, const Comparison& c) {
   if (c.interval == IntervalKind::kPercentile && c.differing > 0) line.interval += " †";
   line.p = FormatP(c.p_holm);
   line.effect = EffectText(c);
-  line.notes = Notes(c);
+  line.beyond = ShortBeyond(c, unit);
+  line.notes = BothNotes(c, unit);
   return line;
 }
 
 /// The figures, and below them over the whole width what to mind.
-std::string RowHtml(const Line& line, Verdict verdict, bool swept, int columns) {
+std::string RowHtml(const Line& line, const Comparison& c, bool swept, int columns) {
   std::string html =
       fmt::format("<tr{}><td>{}</td>", line.notes.empty() ? "" : " class=\"noted\"", EscapeMarkup(line.methods));
   if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(line.condition));
   for (const std::string& figure : {line.pairs, line.difference, line.interval, line.p, line.effect}) {
     html += fmt::format("<td class=\"n\">{}</td>", EscapeMarkup(figure));
   }
-  html += fmt::format("<td>{}</td></tr>", VerdictBadge(verdict));
+  const auto& beyond = c.beyond.verdict;
+  html += fmt::format("<td>{}</td><td>{}</td></tr>", VerdictBadge(c.verdict),
+                      beyond ? VerdictBadge(*beyond) : EscapeMarkup(line.beyond));
   if (line.notes.empty()) return html;
   return html + fmt::format("<tr class=\"note\"><td colspan=\"{}\">{}</td></tr>", columns, EscapeMarkup(line.notes));
 }
@@ -72,17 +83,35 @@ std::string Legend(const ScenarioSummary& scenario) {
       "rank-biserial "
       "correlation, −1 to +1, + is better. Better or worse: p ≤ 0.05, an interval on one side of zero, and a "
       "difference that matters. No difference: the interval within what matters. Where one method alone failed, p "
-      "counts that world as its loss, and the verdict must hold with and without.",
-      Plural(scenario.family, "comparison"));
+      "counts that world as its loss, and the verdict must hold with and without. For {}: the mean over {} of their own mean "
+      "differences decides, however many worlds each gave; with fewer than 6 there is no such verdict.",
+      Plural(scenario.family, "comparison"), OtherUnits(scenario.unit), TheseUnits(scenario.unit));
 }
 
 std::string Exact(std::optional<double> value) {
   return value && std::isfinite(*value) ? fmt::format("{}", *value) : std::string();
 }
 
+std::string BeyondCsv(const Beyond& beyond) {
+  return fmt::format("{},{},{},{},{},{},{},{},{}\n", beyond.units, Exact(beyond.difference), Exact(beyond.low),
+                     Exact(beyond.high), Exact(beyond.test.p), EscapeCsv(beyond.test.how), Exact(beyond.p_holm),
+                     beyond.verdict ? VerdictName(*beyond.verdict) : "", EscapeCsv(beyond.why_open));
+}
+
+/// Every condition's comparisons with baselines, then those with the strongest other method.
+template <typename Visit>
+void ForEachComparison(const ScenarioSummary& scenario, Visit visit) {
+  for (const ConditionSummary& condition : scenario.conditions) {
+    for (const Comparison& c : condition.comparisons) visit(condition, c, Against::kBaseline);
+    for (const Comparison& c : condition.rivals) visit(condition, c, Against::kRival);
+  }
+}
+
 std::size_t CountOf(const ScenarioSummary& scenario) {
   std::size_t count = 0;
-  for (const ConditionSummary& condition : scenario.conditions) count += condition.comparisons.size();
+  for (const ConditionSummary& condition : scenario.conditions) {
+    count += condition.comparisons.size() + condition.rivals.size();
+  }
   return count;
 }
 
@@ -112,22 +141,26 @@ std::string ComparisonTableHtml(const ScenarioSummary& scenario) {
   for (const char* head : {"Pairs", "Difference", "95 % interval", "p (Holm)", "Effect"}) {
     html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", head);
   }
-  html += "<th scope=\"col\">Verdict</th></tr></thead>";
-  const int columns = swept ? 8 : 7;
+  html += fmt::format("<th scope=\"col\">On {}</th><th scope=\"col\">For {}</th></tr></thead>",
+                      TheseUnits(scenario.unit), OtherUnits(scenario.unit));
+  const int columns = swept ? 9 : 8;
   std::size_t rows = 0;
-  for (const std::string& metric : scenario.headline_metrics) {
-    html += fmt::format("<tbody><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>", columns,
-                        EscapeMarkup(MetricHeading(metric)));
+  const auto add_group = [&](const std::string& metric, Against against) {
+    std::string group;
     // Conditions of the same methods stand under each other.
     for (const std::string& method : scenario.methods) {
-      for (const ConditionSummary& condition : scenario.conditions) {
-        for (const Comparison& c : condition.comparisons) {
-          if (c.metric != metric || c.method != method || ++rows > kMostTableRows) continue;
-          html += RowHtml(LineOf(condition, c), c.verdict, swept, columns);
-        }
+      for (const Judged& j : JudgedOf(scenario, method, metric, against)) {
+        if (++rows > kMostTableRows) continue;
+        group += RowHtml(LineOf(*j.condition, *j.comparison, scenario.unit), *j.comparison, swept, columns);
       }
     }
-    html += "</tbody>";
+    if (group.empty()) return;
+    html += fmt::format("<tbody><tr class=\"group\"><th scope=\"rowgroup\" colspan=\"{}\">{}{}</th></tr>{}</tbody>",
+                        columns, EscapeMarkup(MetricHeading(metric)),
+                        against == Against::kRival ? ", against the strongest other method" : "", group);
+  };
+  for (const Against against : {Against::kBaseline, Against::kRival}) {
+    for (const std::string& metric : scenario.headline_metrics) add_group(metric, against);
   }
   return html + "</table></div>" + LeftOutHtml(rows, kMostTableRows, "comparisons", kAllComparisons) +
          fmt::format("<p class=\"quiet legend\">{}</p>", EscapeMarkup(Legend(scenario)));
@@ -138,20 +171,19 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
   if (count == 0) return "";
   std::string text = fmt::format(
       "\n<details><summary>Every comparison ({})</summary>\n\n"
-      "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | verdict | mind |\n"
-      "|---|---|---|---|---|---|---|---|---|\n",
-      count);
+      "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | on {} | for {} | mind |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n",
+      count, TheseUnits(scenario.unit), OtherUnits(scenario.unit));
   std::size_t rows = 0;
-  for (const ConditionSummary& condition : scenario.conditions) {
-    for (const Comparison& c : condition.comparisons) {
-      if (++rows > kMostTableRows) continue;
-      const Line line = LineOf(condition, c);
-      text += fmt::format("| {} | {} | {} | {} | {} ({}) | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
-                          EscapeMarkdown(line.methods), EscapeMarkdown(line.condition), line.pairs, line.difference,
-                          line.interval, EscapeMarkdown(line.p), line.effect, VerdictName(c.verdict),
-                          EscapeMarkdown(line.notes));
-    }
-  }
+  ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
+    if (++rows > kMostTableRows) return;
+    const Line line = LineOf(condition, c, scenario.unit);
+    text += fmt::format("| {} | {}{} | {} | {} | {} ({}) | {} | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
+                        EscapeMarkdown(line.methods), against == Against::kRival ? " (strongest other)" : "",
+                        EscapeMarkdown(line.condition), line.pairs, line.difference, line.interval,
+                        EscapeMarkdown(line.p), line.effect, VerdictName(c.verdict), line.beyond,
+                        EscapeMarkdown(line.notes));
+  });
   const std::string rest = LeftOutWords(rows, kMostTableRows, "comparisons", kAllComparisons);
   if (!rest.empty()) text += fmt::format("\n{}\n", EscapeMarkdown(rest));
   return text + fmt::format("\n{}\n\n</details>\n", EscapeMarkdown(Legend(scenario)));
@@ -161,21 +193,22 @@ std::string ComparisonTableCsv(const ScenarioSummary& scenario) {
   std::string csv =
       "scenario,condition,metric,baseline,method,pairs,differing,only_baseline,only_method,neither,difference,ci95_low,"
       "ci95_high,interval,mean_difference,mean_ci95_low,mean_ci95_high,p_signed_rank,signed_rank_how,p_sign_flip,"
-      "sign_flip_how,p_holm,effect_size,share_better,verdict,notes\n";
-  for (const ConditionSummary& condition : scenario.conditions) {
-    for (const Comparison& c : condition.comparisons) {
-      csv += fmt::format("{},{},{},{},{},", EscapeCsv(scenario.name), EscapeCsv(ConditionLabel(condition.condition)),
-                         EscapeCsv(c.metric), EscapeCsv(c.baseline), EscapeCsv(c.method));
-      csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
-      csv += fmt::format("{},{},{},{},{},{},{},", Exact(c.difference), Exact(c.ci_low), Exact(c.ci_high),
-                         IntervalKindName(c.interval), Exact(c.mean), Exact(c.mean_low), Exact(c.mean_high));
-      csv += fmt::format("{},{},{},{},{},", Exact(c.signed_rank.p), EscapeCsv(c.signed_rank.how), Exact(c.sign_flip.p),
-                         EscapeCsv(c.sign_flip.how), Exact(c.p_holm));
-      csv += fmt::format("{},{},{},{}\n", Exact(c.effect_size),
-                         Exact(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
-                         EscapeCsv(Notes(c)));
-    }
-  }
+      "sign_flip_how,p_holm,effect_size,share_better,verdict,notes,against,unit,units,beyond_mean,beyond_ci95_low,"
+      "beyond_ci95_high,beyond_p,beyond_how,beyond_p_holm,beyond_verdict,beyond_why_open\n";
+  ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
+    csv += fmt::format("{},{},{},{},{},", EscapeCsv(scenario.name), EscapeCsv(ConditionLabel(condition.condition)),
+                       EscapeCsv(c.metric), EscapeCsv(c.baseline), EscapeCsv(c.method));
+    csv += fmt::format("{},{},{},{},{},", c.pairs, c.differing, c.only_baseline, c.only_method, c.neither);
+    csv += fmt::format("{},{},{},{},{},{},{},", Exact(c.difference), Exact(c.ci_low), Exact(c.ci_high),
+                       IntervalKindName(c.interval), Exact(c.mean), Exact(c.mean_low), Exact(c.mean_high));
+    csv += fmt::format("{},{},{},{},{},", Exact(c.signed_rank.p), EscapeCsv(c.signed_rank.how), Exact(c.sign_flip.p),
+                       EscapeCsv(c.sign_flip.how), Exact(c.p_holm));
+    csv += fmt::format("{},{},{},{},", Exact(c.effect_size),
+                       Exact(c.pairs > 0 ? std::optional(c.share_better) : std::nullopt), VerdictName(c.verdict),
+                       EscapeCsv(Notes(c)));
+    csv += fmt::format("{},{},", against == Against::kRival ? "rival" : "baseline", SamplingUnitName(scenario.unit));
+    csv += BeyondCsv(c.beyond);
+  });
   return csv;
 }
 

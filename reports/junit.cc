@@ -39,9 +39,20 @@ JunitCase NoCellBroke(const ScenarioFindings& findings) {
   return {"no cell broke", MetWhen(broken == 0), std::move(detail)};
 }
 
+/// What the scenario came to: nothing that could fail, but what a reader of CI wants to know, with what it is about.
+JunitCase TheAnswer(const ScenarioFindings& findings) {
+  std::string said = findings.headline + (findings.headline.empty() ? "" : ".\n") + findings.answer.sentence;
+  if (findings.rival.is_compared) said += "\n" + findings.rival.sentence;
+  return {"the question has an answer", MetWhen(true), "", std::move(said)};
+}
+
 std::vector<JunitCase> CasesOf(const RunData& run, const ScenarioSummary& scenario) {
-  std::vector<JunitCase> cases{EveryCellHasARow(run, scenario), NoCellBroke(FindingsOf(run, scenario))};
-  for (const ExpectationResult& e : scenario.expectations) cases.push_back({e.text, e.ruling, e.detail});
+  const ScenarioFindings findings = FindingsOf(run, scenario);
+  std::vector<JunitCase> cases{EveryCellHasARow(run, scenario), NoCellBroke(findings)};
+  if (findings.answer.is_compared) cases.push_back(TheAnswer(findings));
+  for (const ExpectationResult& e : scenario.expectations) {
+    cases.push_back({e.text, e.ruling, e.detail, fmt::format("judged on {}", TheseUnits(scenario.unit))});
+  }
   return cases;
 }
 

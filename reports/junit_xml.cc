@@ -11,15 +11,11 @@ std::string CaseXml(const std::string& suite, const JunitCase& c) {
   const std::string head =
       fmt::format("    <testcase classname=\"etude.{}\" name=\"{}\"", EscapeMarkup(suite), EscapeMarkup(c.name));
   const std::string detail = EscapeMarkup(c.detail);
-  switch (c.ruling) {
-    case Ruling::kMet:
-      return head + "/>\n";
-    case Ruling::kUnmet:
-      return head + fmt::format("><failure message=\"not met\">{}</failure></testcase>\n", detail);
-    case Ruling::kUndecided:
-      break;
-  }
-  return head + fmt::format("><skipped message=\"{}\"/></testcase>\n", detail);
+  std::string body;
+  if (c.ruling == Ruling::kUnmet) body = fmt::format("<failure message=\"not met\">{}</failure>", detail);
+  if (c.ruling == Ruling::kUndecided) body = fmt::format("<skipped message=\"{}\"/>", detail);
+  if (!c.said.empty()) body += fmt::format("<system-out>{}</system-out>", EscapeMarkup(c.said));
+  return body.empty() ? head + "/>\n" : head + fmt::format(">{}</testcase>\n", body);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ struct JunitCase {
   std::string name;
   Ruling ruling;
   std::string detail;
+  std::string said = {};  ///< what else a reader should know; told however the case ended
 };
 
 struct JunitSuite {

@@ -19,6 +19,22 @@
 namespace etude {
 namespace {
 
+/// "better on these clips, inconclusive for other clips"
+std::string BothVerdicts(const MethodFinding& finding) {
+  if (!finding.is_compared || finding.beyond.on_these_only) return finding.Words();
+  return fmt::format("{}, {} for {}", finding.Words(), VerdictWords(finding.beyond.verdict), OtherUnits(finding.unit));
+}
+
+/// The answer in a line, then with its figures.
+std::string AnswerText(const ScenarioFindings& findings) {
+  std::string text;
+  if (!findings.headline.empty()) text += fmt::format("**{}**\n\n", EscapeMarkdown(findings.headline));
+  text += fmt::format("**{}**: {}\n", BothVerdicts(findings.answer), EscapeMarkdown(findings.answer.sentence));
+  if (!findings.rival.is_compared) return text;
+  return text + fmt::format("\nAgainst the strongest other method, **{}**: {}\n", BothVerdicts(findings.rival),
+                            EscapeMarkdown(findings.rival.sentence));
+}
+
 std::string MethodsText(const ScenarioFindings& findings) {
   const std::size_t others = findings.methods.size() > 1 ? findings.methods.size() : 0;
   if (others + findings.yardsticks.size() == 0) return "";
@@ -26,7 +42,7 @@ std::string MethodsText(const ScenarioFindings& findings) {
   for (std::size_t i = 0; i < std::min(others, kMostListed); ++i) {
     const MethodFinding& method = findings.methods[i];
     text += fmt::format("| {} | {} | {} | {} |\n", EscapeMarkdown(method.method), EscapeMarkdown(method.baseline),
-                        method.Words(), EscapeMarkdown(method.sentence));
+                        BothVerdicts(method), EscapeMarkdown(method.sentence));
   }
   for (const std::string& yardstick : findings.yardsticks) {
     text += fmt::format("| {} | | yardstick | Compared with none: what the others are measured by. |\n",
@@ -38,9 +54,8 @@ std::string MethodsText(const ScenarioFindings& findings) {
 
 std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   const ScenarioFindings findings = FindingsOf(run, scenario);
-  std::string text =
-      fmt::format("\n## {}\n\n{}\n\n**{}**: {}\n", EscapeMarkdown(scenario.name), EscapeMarkdown(scenario.question),
-                  findings.answer.Words(), EscapeMarkdown(findings.answer.sentence));
+  std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
+                                 EscapeMarkdown(scenario.question), AnswerText(findings));
   text += MethodsText(findings) + PosePairsMarkdown(run, scenario) + OverviewTableMarkdown(scenario) + '\n';
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"
@@ -50,6 +65,9 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
                         e.detail.empty() ? "" : fmt::format(" ({})", EscapeMarkdown(e.detail)));
   }
   text += fmt::format("- {}\n", EscapeMarkdown(StatusSentence(findings)));
+  for (const SuccessFinding& success : findings.successes) {
+    text += fmt::format("- {}\n", EscapeMarkdown(SuccessSentence(success)));
+  }
   for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
     text += fmt::format("  - {} × {} in {}: {}\n", FormatCount(reason.cells), EscapeMarkdown(StatusName(reason.status)),
                         EscapeMarkdown(reason.method), EscapeMarkdown(reason.reason));

@@ -16,11 +16,16 @@ namespace {
 
 constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 constexpr std::string_view kSigns =
-    "▲ better and ▼ worse than the method’s baseline, = no difference, ? inconclusive. Medians; means of shares.";
+    "First sign: against the method’s baseline; second: against the strongest other method. ▲ better, ▼ worse, = no "
+    "difference that matters, ? undecided, · not compared; in brackets on these worlds only, not for other clips, people "
+    "or libraries. Medians; means of shares, scores and penalised costs.";
 
 struct OverviewCell {
   std::string value;
-  std::optional<Verdict> verdict;  ///< against the baseline, where there is one
+  const Comparison* baseline = nullptr;  ///< against the baseline, where there is one
+  const Comparison* rival = nullptr;     ///< against the strongest other method, where there is one
+
+  bool IsCompared() const { return baseline != nullptr || rival != nullptr; }
 };
 
 struct OverviewRow {
@@ -29,16 +34,26 @@ struct OverviewRow {
   bool is_yardstick = false;
 };
 
+const Comparison* FindPaired(const std::vector<Comparison>& comparisons, const std::string& method,
+                             const std::string& metric) {
+  const auto found = std::ranges::find_if(
+      comparisons, [&](const Comparison& c) { return c.method == method && c.metric == metric && c.pairs > 0; });
+  return found == comparisons.end() ? nullptr : &*found;
+}
+
 OverviewCell CellOf(const ConditionSummary& condition, const MethodSummary& method, const std::string& metric) {
-  OverviewCell cell{std::string(kNoValue), std::nullopt};
+  OverviewCell cell{std::string(kNoValue)};
   const MetricWords words = WordsFor(metric);
   if (const MetricSummary* summary = FindSummary(method, metric)) {
     cell.value = FormatValue(TypicalValue(*summary, words), words);
   }
-  const auto compared = std::ranges::find_if(
-      condition.comparisons, [&](const Comparison& c) { return c.method == method.method && c.metric == metric; });
-  if (compared != condition.comparisons.end() && compared->pairs > 0) cell.verdict = compared->verdict;
+  cell.baseline = FindPaired(condition.comparisons, method.method, metric);
+  cell.rival = FindPaired(condition.rivals, method.method, metric);
   return cell;
+}
+
+bool HasRivals(const ScenarioSummary& scenario) {
+  return std::ranges::any_of(scenario.conditions, [](const ConditionSummary& c) { return !c.rivals.empty(); });
 }
 
 std::vector<OverviewRow> RowsOf(const ScenarioSummary& scenario) {
@@ -64,7 +79,7 @@ std::vector<OverviewRow> RowsOf(const ScenarioSummary& scenario) {
 std::string OverviewTableHtml(const ScenarioSummary& scenario) {
   const std::vector<OverviewRow> rows = RowsOf(scenario);
   if (rows.empty()) return "";
-  const bool swept = scenario.conditions.size() > 1;
+  const bool swept = scenario.conditions.size() > 1, has_rivals = HasRivals(scenario);
   std::string html = fmt::format(
       "<details{}><summary>All methods at a glance</summary><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
       "aria-label=\"All methods at a glance\"><table class=\"glance\"><thead><tr><th scope=\"col\">Method</th>",
@@ -81,8 +96,11 @@ std::string OverviewTableHtml(const ScenarioSummary& scenario) {
                         EscapeMarkup(row.method));
     if (swept) html += fmt::format("<td>{}</td>", EscapeMarkup(row.condition));
     for (const OverviewCell& cell : row.cells) {
-      const std::string sign = cell.verdict ? VerdictMark(*cell.verdict) : "";
-      html += fmt::format("<td class=\"n\">{}<span class=\"mark\">{}</span></td>", EscapeMarkup(cell.value), sign);
+      const auto mark = [&](const Comparison* c) { return c == nullptr ? "·" : ComparisonMark(*c, scenario.unit); };
+      html += fmt::format("<td class=\"n\">{}<span class=\"mark\">{}</span>", EscapeMarkup(cell.value),
+                          cell.IsCompared() ? mark(cell.baseline) : "");
+      if (has_rivals) html += fmt::format("<span class=\"mark\">{}</span>", cell.IsCompared() ? mark(cell.rival) : "");
+      html += "</td>";
     }
     html += "</tr>";
   }
@@ -93,7 +111,7 @@ std::string OverviewTableHtml(const ScenarioSummary& scenario) {
 std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
   const std::vector<OverviewRow> rows = RowsOf(scenario);
   if (rows.empty()) return "";
-  const bool swept = scenario.conditions.size() > 1;
+  const bool swept = scenario.conditions.size() > 1, has_rivals = HasRivals(scenario);
   std::string head = "| method |", rule = "|---|";
   if (swept) head += " condition |", rule += "---|";
   for (const std::string& metric : scenario.headline_metrics) {
@@ -105,8 +123,10 @@ std::string OverviewTableMarkdown(const ScenarioSummary& scenario) {
     text += fmt::format("| {} |", EscapeMarkdown(row.method));
     if (swept) text += fmt::format(" {} |", EscapeMarkdown(row.condition));
     for (const OverviewCell& cell : row.cells) {
-      text += fmt::format(" {}{} |", EscapeMarkdown(cell.value),
-                          cell.verdict ? fmt::format(" {}", VerdictSign(cell.verdict)) : "");
+      const auto sign = [](const Comparison* c) { return c == nullptr ? "·" : ComparisonSign(*c); };
+      text += " " + EscapeMarkdown(cell.value);
+      if (cell.IsCompared()) text += " " + sign(cell.baseline) + (has_rivals ? " " + sign(cell.rival) : "");
+      text += " |";
     }
     text += '\n';
   }

@@ -10,6 +10,7 @@
 #include "reports/growth/growth_section.h"
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/plots/marks.h"
 #include "reports/scenario_card.h"
 #include "reports/transitions/recorded_requests.h"
 #include "reports/words/escape.h"
@@ -29,7 +30,7 @@ std::string Styles(const RunData& run) {
   });
   const bool shows_transitions = std::ranges::any_of(
       run.scenarios, [&](const ScenarioSummary& scenario) { return !RecordedRequestsOf(run, scenario).empty(); });
-  return std::string(ReportCss()) + std::string(shows_curves ? PaperCss() : "") +
+  return std::string(ReportCss()) + MarksCss() + std::string(shows_curves ? PaperCss() : "") +
          std::string(shows_transitions ? TransitionsCss() : "");
 }
 
@@ -46,19 +47,26 @@ std::string Contents(const RunData& run, const std::vector<ScenarioFindings>& fi
   std::string html = "<nav aria-label=\"Questions\"><ol class=\"contents\">";
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
-    html += fmt::format("<li><a href=\"#{}\"><span>{}</span>{}</a></li>", CardAnchor(i),
+    html += fmt::format("<li><a href=\"#{}\"><span>{}</span><span class=\"badges\">{}{}</span></a></li>", CardAnchor(i),
                         EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question),
-                        VerdictBadge(findings[i].answer.verdict));
+                        FindingBadge(findings[i].answer, "baseline"), FindingBadge(findings[i].rival, "best other"));
   }
-  return html + "</ol></nav>";
+  return html +
+         "</ol><p class=\"quiet legend\">The method that each question is about, against its baseline and against the "
+         "strongest other method: ▲ better, ▼ worse, = no difference that matters, ? undecided, ± it depends on the "
+         "condition. In brackets: on these worlds only, not for other clips, people or libraries like theirs.</p></nav>";
 }
 
 constexpr std::string_view kHowToRead = R"(<section class="how"><h2>How to read this</h2>
 <p>A <b>world</b> is one simulated trial whose truth is known; every method meets the same worlds, so differences are
-taken world by world. Each dot is the median over the worlds (the mean, where it is a share), its bar the 95 % bootstrap
-interval. <b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and matters in
-practice; <b>no difference</b>, that it lies within what would matter; <b>inconclusive</b>, that more worlds would be
-needed. Whatever failed is counted and named; a missing value is shown as —, never as zero.</p></section>
+taken world by world. <b>Better</b> and <b>worse</b> mean that the interval of the difference lies clear of zero and
+matters in practice; <b>no difference</b>, that it lies within what would matter; <b>inconclusive</b>, that nothing is
+settled, and never that there is no difference.</p>
+<p>Each comparison has two verdicts. <b>On these worlds</b> (these clips, these people): the differences that were
+measured. <b>Beyond them</b> (for other clips, other people): there a clip counts once, however many worlds were drawn
+from it, and with fewer than six clips there is no such verdict.</p>
+<p>Status <b>ok</b> means that a cell was measured, not that it reached anything: success has shares of its own. Whatever
+failed is counted and named; a missing value is shown as —, never as zero.</p></section>
 )";
 
 std::string Footer(const RunData& run) {
@@ -86,9 +94,9 @@ std::string WritePage(const RunData& run, const Media& media) {
 
   std::string html = Head(run);
   html += fmt::format(
-      "<body><a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
+      "<body>{}<a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
-      CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
+      MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
   html += FilmElement(media.film, true);
   html += Contents(run, findings);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);

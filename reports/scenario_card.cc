@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <span>
 
+#include "bench/files/json.h"
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
@@ -14,6 +16,7 @@
 #include "reports/overview_table.h"
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/plots/plot_section.h"
 #include "reports/pose_pairs.h"
 #include "reports/transitions/transition_section.h"
 #include "reports/words/escape.h"
@@ -25,23 +28,20 @@ namespace {
 
 // The data is embedded as a JSON element beside the canvas, which the browser never runs.
 std::string ChartFigure(const Chart& chart, const std::string& id) {
-  const std::string shape = chart.rows > 0 ? fmt::format(" style=\"height:{}px\"", 64 + 38 * chart.rows) : "";
   return fmt::format(
-      "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\"{}>"
+      "<figure class=\"chart{}\"><figcaption>{}</figcaption><div class=\"canvas\">"
       "<canvas data-chart=\"{}\" role=\"img\" aria-label=\"{}\"></canvas></div>"
       "<script type=\"application/json\" id=\"{}\">{}</script></figure>",
-      chart.is_wide ? " full" : "", EscapeMarkup(chart.caption), shape, id, EscapeMarkup(chart.description), id,
+      chart.is_wide ? " full" : "", EscapeMarkup(chart.caption), id, EscapeMarkup(chart.description), id,
       EscapeScriptJson(chart.json));
 }
 
 std::string Charts(const RunData& run, const ScenarioSummary& scenario, std::size_t index) {
-  std::string html;
-  if (const auto chart = IntervalChart(scenario)) html += ChartFigure(*chart, fmt::format("chart-{}-medians", index));
+  std::string html = PlotSectionHtml(run, scenario);
   if (const auto chart = CurveChart(run, scenario)) {
-    html += ChartFigure(*chart, fmt::format("chart-{}-curves", index));
+    html += fmt::format("<div class=\"charts\">{}</div>", ChartFigure(*chart, fmt::format("chart-{}-curves", index)));
   }
-  if (html.empty()) return "<p class=\"quiet\">No cell gave a value that could be drawn.</p>";
-  return fmt::format("<div class=\"charts\">{}</div>", html);
+  return html.empty() ? "<p class=\"quiet\">No cell gave a value that could be drawn.</p>" : html;
 }
 
 std::string Methods(const ScenarioFindings& findings) {
@@ -53,7 +53,7 @@ std::string Methods(const ScenarioFindings& findings) {
     const MethodFinding& method = findings.methods[i];
     html +=
         fmt::format("<li title=\"{}\">{} <span class=\"name\">{}</span> <span class=\"quiet\">against {}</span></li>",
-                    EscapeMarkup(method.sentence), VerdictBadge(method.verdict), EscapeMarkup(method.method),
+                    EscapeMarkup(method.sentence), VerdictBadges(method), EscapeMarkup(method.method),
                     EscapeMarkup(method.baseline));
   }
   for (const std::string& yardstick : findings.yardsticks) {
@@ -86,7 +86,7 @@ std::string Expectations(const ScenarioSummary& scenario) {
 
 std::string Failures(const ScenarioFindings& findings) {
   if (findings.reasons.empty()) return "";
-  std::string html = "<details><summary>What did not end well, and why</summary><ul class=\"reasons\">";
+  std::string html = "<details><summary>Cells that did not end ok, and why</summary><ul class=\"reasons\">";
   for (const ReasonCount& reason : std::span(findings.reasons).first(std::min(findings.reasons.size(), kMostListed))) {
     html += fmt::format("<li><b>{} × {}</b> in {}: {}</li>", FormatCount(reason.cells), StatusName(reason.status),
                         EscapeMarkup(reason.method), EscapeMarkup(reason.reason));
@@ -100,7 +100,31 @@ std::string StatusBar(const ScenarioFindings& findings) {
   for (const auto& [status, count] : findings.statuses) {
     html += fmt::format("<i class=\"s-{}\" style=\"flex-grow:{}\"></i>", StatusName(status), count);
   }
-  return html + fmt::format("</div><p>{}</p></div>", EscapeMarkup(StatusSentence(findings)));
+  html += fmt::format("</div><p>{}</p>", EscapeMarkup(StatusSentence(findings)));
+  for (const SuccessFinding& success : findings.successes) {
+    html += fmt::format("<p>{}</p>", EscapeMarkup(SuccessSentence(success)));
+  }
+  return html + "</div>";
+}
+
+/// The cells of a scenario that kept a recording, as a JSON list: what the page tells of a dot.
+std::string RecordedCells(const RunData& run, const ScenarioSummary& scenario) {
+  Json cells = Json::array();
+  for (const CellRecording& recorded : run.recordings) {
+    if (recorded.cell.starts_with(scenario.name + "/")) cells.push_back(recorded.cell);
+  }
+  return cells.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The answer in a line, then with its figures: against the baseline, and against the strongest other method.
+std::string Answer(const ScenarioFindings& findings) {
+  std::string html;
+  if (!findings.headline.empty()) html += fmt::format("<p class=\"headline\">{}</p>", EscapeMarkup(findings.headline));
+  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadges(findings.answer),
+                      EscapeMarkup(findings.answer.sentence));
+  if (!findings.rival.is_compared) return html;
+  return html + fmt::format("<p class=\"answer\"><b>Against the strongest other method.</b> {} {}</p>",
+                            VerdictBadges(findings.rival), EscapeMarkup(findings.rival.sentence));
 }
 
 std::string ScenarioFilms(const ScenarioSummary& scenario, const Media& media) {
@@ -129,11 +153,11 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                               const Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
   const std::string anchor = CardAnchor(index);
-  std::string html = fmt::format("<article class=\"card\" id=\"{}\" aria-labelledby=\"{}-title\">", anchor, anchor);
+  std::string html = fmt::format("<article class=\"card\" id=\"{}\" aria-labelledby=\"{}-title\" data-recorded=\"{}\">",
+                                 anchor, anchor, EscapeMarkup(RecordedCells(run, scenario)));
   html += fmt::format("<p class=\"eyebrow\">{}</p><h2 id=\"{}-title\">{}</h2>", EscapeMarkup(scenario.name), anchor,
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
-  html += fmt::format("<p class=\"answer\">{} {}</p>", VerdictBadge(findings.answer.verdict),
-                      EscapeMarkup(findings.answer.sentence));
+  html += Answer(findings);
   html += Strip(scenario, media);
   html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);

@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reports/comparison_table.h"
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
+#include "reports/words/beyond.h"
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
@@ -16,7 +18,9 @@ namespace etude {
 namespace {
 
 constexpr int kRowsPerFloat = 50;  // so many fit a page of A4
-constexpr int kColumns = 7;
+constexpr int kColumns = 8;
+// A method may be compared with several others: its own figures stand in the first row only.
+const std::string kNoFigures = " & & ";
 
 constexpr std::string_view kHead =
     "% Needs \\usepackage{booktabs}. The same figures with all their digits: the CSV files beside this one.\n";
@@ -56,7 +60,7 @@ Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition
   for (const MethodSummary& method : condition.methods) {
     if (method.attempted == 0) continue;
     group.latex += fmt::format(
-        "{} & {} & {} & & & & \\\\\n", EscapeLatex(MethodLabel(scenario, method.method)), FormatCount(method.attempted),
+        "{} & {} & {} & & & & & \\\\\n", EscapeLatex(MethodLabel(scenario, method.method)), FormatCount(method.attempted),
         WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
     ++group.rows;
   }
@@ -65,9 +69,23 @@ Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition
 
 std::string ComparisonCells(const Comparison& c, const MetricWords& words) {
   const std::string difference = c.difference ? ShortDifference(*c.difference, words) : std::string(kNoValue);
-  return fmt::format("{} & {}{} & {} & {}", EscapeLatex(c.baseline),
+  return fmt::format("{} & {}{} & {} & {} & {}", EscapeLatex(c.baseline),
                      WithInterval(difference, c.ci_low, c.ci_high, words), Stars(c), EscapeLatex(FormatP(c.p_holm)),
-                     VerdictName(c.verdict));
+                     VerdictName(c.verdict), c.beyond.verdict ? VerdictName(*c.beyond.verdict) : "--");
+}
+
+/// With its baselines, then with the strongest other method where that is none of them.
+std::vector<const Comparison*> ComparisonsOf(const ConditionSummary& condition, const std::string& method,
+                                             const std::string& metric) {
+  std::vector<const Comparison*> found;
+  for (const auto* comparisons : {&condition.comparisons, &condition.rivals}) {
+    for (const Comparison& c : *comparisons) {
+      const bool is_there =
+          std::ranges::any_of(found, [&](const Comparison* other) { return other->baseline == c.baseline; });
+      if (c.metric == metric && c.method == method && !is_there) found.push_back(&c);
+    }
+  }
+  return found;
 }
 
 Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& condition, const std::string& metric) {
@@ -81,16 +99,14 @@ Group OfMetric(const ScenarioSummary& scenario, const ConditionSummary& conditio
         "{} & {} & {}", EscapeLatex(MethodLabel(scenario, method.method)),
         CountText(summary->present, summary->present + summary->missing),
         WithInterval(FormatValue(TypicalValue(*summary, words), words), summary->ci_low, summary->ci_high, words));
-    // A method may be compared with several baselines: its own figures stand in the first line only.
-    bool compared = false;
-    for (const Comparison& c : condition.comparisons) {
-      if (c.metric != metric || c.method != method.method) continue;
-      group.latex += fmt::format("{} & {} \\\\\n", compared ? " & & " : figures, ComparisonCells(c, words));
+    const std::vector<const Comparison*> comparisons = ComparisonsOf(condition, method.method, metric);
+    for (const Comparison* c : comparisons) {
+      const std::string& before = c == comparisons.front() ? figures : kNoFigures;
+      group.latex += fmt::format("{} & {} \\\\\n", before, ComparisonCells(*c, words));
       ++group.rows;
-      compared = true;
     }
-    if (compared) continue;
-    group.latex += figures + " & & & & \\\\\n";
+    if (!comparisons.empty()) continue;
+    group.latex += figures + " & & & & & \\\\\n";
     ++group.rows;
   }
   return group;
@@ -102,21 +118,23 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
   return fmt::format(
       "{}{} Medians (of shares means) with their 95 % intervals; n: cells that have the value, of those attempted. "
       "Difference: method − baseline in the same world, its median (of shares and penalised costs its mean) with its "
-      "95 % interval. p is Holm-corrected over this scenario’s {}: ",
-      title, label.empty() ? "" : fmt::format(" ({})", label), Plural(scenario.family, "comparison"));
+      "95 % interval; a second row compares with the strongest other method. The last columns hold the verdict on {} and "
+      "the one for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this scenario’s {}: ",
+      title, label.empty() ? "" : fmt::format(" ({})", label), TheseUnits(scenario.unit), OtherUnits(scenario.unit),
+      Plural(scenario.family, "comparison"));
 }
 
 constexpr std::string_view kStarsCaption =
     "$^{*}$~$p \\le 0.05$, $^{**}$~$p \\le 0.01$, $^{***}$~$p \\le 0.001$. Better and worse also need an interval on "
     "one side of zero and a difference that matters; no difference, an interval within what matters.";
 
-std::string Float(const std::string& caption, const std::string& rows) {
+std::string Float(const std::string& caption, const std::string& heads, const std::string& rows) {
   return fmt::format(
       "\n\\begin{{table}}[!htbp]\n\\centering\\scriptsize\\setlength{{\\tabcolsep}}{{3pt}}\n\\caption{{{}}}"
       "\n\\smallskip\n"
-      "\\begin{{tabular}}{{lrrlrrl}}\n\\toprule\nmethod & n & value & against & difference & $p$ & verdict \\\\\n{}"
+      "\\begin{{tabular}}{{lrrlrrll}}\n\\toprule\nmethod & n & value & against & difference & $p$ & {} \\\\\n{}"
       "\\bottomrule\n\\end{{tabular}}\n\\end{{table}}\n",
-      caption, rows);
+      caption, heads, rows);
 }
 
 /// As many floats as the rows of this condition need.
@@ -126,10 +144,11 @@ std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSumm
 
   std::string text, rows;
   std::string caption = EscapeLatex(Caption(scenario, condition)) + std::string(kStarsCaption);
+  const std::string heads = fmt::format("on {} & for {}", TheseUnits(scenario.unit), OtherUnits(scenario.unit));
   int count = 0;
   for (const Group& group : groups) {
     if (count > 0 && count + group.rows > kRowsPerFloat) {
-      text += Float(caption, rows);
+      text += Float(caption, heads, rows);
       caption = EscapeLatex(fmt::format("{} (continued)", scenario.name));
       rows.clear();
       count = 0;
@@ -137,7 +156,7 @@ std::string ConditionFloats(const ScenarioSummary& scenario, const ConditionSumm
     rows += group.latex;
     count += group.rows;
   }
-  return text + Float(caption, rows);
+  return text + Float(caption, heads, rows);
 }
 
 }  // namespace

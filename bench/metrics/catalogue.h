@@ -15,6 +15,15 @@ std::string_view DirectionWords(Direction direction);
 /// How a run sums up the cells' values: shares and other 0/1 values by their mean, the rest by median.
 enum class Aggregate { kMedian, kMean };
 
+/// What a cell's value is, so that people are told in the right words: shares and scores are shown in per cent, and
+/// their differences in percentage points.
+enum class Reading {
+  kAmount,  ///< so much of the metric's unit, or so many
+  kYesNo,   ///< 1 or 0: a run has a share of cells
+  kShare,   ///< of something within the cell, 0…1: a run has a mean share
+  kScore,   ///< 0…1, of what has a name of its own: F1, recall
+};
+
 /// A key of the input of a metric's test vectors.
 struct MetricInput {
   std::string key;
@@ -39,6 +48,8 @@ struct MetricInfo {
   std::string unit;   ///< "cm", "deg", "" for shares and counts
   Direction direction = Direction::kLowerIsBetter;
   Aggregate aggregate = Aggregate::kMedian;
+  Reading reading = Reading::kAmount;
+  bool is_success = false;  ///< it tells whether, or how far, a cell reached what its task is about; `ok` does not
   double practical = 0;    ///< the smallest difference that matters, in the metric's unit
   std::string definition;  ///< one sentence
 

@@ -125,6 +125,11 @@ void Measure(benchmark::State& state, const Method& method, double pose_range) {
 std::vector<Method> AllMethods() {
   return {
       Ours(kOurs, 200),
+      Ours("levenberg-marquardt", 200),
+      Ours("damped-least-squares-active-set", 1000),
+      Ours("damped-least-squares", 1000),
+      Ours("jacobian-pinv-active-set", 1000),
+      Ours("jacobian-pinv", 1000),
       Ours("ccd-anderson", 1000),
       Ours("ccd-hinges", 2000),
       Ours("ceres-lm", 1000, {10}, "ceres-lm/radius 10"),

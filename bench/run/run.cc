@@ -1,11 +1,11 @@
 #include "bench/run/run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "bench/run/clock.h"
 #include "bench/run/finish.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
@@ -18,9 +18,6 @@ namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 fs::path FolderFor(const RunOptions& options, const SuiteSetup& suite) {
   if (!options.output.empty()) return options.output;

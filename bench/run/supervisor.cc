@@ -12,12 +12,11 @@
 
 #include "bench/process/child_process.h"
 #include "bench/run/cell_json.h"
+#include "bench/run/clock.h"
 #include "bench/run/worker.h"
 
 namespace etude {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMilliseconds = 20;   // how stale a look at memory or at the clock may be
 constexpr int kMostDeathsInSetup = 3;   // one may be chance (out of memory, a stray kill); a row of them is not

@@ -99,7 +99,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
   const UnitSums sums = SumUnits(sample);
   const std::vector<std::size_t> order = OrderOfUnits(sample, sums);
   beyond.units = static_cast<int>(order.size());
-  if (beyond.units < kFewestUnits) return beyond;
+  if (beyond.units < 2) return beyond;
   std::vector<double> means;
   for (std::size_t unit : order) means.push_back(KeepThirtyBits(sums.sums[unit] / sums.worlds[unit]));
   beyond.differing = static_cast<int>(std::count_if(means.begin(), means.end(), [](double mean) { return mean != 0; }));
@@ -112,9 +112,10 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
                                 : (sums.total - sums.sums[order[i]]) / (worlds - sums.worlds[order[i]]);
     beyond.left_out.push_back({sample.names[order[i]], rest});
   }
+  beyond.difference = estimate;
+  if (beyond.units < kFewestUnits) return beyond;
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
-  beyond.difference = estimate;
   beyond.low = KeepThirtyBits(estimate - half);
   beyond.high = KeepThirtyBits(estimate + half);
   std::tie(beyond.median_low, beyond.median_high) = MedianInterval(means);

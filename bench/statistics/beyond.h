@@ -35,7 +35,7 @@ constexpr int kFewestUnits = 6;
 /// worlds (Tukey 1958; of nodes of a network Snijders & Borgatti 1999), with Student's t of clips − 1 degrees of
 /// freedom. With one unit a world this is the interval above.
 ///
-/// Nothing but the number of units below kFewestUnits.
+/// Below kFewestUnits the estimate and what leaving one out does, without interval or test.
 Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t seed, const std::string& purpose);
 
 /// What the measured says, given its `p_holm`:

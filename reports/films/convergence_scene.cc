@@ -13,14 +13,13 @@ namespace {
 constexpr int kPanelWidth = 622, kPanelHeight = 400;
 constexpr Box kPanels[] = {{12, 52, kPanelWidth, kPanelHeight}, {646, 52, kPanelWidth, kPanelHeight}};
 constexpr Box kPositionPlot{12, 464, 622, 244}, kOrientationPlot{646, 464, 622, 244};
-constexpr Paint kColours[] = {kWarm, kAccent};
 
 ErrorPlot PlotOf(const IkRace& race, std::vector<double> IkPath::*values, std::string title, std::string suffix,
                  double goal, const RaceClock& clock) {
   std::vector<ErrorCurve> curves;
   for (std::size_t i = 0; i < race.paths.size(); ++i) {
     if (!IsAskedFor(race.paths[i].*values)) continue;
-    curves.push_back({race.paths[i].iterations, race.paths[i].*values, kColours[i]});
+    curves.push_back({race.paths[i].iterations, race.paths[i].*values, MethodPaint(race.paths[i].method_index)});
   }
   if (curves.empty()) title += ": not asked for";
   return {std::move(title), std::move(suffix), goal, std::move(curves), clock};
@@ -34,8 +33,8 @@ ConvergenceScene::ConvergenceScene(IkRace race, std::string scenario, Renderer& 
       renderer_(renderer),
       clock_(race_.LastIteration()),
       stage_(race_, renderer, kPanelWidth, kPanelHeight),
-      panels_{ConvergencePanel(race_.paths[0], stage_, kColours[0]),
-              ConvergencePanel(race_.paths[1], stage_, kColours[1])},
+      panels_{ConvergencePanel(race_.paths[0], stage_, MethodPaint(race_.paths[0].method_index)),
+              ConvergencePanel(race_.paths[1], stage_, MethodPaint(race_.paths[1].method_index))},
       position_(PlotOf(race_, &IkPath::position_cm, "Worst position error, cm", " cm", kGoalCm, clock_)),
       orientation_(PlotOf(race_, &IkPath::orientation_deg, "Worst orientation error, degrees", "°", kGoalDeg, clock_)) {
 }

@@ -186,6 +186,10 @@ Result<IkRace> FindIkRace(const RunData& run, const ScenarioSummary& scenario) {
     }
     auto race = is_first ? MakeRace({cell, *partner}) : MakeRace({*partner, cell});
     if (!race) return race;
+    for (IkPath& path : race->paths) {
+      path.method_index =
+          static_cast<std::size_t>(std::ranges::find(scenario.methods, path.method) - scenario.methods.begin());
+    }
     race->choice = "the first world that kept recordings of both";
     if (!passed_over.empty()) {
       race->choice += fmt::format("; before it, {} had one of them only, the first: {}",

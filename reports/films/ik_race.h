@@ -18,6 +18,7 @@ inline const double kGoalDeg = Degrees(IkOptions{}.axis_goal);
 /// One method's way from the start to where it ended. All lists have one entry per recorded iteration.
 struct IkPath {
   std::string method;
+  std::size_t method_index = 0;  ///< in the scenario: its colour
   std::vector<BodyPose> poses;
   std::vector<int> iterations;          ///< never falling, the start (0) first
   std::vector<double> position_cm;      ///< of the worst effector

@@ -1,6 +1,9 @@
 #include "reports/films/look.h"
 
 #include <algorithm>
+#include <string>
+
+#include "reports/plots/marks.h"
 
 namespace etude {
 namespace {
@@ -11,6 +14,12 @@ constexpr double kStrongSize = 19;
 constexpr double kSoftSize = 14;
 
 }  // namespace
+
+Paint MethodPaint(std::size_t method) {
+  const std::string hex(kPlotColours[method % kPlotColours.size()].dark.substr(1));
+  const auto part = [&](std::size_t at) { return std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0; };
+  return {part(0), part(2), part(4), 1};
+}
 
 void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free) {
   const double width = std::min(canvas.TextWidth(text, kTagSize, true) + 20, panel.width - 2 * kTagInset - free);

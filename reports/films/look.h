@@ -14,6 +14,9 @@ inline constexpr Paint kAccent{0.42, 0.76, 0.80, 1};
 inline constexpr Paint kWarm{0.96, 0.68, 0.33, 1};
 inline constexpr double kPanelRadius = 10;
 
+/// The colour that a method has on the page too, by its index in the scenario (reports/plots/marks.h).
+Paint MethodPaint(std::size_t method);
+
 /// A small label in the upper left corner: what this picture is. It leaves `free` pixels on its right.
 void DrawTag(Canvas& canvas, const Box& panel, const std::string& text, double free = 0);
 

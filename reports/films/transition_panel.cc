@@ -77,6 +77,8 @@ void TransitionPanel::DrawBody(Canvas& canvas, const Box& box, Renderer& rendere
                     box.width - 32);
   }
   DrawTag(canvas, box, path_.method, kMarkRoom);
+  // The method's own colour on the page, beneath its name.
+  canvas.FillBox({box.x + 14, box.y + 39, 44, 4}, MethodPaint(path_.method_index), 2);
   if (just_changed) DrawMark(canvas, box, "change");
   DrawWords(canvas, {box.x, box.y + box.height, box.width, kCaptionHeight}, time);
 }

@@ -65,7 +65,10 @@ Result<TransitionRace> FindTransitionRace(const RunData& run, const ScenarioSumm
                             Plural(static_cast<long long>(worlds.size()), "world"));
   for (const RecordedTransition* recorded : shown) {
     const BodyMotion& motion = *FindTrack(*recorded->recording, "coach");
-    race.paths.push_back({.method = recorded->row->method,
+    const std::string& method = recorded->row->method;
+    race.paths.push_back({.method = method,
+                          .method_index = static_cast<std::size_t>(std::ranges::find(scenario.methods, method) -
+                                                                   scenario.methods.begin()),
                           .facts = recorded->facts,
                           .motion = motion,
                           .jumps_cm = SecondDifferencesCm(motion),

@@ -11,6 +11,7 @@ namespace etude {
 /// What one method did with a request, frame by frame from the request on.
 struct TransitionPath {
   std::string method;
+  std::size_t method_index = 0;  ///< in the scenario: its colour
   TransitionFacts facts;
   BodyMotion motion;
   std::vector<double> jumps_cm;  ///< largest second difference of any joint, one per frame

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "reports/plots/marks.h"
 #include "reports/words/escape.h"
 
 namespace etude {
@@ -28,12 +28,6 @@ double Down(double decade, const PlotAxes& axes) {
 // A zero has no logarithm: it lies on the lower end, like everything below it.
 double DecadeOf(double value, const PlotAxes& axes) { return value > 0 ? std::log10(value) : axes.low_decade; }
 
-std::string_view DashesOf(std::size_t style) {
-  // As in assets/report.js: colours alone do not tell methods apart for everyone.
-  constexpr std::array<std::string_view, 4> kDashes{"", "", " stroke-dasharray=\"6 4\"", " stroke-dasharray=\"2 3\""};
-  return style < 8 ? kDashes[style / 2] : " stroke-dasharray=\"10 3 2 3\"";
-}
-
 std::string Line(const PlotCurve& curve, const PlotAxes& axes) {
   // More points than the panel has room for only make the page heavy; where the curve ends is always told.
   const std::size_t stride = std::max<std::size_t>(1, (curve.values.size() + kMostPoints - 1) / kMostPoints);
@@ -49,7 +43,7 @@ std::string Line(const PlotCurve& curve, const PlotAxes& axes) {
 }  // namespace
 
 std::string CurveStyle(std::size_t style, bool faint) {
-  return fmt::format("class=\"c{}{}\"{}", style % 8, faint ? " faint" : "", DashesOf(style));
+  return fmt::format("class=\"c{}{}\"{}", style % 8, faint ? " faint" : "", MarkDashes(style));
 }
 
 std::string DecadeText(int decade) {

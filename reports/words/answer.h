@@ -1,15 +1,17 @@
 #pragma once
 
-#include <vector>
+#include <string>
 
 #include "reports/words/findings.h"
 
 namespace etude {
 
-/// Puts into words how `method` did against its baseline by `metric`, over all conditions.
-MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric);
+/// Puts into words how `method` did by `metric` against its baseline, or the strongest other method, over all
+/// conditions.
+MethodFinding CompareInWords(const ScenarioSummary& scenario, const std::string& method, const std::string& metric,
+                             Against against);
 
-/// The answer to the scenario's question, which is about its second method (docs/scenarios.md).
-MethodFinding AnswerInWords(const ScenarioSummary& scenario, const std::string& metric);
+/// The method that the scenario's question is about, its second one (docs/scenarios.md); "" where only one ran.
+std::string MethodInQuestion(const ScenarioSummary& scenario);
 
 }  // namespace etude

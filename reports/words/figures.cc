@@ -18,6 +18,19 @@ std::string Suffix(const std::string& unit) {
   return unit.empty() ? "" : " " + unit;
 }
 
+std::string LabelOf(const MetricInfo& info) {
+  switch (info.reading) {
+    case Reading::kYesNo:
+      return "share “" + info.label + "”";
+    case Reading::kShare:
+      return "mean share of " + info.label;
+    case Reading::kScore:
+    case Reading::kAmount:
+      break;
+  }
+  return (info.aggregate == Aggregate::kMean ? "mean " : "") + info.label;
+}
+
 std::string GroupThousands(std::string digits) {
   const std::size_t start = digits.starts_with('-') ? 1 : 0;
   for (std::size_t end = std::min(digits.find('.'), digits.size()); end > start + 3; end -= 3) {
@@ -30,13 +43,14 @@ std::string GroupThousands(std::string digits) {
 
 MetricWords WordsFor(const std::string& metric_id) {
   const MetricInfo* info = FindMetric(metric_id);
-  if (info == nullptr) return {.label = metric_id, .suffix = "", .difference_suffix = ""};
-  MetricWords words{.label = info->label,
+  if (info == nullptr) return {.label = metric_id, .suffix = "", .difference_suffix = "", .plain_label = metric_id};
+  MetricWords words{.label = LabelOf(*info),
                     .suffix = Suffix(info->unit),
                     .difference_suffix = Suffix(info->unit),
-                    .direction = info->direction};
-  if (info->aggregate == Aggregate::kMean && info->unit.empty()) {
-    words.label = "share “" + info->label + "”";
+                    .by_mean = info->aggregate == Aggregate::kMean,
+                    .direction = info->direction,
+                    .plain_label = info->label};
+  if (info->reading != Reading::kAmount) {
     words.suffix = " %";
     words.difference_suffix = " percentage points";
     words.scale = 100;
@@ -46,7 +60,7 @@ MetricWords WordsFor(const std::string& metric_id) {
 }
 
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words) {
-  return words.is_share ? summary.mean : summary.median;
+  return words.by_mean ? summary.mean : summary.median;
 }
 
 std::string FormatValue(std::optional<double> value, const MetricWords& words) {

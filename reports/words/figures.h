@@ -12,19 +12,21 @@ namespace etude {
 /// What stands in the place of a value that does not exist. Never a zero.
 inline constexpr std::string_view kNoValue = "—";
 
-/// How people read a metric: its words from the catalogue, or its id when it is not listed there. Shares
-/// (metrics that are summed up by their mean) are shown as percentages.
+/// How people read a metric: its words from the catalogue, or its id when it is not listed there. Shares and scores are
+/// shown in per cent, and their differences in percentage points.
 struct MetricWords {
-  std::string label;              ///< "orientation error"; "share “solved”" for shares
+  std::string label;              ///< "orientation error"; "share “solved”", "mean F1"
   std::string suffix;             ///< put behind a value: "°", " cm", " %", ""
-  std::string difference_suffix;  ///< the same, but " percentage points" for shares
+  std::string difference_suffix;  ///< the same, but " percentage points" where values are in per cent
   double scale = 1;               ///< what values are multiplied by before they are shown
-  bool is_share = false;
+  bool is_share = false;          ///< 0…1, shown in per cent
+  bool by_mean = false;           ///< the mean stands for all cells, not the median
   Direction direction = Direction::kNeither;
+  std::string plain_label = {};  ///< "orientation error", "solved", "F1": where mean or share is said already
 };
 MetricWords WordsFor(const std::string& metric_id);
 
-/// The one number that stands for all cells: the median, or the mean of a share. In the metric's unit.
+/// The one number that stands for all cells, the metric's own aggregate: median or mean. In the metric's unit.
 std::optional<double> TypicalValue(const MetricSummary& summary, const MetricWords& words);
 /// "12.3°", "98 %"; kNoValue without a value.
 std::string FormatValue(std::optional<double> value, const MetricWords& words);

@@ -8,10 +8,14 @@
 
 #include "reports/words/answer.h"
 #include "reports/words/figures.h"
+#include "reports/words/headline.h"
 #include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {
+
+// More methods than this are told by the least and the most successful one.
+constexpr std::size_t kMostSuccesses = 12;
 
 bool SameCondition(const std::vector<SweptValue>& a, const std::vector<SweptValue>& b) {
   return std::ranges::equal(
@@ -32,6 +36,47 @@ std::string ExpectationsSentence(const RunFindings& f) {
   return text + ".";
 }
 
+/// Measured is not reached: success has shares of its own.
+std::string MeasuredSentence(const RunFindings& f) {
+  if (f.cells == 0) return " No cell ran.";
+  const int measured = f.ok + f.unsolved;
+  std::string text = measured == f.cells
+                         ? fmt::format(" All {} were measured", Plural(f.cells, "cell"))
+                         : fmt::format(" {} of {} were measured", FormatCount(measured), Plural(f.cells, "cell"));
+  if (f.unsolved > 0) text += fmt::format(", {} of them stopped short of their goal", FormatCount(f.unsolved));
+  if (f.skipped > 0) text += fmt::format(", {} did not apply", FormatCount(f.skipped));
+  if (f.broken > 0) text += fmt::format(", {} broke", FormatCount(f.broken));
+  return text + ".";
+}
+
+SuccessFinding SuccessBy(const MetricInfo& metric, const RunData& run, const ScenarioSummary& scenario) {
+  std::map<std::string, std::pair<double, int>> sums;
+  for (const Row& row : run.rows) {
+    if (row.scenario != scenario.name) continue;
+    const auto value = ValueOf(row, metric.id);
+    if (!value) continue;
+    auto& [sum, count] = sums[row.method];
+    sum += *value;
+    ++count;
+  }
+  SuccessFinding finding{metric.id, {}};
+  for (const std::string& method : scenario.methods) {
+    const auto found = sums.find(method);
+    if (found != sums.end()) finding.shares.emplace_back(method, found->second.first / found->second.second);
+  }
+  return finding;
+}
+
+std::vector<SuccessFinding> SuccessesOf(const RunData& run, const ScenarioSummary& scenario) {
+  std::vector<SuccessFinding> found;
+  for (const MetricInfo& metric : AllMetrics()) {
+    if (!metric.is_success) continue;
+    SuccessFinding finding = SuccessBy(metric, run, scenario);
+    if (!finding.shares.empty()) found.push_back(std::move(finding));
+  }
+  return found;
+}
+
 }  // namespace
 
 const MetricSummary* FindSummary(const MethodSummary& method, const std::string& metric) {
@@ -42,12 +87,20 @@ const MetricSummary* FindSummary(const MethodSummary& method, const std::string&
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario) {
   ScenarioFindings findings;
   if (!scenario.headline_metrics.empty()) findings.metric = scenario.headline_metrics.front();
-  findings.answer = AnswerInWords(scenario, findings.metric);
+  const std::string asked = MethodInQuestion(scenario);
+  if (asked.empty()) {
+    findings.answer.verdict = Verdict::kInconclusive;
+    findings.answer.sentence = "Only one method ran, so there is nothing to compare it with.";
+  } else {
+    findings.headline = HeadlineOf(scenario, asked, findings.metric);
+    findings.answer = CompareInWords(scenario, asked, findings.metric, Against::kBaseline);
+    findings.rival = CompareInWords(scenario, asked, findings.metric, Against::kRival);
+  }
   for (std::size_t i = 1; i < scenario.methods.size(); ++i) {
     if (IsYardstick(scenario, scenario.methods[i])) {
       findings.yardsticks.push_back(scenario.methods[i]);
     } else if (!IsComparedWithNone(scenario, scenario.methods[i])) {
-      findings.methods.push_back(CompareInWords(scenario, scenario.methods[i], findings.metric));
+      findings.methods.push_back(CompareInWords(scenario, scenario.methods[i], findings.metric, Against::kBaseline));
     }
   }
 
@@ -59,6 +112,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
     ++statuses[row.result.status];
     if (row.result.status != Status::kOk) ++reasons[{row.result.status, row.method, row.result.reason}];
   }
+  findings.successes = SuccessesOf(run, scenario);
   findings.statuses.assign(statuses.begin(), statuses.end());
   for (const auto& [key, cells] : reasons) {
     findings.reasons.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), cells});
@@ -92,18 +146,22 @@ RunFindings FindingsOf(const RunData& run) {
       if (expectation.ruling == Ruling::kUndecided) ++f.undecided;
     }
   }
-  f.sentence = ExpectationsSentence(f);
-  if (f.cells == 0) {
-    f.sentence += " No cell ran.";
-  } else if (f.ok == f.cells) {
-    f.sentence += fmt::format(" Every one of the {} ended well.", Plural(f.cells, "cell"));
-  } else {
-    f.sentence += fmt::format(" {} of {} reached their goal", FormatShare(f.ok, f.cells), Plural(f.cells, "cell"));
-    if (f.unsolved > 0) f.sentence += fmt::format(", {} did not", FormatCount(f.unsolved));
-    if (f.skipped > 0) f.sentence += fmt::format(", {} did not apply", FormatCount(f.skipped));
-    f.sentence += f.broken > 0 ? fmt::format(", {} broke.", FormatCount(f.broken)) : ", none broke.";
-  }
+  f.sentence = ExpectationsSentence(f) + MeasuredSentence(f);
   return f;
+}
+
+std::string SuccessSentence(const SuccessFinding& finding) {
+  const MetricWords words = WordsFor(finding.metric);
+  std::string text = fmt::format("Reached ({}):", words.label);
+  const auto share = [&](const auto& of) { return fmt::format(" {} {}", of.first, FormatValue(of.second, words)); };
+  if (finding.shares.size() > kMostSuccesses) {
+    const auto [least, most] =
+        std::ranges::minmax_element(finding.shares, {}, &std::pair<std::string, double>::second);
+    return fmt::format("{} from{} to{}, of {}.", text, share(*least), share(*most),
+                       Plural(static_cast<long long>(finding.shares.size()), "method"));
+  }
+  for (const auto& of : finding.shares) text += share(of) + (&of == &finding.shares.back() ? "." : ",");
+  return text;
 }
 
 std::string StatusSentence(const ScenarioFindings& findings) {

@@ -6,7 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "bench/model/run_data.h"
+#include "reports/words/beyond.h"
 
 namespace etude {
 
@@ -15,14 +18,18 @@ inline std::string_view VerdictWords(const std::optional<Verdict>& verdict) {
   return verdict ? VerdictName(*verdict) : "it depends";
 }
 
-/// One method against its baseline, over all conditions, by one metric.
+/// One method against another, over all conditions, by one metric.
 struct MethodFinding {
   std::string method;
-  std::string baseline;
-  std::optional<Verdict> verdict;  ///< empty when it depends on the condition
-  std::string sentence;            ///< plain words with the figures that carry them
+  std::string baseline;  ///< whom it was compared with; the strongest other one may be another under each condition
+  SamplingUnit unit = SamplingUnit::kWorld;
+  bool is_compared = false;        ///< by this metric at all
+  std::optional<Verdict> verdict = {};  ///< on these worlds; empty when it depends on the condition
+  BeyondFinding beyond = {};       ///< for others like them
+  std::string sentence = {};       ///< plain words with the figures that carry them, and both verdicts
 
-  std::string_view Words() const { return VerdictWords(verdict); }
+  /// "better on these clips"
+  std::string Words() const { return fmt::format("{} on {}", VerdictWords(verdict), TheseUnits(unit)); }
 };
 
 /// How many cells ended in one way for one reason.
@@ -33,28 +40,41 @@ struct ReasonCount {
   int cells = 0;
 };
 
+/// How far the methods reached what their task is about, by one metric. Status ok says only that a cell was measured.
+struct SuccessFinding {
+  std::string metric;
+  std::vector<std::pair<std::string, double>> shares;  ///< by method: mean over all its cells that have a value, 0…1
+};
+
 /// What is to be said of one scenario, in words; the page and the Markdown say the same.
 struct ScenarioFindings {
   std::string metric;  ///< the first headline metric, which the answer is about; "" without any
-  MethodFinding answer;
+  std::string headline;  ///< the answer in one line: against the baseline, and against the strongest other method
+  MethodFinding answer;  ///< against the baseline
+  MethodFinding rival;   ///< against the strongest other method; not compared in older runs, or where there is none
   std::vector<MethodFinding> methods;  ///< every method compared with another, in the scenario's order
   std::vector<std::string> yardsticks;
   int cells = 0;
   std::vector<std::pair<Status, int>> statuses;  ///< in the order of Status; those that occur
+  std::vector<SuccessFinding> successes;         ///< by every metric that tells success (MetricInfo::is_success)
   std::vector<ReasonCount> reasons;              ///< of every cell that is not ok, most frequent first
 };
 ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario);
 
 /// The whole run in one sentence, and the counts that it speaks of.
 struct RunFindings {
-  int cells = 0, ok = 0;
-  int unsolved = 0;  ///< ended in order, without reaching the goal
+  int cells = 0;
+  int ok = 0;        ///< measured; whether anything was reached is no matter of status
+  int unsolved = 0;  ///< measured too, known to have stopped short of the goal
   int skipped = 0;   ///< the world lacked what the task needs
   int broken = 0;    ///< failed, crashed, out of time or of bad output
   int met = 0, unmet = 0, undecided = 0;
   std::string sentence;
 };
 RunFindings FindingsOf(const RunData& run);
+
+/// "Reached (share “as smooth as nature”): fuzzy 0 %, natural 98.3 %."; of many methods the least and the most.
+std::string SuccessSentence(const SuccessFinding& finding);
 
 /// "480 cells: 470 ok, 8 unsolved, 2 failed"
 std::string StatusSentence(const ScenarioFindings& findings);

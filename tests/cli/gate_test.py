@@ -178,7 +178,7 @@ class Gate(EtudeCase):
         self.assertEqual(share("reruns of the same seed, rule exact"), 0)
         self.assertEqual(share("worse by 4 × what matters"), 1)
         self.assertEqual(share("reruns of the same seed, tail rule"), 0)
-        self.assertEqual(share("in 5 of 30 worlds worse by 20 × what matters"), 1)
+        self.assertEqual(share("in 5 of 30 worlds worse by 40 × what matters"), 1)
         self.assertEqual(share("lost in 1 of 30 worlds"), 1)
         self.assertGreaterEqual(share("within-30-deg in place of reference"), 0.8)
         if repetitions >= 100:

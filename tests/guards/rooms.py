@@ -46,6 +46,7 @@ MAY_INCLUDE = {
     "sim/sensors":
         "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
     # bench/
+    "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
         "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/character "
         "sim/choreography bench/files",
@@ -66,7 +67,7 @@ MAY_INCLUDE = {
     "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":
-        "engine/base bench/files bench/metrics bench/outside bench/process bench/results bench/scenario "
+        "engine/base bench/files bench/model bench/metrics bench/outside bench/process bench/results bench/scenario "
         "bench/statistics bench/tasks bench/tasks/base",
     "bench/scenario":
         "engine/base engine/document bench/files bench/keys bench/metrics bench/model bench/tasks bench/tasks/base",

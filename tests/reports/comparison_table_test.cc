@@ -7,6 +7,7 @@
 
 #include "reports/words/figures.h"
 #include "tests/reports/support/example_run.h"
+#include "tests/reports/support/unit_run.h"
 
 namespace etude {
 namespace {
@@ -48,7 +49,7 @@ TEST(ComparisonTable, PutsADashWhereNothingCouldBeCompared) {
   nothing.neither = 12;
   scenario.conditions[0].comparisons = {nothing};
   EXPECT_THAT(ComparisonTableHtml(scenario), HasSubstr("0 of 12</td><td class=\"n\">—</td><td class=\"n\">—</td>"));
-  EXPECT_THAT(ComparisonTableCsv(scenario), HasSubstr("fuzzy-bridge,0,0,0,0,12,,,,none,,,,,,,,,,,inconclusive,\n"));
+  EXPECT_THAT(ComparisonTableCsv(scenario), HasSubstr("fuzzy-bridge,0,0,0,0,12,,,,none,,,,,,,,,,,inconclusive,,baseline,clip-pair,0,,,,,,,,\n"));
   scenario.conditions[0].comparisons.clear();
   EXPECT_EQ(ComparisonTableHtml(scenario), "");
   EXPECT_EQ(ComparisonTableMarkdown(scenario), "");
@@ -69,6 +70,20 @@ TEST(FormatP, NeverSaysZero) {
   EXPECT_EQ(FormatP(0.0123), "0.012");
   EXPECT_EQ(FormatP(1e-12), "< 0.001");
   EXPECT_EQ(FormatP(std::nullopt), kNoValue);
+}
+
+TEST(ComparisonTable, GivesBothVerdictsAndTheStrongestOtherMethod) {
+  const RunData run = UnitRun();
+  const std::string html = ComparisonTableHtml(run.scenarios[3]);
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\">On these clips</th><th scope=\"col\">For other clips</th>"));
+  EXPECT_THAT(html, HasSubstr("<td>on these clips only (4 clips)</td>"));
+  EXPECT_THAT(html, HasSubstr("for other clips: 4 clips, 6 are needed"));
+  EXPECT_THAT(html, HasSubstr(", against the strongest other method</th>"));
+  const std::string csv = ComparisonTableCsv(run.scenarios[0]);
+  EXPECT_THAT(csv, HasSubstr(",rival,clip-pair,8,"));
+  EXPECT_THAT(ComparisonTableMarkdown(run.scenarios[0]), HasSubstr("(strongest other) |"));
+  // Without rivals there is no group of them.
+  EXPECT_THAT(ComparisonTableHtml(ComparedTransition()), Not(HasSubstr("strongest other method</th>")));
 }
 
 }  // namespace

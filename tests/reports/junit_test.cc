@@ -7,6 +7,7 @@
 
 #include "tests/reports/support/count_of.h"
 #include "tests/reports/support/example_run.h"
+#include "tests/reports/support/unit_run.h"
 
 namespace etude {
 namespace {
@@ -36,12 +37,12 @@ bool IsWellFormed(const std::string& xml) {
 
 TEST(Junit, CountsWhatItHolds) {
   const std::string xml = WriteJunit(ExampleRun());
-  // Two cases of every scenario's own, and five expectations; one unmet, and cells broke in two scenarios.
-  EXPECT_EQ(CountOf(xml, "<testcase "), 4 * 2 + 5);
+  // Three cases of every scenario's own, and five expectations; one unmet, and cells broke in two scenarios.
+  EXPECT_EQ(CountOf(xml, "<testcase "), 4 * 3 + 5);
   EXPECT_EQ(CountOf(xml, "<failure "), 1 + 2);
   EXPECT_EQ(CountOf(xml, "<skipped "), 1);
   EXPECT_EQ(CountOf(xml, "<testsuite "), 4);
-  EXPECT_THAT(xml, HasSubstr("<testsuites name=\"quick\" tests=\"13\" failures=\"3\" errors=\"0\" skipped=\"1\">"));
+  EXPECT_THAT(xml, HasSubstr("<testsuites name=\"quick\" tests=\"17\" failures=\"3\" errors=\"0\" skipped=\"1\">"));
 }
 
 TEST(Junit, FailsAScenarioThatLacksARow) {
@@ -59,6 +60,14 @@ TEST(Junit, IsWellFormedWhateverTheNames) {
   EXPECT_TRUE(IsWellFormed(xml)) << xml;
   EXPECT_FALSE(IsWellFormed("<?xml?><a><b></a></b>"));
   EXPECT_FALSE(IsWellFormed("<?xml?><a b=\"<\"/>"));
+}
+
+TEST(Junit, SaysWhatItsVerdictsAreAbout) {
+  const std::string xml = WriteJunit(UnitRun());
+  EXPECT_THAT(xml, HasSubstr("On these clips only (4 clips, 6 are needed)."));
+  EXPECT_THAT(xml, HasSubstr("<system-out>judged on these clips</system-out>"));
+  EXPECT_THAT(xml, HasSubstr("<system-out>judged on these worlds</system-out>"));
+  EXPECT_TRUE(IsWellFormed(xml)) << xml;
 }
 
 }  // namespace

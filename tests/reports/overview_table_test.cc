@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/reports/support/example_run.h"
+#include "tests/reports/support/unit_run.h"
 
 namespace etude {
 namespace {
@@ -19,9 +20,10 @@ TEST(OverviewTable, ShowsEveryMethodByEveryHeadlineMetricWithItsVerdict) {
   const std::string html = OverviewTableHtml(TransitionScenario());
   EXPECT_THAT(html, HasSubstr("<th scope=\"row\">now</th><td class=\"n\">48.7 cm<span class=\"mark\"></span></td>"));
   EXPECT_THAT(html, HasSubstr("<th scope=\"row\">fuzzy-bridge</th><td class=\"n\">29.6 cm<span class=\"mark\">"
-                              "<b class=\"better\" role=\"img\" aria-label=\"better\">▲</b></span></td>"));
+                              "<b class=\"better\" role=\"img\" aria-label=\"better, on these clips only\">(▲)</b>"
+                              "</span></td>"));
   EXPECT_THAT(html, Not(HasSubstr("Condition")));
-  EXPECT_THAT(OverviewTableMarkdown(TransitionScenario()), HasSubstr("| fuzzy-bridge | 29.6 cm ▲ |"));
+  EXPECT_THAT(OverviewTableMarkdown(TransitionScenario()), HasSubstr("| fuzzy-bridge | 29.6 cm (▲) |"));
 }
 
 TEST(OverviewTable, HasNoSignWhereNothingWasComparedAndADashWhereNothingWasMeasured) {
@@ -49,6 +51,15 @@ TEST(OverviewTable, IsNotNeededForOneMetric) {
   scenario.headline_metrics.resize(1);
   EXPECT_EQ(OverviewTableHtml(scenario), "");
   EXPECT_EQ(OverviewTableMarkdown(scenario), "");
+}
+
+TEST(OverviewTable, ShowsTheVerdictAgainstTheBestOtherBesideTheBaselines) {
+  const std::string text = OverviewTableMarkdown(UnitRun().scenarios.front());
+  EXPECT_THAT(text, HasSubstr("| now | 48.7 cm · ▼ |"));  // a baseline has none
+  EXPECT_THAT(text, HasSubstr("| wait-for-end | 50.1 cm ? ▼ |"));
+  EXPECT_THAT(text, HasSubstr("| gate-inertialised | 6.40 cm ▲ ▲ |"));
+  EXPECT_THAT(text, HasSubstr("second: against the strongest other method"));
+  EXPECT_THAT(OverviewTableMarkdown(UnitRun().scenarios[3]), HasSubstr("| ccd-adaptive | 47.8 mm (▲) (▲) |"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "reports/words/figures.h"
 #include "tests/reports/support/count_of.h"
 #include "tests/reports/support/example_run.h"
+#include "tests/reports/support/unit_run.h"
 
 namespace etude {
 namespace {
@@ -44,7 +45,7 @@ TEST(ScenarioLatex, HoldsTheFiguresOfTheCsv) {
       std::size_t condition = 0;
       while (ConditionLabel(scenario.conditions[condition].condition) != fields[1]) ++condition;
       const MetricWords words = WordsFor(fields[3]);
-      const std::string value = FormatValue(std::stod(fields[words.is_share ? 8 : 5]), words);
+      const std::string value = FormatValue(std::stod(fields[words.by_mean ? 8 : 5]), words);
       const std::string interval = FormatInterval(std::stod(fields[6]), std::stod(fields[7]), words);
       EXPECT_THAT(
           FloatOf(latex, condition),
@@ -68,7 +69,7 @@ TEST(ScenarioLatex, HasAFloatPerConditionThatEndsAsItBegan) {
   for (const std::string& line : Split(latex, '\n')) {
     if (!line.ends_with(" \\\\") || line.starts_with("\\multicolumn")) continue;
     // A & that was escaped is no column.
-    EXPECT_EQ(CountOf(line, "&") - CountOf(line, "\\&"), 6) << line;
+    EXPECT_EQ(CountOf(line, "&") - CountOf(line, "\\&"), 7) << line;
   }
 }
 
@@ -89,7 +90,7 @@ TEST(ScenarioLatex, PutsADashForAMissingValueAndCountsIt) {
   RunData run = ExampleRun();
   MetricSummary& metric = run.scenarios[1].conditions[0].methods[0].metrics[1];
   metric = {metric.id, 0, 12, std::nullopt, std::nullopt, std::nullopt, std::nullopt};
-  EXPECT_THAT(ScenarioLatex(run, run.scenarios[1]), HasSubstr("fixed & 0 of 12 & --- & & & & \\\\\n"));
+  EXPECT_THAT(ScenarioLatex(run, run.scenarios[1]), HasSubstr("fixed & 0 of 12 & --- & & & & & \\\\\n"));
 }
 
 TEST(ScenarioLatex, LetsNoNameSpeakLatex) {
@@ -113,6 +114,16 @@ TEST(ScenarioLatex, SplitsATableThatNoPageHolds) {
   const std::string latex = ScenarioLatex(run, scenario);
   EXPECT_EQ(CountOf(latex, "\\begin{table}"), 3);
   EXPECT_EQ(CountOf(latex, "(continued)"), 2);
+}
+
+TEST(ScenarioLatex, GivesBothVerdictsAndARowOfTheStrongestOtherMethod) {
+  const RunData run = UnitRun();
+  const std::string capture = ScenarioLatex(run, run.scenarios[3]);
+  EXPECT_THAT(capture, HasSubstr("$p$ & on these clips & for other clips"));
+  EXPECT_THAT(capture, HasSubstr("better & -- \\\\\n"));
+  const std::string transition = ScenarioLatex(run, run.scenarios[0]);
+  EXPECT_THAT(transition, HasSubstr("better & better \\\\\n"));
+  EXPECT_THAT(transition, HasSubstr(" & &  & gate-inertialised & "));
 }
 
 }  // namespace

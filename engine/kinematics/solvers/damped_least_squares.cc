@@ -31,8 +31,13 @@ IkSolution SolveDampedLeastSquares(const KinematicTree& tree, const IkProblem& p
     TreeState trial = state;
     TreeFrames trial_frames = frames;
     while (run.MustGoOn()) {
-      while (!inverse.Step(damping, none_preferred, step)) damping *= kDampingStep;
-      for (double& turn : step) turn = std::clamp(turn, -kLargestTurn, kLargestTurn);
+      if (own.bounds == Bounds::kClamped) {
+        while (!inverse.Step(damping, none_preferred, step)) damping *= kDampingStep;
+        for (double& turn : step) turn = std::clamp(turn, -kLargestTurn, kLargestTurn);
+      } else {
+        while (!inverse.StepWithin(damping, none_preferred, state.angles, run.ranges(), step)) damping *= kDampingStep;
+        Shorten(step);
+      }
       const double largest = MoveWithin(run.ranges(), state.angles, step, trial.angles);
       ComputeFrames(tree, trial, trial_frames);
       const double trial_cost = linear.Cost(trial_frames);

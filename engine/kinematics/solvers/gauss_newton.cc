@@ -10,6 +10,7 @@
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
+#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {
@@ -31,9 +32,7 @@ constexpr int kShareOfPatience = 5;
 constexpr double kProgress = 0.7;
 constexpr double kSettled = 1 - 1e-5;  // instead, where targets cannot be met
 
-constexpr int kRestarts = 20;
 constexpr int kRestartSweeps = 2;
-constexpr double kScatter = 1.5;  // radians
 
 class Solver {
  public:
@@ -58,7 +57,8 @@ class Solver {
     Approach(Preferred::kHere, kProgress, patience);
     const int restarts = run_.MustGoOn() && !IsOutOfReach(tree_, problem_) ? kRestarts : 0;
     for (int restart = 1; restart <= restarts && run_.MustGoOn(); ++restart) {
-      Scatter(restart);
+      ScatterAround(run_.start_angles(), run_.ranges(), restart, state_.angles);
+      Place();
       Sweep(kRestartSweeps);
       Approach(Preferred::kHere, kProgress, patience);
     }
@@ -149,21 +149,6 @@ class Solver {
       if (Step(preferred, damping) < options_.stall_change) break;
     }
     if (!run_.HasConverged()) RecordBest(step_.Build(frames_));
-  }
-
-  /// Moves to another pose around the start, a different one for every number and every start: along a motion, with few
-  /// iterations a frame, every frame tries new ones.
-  void Scatter(int number) {
-    constexpr double kGoldenShare = 0.6180339887498949;  // its multiples, modulo 1, are spread evenly
-    constexpr double kSpread = 300;                      // a fifth of a degree changes x by a whole period
-    for (std::size_t d = 0; d < state_.angles.size(); ++d) {
-      const double start = run_.start_angles()[d];
-      double x = kGoldenShare * number * (static_cast<double>(d) + 1) + kSpread * start;
-      x -= std::floor(x);
-      const AngleRange& range = run_.ranges()[d];
-      state_.angles[d] = std::clamp(start + kScatter * (2 * x - 1), range.lower, range.upper);
-    }
-    Place();
   }
 
   /// Steps on from the best pose so far, for targets that cannot be met.

@@ -11,6 +11,7 @@
 #include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/solvers/jacobian_pinv.h"
 #include "engine/kinematics/solvers/jacobian_transpose.h"
+#include "engine/kinematics/solvers/levenberg_marquardt.h"
 
 namespace etude {
 
@@ -30,6 +31,20 @@ IkSolver WithSettings(IkSolver solver, SolveWithOwn<Own> solve, const SettingTab
     return solve(tree, problem, options, table.Apply(options.solver_settings));
   };
   return solver;
+}
+
+IkSolution SolveDampedLeastSquaresActiveSet(const KinematicTree& tree, const IkProblem& problem,
+                                            const IkOptions& options, const DampedLeastSquaresOptions& own) {
+  DampedLeastSquaresOptions within = own;
+  within.bounds = Bounds::kActiveSet;
+  return SolveDampedLeastSquares(tree, problem, options, within);
+}
+
+IkSolution SolveJacobianPinvActiveSet(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
+                                      const JacobianPinvOptions& own) {
+  JacobianPinvOptions within = own;
+  within.bounds = Bounds::kActiveSet;
+  return SolveJacobianPinv(tree, problem, options, within);
 }
 
 }  // namespace
@@ -61,6 +76,14 @@ std::span<const IkSolver> AllIkSolvers() {
           SolveGaussNewton,
           {{{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100,
              "Sweeps before the first Gauss-Newton step."}}}),
+      WithSettings<LevenbergMarquardtOptions>(
+          {.name = "levenberg-marquardt",
+           .description =
+               "dense Levenberg-Marquardt steps, limits as an active set, restarts: what one should use today",
+           .step = "steps"},
+          SolveLevenbergMarquardt,
+          {{{"damping_share", &LevenbergMarquardtOptions::damping_share, 1e-6, 1e3,
+             "The damping of the first step as a share of the sum of squares."}}}),
       WithSettings<CeresLmOptions>(
           {.name = "ceres-lm",
            .description = "the Levenberg-Marquardt method of Ceres Solver, limits as bounds",
@@ -73,6 +96,12 @@ std::span<const IkSolver> AllIkSolvers() {
            .step = "steps"},
           SolveDampedLeastSquares,
           {{{"damping", &DampedLeastSquaresOptions::first_damping, 1e-9, 1e6, "The damping of the first step."}}}),
+      WithSettings<DampedLeastSquaresOptions>(
+          {.name = "damped-least-squares-active-set",
+           .description = "the same, limits by an active set: other angles make up for those at their limits",
+           .step = "steps"},
+          SolveDampedLeastSquaresActiveSet,
+          {{{"damping", &DampedLeastSquaresOptions::first_damping, 1e-9, 1e6, "The damping of the first step."}}}),
       {.name = "fabrik",
        .description = "joints as points that reach forward and backward, positions only",
        .uses_axes = false,
@@ -80,9 +109,16 @@ std::span<const IkSolver> AllIkSolvers() {
        .solve = SolveFabrik},
       WithSettings<JacobianPinvOptions>(
           {.name = "jacobian-pinv",
-           .description = "the Jacobian's pseudo-inverse, and the start as preferred posture in its null space",
+           .description =
+               "paper B's: the Jacobian's pseudo-inverse, the start as preferred posture, limits by clamping",
            .step = "steps"},
           SolveJacobianPinv,
+          {{{"pinv_damping", &JacobianPinvOptions::damping, 0, 100, "Damping of the inverse; 0 is paper B's."}}}),
+      WithSettings<JacobianPinvOptions>(
+          {.name = "jacobian-pinv-active-set",
+           .description = "the same, limits by an active set: other angles make up for those at their limits",
+           .step = "steps"},
+          SolveJacobianPinvActiveSet,
           {{{"pinv_damping", &JacobianPinvOptions::damping, 0, 100, "Damping of the inverse; 0 is paper B's."}}}),
       WithSettings<JacobianTransposeOptions>(
           {.name = "jacobian-transpose",

@@ -39,6 +39,8 @@ FAULTS = {
     "a wrong direction": ("direction: lower", "direction: down", 8, "'down'"),
     "no direction": ("    direction: lower\n", "", 5, "'direction'"),
     "a wrong aggregate": ("aggregate: median", "aggregate: mode", 9, "'mode'"),
+    "a wrong reading": ("aggregate: median", "aggregate: median\n    reads: percent", 10, "'percent'"),
+    "a success that is neither": ("aggregate: median", "aggregate: median\n    success: often", 10, "'often'"),
     "no threshold": ("    practical_threshold: 0.5\n", "", 5, "'practical_threshold' is missing"),
     "a negative threshold": ("practical_threshold: 0.5", "practical_threshold: -1", 13, "-1 is out of range"),
     "version 0": ("label: fault", "label: fault\n    version: 0", 7, "version"),

@@ -52,7 +52,10 @@ TEST(MeasureBeyond, CountsUnitsAndNotWorlds) {
   const Beyond few = Judged(OneWay({-4, -6, -5, -9}, 300));
   EXPECT_EQ(few.units, 4);
   EXPECT_FALSE(few.verdict);
-  EXPECT_FALSE(few.difference);
+  EXPECT_DOUBLE_EQ(*few.difference, -6);
+  EXPECT_FALSE(few.low);
+  EXPECT_FALSE(few.test.p);
+  EXPECT_EQ(few.left_out.size(), 4u) << "does one clip carry it?";
   EXPECT_EQ(few.why_open, "4 clips: no verdict beyond them; at least 6 are needed");
   EXPECT_EQ(*Judged(OneWay({-4, -6, -5, -9, 3, 2}, 1)).low, *Judged(OneWay({-4, -6, -5, -9, 3, 2}, 99)).low);
 }

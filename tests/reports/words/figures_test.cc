@@ -63,5 +63,28 @@ TEST(Figures, AMetricOutsideTheCatalogueKeepsItsName) {
   EXPECT_EQ(words.direction, Direction::kNeither);
 }
 
+TEST(Figures, SayMeanWhereItIsOneAndShareOnlyOfYesAndNo) {
+  EXPECT_EQ(WordsFor("f1").label, "mean F1");
+  EXPECT_EQ(WordsFor("solved_practical").label, "share “solved (0.1 cm, 0.1°)”");
+  EXPECT_EQ(WordsFor("frames_recovered").label, "mean share of frames recovered");
+  EXPECT_EQ(WordsFor("orientation_error_deg").label, "effector orientation error");
+  for (const MetricInfo& metric : AllMetrics()) {
+    const MetricWords words = WordsFor(metric.id);
+    EXPECT_EQ(words.label.starts_with("share"), metric.reading == Reading::kYesNo) << metric.id;
+    // What is shown in per cent lies within 0…1, so that no threshold of it exceeds 1.
+    if (words.is_share) EXPECT_LT(metric.practical, 1) << metric.id;
+    if (words.is_share) EXPECT_EQ(words.difference_suffix, " percentage points") << metric.id;
+  }
+}
+
+TEST(Figures, OfPenalisedCostsAreMeansAndNoPercentages) {
+  const MetricWords cost = WordsFor("iterations_par2");
+  EXPECT_FALSE(cost.is_share);
+  EXPECT_EQ(FormatValue(400, cost), "400");
+  const MetricSummary summary{.id = "iterations_par2", .present = 2, .median = 12, .mean = 206};
+  EXPECT_EQ(TypicalValue(summary, cost), 206);
+  EXPECT_EQ(TypicalValue(summary, WordsFor("iterations")), 12);
+}
+
 }  // namespace
 }  // namespace etude

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/reports/support/example_run.h"
+#include "tests/reports/support/unit_run.h"
 
 namespace etude {
 namespace {
@@ -44,19 +45,19 @@ TEST(Answer, SaysHowMuchBetterOnHowManyWorlds) {
   EXPECT_EQ(
       AnswerTo(Figures(60, -12.3, -14.0, -10.1, 58.0 / 60, Verdict::kBetter)),
       "“adaptive” lowers the effector orientation error by 12.3° (95 % CI 10.1–14.0) compared with “fixed”, on 58 of "
-      "60 worlds — better.");
+      "60 worlds — better on these worlds. On these worlds only.");
 }
 
 TEST(Answer, CountsTheWorldsLostWhenWorse) {
   EXPECT_THAT(
       AnswerTo(Figures(20, 3.0, 2.0, 4.0, 0.1, Verdict::kWorse)),
       HasSubstr("raises the effector orientation error by 3.00° (95 % CI 2.00–4.00) compared with “fixed”, on 18 of "
-                "20 worlds — worse."));
+                "20 worlds — worse on these worlds."));
 }
 
 TEST(Answer, ClaimsNothingThatIsNotSettled) {
   const std::string open = AnswerTo(Figures(20, -0.2, -0.9, 0.5, 0.5, Verdict::kInconclusive));
-  EXPECT_THAT(open, HasSubstr("do not settle"));
+  EXPECT_THAT(open, HasSubstr("It is open whether"));
   EXPECT_THAT(open, Not(HasSubstr("lowers")));
   const std::string same = AnswerTo(Figures(20, 0.01, -0.02, 0.03, 0.5, Verdict::kNoDifference));
   EXPECT_THAT(same, HasSubstr("makes no difference that matters"));
@@ -65,7 +66,7 @@ TEST(Answer, ClaimsNothingThatIsNotSettled) {
 TEST(Answer, SaysWhyItIsOpen) {
   Comparison open = Figures(8, -4.7, -6.0, -1.1, 0.9, Verdict::kInconclusive);
   open.why_open = "too few worlds";
-  EXPECT_THAT(AnswerTo(open), HasSubstr("on 8 worlds — inconclusive: too few worlds."));
+  EXPECT_THAT(AnswerTo(open), HasSubstr("on 8 worlds — inconclusive on these worlds: too few worlds."));
 }
 
 TEST(Answer, TellsOfTheWorldsThatOnlyOneSurvived) {
@@ -92,7 +93,7 @@ TEST(Answer, SaysThatItDependsWhenConditionsDisagree) {
   scenario.conditions[1].comparisons[0].difference = 4.0;
   const MethodFinding answer = FindingsOf(RunData{}, scenario).answer;
   EXPECT_FALSE(answer.verdict.has_value());
-  EXPECT_EQ(answer.Words(), "it depends");
+  EXPECT_EQ(answer.Words(), "it depends on these worlds");
   EXPECT_THAT(answer.sentence, HasSubstr("better under 1 of 2, worse under 1 of 2"));
   EXPECT_THAT(answer.sentence, HasSubstr("−2.00° (noise=5) to 4.00° (noise=20)"));
 }
@@ -127,6 +128,53 @@ TEST(Findings, SayWhyAValueIsMissing) {
   const RunData run = ExampleRun();
   EXPECT_THAT(MissingReasons(run, "transition", {}, "fuzzy-bridge", "jump_cm"), HasSubstr("2 × no bridge frame"));
   EXPECT_EQ(MissingReasons(run, "transition", {}, "now", "jump_cm"), "");
+}
+
+TEST(Findings, NeverCallWhatWasMeasuredReached) {
+  RunData run = ExampleRun();
+  EXPECT_THAT(FindingsOf(run).sentence, Not(HasSubstr("reached")));
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr("cells were measured, 6 broke."));
+  for (Row& row : run.rows) row.result.status = Status::kOk;
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured."));
+  run.rows.front().result.status = Status::kUnsolved;
+  EXPECT_THAT(FindingsOf(run).sentence, HasSubstr(" cells were measured, 1 of them stopped short of their goal."));
+}
+
+TEST(Findings, GiveSuccessItsOwnShareWhateverTheStatus) {
+  RunData run = ExampleRun();
+  const ScenarioSummary& scenario = run.scenarios.front();
+  EXPECT_TRUE(FindingsOf(run, scenario).successes.empty());
+  int trial = 0;
+  for (Row& row : run.rows) {
+    if (row.scenario != scenario.name) continue;
+    row.result.status = Status::kOk;
+    row.result.Measure("natural_share", row.method == "gate-inertialised" && trial++ % 4 != 0 ? 1 : 0);
+  }
+  const auto successes = FindingsOf(run, scenario).successes;
+  ASSERT_EQ(successes.size(), 1u);
+  EXPECT_EQ(SuccessSentence(successes.front()),
+            "Reached (share “as smooth as nature”): now 0 %, wait-for-end 0 %, fuzzy-bridge 0 %, fuzzy-bridge-adaptive "
+            "0 %, gate-inertialised 75.0 %.");
+}
+
+TEST(Findings, OfManyMethodsNameTheLeastAndTheMostSuccessful) {
+  SuccessFinding finding{"natural_share", {}};
+  for (int i = 0; i < 40; ++i) finding.shares.emplace_back("method-" + std::to_string(i), i / 40.0);
+  EXPECT_EQ(SuccessSentence(finding),
+            "Reached (share “as smooth as nature”): from method-0 0 % to method-39 97.5 %, of 40 methods.");
+}
+
+TEST(Findings, AnswerTwiceAndSayWhatTheVerdictIsAbout) {
+  const RunData run = UnitRun();
+  const ScenarioFindings capture = FindingsOf(run, run.scenarios[3]);
+  EXPECT_THAT(capture.headline, ::testing::EndsWith(", on these clips"));
+  EXPECT_THAT(capture.answer.sentence, HasSubstr("On these clips only (4 clips, 6 are needed)."));
+  EXPECT_THAT(capture.answer.Words(), ::testing::EndsWith(" on these clips"));
+  const ScenarioFindings transition = FindingsOf(run, run.scenarios[0]);
+  EXPECT_EQ(transition.answer.baseline, "now");
+  EXPECT_EQ(transition.rival.baseline, "gate-inertialised");
+  EXPECT_THAT(transition.headline, HasSubstr("; has 7.83 × the jump at the seam of “gate-inertialised”"));
+  EXPECT_THAT(FindingsOf(run, run.scenarios[2]).answer.sentence, HasSubstr("For other worlds drawn alike: the same."));
 }
 
 }  // namespace

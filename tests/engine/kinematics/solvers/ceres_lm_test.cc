@@ -48,10 +48,10 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
       }
       const IkSolution solution = SolveCeresLm(Body(), problem, options);
       EXPECT_EQ(solution.status, IkStatus::kConverged);
-      EXPECT_LE(solution.iterations, 12);
+      EXPECT_LE(solution.iterations, 11);
       in_few += solution.iterations <= 8;
     }
-    EXPECT_GE(in_few, 0.85 * kTrials) << "0.94 of 600 trials";
+    EXPECT_GE(in_few, 0.92 * kTrials) << "37, 40 and 38 of 40; 0.94 of 600 trials, none of which takes more than 11";
   }
 }
 

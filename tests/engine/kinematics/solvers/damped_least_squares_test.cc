@@ -103,5 +103,44 @@ TEST(DampedLeastSquares, NeverRaisesTheSumOfSquares) {
   }
 }
 
+TEST(DampedLeastSquares, NeverRaisesTheSumNorLeavesItsLimitsByAnActiveSetEither) {
+  const KinematicTree tree = MakeBodyTree({});
+  int at_ends = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 30);
+    IkOptions options;
+    options.trace = true;
+    const LinearTargets linear(tree, problem.targets);
+    double before = 1e300;
+    for (const IkTraceEntry& entry :
+         SolveDampedLeastSquares(tree, problem, options, {.bounds = Bounds::kActiveSet}).trace) {
+      TreeState state = problem.start;
+      state.angles = entry.angles;
+      const double cost = linear.Cost(ComputeFrames(tree, state));
+      EXPECT_LE(cost, before);
+      before = cost;
+      for (int i = 0; i < 29; ++i) {
+        EXPECT_TRUE(entry.angles[i] >= problem.limits[i].lower && entry.angles[i] <= problem.limits[i].upper);
+        at_ends += entry.angles[i] == problem.limits[i].lower || entry.angles[i] == problem.limits[i].upper;
+      }
+    }
+  }
+  EXPECT_GT(at_ends, 100) << "else no bound was put to the test";
+}
+
+// Where limits bind nothing the two are one method, but for how long steps are shortened.
+TEST(DampedLeastSquares, StepsAlikeWithAndWithoutAnActiveSetFarFromTheLimits) {
+  const KinematicTree tree = MakeBodyTree({});
+  for (int trial = 0; trial < 10; ++trial) {
+    const IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 0.5), trial, 3);
+    IkOptions options;
+    options.limits = false;
+    const IkSolution clamped = SolveDampedLeastSquares(tree, problem, options);
+    const IkSolution active = SolveDampedLeastSquares(tree, problem, options, {.bounds = Bounds::kActiveSet});
+    EXPECT_EQ(active.iterations, clamped.iterations);
+    for (int i = 0; i < 29; ++i) EXPECT_NEAR(active.angles[i], clamped.angles[i], 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace etude

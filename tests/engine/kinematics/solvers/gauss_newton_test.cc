@@ -7,7 +7,7 @@
 
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/gauss_newton_step.h"
-#include "tests/engine/kinematics/random_tree.h"
+#include "tests/engine/kinematics/solvers/random_problem.h"
 
 namespace etude {
 namespace {
@@ -223,8 +223,9 @@ double ShareFollowed(int max_iterations) {
 
 TEST(GaussNewton, FollowsAMotionWithFewIterationsAFrameAndTheBetterTheMoreItHas) {
   double fewer = 0;
-  // Of 400 motions, 0.858, 0.946, 0.979, 0.988 and 0.9985 are.
-  for (const auto& [budget, at_least] : {std::pair(3, 0.84), {5, 0.93}, {10, 0.965}, {20, 0.975}, {50, 0.997}}) {
+  // Of these, 0.8625, 0.9485, 0.983, 0.988 and 0.9985 are; of 400 motions 0.858, 0.946, 0.979, 0.988 and 0.9985. Any
+  // 40 motions make a test of luck: ten lots of 40 lie between 0.80 and 0.92 with three iterations.
+  for (const auto& [budget, at_least] : {std::pair(3, 0.86), {5, 0.945}, {10, 0.98}, {20, 0.985}, {50, 0.998}}) {
     const double share = ShareFollowed(budget);
     EXPECT_GE(share, at_least) << budget;
     EXPECT_GE(share, fewer) << budget;
@@ -248,29 +249,13 @@ TEST(GaussNewton, TellsTheErrorsOfItsAnglesWhetherSweepsOrStepsFoundThem) {
   EXPECT_GE(by_sweeps, 25);
 }
 
-// Any tree, fixed joints, free ones, starts outside their limits, weights of nothing, one iteration or many.
 TEST(GaussNewton, GivesAnHonestAnswerToAnyProblem) {
   int converged = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    RandomStream random({.suite_seed = 9, .scenario = "null-space-test", .trial = trial}, "problem");
-    KinematicTree tree = RandomTree(trial, 4 + trial % 10);
-    if (tree.limits.empty()) continue;
-    for (AngleRange& range : tree.limits) {
-      const double lower = random.Uniform(-2, 1);
-      range = {lower, lower + (random.Chance(0.2) ? 0 : random.Uniform(0, 3))};
-    }
-    IkProblem problem = DisturbedProblem(tree, RandomPose(tree, trial, 1.0), trial, 40);
-    const auto weight = [&] { return random.Chance(0.3) ? 0 : random.Uniform(0, 3); };
-    for (EffectorTarget& target : problem.targets) {
-      target.position_weight = weight();
-      target.axis_weights = {weight(), weight(), weight()};
-      if (random.Chance(0.1)) target.position += random.Normal3();
-    }
-    for (double& angle : problem.start.angles) angle += random.Chance(0.1) ? 5 : 0;
-    IkOptions options;
-    options.max_iterations = trial % 3 == 0 ? 1 : 150;
+    const auto made = MakeRandomProblem(trial);
+    if (!made) continue;
+    const auto& [tree, problem, options] = *made;
     const GaussNewtonOptions own{.first_sweeps = trial % 4 == 0 ? 2 : 0};
-    if (random.Chance(0.2)) options.angle_change_tolerance = random.Uniform(0, 0.3);
 
     const IkSolution solution = SolveGaussNewton(tree, problem, options, own);
     const std::vector<AngleRange> ranges = AllowedRanges(problem, options);

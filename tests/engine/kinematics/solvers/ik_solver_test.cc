@@ -235,8 +235,10 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::ValuesIn(IkSolverNames()
 });
 
 TEST(Solvers, AreFoundByName) {
-  EXPECT_THAT(IkSolverNames(), testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "damped-least-squares",
-                                                      "jacobian-pinv", "jacobian-transpose", "fabrik"}));
+  EXPECT_THAT(IkSolverNames(),
+              testing::IsSupersetOf({"ccd", "ccd-hinges", "gauss-newton", "levenberg-marquardt", "damped-least-squares",
+                                     "damped-least-squares-active-set", "jacobian-pinv", "jacobian-pinv-active-set",
+                                     "jacobian-transpose", "fabrik"}));
   EXPECT_EQ(FindIkSolver("cdc"), nullptr);
 }
 
@@ -263,7 +265,7 @@ TEST(Solvers, TakeTheirSettingsInTheOrderInWhichTheyAreDescribed) {
       EXPECT_NE(solver.solve(Body(), FarProblem(1), changed).angles, angles) << solver.name << ", " << setting.key;
     }
   }
-  EXPECT_EQ(settings, 6);
+  EXPECT_EQ(settings, 9);
 }
 
 }  // namespace

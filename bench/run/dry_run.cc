@@ -1,0 +1,69 @@
+#include "bench/run/dry_run.h"
+
+#include <algorithm>
+#include <set>
+
+#include "bench/run/cell_runner.h"
+#include "bench/run/clock.h"
+#include "bench/run/manifest.h"
+#include "bench/run/suite.h"
+#include "bench/run/supervisor.h"
+
+namespace etude {
+namespace {
+
+/// What the worlds of the first condition are drawn from.
+int CountUnits(const PreparedScenario& prepared) {
+  const Scenario& scenario = prepared.scenario();
+  if (IsEveryWorldItsOwn(scenario.unit)) return scenario.trials;
+  std::set<std::string> units;
+  for (int trial = 0; trial < scenario.trials; ++trial) {
+    const Row row = prepared.IdentityOf(0, trial, 0);
+    units.insert(row.units.begin(), row.units.end());
+  }
+  return static_cast<int>(units.size());
+}
+
+double MeasureSecondsPerWorld(const PreparedScenario& prepared, double until, Clock::time_point start) {
+  const Scenario& scenario = prepared.scenario();
+  const auto began = Clock::now();
+  CellRunner runner(prepared, "");
+  int condition = 0;
+  do {
+    runner.Open(condition, 0);
+    for (std::size_t method = 0; method < scenario.methods.size(); ++method) runner.Run(method);
+    ++condition;
+  } while (condition < static_cast<int>(scenario.conditions.size()) && SecondsSince(start) < until);
+  return SecondsSince(began) / condition;
+}
+
+}  // namespace
+
+Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
+  ASSIGN_OR_RETURN(const auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs)};
+  const auto start = Clock::now();
+  double total = 0;
+  for (std::size_t i = 0; i < scenarios.size(); ++i) {
+    const Scenario& scenario = scenarios[i].scenario();
+    ScenarioForecast one{.name = scenario.name,
+                         .task = scenario.task,
+                         .worlds = static_cast<std::size_t>(scenario.trials),
+                         .conditions = scenario.conditions.size(),
+                         .methods = scenario.methods.size(),
+                         .unit = scenario.unit,
+                         .units = CountUnits(scenarios[i])};
+    const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
+    one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], until, start);
+    const auto compared = std::count_if(scenario.methods.begin(), scenario.methods.end(),
+                                        [](const MethodEntry& method) { return method.against != method.name; });
+    one.comparisons = static_cast<int>(static_cast<std::size_t>(compared) * scenario.metrics.size() * one.conditions);
+    total += one.seconds_per_world * static_cast<double>(one.worlds * one.conditions);
+    forecast.scenarios.push_back(std::move(one));
+  }
+  forecast.seconds = total / forecast.workers;
+  return forecast;
+}
+
+}  // namespace etude

@@ -1,0 +1,220 @@
+#include "reports/plots/estimation.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "reports/plots/marks.h"
+#include "reports/plots/panel.h"
+#include "reports/plots/swarm.h"
+#include "reports/words/beyond.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+
+namespace etude {
+namespace {
+
+constexpr double kHeight = 250, kTop = 8, kBottom = 212;
+constexpr double kSwarm = 26;  // how far dots spread to either side
+constexpr std::size_t kMostNamed = 16;
+
+/// Which method is drawn how.
+struct Cast {
+  std::size_t baseline = 0, method = 0;
+};
+
+std::size_t IndexOf(const ScenarioSummary& scenario, const std::string& method) {
+  return static_cast<std::size_t>(std::ranges::find(scenario.methods, method) - scenario.methods.begin());
+}
+
+std::string Attributes(int trial) { return fmt::format(" data-t=\"{}\"", trial); }
+
+class Plot {
+ public:
+  Plot(const ScenarioSummary& scenario, const Judged& judged, const PairedWorlds& pairs)
+      : scenario_(scenario),
+        judged_(judged),
+        c_(*judged.comparison),
+        pairs_(pairs),
+        words_(WordsFor(c_.metric)),
+        cast_{IndexOf(scenario, c_.baseline), IndexOf(scenario, c_.method)} {}
+
+  std::string Values() const {
+    std::vector<double> all;
+    for (const PairedWorld& world : pairs_.worlds) all.insert(all.end(), {world.baseline, world.method});
+    Axis axis = AxisOf(all, Floor());
+    axis.from = kBottom, axis.to = kTop;
+    const std::vector<double> left = Column(axis, &PairedWorld::baseline), right = Column(axis, &PairedWorld::method);
+    std::string lines, dots;
+    for (std::size_t i = 0; i < pairs_.worlds.size(); ++i) {
+      const PairedWorld& world = pairs_.worlds[i];
+      const double y1 = axis.At(world.baseline), y2 = axis.At(world.method);
+      lines += fmt::format("M{:.0f} {:.1f}L{:.0f} {:.1f}", kBaselineX + left[i], y1, kMethodX + right[i], y2);
+      dots += Dot(cast_.baseline, world, kBaselineX + left[i], y1, "") +
+              Dot(cast_.method, world, kMethodX + right[i], y2, "");
+    }
+    return BeginPanel(kHeight, fmt::format("{} under both methods", words_.plain_label)) + UprightGrid(axis) +
+           fmt::format("<path class=\"pairs\" d=\"{}\"/>", lines) + dots +
+           PanelText(kBaselineX, kBottom + 18, c_.baseline, "middle", 22) +
+           PanelText(kMethodX, kBottom + 18, c_.method, "middle", 22) + "</svg>";
+  }
+
+  std::string Differences() const {
+    std::vector<double> all, places;
+    for (const PairedWorld& world : pairs_.worlds) all.push_back(world.Difference());
+    const double practical = Practical();
+    for (const auto& end : {c_.ci_low, c_.ci_high, c_.beyond.low, c_.beyond.high}) {
+      if (end) all.push_back(*end * words_.scale);
+    }
+    Axis axis = AxisAroundZero(all);
+    axis.from = kBottom, axis.to = kTop;
+    for (const PairedWorld& world : pairs_.worlds) places.push_back(axis.At(world.Difference()));
+    const std::vector<double> aside = SwarmOffsets(places, kSwarm);
+    std::string dots;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const PairedWorld& world = pairs_.worlds[i];
+      dots += Dot(cast_.method, world, kWorldsX + aside[i], places[i], Title(world));
+    }
+    const double high = axis.At(practical), low = axis.At(-practical);
+    const std::string band = fmt::format("<rect class=\"band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
+                                         kPanelLeft, high, kPanelRight - kPanelLeft, std::max(1.0, low - high));
+    return BeginPanel(kHeight, fmt::format("paired differences, {} minus {}", c_.method, c_.baseline)) + band +
+           UprightGrid(axis) + fmt::format("<path class=\"zero\" d=\"M{} {:.1f}H{}\"/>", kPanelLeft, axis.At(0), kPanelRight) +
+           dots + Interval(axis, kAggregateX, c_.difference, c_.ci_low, c_.ci_high) + Units(axis) +
+           PanelText(kWorldsX, kBottom + 18, "each world", "middle") +
+           PanelText(kAggregateX, kBottom + 18, words_.by_mean ? "their mean" : "their median", "middle") +
+           (ShowsUnits() ? PanelText(kUnitsX, kBottom + 18, UnitsWords(), "middle") : "") + "</svg>";
+  }
+
+ private:
+  static constexpr double kBaselineX = 115, kMethodX = 265;
+  static constexpr double kWorldsX = 100, kAggregateX = 195, kUnitsX = 282;
+
+  double Practical() const {
+    const MetricInfo* info = FindMetric(c_.metric);
+    return info == nullptr ? 0 : info->practical * words_.scale;
+  }
+  // Below a hundredth of what matters nobody asks how near to zero a cost is.
+  double Floor() const {
+    return words_.is_share || words_.direction != Direction::kLowerIsBetter ? 0 : Practical() / 100;
+  }
+  bool ShowsUnits() const { return !pairs_.units.empty(); }
+  std::string_view UnitsWords() const {
+    return scenario_.unit == SamplingUnit::kLibrary ? "mean, libraries" : "mean, clips";
+  }
+
+  std::vector<double> Column(const Axis& axis, double PairedWorld::*value) const {
+    std::vector<double> places;
+    for (const PairedWorld& world : pairs_.worlds) places.push_back(axis.At(world.*value));
+    return SwarmOffsets(places, kSwarm);
+  }
+
+  std::string Title(const PairedWorld& world) const {
+    const std::string unit = ShowsUnits() ? " · " + pairs_.units[world.unit] : "";
+    return fmt::format("trial {}{}: {} → {}{}", world.trial, unit, FormatNumber(world.baseline),
+                       FormatNumber(world.method), words_.suffix);
+  }
+
+  std::string Dot(std::size_t shape, const PairedWorld& world, double x, double y, const std::string& title) const {
+    return MarkUse(shape, ShowsUnits() ? world.unit : shape, x, y, Attributes(world.trial), title);
+  }
+
+  /// A bar from low to high with a dot for the estimate. All in the metric's unit.
+  std::string Interval(const Axis& axis, double x, const std::optional<double>& estimate,
+                       const std::optional<double>& low, const std::optional<double>& high) const {
+    if (!estimate) return "";
+    const auto at = [&](double value) { return axis.At(value * words_.scale); };
+    std::string svg;
+    if (low && high) svg = fmt::format("<path class=\"interval\" d=\"M{} {:.1f}V{:.1f}\"/>", x, at(*low), at(*high));
+    return svg + fmt::format("<circle class=\"estimate\" cx=\"{}\" cy=\"{:.1f}\" r=\"4.5\"/>", x, at(*estimate));
+  }
+
+  /// Each unit's mean difference beside the interval that counts units.
+  std::string Units(const Axis& axis) const {
+    if (!ShowsUnits()) return "";
+    // A world of two clips belongs to both: no clip has a mean of its own.
+    const std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
+    if (scenario_.unit == SamplingUnit::kClipPair) return interval;
+    std::map<std::size_t, std::pair<double, int>> sums;
+    for (const PairedWorld& world : pairs_.worlds) {
+      sums[world.unit].first += world.Difference();
+      ++sums[world.unit].second;
+    }
+    std::string dots;
+    std::vector<double> places;
+    for (const auto& [unit, sum] : sums) places.push_back(axis.At(sum.first / sum.second));
+    const std::vector<double> aside = SwarmOffsets(places, kSwarm / 2);
+    std::size_t i = 0;
+    for (const auto& [unit, sum] : sums) {
+      const double mean = sum.first / sum.second;
+      dots += MarkUse(cast_.method, unit, kUnitsX - 22 + aside[i], places[i], "",
+                      fmt::format("{}: mean {}{} over {}", pairs_.units[unit], FormatNumber(mean), words_.difference_suffix,
+                                  Plural(sum.second, "world")));
+      ++i;
+    }
+    return dots + interval;
+  }
+
+  const ScenarioSummary& scenario_;
+  const Judged& judged_;
+  const Comparison& c_;
+  const PairedWorlds& pairs_;
+  MetricWords words_;
+  Cast cast_;
+};
+
+std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const PairedWorlds& pairs) {
+  const Comparison& c = *judged.comparison;
+  const MetricWords words = WordsFor(c.metric);
+  const MetricInfo* info = FindMetric(c.metric);
+  std::string unit = words.suffix;
+  unit.erase(0, unit.find_first_not_of(' '));
+  const std::string_view direction = DirectionWords(words.direction);
+  std::string text = fmt::format("“{}” against “{}”", c.method, c.baseline);
+  const std::string condition = ConditionLabel(judged.condition->condition);
+  if (!condition.empty()) text += ", " + condition;
+  text += fmt::format(": {}{}{}{}", words.plain_label, unit.empty() ? "" : ", " + unit, direction.empty() ? "" : "; ",
+                      direction);
+  text += fmt::format(". Each dot a world, {}",
+                      pairs.units.empty()                           ? "coloured by method"
+                      : scenario.unit == SamplingUnit::kClipPair ? "coloured by the clip left"
+                                                                     : "coloured by what it was drawn from");
+  if (pairs.worlds.size() < pairs.total) {
+    text += fmt::format(" ({} of {} drawn, at equal steps)", FormatCount(static_cast<long long>(pairs.worlds.size())),
+                        FormatCount(static_cast<long long>(pairs.total)));
+  }
+  text += ". Then the paired differences with 95 % intervals";
+  if (info != nullptr) {
+    text += fmt::format("; shaded: less than {:g}{}, which does not matter", info->practical * words.scale,
+                        words.difference_suffix);
+  }
+  return fmt::format("{}. On {}: {}; for {}: {}.", text, TheseUnits(scenario.unit), VerdictName(c.verdict),
+                     OtherUnits(scenario.unit), ShortBeyond(c, scenario.unit));
+}
+
+}  // namespace
+
+std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedWorlds& pairs) {
+  if (pairs.worlds.empty()) return "";
+  const Comparison& c = *judged.comparison;
+  const Plot plot(scenario, judged, pairs);
+  return fmt::format(
+      "<figure class=\"worlds\" data-s=\"{}\" data-c=\"{}\" data-a=\"{}\" data-b=\"{}\"><figcaption>{}</figcaption>"
+      "<div class=\"panels\">{}{}</div>{}</figure>",
+      EscapeMarkup(scenario.name), EscapeMarkup(CompactLabel(judged.condition->condition)), EscapeMarkup(c.baseline),
+      EscapeMarkup(c.method), EscapeMarkup(Caption(scenario, judged, pairs)), plot.Values(), plot.Differences(),
+      UnitLegendHtml(pairs));
+}
+
+std::string UnitLegendHtml(const PairedWorlds& pairs) {
+  if (pairs.units.empty()) return "";
+  std::string html = "<p class=\"quiet legend units\">";
+  for (std::size_t i = 0; i < std::min(kMostNamed, pairs.units.size()); ++i) {
+    html += fmt::format("<span>{}{}</span> ", MarkKeySvg(0, i), EscapeMarkup(pairs.units[i]));
+  }
+  if (pairs.units.size() > kMostNamed) html += fmt::format("and {} more", pairs.units.size() - kMostNamed);
+  return html + "</p>";
+}
+
+}  // namespace etude

@@ -1,0 +1,147 @@
+#include "reports/plots/survival.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "reports/plots/marks.h"
+#include "reports/plots/panel.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "reports/words/yardstick.h"
+
+namespace etude {
+namespace {
+
+constexpr double kCurveHeight = 200, kCurveTop = 8, kCurveBottom = 172;
+constexpr std::size_t kMostPanels = 4;
+constexpr std::size_t kMostLines = 16;
+
+/// A metric whose values end before what they measure does.
+struct Censored {
+  std::string_view metric;
+  std::string_view done;   ///< the metric that is 1 when it came to its end; "" = it did when there is a value
+  std::string_view share;  ///< of what the curve tells
+};
+constexpr std::array<Censored, 3> kCensored = {{{"iterations", "solved_practical", "worlds not yet solved"},
+                                                {"latency_s", "", "sessions not yet answered"},
+                                                {"wait_s", "", "requests still waiting"}}};
+
+std::optional<Outcome> OutcomeOf(const Row& row, const Censored& rule) {
+  if (row.result.status == Status::kSkipped) return std::nullopt;
+  const auto took = ValueOf(row, rule.metric);
+  if (!took) return Outcome{};
+  return rule.done.empty() || ValueOf(row, rule.done) == 1 ? Outcome{took} : Outcome{};
+}
+
+/// By method, in the scenario's order; of methods that never measure this nothing.
+std::vector<std::pair<std::size_t, std::vector<Outcome>>> OutcomesUnder(const RunData& run,
+                                                                        const ScenarioSummary& scenario,
+                                                                        const ConditionSummary& condition,
+                                                                        const Censored& rule) {
+  std::map<std::size_t, std::vector<Outcome>> outcomes;
+  std::set<std::size_t> measured;
+  for (const Row& row : run.rows) {
+    if (row.scenario != scenario.name || row.condition != condition.condition) continue;
+    const auto outcome = OutcomeOf(row, rule);
+    if (!outcome) continue;
+    const auto method = static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
+    outcomes[method].push_back(*outcome);
+    if (ValueOf(row, rule.metric)) measured.insert(method);
+  }
+  std::erase_if(outcomes, [&](const auto& entry) { return !measured.contains(entry.first); });
+  return {outcomes.begin(), outcomes.end()};
+}
+
+std::string Line(std::size_t method, const std::vector<Outcome>& outcomes, const Axis& time, const Axis& share) {
+  std::string path;
+  for (const auto& [at, left] : NotYetDone(outcomes)) {
+    if (path.empty()) {
+      path = fmt::format("M{:.1f} {:.1f}", time.from, share.At(left));
+    } else {
+      path += fmt::format("H{:.1f}V{:.1f}", time.At(at), share.At(left));
+    }
+  }
+  return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}H{:.1f}\"/>",
+                     method % kPlotColours.size(), MarkDashes(method), path, time.to);
+}
+
+std::string KeyOf(std::size_t method, const std::string& name) {
+  return fmt::format(
+      "<span><svg class=\"linekey\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line\" "
+      "style=\"stroke:var(--m{})\"{} d=\"M1 5H27\"/></svg>{}</span> ",
+      method % kPlotColours.size(), MarkDashes(method), EscapeMarkup(name));
+}
+
+std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition,
+                    const Censored& rule) {
+  const auto outcomes = OutcomesUnder(run, scenario, condition, rule);
+  std::vector<double> times;
+  bool is_censored = false;
+  for (const auto& [method, of_method] : outcomes) {
+    for (const Outcome& outcome : of_method) {
+      is_censored |= !outcome.took;
+      if (outcome.took) times.push_back(*outcome.took);
+    }
+  }
+  if (times.empty() || !is_censored) return "";
+  const MetricInfo* info = FindMetric(rule.metric);
+  Axis time = AxisOf(times, info->practical / 100), share{.low = 0, .high = 100, .from = kCurveBottom, .to = kCurveTop};
+  if (!time.is_logarithmic) time.low = 0;
+  time.from = kPanelLeft, time.to = kPanelRight;
+  std::string lines, described;
+  for (const auto& [method, of_method] : outcomes) {
+    if (method >= kMostLines) continue;
+    lines += Line(method, of_method, time, share);
+    described += fmt::format("{}: {:.0f} % never. ", scenario.methods[method], NotYetDone(of_method).back().second);
+  }
+  const std::string condition_label = ConditionLabel(condition.condition);
+  const MetricWords words = WordsFor(std::string(rule.metric));
+  return fmt::format("<figure><figcaption>{}{}: {}, per cent, by {}{}. What never is done stays.</figcaption>{}{}{}{}</svg></figure>",
+                     EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
+                     EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
+                     BeginPanel(kCurveHeight, described), UprightGrid(share), LyingGrid(time, kCurveTop, kCurveBottom), lines);
+}
+
+std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const Censored& rule) {
+  std::string panels, keys;
+  std::size_t count = 0;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    const std::string panel = count < kMostPanels ? PanelOf(run, scenario, condition, rule) : "";
+    panels += panel;
+    count += !panel.empty();
+  }
+  if (panels.empty()) return "";
+  for (std::size_t i = 0; i < std::min(scenario.methods.size(), kMostLines); ++i) {
+    keys += KeyOf(i, MethodLabel(scenario, scenario.methods[i]));
+  }
+  return fmt::format("<div class=\"panels\">{}</div><p class=\"quiet legend units\">{}</p>", panels, keys);
+}
+
+}  // namespace
+
+std::vector<std::pair<double, double>> NotYetDone(const std::vector<Outcome>& outcomes) {
+  if (outcomes.empty()) return {};
+  std::map<double, int> done;
+  for (const Outcome& outcome : outcomes) {
+    if (outcome.took) ++done[*outcome.took];
+  }
+  std::vector<std::pair<double, double>> curve{{0, 100}};
+  std::size_t left = outcomes.size();
+  for (const auto& [at, count] : done) {
+    left -= static_cast<std::size_t>(count);
+    curve.emplace_back(at, 100.0 * static_cast<double>(left) / static_cast<double>(outcomes.size()));
+  }
+  return curve;
+}
+
+std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario) {
+  std::string html;
+  for (const Censored& rule : kCensored) html += SectionOf(run, scenario, rule);
+  return html.empty() ? "" : fmt::format("<div class=\"survival\">{}</div>", html);
+}
+
+}  // namespace etude

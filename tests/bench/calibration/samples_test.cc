@@ -1,0 +1,96 @@
+#include "bench/calibration/samples.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/calibration/verdict_rates.h"
+
+namespace etude {
+namespace {
+
+constexpr SampleLaw kAllLaws[] = {SampleLaw::kNormal, SampleLaw::kHeavyTailed, SampleLaw::kTies, SampleLaw::kShares,
+                                  SampleLaw::kCensored};
+
+struct Moments {
+  double mean = 0, deviation = 0;
+  double correlation = 0;  ///< of two worlds of one unit
+};
+
+Moments MomentsOf(const SampleDesign& design, double effect) {
+  RandomStream dice({.suite_seed = 1, .scenario = "moments", .trial = 0}, "x");
+  double sum = 0, squares = 0, products = 0;
+  constexpr int kSamples = 2000;
+  const int worlds = design.units * 2;
+  for (int i = 0; i < kSamples; ++i) {
+    const UnitSample sample = DrawSample(design, effect, dice);
+    for (std::size_t w = 0; w < sample.differences.size(); w += 2) {
+      const double a = sample.differences[w], b = sample.differences[w + 1];
+      sum += a + b;
+      squares += a * a + b * b;
+      products += a * b;
+    }
+  }
+  const double n = static_cast<double>(kSamples) * worlds;
+  const double mean = sum / n, variance = squares / n - mean * mean;
+  return {mean, std::sqrt(variance), (products / (n / 2) - mean * mean) / variance};
+}
+
+TEST(DrawSample, HasTheMeanAndTheCorrelationItSays) {
+  for (SampleLaw law : kAllLaws) {
+    const SampleDesign design{.law = law, .units = 10, .trials = 2, .alike = 0.5};
+    for (double effect : {0.0, 2.0}) {
+      const Moments found = MomentsOf(design, effect);
+      EXPECT_NEAR(found.mean, effect * JustMatters(law), 0.03) << SampleLawName(law);
+      if (effect > 0) continue;
+      const double sixth = law == SampleLaw::kShares || law == SampleLaw::kCensored ? 6 : 3;
+      // The variance of t₃ is hardly to be sampled: its fourth moment is infinite.
+      EXPECT_NEAR(found.deviation / JustMatters(law) / sixth, 1, law == SampleLaw::kHeavyTailed ? 0.15 : 0.03)
+          << SampleLawName(law);
+      const bool is_exact = law == SampleLaw::kNormal || law == SampleLaw::kShares;
+      EXPECT_NEAR(found.correlation, 0.5, is_exact ? 0.03 : 0.35) << SampleLawName(law);
+    }
+  }
+}
+
+TEST(DrawSample, DrawsWorldsOfTwoDifferentUnits) {
+  RandomStream dice({.suite_seed = 1, .scenario = "pairs", .trial = 0}, "x");
+  const UnitSample sample = DrawSample({.units = 6, .trials = 60, .alike = 0.5, .in_pairs = true}, 0, dice);
+  ASSERT_EQ(sample.units.size(), 60u);
+  for (const std::vector<int>& units : sample.units) {
+    ASSERT_EQ(units.size(), 2u);
+    EXPECT_NE(units[0], units[1]);
+  }
+}
+
+TEST(MeasureVerdicts, KeepsItsPromiseAndFindsWhatIsThere) {
+  for (SampleLaw law : kAllLaws) {
+    const VerdictRates rates = MeasureVerdicts({.law = law, .units = 8, .trials = 3, .alike = 0.5}, {400, 100});
+    EXPECT_LE(rates.false_alarms.low, 5) << SampleLawName(law);
+    EXPECT_GE(rates.coverage_without, 90) << SampleLawName(law);
+    EXPECT_LE(rates.power[0], rates.power[2]) << SampleLawName(law);
+  }
+  const VerdictRates pairs = MeasureVerdicts({.units = 8, .trials = 60, .alike = 0.5, .in_pairs = true}, {400, 100});
+  EXPECT_LE(pairs.false_alarms.low, 5);
+  EXPECT_GE(pairs.power[2], 80);
+}
+
+TEST(MeasureVerdicts, TellsWhatATestOverWorldsWouldHaveClaimed) {
+  // The control: worlds of eight units that are alike are no independent worlds.
+  const VerdictRates alike = MeasureVerdicts({.units = 8, .trials = 10, .alike = 0.5}, {400, 1});
+  EXPECT_GE(alike.false_alarms_of_worlds.low, 25);
+  const VerdictRates apart = MeasureVerdicts({.units = 8, .trials = 10, .alike = 0}, {400, 1});
+  EXPECT_LE(apart.false_alarms_of_worlds.low, 5);
+}
+
+TEST(VerdictRatesMarkdown, HasALineForEveryDesignOfAllLaws) {
+  const std::vector<SampleDesign> designs = PublishedDesigns();
+  EXPECT_EQ(designs.size(), 36u * 5 + 24u * 3);
+  std::vector<VerdictRates> rates(designs.size());
+  for (std::size_t i = 0; i < designs.size(); ++i) rates[i].design = designs[i];
+  const std::string text = VerdictRatesMarkdown(rates);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 36 + 2 + 1 + 24 + 2);
+}
+
+}  // namespace
+}  // namespace etude

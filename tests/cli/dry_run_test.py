@@ -1,0 +1,41 @@
+"""`etude run --dry-run`: what it would take, what it could show, and nothing written."""
+
+import unittest
+
+from etude_case import EtudeCase
+
+SCENARIO = """
+scenario: s
+question: which?
+task: tracking
+clips: [{clips}]
+duration_s: 0.3
+trials: 8
+methods: [{{name: a, solver: ccd}}, {{name: b, solver: gauss-newton}}]
+metrics: [position_error_cm]
+"""
+
+
+class DryRun(EtudeCase):
+    def tell(self, clips):
+        file = self.folder / "s.yaml"
+        file.write_text(SCENARIO.format(clips=", ".join(clips)))
+        told = self.etude("run", file, "--dry-run", "-o", self.out)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [file])
+        return told.stdout
+
+    def test_counts_cells_and_what_could_be_shown(self):
+        clips = ["builtin:clap", "builtin:boxing", "builtin:robot", "builtin:sway", "builtin:stretch", "builtin:side_kick"]
+        told = self.tell(clips)
+        self.assertIn("1 condition × 8 worlds × 2 methods = 16 cells", told)
+        # 8 pairs: (t(0.975) + t(0.8)) / √8 of 7 degrees of freedom; 6 clips likewise.
+        self.assertIn("1 comparison shows a mean difference from 1.15 standard deviations", told)
+        self.assertIn("from 1.42 standard deviations of the mean differences of 6 clips", told)
+
+    def test_says_that_two_clips_carry_nothing(self):
+        self.assertIn("no verdict: 2 clips; at least 6 are needed", self.tell(["builtin:clap", "builtin:boxing"]))
+
+
+if __name__ == "__main__":
+    unittest.main()

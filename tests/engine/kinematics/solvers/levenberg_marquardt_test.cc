@@ -1,0 +1,245 @@
+#include "engine/kinematics/solvers/levenberg_marquardt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "engine/kinematics/solvers/ceres_lm.h"
+#include "engine/kinematics/solvers/damped_least_squares.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
+#include "engine/kinematics/solvers/jacobian_pinv.h"
+#include "engine/kinematics/solvers/linear_targets.h"
+#include "tests/engine/kinematics/solvers/arms.h"
+#include "tests/engine/kinematics/solvers/random_problem.h"
+
+namespace etude {
+namespace {
+
+// 10⁻³ cm and 10⁻³°.
+IkOptions TightGoals() {
+  IkOptions options;
+  options.position_goal = 1e-5;
+  options.axis_goal = Radians(1e-3);
+  options.max_iterations = 1000;
+  return options;
+}
+
+double CostAt(const IkProblem& problem, const std::vector<double>& angles) {
+  TreeState state = problem.start;
+  state.angles = angles;
+  return LinearTargets(Body(), problem.targets).Cost(ComputeFrames(Body(), state));
+}
+
+TEST(LevenbergMarquardt, FindsTheAnglesOfTwoHingesByTheLawOfCosines) {
+  const KinematicTree arm = Arm({0.5, 0.4}, 1);
+  const glm::dvec3 place = TwoHingeTip(0.5, 0.4, 0.7, 1.2);
+  const IkSolution solution = SolveLevenbergMarquardt(arm, Reach(arm, {0.4, 1.5}, place), Exactly());
+  EXPECT_EQ(solution.status, IkStatus::kConverged);
+  EXPECT_NEAR(solution.angles[0], 0.7, 1e-8);
+  EXPECT_NEAR(solution.angles[1], ElbowAngle(0.5, 0.4, glm::distance(place, {0, 0, 1})), 1e-8);
+}
+
+// An elbow that may bend by 0.9 rad at most: the nearest the tip comes to its target is found by one angle alone.
+TEST(LevenbergMarquardt, FindsTheNearestPoseWhereALimitBinds) {
+  KinematicTree arm = Arm({0.5, 0.4}, 1);
+  arm.limits[1] = {0, 0.9};
+  const glm::dvec3 place = TwoHingeTip(0.5, 0.4, 0.7, 1.4);
+  const IkSolution solution = SolveLevenbergMarquardt(arm, Reach(arm, {0.4, 0.3}, place), Exactly());
+  EXPECT_EQ(solution.status, IkStatus::kStalled);
+  EXPECT_EQ(solution.angles[1], 0.9);
+  // The shoulder turns the tip, at the elbow's end, into the target's direction.
+  const auto direction = [](const glm::dvec3& p) { return std::atan2(-p.y, p.z - 1); };
+  const double turn = direction(place) - direction(TwoHingeTip(0.5, 0.4, 0, 0.9));
+  EXPECT_NEAR(solution.angles[0], turn, 1e-6);
+}
+
+// A hinge of lever r, δ short of its target: with a = (r / 30 cm)² the sum is a (2 sin δ/2)², a step a sin δ / (a + μ).
+TEST(LevenbergMarquardt, FollowsTheRatioOfGainToPromise) {
+  const KinematicTree arm = Arm({0.5}, 1);
+  const double a = (0.5 / kPositionScale) * (0.5 / kPositionScale), target = 0.9;
+  const auto angle_after = [&](int steps, double share) {
+    IkOptions options;
+    options.max_iterations = steps;
+    const IkProblem problem = Reach(arm, {0}, {0, -0.5 * std::sin(target), 1 + 0.5 * std::cos(target)});
+    return SolveLevenbergMarquardt(arm, problem, options, {.damping_share = share}).angles[0];
+  };
+  const auto cost = [&](double off) { return a * std::pow(2 * std::sin(off / 2), 2); };
+  for (const double share : {0.5, 2.0}) {
+    const double first = a * std::sin(target) / (a + share * cost(target));
+    ASSERT_LT(first, kLargestTurn);
+    EXPECT_NEAR(angle_after(1, share), first, 1e-12);
+    const double promised = 2 * first * a * std::sin(target) - a * first * first;
+    const double ratio = (cost(target) - cost(target - first)) / promised;
+    const double factor = std::max(1.0 / 3, 1 - std::pow(2 * ratio - 1, 3));
+    ASSERT_LT(factor, 1);
+    const double off = target - first;
+    EXPECT_NEAR(angle_after(2, share), first + a * std::sin(off) / (a + factor * share * cost(off)), 1e-12);
+  }
+  EXPECT_NEAR(angle_after(1, 1e-6), kLargestTurn, 1e-12) << "steps are of bounded length";
+}
+
+// How often the sum rises along a trace; a restart may raise it, and costs a pass more than an iteration.
+template <typename Solve>
+std::pair<int, int> CountRises(const Solve& solve) {
+  int steps = 0, rises = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30);
+    IkOptions options = TightGoals();
+    options.max_iterations = 40;
+    options.trace = true;
+    const IkSolution solution = solve(problem, options);
+    if (solution.fk_evaluations != solution.iterations + 1) continue;
+    for (std::size_t i = 1; i < solution.trace.size(); ++i, ++steps) {
+      rises += CostAt(problem, solution.trace[i].angles) > CostAt(problem, solution.trace[i - 1].angles);
+    }
+  }
+  return {steps, rises};
+}
+
+TEST(LevenbergMarquardt, NeverRaisesTheSumOfSquares) {
+  const auto [steps, rises] = CountRises([](const IkProblem& problem, const IkOptions& options) {
+    return SolveLevenbergMarquardt(Body(), problem, options);
+  });
+  EXPECT_GT(steps, 400);
+  EXPECT_EQ(rises, 0);
+  const auto [others, other_rises] = CountRises(
+      [](const IkProblem& problem, const IkOptions& options) { return SolveJacobianPinv(Body(), problem, options); });
+  EXPECT_GT(other_rises, others / 20) << "a method that does raise it must show";
+}
+
+struct SolvedMany {
+  int solved = 0, outside = 0;
+  double hidden = 0;  // root of the mean squared angle to the truth, in units of the noise
+  double iterations = 0;
+};
+
+template <typename Solve>
+SolvedMany SolveMany(int trials, double pose_range, double noise_deg, const Solve& solve) {
+  SolvedMany tally;
+  double squares = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const TreeState truth = RandomPose(Body(), trial, pose_range);
+    const IkSolution solution = solve(DisturbedProblem(Body(), truth, trial, noise_deg));
+    tally.solved += solution.status == IkStatus::kConverged;
+    tally.iterations += solution.iterations;
+    for (std::size_t d = 0; d < truth.angles.size(); ++d) {
+      const double angle = solution.angles[d], off = angle - truth.angles[d];
+      squares += off * off;
+      tally.outside += !(angle >= Body().limits[d].lower && angle <= Body().limits[d].upper);
+    }
+  }
+  tally.hidden = std::sqrt(squares / (trials * Body().dof_count())) / Radians(noise_deg);
+  tally.iterations /= trials;
+  return tally;
+}
+
+SolvedMany SolveMany(int trials, double pose_range, double noise_deg) {
+  return SolveMany(trials, pose_range, noise_deg,
+                   [](const IkProblem& problem) { return SolveLevenbergMarquardt(Body(), problem, TightGoals()); });
+}
+
+TEST(LevenbergMarquardt, SolvesKeepsLimitsAndStaysNearTheStart) {
+  for (const double pose_range : {0.5, 1.0}) {
+    const SolvedMany tally = SolveMany(400, pose_range, 15);
+    EXPECT_EQ(tally.solved, 400) << pose_range;
+    EXPECT_EQ(tally.outside, 0) << pose_range;
+    EXPECT_LE(tally.hidden, 0.45) << pose_range;
+    EXPECT_LE(tally.iterations, 5.5) << pose_range;
+  }
+}
+
+TEST(LevenbergMarquardt, SolvesFromFarAway) {
+  for (const double pose_range : {0.5, 1.0}) {
+    const SolvedMany tally = SolveMany(200, pose_range, 45);
+    EXPECT_GE(tally.solved, 199) << pose_range;
+    EXPECT_EQ(tally.outside, 0) << pose_range;
+    EXPECT_LE(tally.iterations, 16) << pose_range;
+  }
+}
+
+// Without the active set, and all else of damped least squares the same, limits bring steps to a crawl.
+TEST(LevenbergMarquardt, SolvesWhereClampingCrawlsAlongTheLimits) {
+  IkOptions options = TightGoals();
+  options.max_iterations = 25;
+  const auto solved_by = [&](Bounds bounds) {
+    return SolveMany(200, 1.0, 15,
+                     [&](const IkProblem& problem) {
+                       return SolveDampedLeastSquares(Body(), problem, options, {.bounds = bounds});
+                     })
+        .solved;
+  };
+  const int ours = SolveMany(200, 1.0, 15, [&](const IkProblem& problem) {
+                     return SolveLevenbergMarquardt(Body(), problem, options);
+                   }).solved;
+  EXPECT_EQ(ours, 200);
+  EXPECT_GE(solved_by(Bounds::kActiveSet), 190);
+  EXPECT_LE(solved_by(Bounds::kClamped), 120) << "else the active set is not what solves them";
+}
+
+// Second implementations: `gauss-newton` with its steps along the limbs, and Ceres, which often gives up beside the
+// minimum where bounds hold it.
+TEST(LevenbergMarquardt, FindsTheMinimumThatOthersFindWhereTargetsContradictEachOther) {
+  int same = 0, held = 0, better = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 3);
+    for (EffectorTarget& target : problem.targets) target.axis_weights = {1, 2, 3};
+    problem.targets[0].position.y -= 0.10;
+    problem.targets[3].position.y += 0.30;
+    IkOptions options;
+    options.max_iterations = 3000;
+    const IkSolution solution = SolveLevenbergMarquardt(Body(), problem, options);
+    const double found = CostAt(problem, solution.angles);
+    const double by_gauss_newton = CostAt(problem, SolveGaussNewton(Body(), problem, options).angles);
+    const double by_ceres = CostAt(problem, SolveCeresLm(Body(), problem, options).angles);
+    EXPECT_GT(found, 1e-3) << "contradictions leave something";
+    EXPECT_LT(found, 1.0001 * by_ceres) << trial;
+    same += std::abs(found - by_gauss_newton) < 1e-3 * found;
+    better += found < 0.99 * by_ceres;
+    for (int i = 0; i < 29; ++i) {
+      held += solution.angles[i] == problem.limits[i].lower || solution.angles[i] == problem.limits[i].upper;
+    }
+  }
+  EXPECT_GE(same, 36);
+  EXPECT_GE(better, 15) << "else a comparison that passes by less would do";
+  EXPECT_GE(held, 40) << "else no bound was put to the test";
+}
+
+TEST(LevenbergMarquardt, GivesAnHonestAnswerToAnyProblem) {
+  int converged = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto made = MakeRandomProblem(trial);
+    if (!made) continue;
+    const auto& [tree, problem, options] = *made;
+    const IkSolution solution = SolveLevenbergMarquardt(tree, problem, options);
+    const std::vector<AngleRange> ranges = AllowedRanges(problem, options);
+    for (std::size_t d = 0; d < ranges.size(); ++d) {
+      EXPECT_TRUE(solution.angles[d] >= ranges[d].lower && solution.angles[d] <= ranges[d].upper) << trial;
+    }
+    EXPECT_LE(solution.iterations, options.max_iterations) << trial;
+    const bool is_met = FindWorst(solution.errors, problem.targets).Within(options);
+    EXPECT_EQ(solution.status == IkStatus::kConverged, is_met) << trial;
+    if (solution.status == IkStatus::kIterationLimit) {
+      EXPECT_EQ(solution.iterations, options.max_iterations) << trial;
+    }
+    converged += is_met;
+  }
+  EXPECT_GT(converged, 50);
+  EXPECT_LT(converged, 450);
+}
+
+TEST(LevenbergMarquardt, StaysFiniteWithWeightsAndLimbsOfAbsurdSizes) {
+  KinematicTree tree = Body();
+  for (TreeJoint& joint : tree.joints) joint.p_PJ *= 1e5;
+  for (const double weight : {1e-300, 1e-9, 1e6}) {
+    IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 3, 1.0), 3, 30);
+    for (EffectorTarget& target : problem.targets) target.position_weight = weight;
+    problem.targets[0].position = {1e6, -1e6, 1e6};
+    const IkSolution solution = SolveLevenbergMarquardt(tree, problem, TightGoals());
+    EXPECT_NE(solution.status, IkStatus::kBadInput);
+    for (const double angle : solution.angles) EXPECT_TRUE(std::isfinite(angle)) << weight;
+    for (const EffectorError& error : solution.errors) EXPECT_TRUE(std::isfinite(error.position)) << weight;
+  }
+}
+
+}  // namespace
+}  // namespace etude
