@@ -115,8 +115,8 @@ TEST(Defaults, OfNestedMappingsAreTheSameWrittenOrLeftOut) {
   const std::string yaml = kHead + kMethods + "sweep: {poses: {from: 0, to: 1, count: 3, " + group("sweep.PARAMETER") +
                            "}}\n" + "limits: {" + group("limits") + "}\n" + "video: {" + group("video") + "}\n" +
                            "expect: [{metric: iterations, of: a, at_most: 1, " + group("expect[]") + "}]\n" +
-                           "gate: {rule: threshold, tail: {" + group("gate.tail") + "}, time_ratios: [{of: a, over: b, " +
-                           group("gate.time_ratios[]") + "}]}\n";
+                           "gate: {rule: threshold, tail: {" + group("gate.tail") +
+                           "}, time_ratios: [{of: a, over: b, " + group("gate.time_ratios[]") + "}]}\n";
   const Scenario a = ParseOne(yaml);
   const Scenario b = ParseOne(kHead + kMethods +
                               "sweep: {poses: {from: 0, to: 1, count: 3}}\nvideo: {}\n"
