@@ -42,19 +42,19 @@ void InjectedTails::Try(const Snapshot& first, const std::string& target, std::u
     return CompareSnapshots(first, after, {}, {{first.scenarios.front().name, rule}});
   };
   const auto worse_by = [&](double times) { return [=](std::optional<double>& value) { *value += times * worse; }; };
-  std::set<int> counts = {1, 2, 3, 5, 10};
-  if (rule.worlds > 0) counts.insert(rule.worlds);
   const auto present = static_cast<int>(DrawTrials(TargetOf(first, target), SIZE_MAX, seed).size());
+  const int needed = WorldsThatFail(present, rule);
+  std::set<int> counts = {1, 2, 3, 5, 10};
+  if (needed > 0) counts.insert(needed);
   for (const int count : counts) {
     if (count > present) break;
     Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, count, present,
                       kFarBeyond * rule.times),
-          rule.worlds > 0 && count >= rule.worlds, compare(static_cast<std::size_t>(count), worse_by(kFarBeyond)));
+          needed > 0 && count >= needed, compare(static_cast<std::size_t>(count), worse_by(kFarBeyond)));
   }
-  if (rule.worlds > 0 && rule.worlds <= present) {
-    Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, rule.worlds, present,
-                      kShort * rule.times),
-          false, compare(static_cast<std::size_t>(rule.worlds), worse_by(kShort)));
+  if (needed > 0 && needed <= present) {
+    Count(fmt::format("{} in {} of {} worlds worse by {} × what matters", target, needed, present, kShort * rule.times),
+          false, compare(static_cast<std::size_t>(needed), worse_by(kShort)));
   }
   if (present > 0) {
     Count(fmt::format("{} lost in 1 of {} worlds", target, present), rule.lost == 1,

@@ -13,8 +13,8 @@ namespace etude {
 class InjectedTails {
  public:
   /// Changes `target` (scenario 0, cells 0, this metric) of copies of `first`: n worlds worse by twice the rule's
-  /// `times`, n = 1, 2, 3, 5, 10 and the rule's `worlds`; that many by nine tenths of it; one value lost. `seed` keys
-  /// which worlds.
+  /// `times`, n = 1, 2, 3, 5, 10 and as many as fail by the rule; that many by nine tenths of it; one value lost.
+  /// `seed` keys which worlds.
   void Try(const Snapshot& first, const std::string& target, std::uint64_t seed, const TailRule& rule);
 
   std::vector<PowerResult> Results() const;

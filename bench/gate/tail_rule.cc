@@ -1,6 +1,7 @@
 #include "bench/gate/tail_rule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace etude {
@@ -51,14 +52,21 @@ std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& me
   return tail;
 }
 
-bool IsTailRegression(const std::vector<TailWorld>& tail, const TailRule& rule) {
+int WorldsThatFail(int compared, const TailRule& rule) {
+  if (rule.worlds == 0) return 0;
+  constexpr double kRounding = 1e-9;  // 0.02 of 150 is 3, whatever the product's last bit
+  return std::max(rule.worlds, static_cast<int>(std::ceil(rule.share * compared - kRounding)));
+}
+
+bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule) {
+  const int needed = WorldsThatFail(compared, rule);
   const auto lost = std::ranges::count(tail, true, &TailWorld::lost);
-  return (rule.worlds > 0 && std::ssize(tail) >= rule.worlds) || (rule.lost > 0 && lost >= rule.lost);
+  return (needed > 0 && std::ssize(tail) >= needed) || (rule.lost > 0 && lost >= rule.lost);
 }
 
 void JudgeTail(MetricMove& move, const TailRule& rule) {
   if (move.movement == Movement::kWorse || move.movement == Movement::kChanged) return;
-  if (!IsTailRegression(move.tail, rule)) return;
+  if (!IsTailRegression(move.tail, move.worlds, rule)) return;
   move.movement = Movement::kWorse;
   move.by_tail = true;
 }

@@ -17,8 +17,10 @@ using TailRules = std::map<std::string, TailRule>;
 /// Without a better direction, no value is worse than another, but lost ones are. Lost worlds first, then the worst.
 std::vector<TailWorld> FindTail(const MoveColumns& columns, const MetricInfo& metric, const TailRule& rule);
 
-/// Whether so many of them are a regression.
-bool IsTailRegression(const std::vector<TailWorld>& tail, const TailRule& rule);
+/// How many far worse worlds of so many compared ones are a regression; 0 = none ever is.
+int WorldsThatFail(int compared, const TailRule& rule);
+/// Whether these are, of so many compared.
+bool IsTailRegression(const std::vector<TailWorld>& tail, int compared, const TailRule& rule);
 
 /// Makes kWorse of moves whose tail is a regression and that all worlds together do not call worse already. What is
 /// judged by the rule `exact` (kChanged) stays.

@@ -32,9 +32,10 @@ struct TimeRatio {
 /// When single worlds are a regression of their own, whatever all worlds together say: on the same worlds any
 /// difference comes from the code. How the defaults were measured: docs/gate.md.
 struct TailRule {
-  double times = 20;  ///< a world is far worse when it is worse by more than so many practical thresholds
-  int worlds = 3;     ///< so many far worse worlds of one comparison are a regression; 0 = none ever is
-  int lost = 1;       ///< so many worlds that lost their value or answer are one; 0 = none ever is
+  double times = 20;    ///< a world is far worse when it is worse by more than so many practical thresholds
+  int worlds = 4;       ///< so many far worse worlds of one comparison are a regression; 0 = none ever is …
+  double share = 0.05;  ///< … where they are also so large a share of the worlds compared: rounding moves some of many
+  int lost = 1;         ///< so many worlds that lost their value or answer are one; 0 = none ever is
 };
 
 /// What `etude gate` holds against a baseline, for one scenario.

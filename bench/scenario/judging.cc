@@ -147,6 +147,8 @@ FieldTable<TailRule> TailFields() {
                        "A world is far worse when it is worse by more than so many times the practical threshold."),
            Key::Number("worlds", &TailRule::worlds, kWorlds,
                        "So many far worse worlds of one comparison are a regression; 0: none ever is."),
+           Key::Number("share", &TailRule::share, {0, 1},
+                       "And they must be so large a share of the worlds compared: of many, rounding alone moves some."),
            Key::Number("lost", &TailRule::lost, kWorlds,
                        "So many worlds of one comparison that lost their value or answer are one; 0: none ever is.")}};
 }

@@ -14,7 +14,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// The metric matters from 0.05 cm on.
-constexpr TailRule kRule{.times = 20, .worlds = 3, .lost = 1};
+constexpr TailRule kRule{.times = 20, .worlds = 3, .share = 0, .lost = 1};
 constexpr double kFar = 20 * 0.05;
 
 MoveColumns Columns(const std::vector<std::optional<double>>& after) {
@@ -80,16 +80,27 @@ TEST(Tail, IsARegressionFromSoManyWorldsOn) {
   const auto fails = [](int far, int lost, const TailRule& rule = kRule) {
     std::vector<TailWorld> tail(static_cast<std::size_t>(far + lost));
     for (int i = 0; i < lost; ++i) tail[static_cast<std::size_t>(i)].lost = true;
-    return IsTailRegression(tail, rule);
+    return IsTailRegression(tail, 1000, rule);
   };
   EXPECT_FALSE(fails(0, 0));
   EXPECT_FALSE(fails(2, 0));
   EXPECT_TRUE(fails(3, 0));
   EXPECT_TRUE(fails(0, 1));
-  EXPECT_FALSE(fails(1, 1, {20, 3, 2}));
-  EXPECT_TRUE(fails(2, 1, {20, 3, 2}));  // a lost world is a far worse one, too
-  EXPECT_FALSE(fails(24, 0, {20, 0, 1}));
-  EXPECT_FALSE(fails(24, 24, {20, 0, 0}));
+  EXPECT_FALSE(fails(1, 1, {20, 3, 0, 2}));
+  EXPECT_TRUE(fails(2, 1, {20, 3, 0, 2}));  // a lost world is a far worse one, too
+  EXPECT_FALSE(fails(24, 0, {20, 0, 0, 1}));
+  EXPECT_FALSE(fails(24, 24, {20, 0, 0, 0}));
+}
+
+TEST(Tail, MustBeAShareOfManyWorldsToo) {
+  const TailRule rule{.times = 20, .worlds = 3, .share = 0.02, .lost = 0};
+  for (const auto& [compared, needed] : {std::pair{5, 3}, {30, 3}, {150, 3}, {151, 4}, {1000, 20}}) {
+    EXPECT_EQ(WorldsThatFail(compared, rule), needed);
+    const auto few = static_cast<std::size_t>(needed) - 1;
+    EXPECT_FALSE(IsTailRegression(std::vector<TailWorld>(few), compared, rule));
+    EXPECT_TRUE(IsTailRegression(std::vector<TailWorld>(few + 1), compared, rule));
+  }
+  EXPECT_EQ(WorldsThatFail(1000, {.worlds = 0}), 0);
 }
 
 /// Thirty worlds, of which `far` are worse by 60°: the case that the population test let pass.
@@ -131,7 +142,7 @@ TEST(GateOfThirtyWorlds, FailsWhereFiveAreWorseBySixtyDegrees) {
 TEST(GateOfThirtyWorlds, FollowsTheKeysOfItsScenario) {
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(1)), GateVerdict::kPassed);
   EXPECT_THAT(FirstOf(ThirtyWorlds(1), "orientation_error_deg").tail, SizeIs(1));  // told all the same
-  EXPECT_EQ(GateVerdictOf(ThirtyWorlds(1, "gate: {tail: {worlds: 1}}\n")), GateVerdict::kRegressed);
+  EXPECT_EQ(GateVerdictOf(ThirtyWorlds(1, "gate: {tail: {worlds: 1, share: 0}}\n")), GateVerdict::kRegressed);
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(5, "gate: {tail: {worlds: 6}}\n")), GateVerdict::kPassed);
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(5, "gate: {tail: {times: 599}}\n")), GateVerdict::kRegressed);  // 0.1° matters
   EXPECT_EQ(GateVerdictOf(ThirtyWorlds(5, "gate: {tail: {times: 601}}\n")), GateVerdict::kPassed);

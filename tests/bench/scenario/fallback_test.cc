@@ -115,8 +115,8 @@ TEST(Defaults, OfNestedMappingsAreTheSameWrittenOrLeftOut) {
   const std::string yaml = kHead + kMethods + "sweep: {poses: {from: 0, to: 1, count: 3, " + group("sweep.PARAMETER") +
                            "}}\n" + "limits: {" + group("limits") + "}\n" + "video: {" + group("video") + "}\n" +
                            "expect: [{metric: iterations, of: a, at_most: 1, " + group("expect[]") + "}]\n" +
-                           "gate: {rule: threshold, time_ratios: [{of: a, over: b, " + group("gate.time_ratios[]") +
-                           "}]}\n";
+                           "gate: {rule: threshold, tail: {" + group("gate.tail") +
+                           "}, time_ratios: [{of: a, over: b, " + group("gate.time_ratios[]") + "}]}\n";
   const Scenario a = ParseOne(yaml);
   const Scenario b = ParseOne(kHead + kMethods +
                               "sweep: {poses: {from: 0, to: 1, count: 3}}\nvideo: {}\n"
@@ -131,6 +131,11 @@ TEST(Defaults, OfNestedMappingsAreTheSameWrittenOrLeftOut) {
   EXPECT_EQ(a.expectations[0].statistic, b.expectations[0].statistic);
   EXPECT_EQ(a.expectations[0].where, b.expectations[0].where);
   EXPECT_EQ(a.gate.exact, b.gate.exact);
+  EXPECT_THAT(group("gate.tail"), testing::HasSubstr("worlds: 4"));
+  EXPECT_EQ(a.gate.tail.times, b.gate.tail.times);
+  EXPECT_EQ(a.gate.tail.worlds, b.gate.tail.worlds);
+  EXPECT_EQ(a.gate.tail.share, b.gate.tail.share);
+  EXPECT_EQ(a.gate.tail.lost, b.gate.tail.lost);
   EXPECT_EQ(a.gate.time_ratios[0].at_most, b.gate.time_ratios[0].at_most);
 }
 

@@ -95,10 +95,16 @@ TEST(Scenario, ReadsLimitsAndWhatTheGateHoldsAgainstABaseline) {
   EXPECT_EQ(plain.limits.memory_mb, 4096);
   EXPECT_THAT(plain.gate.metrics, ElementsAre("iterations"));
   EXPECT_FALSE(plain.gate.exact);
+  EXPECT_EQ(plain.gate.tail.worlds, TailRule{}.worlds);
   const Scenario scenario = ParseOne(kHead + kMethods +
                                      "limits: {time_s: 1.5, memory_mb: 100}\n"
                                      "gate: {metrics: [position_error_cm], rule: exact,\n"
-                                     "       time_ratios: [{of: b, over: a, at_most: 1.2}, {of: a, over: b}]}\n");
+                                     "       time_ratios: [{of: b, over: a, at_most: 1.2}, {of: a, over: b}],\n"
+                                     "       tail: {times: 7.5, worlds: 2, share: 0.1, lost: 0}}\n");
+  EXPECT_EQ(scenario.gate.tail.times, 7.5);
+  EXPECT_EQ(scenario.gate.tail.worlds, 2);
+  EXPECT_EQ(scenario.gate.tail.share, 0.1);
+  EXPECT_EQ(scenario.gate.tail.lost, 0);
   EXPECT_EQ(scenario.limits.time_s, 1.5);
   EXPECT_EQ(scenario.limits.memory_mb, 100);
   EXPECT_THAT(scenario.gate.metrics, ElementsAre("position_error_cm"));
