@@ -14,6 +14,8 @@ std::string_view IntervalKindName(IntervalKind kind) {
       return "adjusted wald";
     case IntervalKind::kStudent:
       return "student";
+    case IntervalKind::kOrderStatistics:
+      return "order statistics";
     case IntervalKind::kNone:
       break;
   }

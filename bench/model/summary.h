@@ -14,11 +14,12 @@ namespace etude {
 /// How an interval was computed (bench/statistics/bootstrap.h, proportion.h).
 enum class IntervalKind {
   kNone,
-  kBca,           ///< bias-corrected and accelerated bootstrap
-  kPercentile,    ///< bootstrap whose correction is undefined, e.g. of values that are all the same
-  kWilson,        ///< score interval of a share
-  kAdjustedWald,  ///< Bonett and Price's, of the difference of two shares on the same worlds
-  kStudent,       ///< Student's t, of a mean over units
+  kBca,              ///< bias-corrected and accelerated bootstrap
+  kPercentile,       ///< bootstrap whose correction is undefined, e.g. of values that are all the same
+  kWilson,           ///< score interval of a share
+  kAdjustedWald,     ///< Bonett and Price's, of the difference of two shares on the same worlds
+  kStudent,          ///< Student's t, of a mean over units or over very many worlds
+  kOrderStatistics,  ///< of the median of very many worlds
 };
 std::string_view IntervalKindName(IntervalKind kind);
 

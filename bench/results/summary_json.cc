@@ -5,7 +5,7 @@
 namespace etude {
 namespace {
 
-constexpr int kVerdicts = 4, kIntervalKinds = 6;
+constexpr int kVerdicts = 4, kIntervalKinds = 7;
 
 Json Number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 

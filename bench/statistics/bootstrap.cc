@@ -86,6 +86,23 @@ double AtLevel(std::span<const double> sorted, double level) {
   return sorted[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(sorted.size()))) - 1];
 }
 
+/// By the normal approximation of the binomial: so many values lie below the median.
+Interval OrderStatisticsInterval(std::span<const double> sorted, double confidence) {
+  const double n = static_cast<double>(sorted.size());
+  const double below = std::floor(0.5 * n - 0.5 * std::sqrt(n) * NormalQuantile(0.5 + confidence / 2));
+  const auto rank = static_cast<std::size_t>(std::max(below, 0.0));
+  return {sorted[rank], sorted[sorted.size() - 1 - rank], IntervalKind::kOrderStatistics};
+}
+
+Interval StudentInterval(std::span<const double> values, double confidence) {
+  const double n = static_cast<double>(values.size()), mean = Mean(values);
+  double squares = 0;
+  for (double value : values) squares += (value - mean) * (value - mean);
+  const int freedom = static_cast<int>(values.size()) - 1;
+  const double half = StudentQuantile(0.5 + confidence / 2, freedom) * std::sqrt(squares / freedom / n);
+  return {KeepThirtyBits(mean - half), KeepThirtyBits(mean + half), IntervalKind::kStudent};
+}
+
 }  // namespace
 
 double Quantile(std::span<const double> values, double q) {
@@ -132,6 +149,10 @@ std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggreg
   std::vector<double> sorted(values.begin(), values.end());
   std::sort(sorted.begin(), sorted.end());
   if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
+  if (static_cast<int>(sorted.size()) > kLargestResampled) {
+    return aggregate == Aggregate::kMedian ? OrderStatisticsInterval(sorted, confidence)
+                                           : StudentInterval(sorted, confidence);
+  }
   RandomStream dice({.suite_seed = seed, .scenario = "bootstrap", .trial = 0}, purpose);
   std::vector<double> replicates(kResamples);
   std::vector<int> counts;

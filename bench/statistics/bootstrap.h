@@ -29,8 +29,12 @@ constexpr int kSmallestSample = 6;
 Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span<const double> jackknife,
                      double confidence = kConfidence);
 
+/// A larger sample is not resampled: closed forms say the same there, and cost nothing.
+constexpr int kLargestResampled = 20'000;
+
 /// The BCa interval of the values' aggregate, from 1,999 resamples of a stream keyed by `seed` and `purpose`. It
-/// depends on the values, not on their order. Nothing for fewer than kSmallestSample values.
+/// depends on the values, not on their order. Nothing for fewer than kSmallestSample values; of more than
+/// kLargestResampled that of order statistics of the median, Student's of the mean.
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                           const std::string& purpose, double confidence = kConfidence);
 

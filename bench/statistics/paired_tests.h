@@ -24,7 +24,8 @@ double RankBiserial(std::span<const double> differences);
 /// The sign-flip permutation test (Fisher 1935) of the differences' median or mean. Exact by enumeration with up to
 /// 16 differences other than zero; exact by the binomial for a mean of differences of one size (for shares this is
 /// McNemar's exact test); else 9,999 draws of a stream keyed by `seed` and `purpose`, p = (b + 1) / (m + 1)
-/// (Phipson & Smyth 2010).
+/// (Phipson & Smyth 2010); of more than kLargestResampled differences the normal approximation, for a
+/// median of the sign test.
 PairedTest SignFlipTest(std::span<const double> differences, Aggregate aggregate, std::uint64_t seed,
                         const std::string& purpose);
 

@@ -187,5 +187,21 @@ TEST(BootstrapInterval, ThrowsDiceOfItsPurposeOnlyWhateverTheOrder) {
   EXPECT_TRUE(other->low != a->low || other->high != a->high);
 }
 
+TEST(BootstrapInterval, OfVeryManyValuesIsAClosedFormThatSaysTheSame) {
+  RandomStream dice({.suite_seed = 5, .scenario = "many", .trial = 0}, "x");
+  std::vector<double> values(kLargestResampled);
+  for (double& value : values) value = std::exp(dice.Normal());
+  for (Aggregate aggregate : {Aggregate::kMedian, Aggregate::kMean}) {
+    const Interval resampled = *BootstrapInterval(values, aggregate, 1, "x");
+    std::vector<double> more = values;
+    more.push_back(1);
+    const Interval closed = *BootstrapInterval(more, aggregate, 1, "x");
+    EXPECT_NE(closed.kind, resampled.kind);
+    const double width = resampled.high - resampled.low;
+    EXPECT_NEAR(closed.low, resampled.low, 0.1 * width);
+    EXPECT_NEAR(closed.high, resampled.high, 0.1 * width);
+  }
+}
+
 }  // namespace
 }  // namespace etude
