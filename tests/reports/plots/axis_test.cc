@@ -32,7 +32,8 @@ TEST(Axis, OfDecadesIsLogarithmicAndHoldsZeroOnItsEnd) {
 }
 
 TEST(Axis, HasAFewRoundTicksWithinItself) {
-  for (const std::vector<double>& values : {std::vector<double>{0, 1}, {41.7, 66.2}, {-53, 1}, {7, 7}, {0, 0}, {1e-4, 3e-4}}) {
+  for (const std::vector<double>& values :
+       {std::vector<double>{0, 1}, {41.7, 66.2}, {-53, 1}, {7, 7}, {0, 0}, {1e-4, 3e-4}}) {
     const Axis axis = AxisOf(values, 0);
     const std::vector<double> ticks = axis.Ticks();
     EXPECT_GE(ticks.size(), 2u);

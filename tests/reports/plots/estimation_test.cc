@@ -14,6 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// The comparisons stand by method, then by metric.
 Judged JudgedIn(const ScenarioSummary& scenario, std::size_t index) {
   return {&scenario.conditions[0].comparisons[index], &scenario.conditions[0]};
 }
@@ -45,7 +46,8 @@ TEST(PairedWorlds, AreThinnedAndCounted) {
   const PairedWorlds pairs = PairedWorldsOf(run, detection, JudgedIn(detection, 0));
   EXPECT_EQ(pairs.total, 1200u);
   EXPECT_EQ(pairs.worlds.size(), 400u);
-  EXPECT_THAT(EstimationHtml(detection, JudgedIn(detection, 0), pairs), HasSubstr("(400 of 1,200 drawn, at equal steps)"));
+  EXPECT_THAT(EstimationHtml(detection, JudgedIn(detection, 0), pairs),
+              HasSubstr("(400 of 1,200 drawn, at equal steps)"));
 }
 
 TEST(PairedWorlds, OfARivalThatHalvesChoseAreNone) {
@@ -58,8 +60,8 @@ TEST(PairedWorlds, OfARivalThatHalvesChoseAreNone) {
 TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
   const RunData run = UnitRun();
   const ScenarioSummary& capture = run.scenarios[3];
-  const PairedWorlds pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 1));
-  const std::string html = EstimationHtml(capture, JudgedIn(capture, 1), pairs);
+  const PairedWorlds pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 2));
+  const std::string html = EstimationHtml(capture, JudgedIn(capture, 2), pairs);
   EXPECT_EQ(CountOf(html, "data-t=\"5\""), 3);
   EXPECT_EQ(CountOf(html, " data-t="), static_cast<int>(3 * pairs.worlds.size()));
   EXPECT_THAT(html, HasSubstr("<title>trial 5 · clip-1: "));
@@ -90,7 +92,7 @@ TEST(Estimation, LetsNoNameSpeakMarkup) {
     if (row.method == "ccd-adaptive") row.method = hostile;
     for (std::string& unit : row.units) unit = hostile + unit;
   }
-  capture.methods[2] = capture.conditions[0].comparisons[1].method = hostile;
+  capture.methods[2] = capture.conditions[0].comparisons[2].method = hostile;
   capture.conditions[0].methods[2].method = hostile;
   EXPECT_THAT(PlotSectionHtml(run, capture), Not(HasSubstr("<script>")));
 }

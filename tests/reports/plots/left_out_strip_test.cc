@@ -29,7 +29,8 @@ TEST(LeftOutStrip, NamesTheClipThatCarriesTheDifference) {
             "mm: then it no longer matters: this clip carries it.");
   // Nearer to the whole, and yet the one that counts, though another is farther off on the other side.
   EXPECT_THAT(WithoutEachUnit(Differing(2.4, {0.7, 2.2, 9}), SamplingUnit::kClip), HasSubstr("Without “a” 0.700 mm"));
-  EXPECT_THAT(WithoutEachUnit(Differing(-2, {1.5, -3, -4}), SamplingUnit::kLibrary), EndsWith("this library carries it."));
+  EXPECT_THAT(WithoutEachUnit(Differing(-2, {1.5, -3, -4}), SamplingUnit::kLibrary),
+              EndsWith("this library carries it."));
 }
 
 TEST(LeftOutStrip, SaysThatNoneCarriesIt) {

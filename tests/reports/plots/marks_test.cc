@@ -14,16 +14,11 @@ using Rgb = std::array<double, 3>;
 using Matrix = std::array<Rgb, 3>;
 
 // Machado, Oliveira & Fernandes 2009, severity 1: normal, protanopia, deuteranopia, tritanopia; of linear RGB.
-constexpr std::array<Matrix, 4> kVisions = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
-                                             {{{0.152286, 1.052583, -0.204868},
-                                               {0.114503, 0.786281, 0.099216},
-                                               {-0.003882, -0.048116, 1.051998}}},
-                                             {{{0.367322, 0.860646, -0.227968},
-                                               {0.280085, 0.672501, 0.047413},
-                                               {-0.011820, 0.042940, 0.968881}}},
-                                             {{{1.255528, -0.076749, -0.178779},
-                                               {-0.078411, 0.930809, 0.147602},
-                                               {0.004733, 0.691367, 0.303900}}}}};
+constexpr std::array<Matrix, 4> kVisions = {
+    {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
+     {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}},
+     {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}}},
+     {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}}}}};
 
 Rgb Linear(std::string_view hex) {
   Rgb rgb;
@@ -75,8 +70,8 @@ double Contrast(std::string_view a, std::string_view b) {
     const Rgb c = Linear(hex);
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   };
-  const auto [low, high] = std::minmax(luminance(a), luminance(b));
-  return (high + 0.05) / (low + 0.05);
+  const double of_a = luminance(a) + 0.05, of_b = luminance(b) + 0.05;
+  return std::max(of_a, of_b) / std::min(of_a, of_b);
 }
 
 std::vector<std::string_view> Scheme(std::string_view PlotColour::*scheme) {
@@ -101,7 +96,8 @@ TEST(Marks, StandOutFromBothBackgrounds) {
 }
 
 TEST(Marks, BeginAgainAfterEightAndEscapeTheirTitles) {
-  EXPECT_EQ(MarkUse(1, 9, 10.04, 5, " data-t=\"3\""), "<use href=\"#k1\" class=\"f1\" x=\"10.0\" y=\"5.0\" data-t=\"3\"/>");
+  EXPECT_EQ(MarkUse(1, 9, 10.04, 5, " data-t=\"3\""),
+            "<use href=\"#k1\" class=\"f1\" x=\"10.0\" y=\"5.0\" data-t=\"3\"/>");
   EXPECT_THAT(MarkUse(8, 0, 0, 0, "", "<b>"), testing::HasSubstr("#k0\""));
   EXPECT_THAT(MarkUse(8, 0, 0, 0, "", "<b>"), testing::HasSubstr("<title>&lt;b&gt;</title>"));
 }
