@@ -106,7 +106,7 @@ MAY_INCLUDE = {
     # reports/
     "reports":
         "engine/base bench/files bench/gate bench/model bench/recordings reports/assets reports/films reports/growth "
-        "reports/paper reports/transitions reports/words",
+        "reports/paper reports/plots reports/transitions reports/words",
     "reports/assets": "",
     "reports/bridges":
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
@@ -115,9 +115,10 @@ MAY_INCLUDE = {
         "bench/files reports/films reports/words",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
-        "bench/files bench/metrics bench/model bench/recordings reports/transitions reports/words",
+        "bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
-    "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/words",
+    "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
+    "reports/plots": "bench/model reports/words",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/

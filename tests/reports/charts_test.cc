@@ -12,51 +12,6 @@
 namespace etude {
 namespace {
 
-TEST(IntervalChart, HasAMarkForEveryMethodUnderEveryCondition) {
-  const RunData run = ExampleRun();
-  const auto chart = IntervalChart(run.scenarios[2]);
-  ASSERT_TRUE(chart.has_value());
-  const auto json = nlohmann::json::parse(chart->json);
-  EXPECT_EQ(json["groups"], (nlohmann::json{"5", "10", "20"}));
-  EXPECT_EQ(json["groupLabel"], "joint_noise_deg");
-  ASSERT_EQ(json["methods"].size(), 4u);
-  for (const auto& method : json["methods"]) EXPECT_EQ(method["marks"].size(), 3u);
-  EXPECT_DOUBLE_EQ(json["methods"][0]["marks"][1]["value"], 14.2);
-  EXPECT_DOUBLE_EQ(json["methods"][0]["marks"][1]["low"], 13.1);
-}
-
-TEST(IntervalChart, DrawsNothingRatherThanZeroForAMissingValue) {
-  RunData run = ExampleRun();
-  MetricSummary& metric = run.scenarios[1].conditions[0].methods[1].metrics[0];
-  metric.median = metric.mean = metric.ci_low = metric.ci_high = std::nullopt;
-  const auto json = nlohmann::json::parse(IntervalChart(run.scenarios[1])->json);
-  EXPECT_TRUE(json["methods"][1]["marks"][0]["value"].is_null());
-  metric = run.scenarios[1].conditions[0].methods[0].metrics[0];
-  for (auto& method : run.scenarios[1].conditions[0].methods) {
-    MetricSummary& missing = method.metrics[0];
-    missing.median = missing.mean = missing.ci_low = missing.ci_high = std::nullopt;
-  }
-  EXPECT_FALSE(IntervalChart(run.scenarios[1]).has_value());
-}
-
-TEST(IntervalChart, OfAShareIsNeverLogarithmic) {
-  RunData run = ExampleRun();
-  ScenarioSummary& scenario = run.scenarios[1];
-  const auto is_logarithmic = [&](const char* metric) {
-    scenario.headline_metrics = {metric};
-    double value = 0.001;
-    for (auto& method : scenario.conditions[0].methods) {
-      MetricSummary& summary = method.metrics[0];
-      summary.id = metric;
-      summary.median = summary.mean = summary.ci_low = summary.ci_high = value;
-      value *= 1000;
-    }
-    return nlohmann::json::parse(IntervalChart(scenario)->json)["logarithmic"].get<bool>();
-  };
-  EXPECT_TRUE(is_logarithmic("jump_cm")) << "the control";
-  EXPECT_FALSE(is_logarithmic("natural_share"));
-}
-
 TEST(CurveChart, IsDrawnOnlyFromCurvesAlongIterations) {
   RunData run = ExampleRun();
   AddRecordings(run);  // brings a curve along frames

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 /// Every element is closed in the order it was opened, and no attribute holds a raw sign.
 bool IsWellFormed(const std::string& xml) {
   std::vector<std::string> open;
-  const std::regex tag(R"re(<(/?)([A-Za-z]+)((?: [a-z]+="[^"<&]*(?:&(?:amp|lt|gt|quot|#39);[^"<&]*)*")*)(/?)>)re");
+  const std::regex tag(R"re(<(/?)([A-Za-z-]+)((?: [a-z]+="[^"<&]*(?:&(?:amp|lt|gt|quot|#39);[^"<&]*)*")*)(/?)>)re");
   std::size_t from = xml.find("?>") + 2;
   for (std::smatch match; from < xml.size();) {
     const std::string rest = xml.substr(from);

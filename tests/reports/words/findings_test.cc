@@ -33,7 +33,7 @@ ScenarioSummary OneComparison(Comparison comparison, std::vector<std::string> me
   scenario.name = "one";
   scenario.methods = std::move(methods);
   scenario.headline_metrics = {"orientation_error_deg"};
-  scenario.conditions.push_back({{}, {}, {comparison}});
+  scenario.conditions.emplace_back().comparisons = {comparison};
   return scenario;
 }
 

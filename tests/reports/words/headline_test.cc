@@ -25,8 +25,11 @@ Comparison Compared(const std::string& metric, const std::string& baseline, Verd
 MethodSummary Method(const std::string& name, double error_deg, double iterations) {
   MethodSummary method;
   method.method = name;
-  method.metrics = {{.id = "orientation_error_deg", .present = 20, .median = error_deg, .mean = error_deg},
-                    {.id = "iterations", .present = 20, .median = iterations, .mean = iterations}};
+  for (const auto& [id, value] : {std::pair("orientation_error_deg", error_deg), std::pair("iterations", iterations)}) {
+    MetricSummary& summary = method.metrics.emplace_back();
+    summary.id = id;
+    summary.median = summary.mean = value;
+  }
   return method;
 }
 
@@ -59,8 +62,9 @@ TEST(Headline, NamesTheRatioWhereTheRivalIsBetterByTheQuestionsMetric) {
   ScenarioSummary scenario = Solvers();
   scenario.conditions[0].rivals = {Compared("iterations", "gauss-newton", Verdict::kWorse)};
   scenario.headline_metrics = {"iterations"};
-  EXPECT_EQ(HeadlineOf(scenario, "adaptive", "iterations"),
-            "“adaptive”: no different from “fixed” in the solver steps; needs 140 × the solver steps of “gauss-newton”");
+  EXPECT_EQ(
+      HeadlineOf(scenario, "adaptive", "iterations"),
+      "“adaptive”: no different from “fixed” in the solver steps; needs 140 × the solver steps of “gauss-newton”");
 }
 
 TEST(Headline, GivesTheRangeOfRatiosOverConditions) {

@@ -1,0 +1,122 @@
+#include "reports/plots/estimation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reports/plots/plot_section.h"
+#include "reports/plots/strips.h"
+#include "tests/reports/support/count_of.h"
+#include "tests/reports/support/unit_run.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// The comparisons stand by method, then by metric.
+Judged JudgedIn(const ScenarioSummary& scenario, std::size_t index) {
+  return {&scenario.conditions[0].comparisons[index], &scenario.conditions[0]};
+}
+
+TEST(PairedWorlds, AreThoseInWhichBothHaveAValue) {
+  const RunData run = UnitRun();
+  const ScenarioSummary& capture = run.scenarios[3];  // ccd-fixed fails in trial 0
+  const PairedWorlds pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 0));
+  ASSERT_EQ(pairs.worlds.size(), 11u);
+  EXPECT_EQ(pairs.worlds.front().trial, 1);
+  EXPECT_EQ(pairs.units, (std::vector<std::string>{"clip-0", "clip-1", "clip-2", "clip-3"}));
+  for (const PairedWorld& world : pairs.worlds) {
+    EXPECT_EQ(world.unit, static_cast<std::size_t>(world.trial % 4));
+    EXPECT_NEAR(world.Difference(), (64.0 - 71.4) * (0.8 + 0.4 * world.trial / 11), 1e-9);
+  }
+}
+
+TEST(PairedWorlds, AreThinnedAndCounted) {
+  RunData run = UnitRun();
+  const ScenarioSummary& detection = run.scenarios[1];
+  std::vector<Row> more;
+  for (const Row& row : run.rows) {
+    for (int i = 1; row.scenario == "detection" && i < 100; ++i) {
+      more.push_back(row);
+      more.back().trial += 12 * i;
+    }
+  }
+  run.rows.insert(run.rows.end(), more.begin(), more.end());
+  const PairedWorlds pairs = PairedWorldsOf(run, detection, JudgedIn(detection, 0));
+  EXPECT_EQ(pairs.total, 1200u);
+  EXPECT_EQ(pairs.worlds.size(), 400u);
+  EXPECT_THAT(EstimationHtml(detection, JudgedIn(detection, 0), pairs),
+              HasSubstr("(400 of 1,200 drawn, at equal steps)"));
+}
+
+TEST(PairedWorlds, OfARivalThatHalvesChoseAreNone) {
+  RunData run = UnitRun();
+  run.scenarios[3].conditions[0].comparisons[0].baseline = "before-ik or ccd-adaptive";
+  EXPECT_TRUE(PairedWorldsOf(run, run.scenarios[3], JudgedIn(run.scenarios[3], 0)).worlds.empty());
+  EXPECT_EQ(EstimationHtml(run.scenarios[3], JudgedIn(run.scenarios[3], 0), {}), "");
+}
+
+TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
+  const RunData run = UnitRun();
+  const ScenarioSummary& capture = run.scenarios[3];
+  const PairedWorlds pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 2));
+  const std::string html = EstimationHtml(capture, JudgedIn(capture, 2), pairs);
+  EXPECT_EQ(CountOf(html, "data-t=\"5\""), 3);
+  EXPECT_EQ(CountOf(html, " data-t="), static_cast<int>(3 * pairs.worlds.size()));
+  EXPECT_THAT(html, HasSubstr("<title>trial 5 · clip-1: "));
+  EXPECT_THAT(html, HasSubstr("class=\"band\""));
+  EXPECT_THAT(html, HasSubstr("shaded: less than 1 mm, which does not matter"));
+  EXPECT_THAT(html, HasSubstr("On these clips: better; for other clips: on these clips only (4 clips)."));
+  EXPECT_THAT(html, HasSubstr("data-s=\"capture\" data-c=\"-\" data-a=\"before-ik\" data-b=\"ccd-adaptive\""));
+  EXPECT_THAT(UnitLegendHtml(pairs), HasSubstr("clip-3"));
+}
+
+TEST(Estimation, ColoursByMethodWhereWorldsAreUnits) {
+  const RunData run = UnitRun();
+  const ScenarioSummary& ik = run.scenarios[2];
+  const PairedWorlds pairs = PairedWorldsOf(run, ik, JudgedIn(ik, 0));
+  EXPECT_TRUE(pairs.units.empty());
+  EXPECT_EQ(UnitLegendHtml(pairs), "");
+  const std::string html = EstimationHtml(ik, JudgedIn(ik, 0), pairs);
+  EXPECT_THAT(html, HasSubstr("coloured by method"));
+  EXPECT_EQ(CountOf(html, "class=\"f0\""), 12);      // the baseline, once a world
+  EXPECT_EQ(CountOf(html, "class=\"f1\""), 2 * 12);  // the method, and its differences
+}
+
+TEST(Estimation, LetsNoNameSpeakMarkup) {
+  RunData run = UnitRun();
+  ScenarioSummary& capture = run.scenarios[3];
+  const std::string hostile = "\"><script>alert(1)</script>";
+  for (Row& row : run.rows) {
+    if (row.method == "ccd-adaptive") row.method = hostile;
+    for (std::string& unit : row.units) unit = hostile + unit;
+  }
+  capture.methods[2] = capture.conditions[0].comparisons[2].method = hostile;
+  capture.conditions[0].methods[2].method = hostile;
+  EXPECT_THAT(PlotSectionHtml(run, capture), Not(HasSubstr("<script>")));
+}
+
+TEST(Strips, ShowEveryMethodsDistributionWithItsMiddle) {
+  const RunData run = UnitRun();
+  const ScenarioSummary& capture = run.scenarios[3];
+  const std::string html = StripsHtml(run, capture, capture.conditions[0], "mpjpe_mm");
+  EXPECT_EQ(CountOf(html, "class=\"typical\""), 3);
+  EXPECT_EQ(CountOf(html, "<use "), 12 + 11 + 11);
+  EXPECT_THAT(html, HasSubstr(">before-ik · 71.4 mm</text>"));
+  EXPECT_EQ(StripsHtml(run, capture, capture.conditions[0], "sparc"), "");
+}
+
+TEST(PlotSection, ShowsTheQuestionOpenAndTheRestFolded) {
+  const RunData run = UnitRun();
+  const std::string html = PlotSectionHtml(run, run.scenarios[0]);
+  const std::size_t fold = html.find("<details>");
+  ASSERT_NE(fold, std::string::npos);
+  EXPECT_THAT(html.substr(0, fold), HasSubstr("data-a=\"now\" data-b=\"wait-for-end\""));
+  EXPECT_THAT(html.substr(0, fold), HasSubstr("data-a=\"gate-inertialised\" data-b=\"wait-for-end\""));
+  EXPECT_THAT(html.substr(fold), HasSubstr("data-a=\"now\" data-b=\"fuzzy-bridge\""));
+  EXPECT_EQ(PlotSectionHtml(run, ScenarioSummary{}), "");
+}
+
+}  // namespace
+}  // namespace etude
