@@ -65,7 +65,7 @@ TEST(PaperASection, ShowsSweptSystemsBesideIt) {
   scenario.name = "shapes";
   EXPECT_FALSE(ShowsPaperA(scenario)) << "the control";
   scenario.conditions = {{.condition = {{"fuzzy", "builtin:paper"}}, .methods = {}, .comparisons = {}},
-                         {.condition = {{"fuzzy", "builtin:gaussian"}}, .methods = {}, .comparisons = {}}};
+                         {.condition = {{"fuzzy", "builtin:gaussian"}}, .methods = {}, .comparisons = {}, .rivals = {}}};
   const std::string html = PaperAHtml(scenario);
   EXPECT_EQ(CountOf(html, "<figure>"), 12);
   EXPECT_THAT(html, HasSubstr("in the system gaussian"));
