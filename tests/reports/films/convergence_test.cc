@@ -180,11 +180,12 @@ TEST_F(Convergence, ShowsNoErrorsOfWhatWasNotAskedFor) {
   for (IkPath& path : race_.paths) std::ranges::fill(path.orientation_deg, 0);
   ConvergenceScene positions(race_, "race", *renderer_);
   const ColourImage pixels = positions.Draw(positions.Frames() - 1).Pixels();
-  // The left method's colour is in the plot of positions, not in that of orientations.
-  const Rgb8 warm{245, 174, 84};
+  // The second method's colour (reports/plots/marks.h) is in the plot of positions, not in that of orientations.
+  ASSERT_EQ(race_.paths[1].method_index, 1u);
+  const Rgb8 teal{0x9f, 0xf5, 0xd4};
   int left = 0, right = 0;
   for (int y = 464; y < 708; ++y) {
-    for (int x = 0; x < pixels.width; ++x) (x < 640 ? left : right) += pixels.At(x, y) == warm;
+    for (int x = 0; x < pixels.width; ++x) (x < 640 ? left : right) += pixels.At(x, y) == teal;
   }
   EXPECT_GT(left, 500);
   EXPECT_EQ(right, 0);

@@ -64,8 +64,9 @@ TEST(PaperASection, ShowsSweptSystemsBesideIt) {
   ScenarioSummary scenario = Bridging();
   scenario.name = "shapes";
   EXPECT_FALSE(ShowsPaperA(scenario)) << "the control";
-  scenario.conditions = {{.condition = {{"fuzzy", "builtin:paper"}}, .methods = {}, .comparisons = {}},
-                         {.condition = {{"fuzzy", "builtin:gaussian"}}, .methods = {}, .comparisons = {}}};
+  scenario.conditions = {
+      {.condition = {{"fuzzy", "builtin:paper"}}, .methods = {}, .comparisons = {}, .rivals = {}},
+      {.condition = {{"fuzzy", "builtin:gaussian"}}, .methods = {}, .comparisons = {}, .rivals = {}}};
   const std::string html = PaperAHtml(scenario);
   EXPECT_EQ(CountOf(html, "<figure>"), 12);
   EXPECT_THAT(html, HasSubstr("in the system gaussian"));
