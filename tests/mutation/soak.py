@@ -128,7 +128,8 @@ def run(options, root=ROOT, kept_in=HERE):
     results = tried(sample, tests, shadow, Notes(work / f"verdicts-{digest}.jsonl", shadow), options, end)
 
     survivors = figure.survivors_of(results, figure.load(kept_in / "survivors.json"))
-    about = {"seed": options.seed, "mutants": len(mutants), "not_compiling": shadow.dropped_count(), "engine": digest}
+    about = {} if options.only == ["engine"] else {"only": sorted(options.only)}
+    about |= {"seed": options.seed, "mutants": len(mutants), "not_compiling": shadow.dropped_count(), "engine": digest}
     found = figure.figure_of(results, survivors, about)
     keeps = options.keep or options.only == ["engine"]
     figure.save((kept_in if keeps else work) / "figure.json", found)
