@@ -43,11 +43,11 @@ inline bool On(int number) {
   return chosen == number;
 }
 
-/// Fails to compile where the mutated expression has no meaning or another type; the message names the number.
-template <int kNumber, bool kPossible>
-struct Check {
-  static_assert(kPossible, "no such mutant");
-};
+/// Called where the mutated expression has no meaning or another type: leaves a note in the object file.
+template <int kNumber>
+inline void Impossible() {
+  asm volatile(".pushsection .etude,\"\",@progbits\n.ascii \"etude: no mutant %c0;\"\n.popsection" : : "i"(kNumber));
+}
 
 template <class Operator, class A>
 struct Bound {
@@ -70,8 +70,12 @@ struct Bound {
       requires std::is_same_v<decltype(a op b), decltype(a other1 b)>;                  \
       requires std::is_same_v<decltype(a op b), decltype(a other2 b)>;                  \
     };                                                                                  \
-    (void)sizeof(Check<kNumber, kPossible>);                                            \
-    return On(kNumber) ? (a other1 b) : On(kNumber + second) ? (a other2 b) : (a op b); \
+    if constexpr (kPossible) {                                                          \
+      return On(kNumber) ? (a other1 b) : On(kNumber + second) ? (a other2 b) : (a op b); \
+    } else {                                                                            \
+      Impossible<kNumber>();                                                            \
+      return a op b;                                                                    \
+    }                                                                                   \
   }
 ETUDE_MUTATION_OPERATOR(Less, <, <=, 1, >=)
 ETUDE_MUTATION_OPERATOR(Greater, >, >=, 1, <=)
@@ -91,24 +95,36 @@ template <int kNumber>
 struct Negation {};
 template <int kNumber, class B>
 auto operator->*(Negation<kNumber>, const B& b) {
-  (void)sizeof(
-      Check < kNumber, requires { requires std::is_same_v<decltype(-b), std::decay_t<decltype(+b)>>; } ||
-                           requires { requires std::is_same_v<decltype(-b), B>; } >);
-  return On(kNumber) ? b : -b;
+  constexpr bool kDecays = requires { requires std::is_same_v<decltype(-b), std::decay_t<decltype(+b)>>; };
+  constexpr bool kStays = requires { requires std::is_same_v<decltype(-b), B>; };
+  if constexpr (kDecays || kStays) {
+    return On(kNumber) ? b : -b;
+  } else {
+    Impossible<kNumber>();
+    return -b;
+  }
 }
 
 /// b, or −b.
 template <int kNumber, class B>
 B Opposite(const B& b) {
-  (void)sizeof(Check<kNumber, requires { static_cast<B>(-b); }>);
-  return On(kNumber) ? static_cast<B>(-b) : b;
+  if constexpr (requires { static_cast<B>(-b); }) {
+    if (On(kNumber)) return static_cast<B>(-b);
+  } else {
+    Impossible<kNumber>();
+  }
+  return b;
 }
 
 /// b, or 1 / b.
 template <int kNumber, class B>
 B Inverse(const B& b) {
-  (void)sizeof(Check<kNumber, std::is_floating_point_v<B>>);
-  return On(kNumber) ? 1 / b : b;
+  if constexpr (std::is_floating_point_v<B>) {
+    if (On(kNumber)) return 1 / b;
+  } else {
+    Impossible<kNumber>();
+  }
+  return b;
 }
 
 /// `a && b`, or `a || b`; the second operand is only computed when it counts.

@@ -1,7 +1,8 @@
 """The mutated engine: a copy of the tree with all mutants in it, and its build.
 
-`<work>/tree` is the project with links instead of files, but engine/ is rewritten. Mutants that do not compile are
-found by the compiler's messages and left out; `<work>/dropped.json` remembers them by their file's content."""
+`<work>/tree` is the project with links instead of files, but engine/ is rewritten. Operators whose mutants have no
+meaning are found by the notes that they leave in object files; whatever else does not compile, by the compiler's messages:
+it is left out, and `<work>/dropped.json` remembers it by its file's content."""
 
 import hashlib
 import json
@@ -17,12 +18,19 @@ import sites
 HERE = Path(__file__).resolve().parent
 MUTATOR = ("tokens.py", "source.py", "sites.py", "rewrite.py", "shadow.py")
 _MESSAGE = re.compile(r"^(?P<path>[^:\s]+):(?P<line>\d+):\d+: +(?P<kind>error|note):(?P<text>.*)$", re.MULTILINE)
-_IMPOSSIBLE = re.compile(r"etude_mutation::Check<(\d+), false>")
+_IMPOSSIBLE = re.compile(rb"etude: no mutant (\d+);")
 
 
-def impossible(output):
-    """The numbers of the sites that have no meaning, by the compiler's messages."""
-    return {int(number) for number in _IMPOSSIBLE.findall(output)}
+def impossible(objects):
+    """The numbers of the sites that have no meaning, by the notes that mutant.h left in object files."""
+    return {int(number) for path in objects for number in _IMPOSSIBLE.findall(Path(path).read_bytes())}
+
+
+def write_when_changed(path, text):
+    """So that nothing is compiled again that need not be."""
+    if path.is_symlink() or not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.unlink(missing_ok=True)
+        path.write_text(text, encoding="utf-8")
 
 
 @dataclass(frozen=True)
@@ -43,6 +51,7 @@ class Mutant:
 class Shadow:
     def __init__(self, root, work):
         self.root, self.tree, self.build, self.work = Path(root), Path(work) / "tree", Path(work) / "build", Path(work)
+        self.files = self._list_files()
         self.numbered, number = {}, 1  # file → [(site, number of its first mutant)]
         for file in self._engine_files():
             text = self._read(file)
@@ -56,34 +65,42 @@ class Shadow:
                 pairs.append((site, number))
                 number += len(site.mutations)
             self.numbered[file] = pairs
+            number = -(-number // 64) * 64 + 1  # so that few files are compiled anew when one has changed
         self.dropped = self._load_dropped()
 
     # --- files ---------------------------------------------------------------------------------------------------
-    def _git_files(self):
+    def _list_files(self):
         command = ["git", "-C", self.root, "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
         listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return sorted(file for file in listed.split("\0") if file and (self.root / file).is_file())
 
     def _engine_files(self):
         """Those that can be mutated: not the ones that Highway compiles once for every kind of vectors."""
-        files = [f for f in self._git_files() if f.startswith("engine/") and f.endswith((".cc", ".h"))]
+        files = [f for f in self.files if f.startswith("engine/") and f.endswith((".cc", ".h"))]
         return [f for f in files if not re.search(r"foreach_target|-inl\.h|HWY_", f + self._read(f))]
 
     def _read(self, file):
         return (self.root / file).read_text(encoding="utf-8")
 
     def digest(self):
-        """Of everything that a mutant's outcome depends on."""
+        """Of everything that outcomes depend on, but for the tests themselves."""
+        rooms = ("engine/", "tests/support/", "tests/mutation/", "sim/", "cmake/")
+        return self._digest(lambda file: file.startswith(rooms) or re.match(r"tests/engine/.*\.h$", file))
+
+    def tests_digest(self, folder):
+        """Of the tests of one of the engine's folders."""
+        return self._digest(lambda file: os.path.dirname(file) == "tests/" + folder)
+
+    def _digest(self, is_used):
         state = hashlib.sha256()
-        for file in self._git_files():
-            used = file.startswith(("engine/", "tests/engine/", "tests/support/", "tests/mutation/", "sim/", "cmake/"))
-            if used and file.endswith((".cc", ".h", ".txt", ".cmake", *MUTATOR)):
+        for file in self.files:
+            if is_used(file) and file.endswith((".cc", ".h", ".txt", ".cmake", *MUTATOR)):
                 state.update(file.encode() + b"\0" + (self.root / file).read_bytes())
         return state.hexdigest()[:16]
 
     def write(self):
         wanted = set()
-        for file in self._git_files():
+        for file in self.files:
             target = self.tree / file
             wanted.add(target)
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -99,11 +116,7 @@ class Shadow:
 
     def _write_mutated(self, file):
         kept = [(site, number) for site, number in self.numbered[file] if number not in self.dropped]
-        text = rewrite.rewrite(self._read(file), kept)
-        target = self.tree / file
-        if target.is_symlink() or not target.exists() or target.read_text(encoding="utf-8") != text:
-            target.unlink(missing_ok=True)
-            target.write_text(text, encoding="utf-8")
+        write_when_changed(self.tree / file, rewrite.rewrite(self._read(file), kept))
 
     # --- mutants that do not compile -----------------------------------------------------------------------------
     def _key(self, file, site):
@@ -121,16 +134,13 @@ class Shadow:
 
     def _blamed(self, output):
         """The numbers of the sites that the compiler's messages speak of."""
-        blamed = impossible(output) - self.dropped
-        explained = {file for file, pairs in self.numbered.items() if any(n in blamed for _, n in pairs)}
         lines = {}
         for found in _MESSAGE.finditer(output):
             file = os.path.relpath(self.build / found["path"], self.tree)  # of ninja, relative to where it builds
-            # What else is wrong in a file with an impossible mutant may follow from it.
             about_mutants = found["kind"] == "error" or "etude_mutation" in found["text"]
-            if about_mutants and file in self.numbered and file not in explained:
+            if about_mutants and file in self.numbered:
                 lines.setdefault(file, set()).add(int(found["line"]))
-        return blamed.union(*(self._nearest(file, its) for file, its in lines.items()))
+        return set().union(*(self._nearest(file, its) for file, its in lines.items()))
 
     def _nearest(self, file, lines):
         """The sites that are still there in one of the lines; if none is, those next to one of them."""
@@ -141,14 +151,14 @@ class Shadow:
 
     # --- the build -----------------------------------------------------------------------------------------------
     def test_folders(self):
-        lists = [f for f in self._git_files() if f.startswith("tests/engine/") and f.endswith("/CMakeLists.txt")]
+        lists = [f for f in self.files if f.startswith("tests/engine/") and f.endswith("/CMakeLists.txt")]
         return [os.path.dirname(f) for f in lists]
 
     def compile(self, folders, jobs, log):
         """Builds the test programs of these folders; drops what does not compile. Raises when something else is
         wrong."""
         self.write()
-        (self.work / "mutant.h").write_text((HERE / "mutant.h").read_text())
+        write_when_changed(self.work / "mutant.h", (HERE / "mutant.h").read_text())
         flags = f"-O1 -DNDEBUG -include {self.work}/mutant.h -Werror=vla -fmax-errors=0"
         options = ["-DETUDE_TESTS=ON", "-DETUDE_UNITY=ON", "-DCMAKE_BUILD_TYPE=Mutation",
                    f"-DCMAKE_CXX_FLAGS_MUTATION={flags}"]
@@ -161,6 +171,7 @@ class Shadow:
                 ninja = ["nice", "-n", "10", "ninja", "-C", self.build, f"-j{jobs}", "-k0"]
                 code = subprocess.run([*ninja, *targets], stdout=file, stderr=subprocess.STDOUT).returncode
             if code == 0:
+                self.dropped |= impossible(self._objects(targets))
                 return
             blamed = self._blamed(output.read_text())
             if not blamed:
@@ -169,6 +180,11 @@ class Shadow:
             self._save_dropped()
             self.write()
         raise RuntimeError("The mutated engine still does not compile: see build.output.")
+
+    def _objects(self, targets):
+        command = ["ninja", "-C", self.build, "-t", "inputs", *targets]
+        shown = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        return [self.build / line.strip() for line in shown.splitlines() if line.strip().endswith(".o")]
 
     def mutants(self):
         for file, pairs in sorted(self.numbered.items()):

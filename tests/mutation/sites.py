@@ -114,7 +114,7 @@ class Finder(Code):
 
     def _statement(self, i):
         """`Call(…);` or `variable = …;` left out."""
-        if self.tokens[i].inside >= 0 and self.tokens[self.tokens[i].inside].text != "{":
+        if not self._is_in_body(self.tokens[i].inside):
             return
         if self.tokens[i].text in _NO_CALLS or self.tokens[i].text.isupper():
             return
@@ -140,6 +140,17 @@ class Finder(Code):
         statement = self.text[self.tokens[i].start : self.tokens[end].end]
         edit = ("open", self.tokens[i].start, self.tokens[end].end, "if (!etude_mutation::On({0})) ")
         self._add(i, " ".join(statement.split()), ["(nothing)"], [edit])
+
+    def _is_in_body(self, brace):
+        """Whether what the bracket encloses is run: no class and no namespace."""
+        if brace < 0 or self.tokens[brace].text != "{":
+            return False
+        k = brace - 1
+        while k >= 0 and self.tokens[k].text not in (";", "{", "}", "(", ")"):
+            if self.tokens[k].text in ("namespace", "class", "struct", "union"):
+                return False
+            k -= 1
+        return True
 
     def _is_control(self, parenthesis):
         return parenthesis > 0 and self.tokens[parenthesis - 1].text in ("if", "for", "while", "constexpr")

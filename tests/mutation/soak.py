@@ -1,9 +1,10 @@
 """Mutants of engine/ against the tests that mirror it: see README.md."""
 
 import argparse
+import hashlib
 import json
-import random
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -29,23 +30,39 @@ def arguments(words=None):
     return parser.parse_args(words)
 
 
-def recorded(shadow, folders, digest, jobs):
+class Notes:
+    """What was found of tests and mutants, in a file that a killed run leaves behind. A note holds as long as the
+    engine is the one of the file's name, and the tests of its folder are what they were."""
+
+    def __init__(self, path, shadow):
+        self.path, self.shadow, self.digests = path, shadow, {}
+        self.entries = [json.loads(line) for line in complete_lines(path)]
+
+    def tests(self, folder):
+        if folder not in self.digests:
+            self.digests[folder] = self.shadow.tests_digest(folder)
+        return self.digests[folder]
+
+    def known(self):
+        return [entry for entry in self.entries if entry["tests"] == self.tests(entry["folder"])]
+
+    def add(self, folder, **entry):
+        entry = {"folder": folder, "tests": self.tests(folder)} | entry
+        self.entries.append(entry)
+        with self.path.open("a") as file:
+            file.write(json.dumps(entry) + "\n")
+
+
+def recorded(shadow, folders, notes, jobs):
     """Every test with what it reaches; from the last time, as far as that got."""
-    path = shadow.work / f"reached-{digest}.jsonl"
-    known = {}
-    for line in complete_lines(path):
-        entry = json.loads(line)
-        known[entry["folder"], entry["name"]] = entry
+    known = {(entry["folder"], entry["name"]): entry for entry in notes.known()}
     tests = list_tests(shadow.build, folders)
     missing = [test for test in tests if (test.folder, test.name) not in known]
     print(f"{len(tests)} tests, {len(missing)} to be recorded", flush=True)
-    with path.open("a") as file, ThreadPoolExecutor(jobs) as pool:
+    with ThreadPoolExecutor(jobs) as pool:
         for test in pool.map(lambda t: record(t, shadow.tree), missing):
-            entry = {"folder": test.folder, "name": test.name, "seconds": test.seconds}
-            entry["reached"] = sorted(test.reached)
-            known[test.folder, test.name] = entry
-            file.write(json.dumps(entry) + "\n")
-            file.flush()
+            notes.add(test.folder, name=test.name, seconds=test.seconds, reached=sorted(test.reached))
+    known = {(entry["folder"], entry["name"]): entry for entry in notes.known()}
     entries = [(test, known[test.folder, test.name]) for test in tests]
     return [replace(test, seconds=entry["seconds"], reached=frozenset(entry["reached"])) for test, entry in entries]
 
@@ -61,22 +78,31 @@ def complete_lines(path):
     return whole.splitlines()
 
 
-def tried(sample, tests, shadow, path, options, end):
-    """Pairs of mutant and verdict, in the sample's order; goes on after the verdicts in the file."""
-    verdicts = {entry["number"]: entry["verdict"] for entry in map(json.loads, complete_lines(path))}
+def sample_of(mutants, count, seed):
+    """By a digest of each mutant, so that an edit of the engine changes no more of the sample than it must."""
+    seen, ranked = Counter(), []
+    for mutant in mutants:
+        name = "\0".join((mutant.file, mutant.code, mutant.original, mutant.mutation))
+        seen[name] += 1  # the same twice in a line, or in two equal lines
+        ranked.append((hashlib.sha256(f"{seed}\0{seen[name]}\0{name}".encode()).digest(), mutant))
+    return [mutant for _, mutant in sorted(ranked, key=lambda pair: pair[0])[:count]]
+
+
+def tried(sample, tests, shadow, notes, options, end):
+    """Pairs of mutant and verdict, in the sample's order; goes on after the verdicts that are known."""
+    verdicts = {entry["number"]: entry["verdict"] for entry in notes.known()}
     missing = [mutant for mutant in sample if mutant.number not in verdicts]
     print(f"{len(sample)} mutants, {len(missing)} to be tried", flush=True)
 
     def try_one(mutant):
         return None if time.monotonic() > end else judge(mutant, tests, shadow.tree)
 
-    with path.open("a") as file, ThreadPoolExecutor(options.jobs) as pool:
+    with ThreadPoolExecutor(options.jobs) as pool:
         for mutant, verdict in zip(missing, pool.map(try_one, missing)):
             if verdict is None:
                 continue
             verdicts[mutant.number] = verdict
-            file.write(json.dumps({"number": mutant.number, "verdict": verdict}) + "\n")
-            file.flush()
+            notes.add(mutant.folder, number=mutant.number, verdict=verdict)
             print(f"{verdict:9} {mutant.file}:{mutant.line} {mutant.original} → {mutant.mutation}", flush=True)
     return [(mutant, verdicts[mutant.number]) for mutant in sample if mutant.number in verdicts]
 
@@ -96,13 +122,14 @@ def run(options, root=ROOT, kept_in=HERE):
     with (work / "cmake.log").open("w") as log:
         shadow.compile(folders, options.jobs, log)
     digest = shadow.digest()
-    tests = recorded(shadow, folders, digest, options.jobs)
+    tests = recorded(shadow, folders, Notes(work / f"reached-{digest}.jsonl", shadow), options.jobs)
     mutants = [mutant for mutant in shadow.mutants() if is_wanted(mutant.folder)]
-    sample = random.Random(options.seed).sample(mutants, min(options.count, len(mutants)))
-    results = tried(sample, tests, shadow, work / f"verdicts-{digest}.jsonl", options, end)
+    sample = sample_of(mutants, options.count, options.seed)
+    results = tried(sample, tests, shadow, Notes(work / f"verdicts-{digest}.jsonl", shadow), options, end)
 
     survivors = figure.survivors_of(results, figure.load(kept_in / "survivors.json"))
-    about = {"seed": options.seed, "mutants": len(mutants), "not_compiling": shadow.dropped_count(), "engine": digest}
+    about = {} if options.only == ["engine"] else {"only": sorted(options.only)}
+    about |= {"seed": options.seed, "mutants": len(mutants), "not_compiling": shadow.dropped_count(), "engine": digest}
     found = figure.figure_of(results, survivors, about)
     keeps = options.keep or options.only == ["engine"]
     figure.save((kept_in if keeps else work) / "figure.json", found)

@@ -1,5 +1,6 @@
 """Tests run against mutants: which tests reach which mutants, and whether one of them notices."""
 
+import contextlib
 import json
 import math
 import os
@@ -26,15 +27,18 @@ def list_tests(build, folders):
     """What ctest knows of these folders of tests, without the heavy ones."""
     command = ["ctest", "--test-dir", build, "--show-only=json-v1"]
     shown = subprocess.run(command, check=True, capture_output=True, text=True)
-    tests = []
+    tests, known = [], set()
     for entry in json.loads(shown.stdout)["tests"]:
-        folder, _, _ = entry["name"].partition(": ")
+        folder, _, _ = entry["name"].partition(":")
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
+        known.add("tests/" + folder)
         if "tests/" + folder not in folders or "heavy" in properties.get("LABELS", []) or properties.get("DISABLED"):
             continue
         command = tuple(part for part in entry["command"] if not part.startswith("--gtest"))
         name = next(part for part in entry["command"] if part.startswith("--gtest_filter=")).partition("=")[2]
         tests.append(Test(folder, command, name))
+    if not known.issuperset(folders):
+        raise RuntimeError(f"ctest knows no test of {', '.join(sorted(set(folders) - known))}")
     return tests
 
 
@@ -45,12 +49,34 @@ def run_program(command, environment, cwd, cpu_seconds):
         process = subprocess.Popen([*limits, "nice", "-n", "10", *command], cwd=cwd, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
                                    env=os.environ | environment | {"TMPDIR": scratch})
-        asleep = threading.Timer(60 + 30 * cpu_seconds, lambda: os.killpg(process.pid, signal.SIGXCPU))
-        asleep.start()
+        ended = threading.Event()
+        threading.Thread(target=end_when_asleep, args=(process.pid, ended), daemon=True).start()
         _, status, used = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
-        asleep.cancel()
+        ended.set()
         return process.returncode, used.ru_utime + used.ru_stime
+
+
+def end_when_asleep(session, ended, seconds=60):
+    """Ends processes that wait for what never comes. Those that wait for their turn on a loaded machine are ready to
+    run, which is no sleep: no outcome depends on the load. `ended` is an event; true when it ended them."""
+    naps = 0
+    while not ended.wait(seconds / 10):
+        naps = naps + 1 if _all_asleep(session) else 0
+        if naps == 10:
+            os.killpg(session, signal.SIGXCPU)
+            return True
+    return False
+
+
+def _all_asleep(session):
+    states = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            fields = path.read_text().rpartition(")")[2].split()
+            if int(fields[3]) == session:
+                states.append(fields[0])
+    return all(state in "SZT" for state in states)
 
 
 def record(test, cwd):

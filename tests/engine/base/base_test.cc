@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "engine/base/angles.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
@@ -14,6 +16,7 @@ TEST(Error, IsToldAsFileLineColumnAndMessage) {
   EXPECT_EQ(ToString(Error{{"a.yaml", 0, 0}, "bad"}), "a.yaml: bad");
   EXPECT_EQ(ToString(Error{{}, "bad"}), "bad");
   EXPECT_EQ(ToString(Error{{"a\n.yaml", 3, 7}, "found '\x1b[31m\t\x7f'"}), "a .yaml:3:7: found ' [31m  '");
+  EXPECT_EQ(ToString(Error{{}, std::string("a\0b é", 6)}), "a b é") << "every control byte, and no byte of a letter";
 }
 
 TEST(NearestName, FindsTheTypingErrorAndNothingFarAway) {
@@ -25,11 +28,54 @@ TEST(NearestName, FindsTheTypingErrorAndNothingFarAway) {
   EXPECT_EQ(NearestName("", known), "");
 }
 
+// The textbook's recursion, without a table: what an edit costs is the least of what its last step can be.
+int Edits(std::string_view a, std::string_view b) {
+  if (a.empty() || b.empty()) return static_cast<int>(a.size() + b.size());
+  const std::string_view a1 = a.substr(0, a.size() - 1), b1 = b.substr(0, b.size() - 1);
+  int least = std::min({Edits(a1, b) + 1, Edits(a, b1) + 1, Edits(a1, b1) + (a.back() == b.back() ? 0 : 1)});
+  if (!a1.empty() && !b1.empty() && a.back() == b1.back() && a1.back() == b.back()) {
+    least = std::min(least, Edits(a1.substr(0, a1.size() - 1), b1.substr(0, b1.size() - 1)) + 1);
+  }
+  return least;
+}
+
+TEST(NearestName, IsTheFirstOfTheFewestEdits) {
+  std::vector<std::string> words;
+  for (int i = 0; i < 81; ++i) {
+    std::string word;
+    for (int k = 0, rest = i; k < 4; ++k, rest /= 3) word += "abc"[rest % 3];
+    words.push_back(word.substr(0, 2 + i % 3));
+  }
+  const std::vector<std::string> few = {"bcab", "ccba", "acac"};
+  int found = 0;
+  for (const std::vector<std::string>& known : {words, few}) {
+    for (const std::string& name : words) {
+      std::string nearest;
+      int least = 2 + static_cast<int>(name.size()) / 3;  // one edit, and one for every three letters
+      for (const std::string& word : known) {
+        if (Edits(name, word) < least) least = Edits(name, nearest = word);
+      }
+      EXPECT_EQ(NearestName(name, known), nearest) << name;
+      found += nearest.empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GT(found, 90);
+  EXPECT_LT(found, 160);
+}
+
 TEST(UnknownName, SaysWhatWasFoundWhatWasMeantAndWhatIsAllowed) {
   EXPECT_EQ(UnknownName("solver", "cdc", std::vector<std::string>{"ccd", "dls"}),
             "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, dls");
   EXPECT_EQ(UnknownName("solver", "newton", std::vector<std::string>{"ccd", "dls"}),
             "unknown solver 'newton'. Allowed: ccd, dls");
+}
+
+TEST(Quote, ShowsWhatAReaderSees) {
+  EXPECT_EQ(Quote("two words"), "'two words'");
+  EXPECT_EQ(Quote(""), "the end of the line or file");
+  EXPECT_EQ(Quote("\tx\x7f"), "'?x?'");
+  EXPECT_EQ(Quote(std::string(40, 'x')), "'" + std::string(40, 'x') + "'");
+  EXPECT_EQ(Quote(std::string(41, 'x')), "'" + std::string(40, 'x') + "…'");
 }
 
 TEST(Digest, IsXxh3OfTheBytesAddedAndTellsOrdersApart) {

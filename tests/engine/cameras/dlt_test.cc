@@ -53,6 +53,16 @@ TEST_P(Dlt, GivesTheMatrixBackFromSixExactPairs) {
   }
 }
 
+TEST_P(Dlt, LooksAtNoPairButThoseGiven) {
+  std::vector<PointPair> pairs = Pairs(8);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  pairs.front() = pairs.back() = {{kNaN, kNaN, kNaN}, {kNaN, kNaN}};
+  const auto matrix = Calibrate(std::span<const PointPair>(pairs).subspan(1, 6), GetParam());
+  ASSERT_TRUE(matrix) << ToString(matrix.error());
+  EXPECT_LT(ReprojectionRms(*matrix, Pairs(8)), 1e-3);
+  EXPECT_FALSE(Calibrate(pairs, GetParam())) << "the control: those around them break everything";
+}
+
 TEST_P(Dlt, FitsNoisyPairsToAboutTheirNoise) {
   const auto noisy = WithPixelErrors(Pairs(30), 0.7);
   const auto matrix = Calibrate(noisy, GetParam());

@@ -41,6 +41,19 @@ TEST(OpenCvFile, ProjectsAsOpenCvWouldHalfAPixelApart) {
   }
 }
 
+// cv::FileStorage refuses a matrix whose numbers are not rows times columns.
+TEST(OpenCvFile, HasAsManyNumbersAsRowsTimesColumns) {
+  const std::string text = WriteOpenCvCamera(LookAt({}, {0, 1, 4}, {0, 1, 0}));
+  const auto number_behind = [&](const std::string& word, std::size_t from) {
+    return std::stoul(text.substr(text.find(word, from) + word.size()));
+  };
+  for (const char* name : {"camera_matrix", "distortion_coefficients", "R", "T"}) {
+    const std::size_t at = text.find("\n" + std::string(name) + ":");
+    ASSERT_NE(at, std::string::npos) << name;
+    EXPECT_EQ(number_behind("rows: ", at) * number_behind("cols: ", at), MatrixNamed(text, name).size()) << name;
+  }
+}
+
 TEST(OpenCvFile, HasTheHeadAndTheTypesThatFileStorageReads) {
   const std::string text = WriteOpenCvCamera(LookAt({}, {0, 1, 4}, {0, 1, 0}));
   EXPECT_TRUE(text.starts_with("%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n")) << text;

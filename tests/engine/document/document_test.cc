@@ -91,6 +91,53 @@ TEST(Document, RefusesBrokenOrHostileText) {
   EXPECT_THAT(Complaint(std::string(2 << 20, 'x')), HasSubstr("at most 1048576 are read"));
 }
 
+// What is nested by as many levels as allowed is read, and one level more is not.
+TEST(Document, ReadsThirtyTwoLevelsAndNotOneMore) {
+  const auto keys = [](int levels) {
+    std::string text;
+    for (int i = 0; i < levels; ++i) text += std::string(i, ' ') + "a:\n";
+    return text;
+  };
+  const auto markers = [](int levels) {
+    std::string text;
+    for (int i = 0; i < levels; ++i) text += "- ";
+    return text + "x\n";
+  };
+  const auto brackets = [](int levels) { return std::string(levels, '[') + std::string(levels, ']') + "\n"; };
+  // A level that is closed again is none.
+  const auto closed = [](int levels) {
+    std::string text;
+    for (int i = 0; i < levels; ++i) text += "- [{a: 1}]\n";
+    return text;
+  };
+  const auto complaint = [](const std::string& yaml) {
+    const auto node = ParseYaml(yaml, "t.yaml");
+    return node ? "" : node.error().message;
+  };
+  EXPECT_EQ(complaint(keys(32)), "");
+  EXPECT_EQ(complaint(keys(33)), "nested deeper than 32 levels");
+  EXPECT_EQ(complaint(markers(32)), "");
+  EXPECT_EQ(complaint(markers(33)), "nested deeper than 32 levels");
+  EXPECT_EQ(complaint(brackets(32)), "");
+  EXPECT_EQ(complaint(brackets(33)), "nested deeper than 32 levels");
+  EXPECT_EQ(complaint(closed(100)), "");
+}
+
+TEST(Document, TakesTheBoundsOfARangeAndWhatIsNotThereAsItIs) {
+  for (const char* inside : {"speed: 0", "speed: 10", "count: 1", "count: 5"})
+    EXPECT_EQ(Complaint(inside), "") << inside;
+  for (const char* outside : {"speed: -0.001", "speed: 10.001", "count: 0", "count: 6"}) {
+    EXPECT_THAT(Complaint(outside), HasSubstr("out of range")) << outside;
+  }
+  const auto node = ParseYaml("{name: x, count: 3}", "t.yaml");
+  Fields fields(*node, "a test");
+  EXPECT_EQ(fields.Text("name", "none"), "x");
+  EXPECT_EQ(fields.Text("title", "none"), "none");
+  EXPECT_EQ(fields.Integer("count", 7, {1, 5}), 3);
+  EXPECT_EQ(fields.Integer("turns", 7, {1, 9}), 7);
+  EXPECT_TRUE(fields.Finish());
+}
+
 TEST(Document, SurvivesEveryTruncationAndManyMutations) {
   const std::string good = "scenario: ik\ntrials: 5\nsweep: {a: [1, 2]}\nmethods:\n  - {name: x, solver: 'c\"d'}\n";
   for (std::size_t length = 0; length <= good.size(); ++length) ParseYaml(good.substr(0, length), "t.yaml");

@@ -54,5 +54,14 @@ TEST(Body, FacesWhereItIsTurnedAndComesBackToTheOrigin) {
   }
 }
 
+TEST(Body, FacesForwardWhereNothingTellsWhere) {
+  // All joints in one point; and lying on one side, with both rows of the torso upright.
+  EXPECT_EQ(Facing(BodyPose()), glm::dvec3(0, 0, 1));
+  BodyPose lying;
+  lying[kLeftHip] = lying[kLeftShoulder] = {0, 0.5, 0};
+  EXPECT_EQ(Facing(lying), glm::dvec3(0, 0, 1));
+  EXPECT_EQ(Heading(lying), 0);
+}
+
 }  // namespace
 }  // namespace etude

@@ -91,6 +91,34 @@ TEST(ReadMarks, FindsTheCentreOfADiscWhereverItsPixelsFall) {
   }
 }
 
+TEST(ReadMarks, FindsTheCentreOfADiscThatIsPartlyCovered) {
+  // The control: the mean of what is seen leans to that side, by 1.33 pixels.
+  constexpr int kDirections = 24;
+  double error = 0, error_of_mean = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    const glm::dvec2 centre(20 + 0.05 * i, 20 + 0.035 * i), aside(std::cos(i * kPi / 12), std::sin(i * kPi / 12));
+    ColourImage picture(40, 40);
+    DrawDisc(picture, EffectorMarks()[2], centre);
+    glm::dvec2 sum(0);
+    double visible = 0;
+    for (int y = 0; y < picture.height; ++y) {
+      for (int x = 0; x < picture.width; ++x) {
+        const glm::dvec2 pixel(x + 0.5, y + 0.5);
+        if (glm::dot(pixel - centre, aside) >= 0.2 * kDiscRadius) picture.At(x, y) = Rgb8{};
+        if (picture.At(x, y) == Rgb8{}) continue;
+        sum += pixel;
+        ++visible;
+      }
+    }
+    const auto found = ReadMarks(picture).effectors[2];
+    ASSERT_TRUE(found);
+    error += glm::distance(*found, centre) / kDirections;
+    error_of_mean += glm::distance(sum / visible, centre) / kDirections;
+  }
+  EXPECT_LT(error, 0.9);
+  EXPECT_GT(error_of_mean, 1.2);
+}
+
 TEST(ReadMarks, ReadsEveryMarkOfThePalette) {
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     ColourImage picture(60, 20);

@@ -173,6 +173,16 @@ TEST(GltfAnimation, KeepsARateThatIsNoWholeNumber) {
   for (int k = 0; k < 100; ++k) EXPECT_NEAR(Frames(clip)[k].translation.x, k, 1e-4);
 }
 
+TEST(GltfAnimation, HasARateOfItsOwnFromATenthToTenThousand) {
+  const auto rate = [](float seconds) {
+    return OnlyClip(Animated({{"translation", "LINEAR", {0, seconds}, {0, 0, 0, 1, 2, 3}}})).rate_hz;
+  };
+  EXPECT_EQ(rate(10), 0.1);
+  EXPECT_EQ(rate(10.2f), 60);
+  EXPECT_EQ(rate(1e-4f), 10'000);
+  EXPECT_EQ(rate(0.99e-4f), 60);
+}
+
 TEST(GltfAnimation, ReadsTheKeysOfALongRecordingAsTheyStand) {
   // After ten minutes a float knows the time no better than to 60 µs.
   std::vector<float> times, values;

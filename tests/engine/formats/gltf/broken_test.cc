@@ -276,6 +276,42 @@ TEST(BrokenGltf, IsRefusedForMoreTrianglesThanAnyFigureHas) {
   EXPECT_THAT(Complaint(strip(2'000'003)), HasSubstr("with it there are 3 vertices and 2000001 triangles; allowed"));
 }
 
+TEST(BrokenGltf, IsRefusedForMoreVerticesThanAnyFigureHas) {
+  // Without normals every triangle gets three vertices of its own.
+  const auto flat = [](std::size_t triangles) {
+    const std::size_t corners = triangles + 2;
+    std::string json = Replaced(kSmallGltf, R"("indices":3)", R"("indices":3,"mode":5)");
+    json = Replaced(json, R"("componentType":5123,"count":3,"type":"SCALAR")",
+                    fmt::format(R"("componentType":5121,"count":{},"type":"SCALAR")", corners));
+    json = Replaced(json, R"("byteOffset":96,"byteLength":6)",
+                    fmt::format(R"("byteOffset":292,"byteLength":{})", corners));
+    json = Replaced(json, R"("byteLength":292)", fmt::format(R"("byteLength":{})", 292 + corners));
+    return Glb(json, SmallBinary() + std::string(corners, '\0'));
+  };
+  EXPECT_EQ(Complaint(flat(666'666)), "read without complaint");
+  EXPECT_THAT(Complaint(flat(666'667)),
+              HasSubstr("with it there are 2000001 vertices and 666667 triangles; allowed: 2000000 and 2000000"));
+  // Before the joints and weights of so many are looked at.
+  constexpr std::size_t kCount = 2'000'001;
+  std::string json = Replaced(kSmallGltf, R"("componentType":5126,"count":3,"type":"VEC3")",
+                              fmt::format(R"("componentType":5120,"count":{},"type":"VEC3")", kCount));
+  json = Replaced(json, R"("byteLength":36)",
+                  fmt::format(R"("byteOffset":292,"byteLength":{},"byteStride":4)", 4 * kCount));
+  json = Replaced(json, R"("byteLength":292)", fmt::format(R"("byteLength":{})", 292 + 4 * kCount));
+  EXPECT_THAT(Complaint(Glb(json, SmallBinary() + std::string(4 * kCount, '\0'))),
+              HasSubstr("primitives[0]: found 2000001 vertices; allowed: 2000000"));
+}
+
+TEST(BrokenGltf, IsRefusedForMoreAnimationsThanAnyoneMakes) {
+  const auto file = [](int count) {
+    std::string animations;
+    for (int i = 0; i < count; ++i) animations += i == 0 ? "{}" : ",{}";
+    return Glb(R"({"asset":{"version":"2.0"},"nodes":[{}],"animations":[)" + animations + "]}");
+  };
+  EXPECT_EQ(Complaint(file(1000)), "read without complaint");
+  EXPECT_THAT(Complaint(file(1001)), HasSubstr("animations: found 1001; allowed: 1000"));
+}
+
 TEST(BrokenGltf, IsRefusedForALongTailBelowACycle) {
   // 0 → 1 → … → 199 hangs below 200 → 201 → 200.
   std::string nodes;
