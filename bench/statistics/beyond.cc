@@ -99,7 +99,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
   const UnitSums sums = SumUnits(sample);
   const std::vector<std::size_t> order = OrderOfUnits(sample, sums);
   beyond.units = static_cast<int>(order.size());
-  if (beyond.units < 2) return beyond;
+  if (order.empty()) return beyond;
   std::vector<double> means;
   for (std::size_t unit : order) means.push_back(KeepThirtyBits(sums.sums[unit] / sums.worlds[unit]));
   beyond.differing = static_cast<int>(std::count_if(means.begin(), means.end(), [](double mean) { return mean != 0; }));
@@ -108,12 +108,13 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
   const double sum_of_means = std::accumulate(means.begin(), means.end(), 0.0);
   const double estimate = one_way ? sum_of_means / n : sums.total / worlds;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const double rest = one_way ? (sum_of_means - means[i]) / (n - 1)
-                                : (sums.total - sums.sums[order[i]]) / (worlds - sums.worlds[order[i]]);
-    beyond.left_out.push_back({sample.names[order[i]], rest});
+    const double rest = one_way ? n - 1 : worlds - sums.worlds[order[i]];
+    if (rest == 0) continue;  // every world shows it: nothing is left without
+    const double sum = one_way ? sum_of_means - means[i] : sums.total - sums.sums[order[i]];
+    beyond.left_out.push_back({sample.names[order[i]], sum / rest});
   }
   beyond.difference = estimate;
-  if (beyond.units < kFewestUnits) return beyond;
+  if (beyond.units < kFewestUnits || beyond.left_out.size() < means.size()) return beyond;
   const double error = JackknifeError(beyond.left_out);
   const double half = StudentQuantile(1 - kAlpha / 2, beyond.units - 1) * error;
   beyond.low = KeepThirtyBits(estimate - half);
@@ -131,7 +132,7 @@ Beyond MeasureBeyond(const UnitSample& sample, int comparisons, std::uint64_t se
 }
 
 std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& metric) {
-  if (beyond.units < kFewestUnits || !beyond.p_holm) return std::nullopt;
+  if (!beyond.low || !beyond.p_holm) return std::nullopt;
   const auto is_within = [&](double low, double high) { return low >= -metric.practical && high <= metric.practical; };
   if (is_within(*beyond.low, *beyond.high)) {
     const bool holds = is_within(*beyond.median_low, *beyond.median_high) && beyond.differing >= kFewestUnits;
@@ -151,6 +152,7 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
     return fmt::format("{}: no verdict beyond them; at least {} are needed", CountUnits(beyond.units, unit),
                        kFewestUnits);
   }
+  if (!beyond.low) return "every world shows the same clip: no verdict beyond it";
   if (beyond.verdict != Verdict::kInconclusive) return "";
   const bool within = *beyond.low >= -metric.practical && *beyond.high <= metric.practical;
   if (within && beyond.differing < kFewestUnits) {

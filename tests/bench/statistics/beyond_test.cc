@@ -117,6 +117,25 @@ TEST(MeasureBeyond, LeavesOutAClipInWhateverPart) {
   EXPECT_EQ(beyond.verdict, Verdict::kBetter);
 }
 
+TEST(MeasureBeyond, KnowsNothingBeyondWhatEveryWorldShows) {
+  const Beyond one = Judged(OneWay({-4}));
+  EXPECT_EQ(one.units, 1);
+  EXPECT_EQ(*one.difference, -4);
+  EXPECT_TRUE(one.left_out.empty());
+  EXPECT_FALSE(one.verdict);
+  // One clip is left in every world, whichever is entered.
+  UnitSample sample = OneWay({0, -1, -3, -2, -5, -4, -3});
+  for (std::vector<int>& units : sample.units) {
+    if (units.front() != 0) units.push_back(0);
+  }
+  const Beyond always = Judged(sample);
+  EXPECT_EQ(always.units, 7);
+  EXPECT_EQ(always.left_out.size(), 6u);
+  EXPECT_FALSE(always.verdict);
+  EXPECT_EQ(always.why_open, "every world shows the same clip: no verdict beyond it");
+  EXPECT_EQ(Judged({}).units, 0);
+}
+
 /// How many of 400 samples without an effect get a clear verdict.
 int AlarmsBeyond(bool two_way, bool as_worlds) {
   MetricInfo metric = Metric();

@@ -25,7 +25,7 @@ RunData MakeRun(bool has_times = true) {
   scenario.methods = {"loop <all>", "index"};
   for (const int frames : {100'000, 100, 10'000}) {  // in no order
     const std::vector<SweptValue> condition = {{"frames", std::to_string(frames)}};
-    scenario.conditions.push_back({condition, {}, {}});
+    scenario.conditions.push_back({condition, {}, {}, {}});
     for (int trial = 0; trial < 3; ++trial) {
       for (const std::string& method : scenario.methods) {
         Row row;
