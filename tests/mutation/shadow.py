@@ -134,13 +134,36 @@ class Shadow:
 
     def _blamed(self, output):
         """The numbers of the sites that the compiler's messages speak of."""
-        lines = {}
+        lines, types = {}, set()
         for found in _MESSAGE.finditer(output):
             file = os.path.relpath(self.build / found["path"], self.tree)  # of ninja, relative to where it builds
+            if found["kind"] == "error" and "etude_mutation::On" in found["text"]:
+                types |= self._types_of_constant(file, int(found["line"]))
             about_mutants = found["kind"] == "error" or "etude_mutation" in found["text"]
             if about_mutants and file in self.numbered:
                 lines.setdefault(file, set()).add(int(found["line"]))
-        return set().union(*(self._nearest(file, its) for file, its in lines.items()))
+        near = set().union(*(self._nearest(file, its) for file, its in lines.items()))
+        return near | set().union(*(self._in_type(name) for name in types))
+
+    def _types_of_constant(self, file, line):
+        """The types of the constexpr variable that ends in this line: the defaults of their members are constants."""
+        if not (self.tree / file).is_file():
+            return set()
+        above = (self.tree / file).read_text().split("\n")[max(line - 40, 0):line]
+        heads = [text for text in above if re.search(r"\bconstexpr\b", text)]
+        return set(re.findall(r"\b[A-Z]\w+", heads[-1])) if heads else set()
+
+    def _in_type(self, name):
+        """The sites that are still there in the body of a struct or class of this name."""
+        found = set()
+        for file, pairs in self.numbered.items():
+            lines = self._read(file).split("\n")
+            for first, text in enumerate(lines, 1):
+                if not re.match(rf"\s*(struct|class) {name}\b.*\{{", text):
+                    continue
+                last = next((n for n, end in enumerate(lines[first:], first + 1) if end.strip() == "};"), first)
+                found |= {n for site, n in pairs if first <= site.line <= last and n not in self.dropped}
+        return found
 
     def _nearest(self, file, lines):
         """The sites that are still there in one of the lines; if none is, those next to one of them."""
