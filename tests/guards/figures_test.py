@@ -13,6 +13,7 @@ BASELINE = {"values": [
     {"scenario": "s", "condition": "n=1", "method": "a", "metric": "jump_cm", "values": [1.0, 2.26, None, 1234.5]},
     {"scenario": "s", "condition": "n=1", "method": "b", "metric": "jump_cm", "values": [2.0, 4.26, 1.0, 1235.5]},
     {"scenario": "s", "condition": "n=2", "method": "a", "metric": "jump_cm", "values": [5.0, 5.0, 5.0, 5.0]},
+    {"scenario": "t", "condition": "n=1,m=2", "method": "a", "metric": "jump_cm", "values": [1.0, 7.0, 10.0, 30.0]},
     {"scenario": "s", "condition": "n=1", "method": "a", "metric": "solved", "values": [1.0, 1.0, 0.0, 1.0]}]}
 
 
@@ -53,6 +54,7 @@ class Figures(unittest.TestCase):
                      "2 cm<!-- quick: s/n=1/a/jump_cm -->",
                      "two<!-- quick: s/n=1/a/jump_cm --> steps",
                      "412.6<!-- quick: s/n=1/a/jump_cm, mean -->",
+                     "12<!-- quick: t/n=1,m=2/a/jump_cm, mean -->",
                      "1,234.50<!-- quick: s/n=1/a/jump_cm, max -->",
                      "three<!-- quick: s/n=1/a/solved, ones --> of 4<!-- quick: s/n=1/a/solved, worlds -->",
                      "75 %<!-- quick: s/n=1/a/solved, mean, times 100 -->",
@@ -69,6 +71,7 @@ class Figures(unittest.TestCase):
                 ("\n\nthree<!-- quick: s/n=1/a/jump_cm -->", "README.md:3: three is two in"),
                 ("2<!-- quick: s/n=3/a/jump_cm -->", "no jump_cm of a under n=3 in s"),
                 ("2<!-- quick: s/n=1/c/jump_cm -->", "no jump_cm of c"),
+                ("9<!-- quick: t/n=1,m=2/a/jump_cm, mean -->", "9 is 12 in quick: t/n=1,m=2/a/jump_cm, mean"),
                 ("2<!-- quick: s/n=1/a/jump_cm, typical -->", "'typical' is none of median"),
                 ("2<!-- quick: s/n=1/a -->", "is not SCENARIO/CONDITION/METHOD/METRIC"),
                 ("2<!-- quick: s/*/a/jump_cm -->", "'*' and lowest or highest go together"),
