@@ -118,6 +118,8 @@ TEST(FuzzySystem, ComplainsWhereItIsWrongAndSaysWhatIsAllowed) {
       {"{RH: up, LH: up, Posture: stand}", "{}", "'if' must name terms"},
       {"then: arms up", "then: 'arms: up'", "is no pose's name"},
       {"then: arms up", "so: arms up", "needs 'then'"},
+      {"then: arms up", "then: arms up and so on and on and on to letter 41 plus", "at most 40 letters"},
+      {"terms:", "term:", "needs 'terms'"},
       {"rules:\n", "rules: none\nothers:\n", ""},
   };
   int checked = 0;
@@ -128,7 +130,7 @@ TEST(FuzzySystem, ComplainsWhereItIsWrongAndSaysWhatIsAllowed) {
     EXPECT_EQ(complaint.find('\n'), std::string::npos);
     ++checked;
   }
-  EXPECT_EQ(checked, 30);
+  EXPECT_EQ(checked, 32);
 }
 
 TEST(FuzzySystem, RefusesWeightsThatAreAllZero) {

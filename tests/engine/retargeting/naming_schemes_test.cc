@@ -330,10 +330,10 @@ std::vector<int> JointsOf(const std::vector<NamedJoint>& named) {
 TEST(JointNames, TellAWordFromAPartOfAWord) {
   Skeleton skeleton;
   for (const char* name :
-       {"LeftForeArm", "LeftArm", "leftarm", "ALARM", "Leftover_Arm", "LArmTwist", "Arm", "Arm_L_02"})
+       {"LeftForeArm", "LeftArm", "leftarm", "ALARM", "Leftover_Arm", "LArmTwist", "Arm", "Arm_L_02", "Arm_L_90"})
     skeleton.joints.push_back({.name = name, .parent = -1, .rest = {}});
   skeleton.joints.push_back({.name = "LeftArm", .parent = -1, .rest = {}, .is_end_site = true});
-  EXPECT_THAT(JointsOf(JointNames(skeleton).Find("arm", Side::kLeft)), ElementsAre(1, 2, 7));
+  EXPECT_THAT(JointsOf(JointNames(skeleton).Find("arm", Side::kLeft)), ElementsAre(1, 2, 7, 8));
   EXPECT_THAT(JointsOf(JointNames(skeleton).Find("arm", Side::kRight)), IsEmpty());
 }
 

@@ -53,6 +53,13 @@ TEST(UpAxis, OfSomersaultsIsTheRestPoses) {
   EXPECT_EQ(FindUpAxis(Folded(), over), UpAxis::kY) << "in doubt";
 }
 
+TEST(UpAxis, OfSeveralPosesIsTheirMean) {
+  const std::vector<BodyPose> both = {Standing(), StandingAlongZ()};
+  const glm::dvec3 y = MeanBodyAxis({&both[0], 1}), z = MeanBodyAxis({&both[1], 1});
+  EXPECT_LT(glm::length(MeanBodyAxis(both) - (y + z) / 2.0), 1e-12);
+  EXPECT_NEAR(glm::length(y), 1, 1e-12) << "of one pose it is a direction";
+}
+
 TEST(Upright, KeepsHandednessAndTurnsMinusYToPlusZ) {
   const glm::dvec3 x = Upright({1, 0, 0}, UpAxis::kZ), y = Upright({0, 1, 0}, UpAxis::kZ),
                    z = Upright({0, 0, 1}, UpAxis::kZ);

@@ -63,6 +63,8 @@ TEST(MotionFeatures, HoldTheHipsVelocityInTheDirectionOfFacing) {
   EXPECT_NEAR(frames[10][kHips], 0, 1e-9) << "not sideways";
   EXPECT_GT(frames[10][kHips + 2], 1) << "forward";
   EXPECT_NEAR(frames[30][kHips + 2], 0, 1e-9);
+  EXPECT_NEAR(frames[0][kHips + 2], frames[10][kHips + 2], 1e-9) << "one-sided where there is no frame before";
+  EXPECT_NEAR(frames[20][kHips + 2], frames[10][kHips + 2] / 2, 1e-9) << "central: half of it walks, half stands";
 }
 
 }  // namespace
