@@ -37,6 +37,7 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
+    "sim/annotator": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random",
     "sim/body": "engine/motion",
     "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
@@ -44,7 +45,7 @@ MAY_INCLUDE = {
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
     "sim/sensors":
-        "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
+        "engine/base engine/cameras engine/motion engine/recognition sim/body sim/random sim/render",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
@@ -58,8 +59,8 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/transitions/choices engine/transitions/search sim/character sim/choreography sim/random sim/render "
-        "bench/clips",
+        "engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/character "
+        "sim/choreography sim/random sim/render bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
@@ -80,7 +81,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
+        "sim/annotator sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

@@ -30,6 +30,7 @@ struct StudioOptions {
   int calibration_pairs = 24;  ///< measured points per camera
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
+  int annotators = 1;  ///< people who mark the same pictures, each by themselves: 1 or 2
   int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
 };
 
