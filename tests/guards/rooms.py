@@ -8,6 +8,7 @@ renames or joins rooms edits this file, and only this. The rooms form no circle.
 MAY_INCLUDE = {
     # engine/
     "engine/base": "",
+    "engine/boards": "engine/base",
     "engine/cameras": "engine/base",
     "engine/capture":
         "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
@@ -43,7 +44,7 @@ MAY_INCLUDE = {
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
-    "sim/rig": "engine/base engine/cameras engine/motion sim/random sim/render",
+    "sim/rig": "engine/base engine/boards engine/cameras engine/motion sim/random sim/render",
     "sim/sensors":
         "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
     # bench/
