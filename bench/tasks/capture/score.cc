@@ -177,6 +177,13 @@ std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
 
 }  // namespace
 
+std::vector<std::string> CaptureMetrics() {
+  std::vector<std::string> ids(kStageMetrics.begin(), kStageMetrics.end());
+  ids.insert(ids.end(), {"frames_in_view", "frames_recovered"});
+  ids.insert(ids.end(), kPoseMetrics.begin(), kPoseMetrics.end());
+  return ids;
+}
+
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
   CellResult cell;
   ReportStages(world, run, cell);
