@@ -37,7 +37,7 @@ class CaptureTaskWorld : public TaskWorld {
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
-  Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
+  Result<Payload> MakeTruth() override { return MakeCaptureTruth(study_.options, key_, stages_); }
 
   Result<CellResult> Judge(const Json& json) override {
     ASSIGN_OR_RETURN(const auto answer, ReadCaptureAnswer(json, stages_.world().truth.size()));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "sim/camera/lens.h"
+
 namespace etude {
 namespace {
 
@@ -68,7 +70,10 @@ Camera PlaceCamera(const StudioOptions& options, std::size_t index, const WorldK
   const double distance = options.camera_distance_m + random.Normal(0, 0.05);
   const double height = options.camera_heights_m[index] + random.Normal(0, 0.03);
   const glm::dvec3 target(random.Normal(0, 0.02), 0.95 + random.Normal(0, 0.02), 0);
-  return LookAt({}, {distance * std::sin(angle), height, distance * std::cos(angle)}, target);
+  Camera camera = LookAt({}, {distance * std::sin(angle), height, distance * std::cos(angle)}, target);
+  RandomStream lens(key, fmt::format("capture/camera-{}/lens", index));
+  camera.distortion = LensDistortion(options.camera, camera.intrinsics, lens);
+  return camera;
 }
 
 // Points stuck on three walls of a box around the stage (paper B: "on different planes"), seen by the
@@ -77,7 +82,6 @@ std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const 
                                             const WorldKey& key) {
   RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
   const glm::dvec3 low(-0.8, 0.1, -0.8), high(0.8, 1.9, 0.8);
-  const ProjectionMatrix matrix = MatrixOf(camera);
   std::vector<PointPair> pairs;
   for (int i = 0; i < options.calibration_pairs; ++i) {
     glm::dvec3 point;
@@ -87,7 +91,8 @@ std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const 
     const int wall = kWalls[i % 3];
     point[wall] = low[wall];
     const glm::dvec2 error(random.Normal(), random.Normal());
-    pairs.push_back({point, *Project(matrix, point) + options.calibration_noise_px * error});
+    const auto pixel = Project(camera, point);
+    if (pixel) pairs.push_back({point, *pixel + options.calibration_noise_px * error});
   }
   return pairs;
 }

@@ -1,8 +1,8 @@
-#include "sim/sensors/camera_sensor.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "sim/sensors/camera_sensor.h"
 
 namespace etude {
 namespace {
