@@ -3,6 +3,14 @@
 #include "bench/tasks/capture/camera_fields.h"
 
 namespace etude {
+namespace {
+
+template <bool Oracle::*kStage>
+bool& OracleOf(CaptureMethod& method) {
+  return method.oracle.*kStage;
+}
+
+}  // namespace
 
 namespace {
 
@@ -42,35 +50,23 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Method = CaptureMethod;
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
-    FieldTable<Method> made{
-        {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
-                   "How the person is cut out of the pictures."),
-         Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
-                   "How a camera is computed from its calibration points."),
-         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
-         Key::Flags("oracle",
-                    {{"calibration", [](auto& m) -> auto& { return m.oracle.calibration; }},
-                     {"segmentation", [](auto& m) -> auto& { return m.oracle.segmentation;
-  }
-}
-, {"directions", [](auto& m) -> auto& {return m.oracle.directions;
-}
-}
-, {
-  "points", [](auto& m) -> auto& { return m.oracle.points; }
-}
-},
-                    "Stages replaced by the truth.")
-}
-}
-;
-const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
-made.fields.insert(made.fields.end(), solver.begin(), solver.end());
-return made;
-}
-();
-return table;
+    FieldTable<Method> made{{Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
+                                       "How the person is cut out of the pictures."),
+                             Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
+                                       "How a camera is computed from its calibration points."),
+                             ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
+                             SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+                             Key::Flags("oracle",
+                                        {{"calibration", OracleOf<&Oracle::calibration>},
+                                         {"segmentation", OracleOf<&Oracle::segmentation>},
+                                         {"directions", OracleOf<&Oracle::directions>},
+                                         {"points", OracleOf<&Oracle::points>}},
+                                        "Stages replaced by the truth.")}};
+    const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
+    made.fields.insert(made.fields.end(), solver.begin(), solver.end());
+    return made;
+  }();
+  return table;
 }
 
 }  // namespace etude
