@@ -13,8 +13,8 @@ namespace etude {
 /// noise, then the gains of the white balance.
 struct Sensor {
   const Transmission* transmission = nullptr;  ///< of the light's size; none: all light passes
-  Toning toning;
-  SensorNoise noise;
+  Toning toning{};
+  SensorNoise noise{};
 
   /// A chip for each colour. Each row throws for three colours a pixel.
   void ReadColours(RandomStream& random, LightImage& light) const;

@@ -1,99 +1,137 @@
+#include "sim/camera/sensor_noise.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/sensors/camera_sensor.h"
+#include "sim/camera/sensor.h"
+#include "tests/sim/camera/shots.h"
 
 namespace etude {
 namespace {
 
-constexpr WorldKey kWorld{7, "camera-sensor", 0};
-
 struct Statistics {
-  double mean = 0;
-  double deviation = 0;
+  double mean = 0, variance = 0;
 };
 
-template <typename Channel>
-Statistics Measure(const ColourImage& image, Channel channel) {
+// Of one colour, in linear light.
+Statistics Measure(const ColourImage& picture, char colour) {
   double sum = 0, squares = 0;
-  for (const Rgb8& pixel : image.pixels) {
-    sum += channel(pixel);
-    squares += double{1} * channel(pixel) * channel(pixel);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double light = LightAt(picture, x, y, colour);
+      sum += light;
+      squares += light * light;
+    }
   }
-  const double count = static_cast<double>(image.pixels.size());
-  return {sum / count, std::sqrt(squares / count - sum * sum / count / count)};
+  const double count = static_cast<double>(picture.pixels.size());
+  return {sum / count, squares / count - sum * sum / count / count};
 }
 
-ColourImage Disturb(Rgb8 colour, const CameraNoise& options) {
-  RandomStream random(kWorld, "noise");
-  return AddCameraNoise(ColourImage(400, 300, colour), options, random);
+// What rounding to a code adds: a twelfth of the square of a code's width in light.
+double RoundingVariance(int code) {
+  const double width =
+      (LightOfCodes()[static_cast<std::size_t>(code + 1)] - LightOfCodes()[static_cast<std::size_t>(code - 1)]) / 2;
+  return width * width / 12;
 }
 
-TEST(CameraSensor, HasTheVarianceOfReadingPlusPhotons) {
-  const CameraNoise options{.read_noise = 2, .photon_noise = 3};
-  const ColourImage noisy = Disturb({40, 128, 220}, options);
-  // Rounding to whole counts adds 1/12. The sample's own error is 0.2 % of the deviation.
-  const auto expected = [](double value) { return std::sqrt(4 + 9 * value / 255 + 1.0 / 12); };
-  const Statistics red = Measure(noisy, [](Rgb8 p) { return p.r; });
-  const Statistics green = Measure(noisy, [](Rgb8 p) { return p.g; });
-  const Statistics blue = Measure(noisy, [](Rgb8 p) { return p.b; });
-  EXPECT_NEAR(red.mean, 40, 0.03);
-  EXPECT_NEAR(green.mean, 128, 0.03);
-  EXPECT_NEAR(blue.mean, 220, 0.04);
-  EXPECT_NEAR(red.deviation, expected(40), 0.02);
-  EXPECT_NEAR(green.deviation, expected(128), 0.03);
-  EXPECT_NEAR(blue.deviation, expected(220), 0.03);
-  EXPECT_GT(std::abs(red.deviation - expected(220)), 0.3) << "the tolerance tells dark from light";
+// The photon transfer curve (Janesick): of flat fields, the variance against the mean; its slope is the light of one
+// electron, its intercept the variance of reading.
+Line PhotonTransfer(const CameraEffects& effects) {
+  std::vector<std::pair<double, double>> points;
+  CameraModel model = ModelOf(effects);
+  for (const std::uint8_t code : {90, 110, 130, 150, 170, 190, 210}) {
+    const Statistics seen = Measure(ShootFlat(model, {code, code, code}, code), 'g');
+    points.push_back({seen.mean, seen.variance - RoundingVariance(code)});
+  }
+  return FitLine(points);
 }
 
-TEST(CameraSensor, IsIndependentBetweenChannelsAndNeighbours) {
-  const ColourImage noisy = Disturb({128, 128, 128}, {.read_noise = 4, .photon_noise = 0});
-  double channels = 0, neighbours = 0, self = 0;
+TEST(SensorNoise, GivesItsElectronsBackByThePhotonTransferCurve) {
+  for (const double strength : {0.5, 1.0}) {
+    for (const double gain_db : {12.0, 18.0}) {
+      const Line curve = PhotonTransfer({.gain_db = gain_db, .noise = strength});
+      const double gain = std::pow(10, gain_db / 20), square = strength * strength;
+      EXPECT_NEAR(curve.slope / (square * gain / 3000), 1, 0.03) << strength << " at " << gain_db << " dB";
+      EXPECT_NEAR(std::sqrt(std::max(curve.intercept, 0.0)) / (strength * gain * 3 / 3000), 1, 0.25)
+          << strength << " at " << gain_db << " dB";
+    }
+  }
+}
+
+TEST(SensorNoise, OfAnotherStrengthOrGainHasAnotherCurve) {
+  const double usual = PhotonTransfer({.gain_db = 12}).slope;
+  EXPECT_GT(PhotonTransfer({.gain_db = 12, .noise = 1.1}).slope / usual, 1.15);
+  EXPECT_GT(PhotonTransfer({.gain_db = 14}).slope / usual, 1.15);
+}
+
+TEST(SensorNoise, LeavesTheMeanAlone) {
+  CameraModel model = ModelOf({.noise = 1});
+  const ColourImage picture = ShootFlat(model, {80, 128, 220});
+  EXPECT_NEAR(Measure(picture, 'r').mean, LightOfCodes()[80], 1e-4);
+  EXPECT_NEAR(Measure(picture, 'g').mean, LightOfCodes()[128], 1e-4);
+  EXPECT_NEAR(Measure(picture, 'b').mean, LightOfCodes()[220], 2e-4);
+}
+
+TEST(SensorNoise, IsIndependentBetweenColoursAndNeighbours) {
+  CameraModel model = ModelOf({.noise = 2});
+  const ColourImage noisy = ShootFlat(model, {128, 128, 128});
+  double colours = 0, neighbours = 0, self = 0;
   for (std::size_t i = 0; i + 1 < noisy.pixels.size(); ++i) {
     const double red = noisy.pixels[i].r - 128.0, green = noisy.pixels[i].g - 128.0;
-    channels += red * green;
+    colours += red * green;
     neighbours += red * (noisy.pixels[i + 1].r - 128.0);
     self += red * red;
   }
-  EXPECT_LT(std::abs(channels / self), 0.015);
-  EXPECT_LT(std::abs(neighbours / self), 0.015);
+  EXPECT_LT(std::abs(colours / self), 0.01);
+  EXPECT_LT(std::abs(neighbours / self), 0.01);
 }
 
-TEST(CameraSensor, HasTheTailsOfANormalDistribution) {
-  const ColourImage noisy = Disturb({128, 128, 128}, {.read_noise = 20, .photon_noise = 0});
+TEST(SensorNoise, HasTheTailsOfANormalDistribution) {
+  RandomStream random(kShotWorld, "normals");
+  NormalRows rows(random);
+  constexpr std::size_t kCount = 600000;
+  const float* normals = rows.Next(kCount);
+  double squares = 0;
   int beyond_two = 0, beyond_three = 0;
-  for (const Rgb8& pixel : noisy.pixels) {
-    const double off = std::abs(pixel.g - 128.0);
-    beyond_two += off > 40.5;
-    beyond_three += off > 60.5;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    squares += double{normals[i]} * normals[i];
+    beyond_two += std::abs(normals[i]) > 2;
+    beyond_three += std::abs(normals[i]) > 3;
   }
-  const double count = static_cast<double>(noisy.pixels.size());
-  EXPECT_NEAR(beyond_two / count, std::erfc(2.025 / std::sqrt(2.0)), 0.002);
-  EXPECT_NEAR(beyond_three / count, std::erfc(3.025 / std::sqrt(2.0)), 0.0006);
+  EXPECT_NEAR(squares / kCount, 1, 0.006);
+  EXPECT_NEAR(beyond_two / double{kCount}, std::erfc(2 / std::sqrt(2.0)), 0.0015);
+  EXPECT_NEAR(beyond_three / double{kCount}, std::erfc(3 / std::sqrt(2.0)), 0.001);
 }
 
-TEST(CameraSensor, WithoutNoiseKeepsThePicture) {
-  const ColourImage image = Disturb({0, 100, 255}, {.read_noise = 0, .photon_noise = 0});
-  for (const Rgb8& pixel : image.pixels) ASSERT_EQ(pixel, (Rgb8{0, 100, 255}));
-}
-
-TEST(CameraSensor, ExposureScalesTheWholeFrameByOneDraw) {
-  const CameraNoise options{.read_noise = 0, .photon_noise = 0, .exposure_deviation = 0.1};
-  RandomStream random(kWorld, "noise");
-  const double gain = 1 + 0.1 * random.Normal();
-  ASSERT_GT(std::abs(gain - 1), 0.005);
-  for (const Rgb8& pixel : Disturb({50, 100, 150}, options).pixels) {
-    ASSERT_NEAR(pixel.g, 100 * gain, 0.51);
-    ASSERT_NEAR(pixel.b, 150 * gain, 0.51);
+TEST(SensorNoise, ByTableOfCodesIsNoiseOfLight) {
+  const SensorNoise noise = WebcamNoise(1.5, 3);
+  ColourImage codes(67, 31), decoded(67, 31);
+  for (std::size_t i = 0; i < codes.pixels.size(); ++i) {
+    codes.pixels[i] = {static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>(i / 8),
+                       static_cast<std::uint8_t>(7 * i)};
   }
+  LightImage light(67, 31);
+  DecodeRow(codes.pixels.data(), 67 * 31, light.pixels.data());
+  RandomStream one(kShotWorld, "same"), other(kShotWorld, "same");
+  CodeNoise(noise).Apply(one, codes);
+  Sensor{.noise = noise}.ReadColours(other, light);
+  EncodeRow(light.pixels.data(), 67 * 31, decoded.pixels.data());
+  EXPECT_EQ(codes.pixels, decoded.pixels);
+  EXPECT_EQ(one.Bits(), other.Bits()) << "as many throws";
 }
 
-TEST(CameraSensor, DrawsAsOftenWhateverTheStrengths) {
-  RandomStream weak(kWorld, "noise"), strong(kWorld, "noise");
-  AddCameraNoise(ColourImage(31, 17), {.read_noise = 0, .photon_noise = 0}, weak);
-  AddCameraNoise(ColourImage(31, 17), {.read_noise = 9, .photon_noise = 9, .exposure_deviation = 0.2}, strong);
+TEST(SensorNoise, ThrowsAsOftenWhateverItsStrength) {
+  RandomStream weak(kShotWorld, "noise"), strong(kShotWorld, "noise");
+  ColourImage one(31, 17, {9, 9, 9}), other(31, 17, {200, 0, 80});
+  CodeNoise(WebcamNoise(0.1, 0)).Apply(weak, one);
+  CodeNoise(WebcamNoise(9, 20)).Apply(strong, other);
   EXPECT_EQ(weak.Bits(), strong.Bits());
+}
+
+TEST(SensorNoise, OfNoStrengthIsNone) {
+  EXPECT_TRUE(WebcamNoise(0, 24).IsNone());
+  EXPECT_FALSE(WebcamNoise(0.1, 0).IsNone());
 }
 
 }  // namespace
