@@ -178,26 +178,38 @@ Painter Board(const CameraModel& model) {
   };
 }
 
-/// The corner near a place: every gradient about it is at right angles to the way from it (Förstner).
+/// Light between four pixels.
+double LightBetween(const ColourImage& picture, const glm::dvec2& at) {
+  const int x = static_cast<int>(std::floor(at.x - 0.5)), y = static_cast<int>(std::floor(at.y - 0.5));
+  const double right = at.x - 0.5 - x, down = at.y - 0.5 - y;
+  return (1 - down) * ((1 - right) * LightAt(picture, x, y) + right * LightAt(picture, x + 1, y)) +
+         down * ((1 - right) * LightAt(picture, x, y + 1) + right * LightAt(picture, x + 1, y + 1));
+}
+
+/// The corner near a place: about it, the board looks the same when turned by half a circle.
 glm::dvec2 FindCorner(const ColourImage& picture, glm::dvec2 corner) {
-  for (int pass = 0; pass < 10; ++pass) {
-    double xx = 0, xy = 0, yy = 0, bx = 0, by = 0;
-    for (int dy = -6; dy <= 6; ++dy) {
-      for (int dx = -6; dx <= 6; ++dx) {
-        const int x = static_cast<int>(std::floor(corner.x)) + dx, y = static_cast<int>(std::floor(corner.y)) + dy;
-        const glm::dvec2 at(x + 0.5, y + 0.5);
-        const double weight = std::exp(-glm::dot(at - corner, at - corner) / 5);
-        const double gx = LightAt(picture, x + 1, y) - LightAt(picture, x - 1, y);
-        const double gy = LightAt(picture, x, y + 1) - LightAt(picture, x, y - 1);
-        xx += weight * gx * gx;
-        xy += weight * gx * gy;
-        yy += weight * gy * gy;
-        bx += weight * gx * (gx * at.x + gy * at.y);
-        by += weight * gy * (gx * at.x + gy * at.y);
+  const auto asymmetry = [&](const glm::dvec2& centre) {
+    double sum = 0;
+    for (int dy = 0; dy <= 7; ++dy) {
+      for (int dx = -7; dx <= 7; ++dx) {
+        const glm::dvec2 aside(dx, dy);
+        const double difference = LightBetween(picture, centre + aside) - LightBetween(picture, centre - aside);
+        sum += difference * difference;
       }
     }
-    const double determinant = xx * yy - xy * xy;
-    corner = {(yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant};
+    return sum;
+  };
+  double least = asymmetry(corner);
+  for (double step = 0.5; step > 0.004;) {
+    glm::dvec2 best = corner;
+    for (const glm::dvec2& way : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
+      const double now = asymmetry(corner + step * way);
+      if (now >= least) continue;
+      least = now;
+      best = corner + step * way;
+    }
+    if (best == corner) step /= 2;
+    corner = best;
   }
   return corner;
 }
