@@ -80,20 +80,24 @@ CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, dou
 
 void CameraModel::AddLight(const Shutter::Band& band, const Scene& scene, const View& middle) {
   const RowRange rows = lens_.SourceRows(band.rows);
-  const int width = pinhole().intrinsics.width, count = rows.end - rows.first;
-  if (pinhole_light_.width != width || pinhole_light_.height != count) pinhole_light_ = LightImage(width, count);
+  const int width = pinhole().intrinsics.width, pixels = width * (rows.end - rows.first);
+  if (!lens_.is_none()) {
+    pinhole_light_.width = width;
+    pinhole_light_.height = rows.end - rows.first;
+    pinhole_light_.pixels.resize(static_cast<std::size_t>(pixels));
+  }
+  Light* out = lens_.is_none() ? &light_.At(0, rows.first) : pinhole_light_.pixels.data();
   const std::vector<double> times = shutter_.SubframesOf(band);
   if (times.size() == 1) {
-    DecodeRow(middle.colour.pixels.data(), width * count, pinhole_light_.pixels.data());
+    DecodeRow(middle.colour.pixels.data(), pixels, out);
   } else {
-    std::fill(pinhole_light_.pixels.begin(), pinhole_light_.pixels.end(), Light{});
+    std::fill_n(out, pixels, Light{});
     for (const double time : times) {
       const View view = scene(time, rows, Targets::kColour);
-      AddDecodedRow(view.colour.pixels.data(), width * count, 1.0f / static_cast<float>(times.size()),
-                    pinhole_light_.pixels.data());
+      AddDecodedRow(view.colour.pixels.data(), pixels, 1.0f / static_cast<float>(times.size()), out);
     }
   }
-  lens_.Warp(pinhole_light_, band.rows, light_);
+  if (!lens_.is_none()) lens_.Warp(pinhole_light_, band.rows, light_);
 }
 
 void CameraModel::AddBand(const Shutter::Band& band, const Scene& scene, Targets targets, View& view) {

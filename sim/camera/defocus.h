@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sim/camera/light.h"
 
 namespace etude {
@@ -14,9 +16,11 @@ class Defocus {
   void Apply(LightImage& light);
 
  private:
+  void BlurAcross(const Light* row, std::size_t width, Light* out);
+
   std::vector<float> weights_;  ///< of the middle, and of those 1, 2, … away
-  std::vector<Light> padded_row_;
-  LightImage across_;
+  std::vector<Light> padded_row_, across_;
+  std::vector<const float*> rows_;
 };
 
 }  // namespace etude

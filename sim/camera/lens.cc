@@ -3,10 +3,25 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "engine/base/angles.h"
 
 namespace etude {
+namespace {
+
+/// Four floats that the compiler computes with at once.
+using Lanes = float __attribute__((vector_size(16)));
+Lanes LoadLanes(const Light* light) {
+  Lanes colours;
+  std::memcpy(&colours, light, sizeof colours);
+  return colours;
+}
+void StoreLanes(const Lanes& colours, Light* light) {
+  std::memcpy(static_cast<void*>(light), &colours, sizeof colours);
+}
+
+}  // namespace
 
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& in, RandomStream& random) {
   const double direction = random.Uniform(0, 2 * kPi);
@@ -47,6 +62,9 @@ LensWarp::LensWarp(const Camera& camera)
       const glm::dvec2 corner = glm::floor(centre);
       sources_.push_back({static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y),
                           static_cast<float>(centre.x - corner.x), static_cast<float>(centre.y - corner.y)});
+      const glm::dvec2 nearest = glm::floor(centre + 0.5);
+      nearest_.push_back(static_cast<std::int32_t>(nearest.y) * pinhole_.intrinsics.width +
+                         static_cast<std::int32_t>(nearest.x));
       rows.first = std::min(rows.first, sources_.back().y);
       rows.end = std::max(rows.end, sources_.back().y + 2);
     }
@@ -64,23 +82,18 @@ RowRange LensWarp::SourceRows(const RowRange& rows) const {
 }
 
 void LensWarp::Warp(const LightImage& source, const RowRange& rows, LightImage& out) const {
-  if (sources_.empty()) {
-    std::copy(source.pixels.begin(), source.pixels.end(), &out.At(0, rows.first));
-    return;
-  }
   const int first = SourceRows(rows).first, stride = source.width;
+  const Light* origin = source.pixels.data();
   for (int y = rows.first; y < rows.end; ++y) {
     const Source* from = sources_.data() + static_cast<std::size_t>(y) * width_;
     Light* to = &out.At(0, y);
     for (int x = 0; x < width_; ++x) {
-      const Light* upper = source.pixels.data() + static_cast<std::ptrdiff_t>(from[x].y - first) * stride + from[x].x;
+      const Light* upper = origin + (from[x].y - first) * stride + from[x].x;
       const Light* lower = upper + stride;
       const float right = from[x].right, down = from[x].down;
-      const float a = (1 - right) * (1 - down), b = right * (1 - down), c = (1 - right) * down, d = right * down;
-      to[x] = {a * upper[0].r + b * upper[1].r + c * lower[0].r + d * lower[1].r,
-               a * upper[0].g + b * upper[1].g + c * lower[0].g + d * lower[1].g,
-               a * upper[0].b + b * upper[1].b + c * lower[0].b + d * lower[1].b,
-               a * upper[0].unused + b * upper[1].unused + c * lower[0].unused + d * lower[1].unused};
+      const Lanes above = LoadLanes(upper) + right * (LoadLanes(upper + 1) - LoadLanes(upper));
+      const Lanes below = LoadLanes(lower) + right * (LoadLanes(lower + 1) - LoadLanes(lower));
+      StoreLanes(above + down * (below - above), to + x);
     }
   }
 }
@@ -91,13 +104,11 @@ void LensWarp::Nearest(const Image<Pixel>& source, const RowRange& rows, Image<P
     std::copy(source.pixels.begin(), source.pixels.end(), &out.At(0, rows.first));
     return;
   }
-  const int first = SourceRows(rows).first;
-  for (int y = rows.first; y < rows.end; ++y) {
-    const Source* from = sources_.data() + static_cast<std::size_t>(y) * width_;
-    for (int x = 0; x < width_; ++x) {
-      const int right = from[x].right >= 0.5f ? 1 : 0, down = from[x].down >= 0.5f ? 1 : 0;
-      out.At(x, y) = source.At(from[x].x + right, from[x].y + down - first);
-    }
+  const std::int32_t skipped = SourceRows(rows).first * source.width;
+  const std::size_t begin = static_cast<std::size_t>(rows.first) * width_,
+                    end = static_cast<std::size_t>(rows.end) * width_;
+  for (std::size_t i = begin; i < end; ++i) {
+    out.pixels[i] = source.pixels[static_cast<std::size_t>(nearest_[i] - skipped)];
   }
 }
 

@@ -24,12 +24,14 @@ class LensWarp {
 
   /// What to draw: no distortion, and as much more picture as the corners need. The camera itself when it has none.
   const Camera& pinhole() const { return pinhole_; }
+  bool is_none() const { return sources_.empty(); }
 
   /// The pinhole's rows that these rows of the camera are made of.
   RowRange SourceRows(const RowRange& rows) const;
 
-  /// Fills those rows: light between four pixels, labels and depths of the nearest. `source` holds the pinhole's rows
-  /// SourceRows(rows) and no others. Empty pictures stay empty.
+  /// Fills those rows (of a camera with distortion; else labels and depths are copied): light between four pixels,
+  /// labels and depths of the nearest. `source` holds the pinhole's rows SourceRows(rows) and no others. Empty pictures
+  /// stay empty.
   void Warp(const LightImage& source, const RowRange& rows, LightImage& out) const;
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
@@ -46,6 +48,7 @@ class LensWarp {
   int width_, height_;
   Camera pinhole_;
   std::vector<Source> sources_;          ///< empty without distortion
+  std::vector<std::int32_t> nearest_;    ///< likewise: each pixel's place in the pinhole's picture
   std::vector<RowRange> source_of_row_;  ///< likewise
 };
 

@@ -1,5 +1,7 @@
 #include "sim/camera/light.h"
 
+#include <algorithm>
+
 #include "engine/base/srgb.h"
 
 namespace etude {
@@ -41,8 +43,19 @@ void AddDecodedRow(const Rgb8* codes, int pixels, float share, Light* out) {
 }
 
 void EncodeRow(const Light* light, int pixels, Rgb8* out) {
-  const CodeTable& code = CodeTable::Get();
-  for (int x = 0; x < pixels; ++x) out[x] = {code(light[x].r), code(light[x].g), code(light[x].b)};
+  const CodeTable& codes = CodeTable::Get();
+  // In blocks: steps by vector instructions first, then the table.
+  constexpr int kBlock = 64;
+  std::array<std::int32_t, 4 * kBlock> steps;
+  for (int first = 0; first < pixels; first += kBlock) {
+    const int count = std::min(kBlock, pixels - first);
+    const float* values = &light[first].r;
+    for (int i = 0; i < 4 * count; ++i) steps[static_cast<std::size_t>(i)] = CodeTable::StepOf(values[i]);
+    for (int x = 0; x < count; ++x) {
+      const std::int32_t* step = steps.data() + 4 * x;
+      out[first + x] = {codes.At(step[0]), codes.At(step[1]), codes.At(step[2])};
+    }
+  }
 }
 
 }  // namespace etude

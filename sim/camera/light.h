@@ -22,10 +22,15 @@ const std::array<float, 256>& LightOfCodes();
 class CodeTable {
  public:
   static const CodeTable& Get();
-  std::uint8_t operator()(float light) const {
-    const float inside = light > 0 ? (light < 1 ? light : 1) : 0;
-    return codes_[static_cast<int>(inside * (kSteps - 1) + 0.5f)];
+  std::uint8_t operator()(float light) const { return At(StepOf(light)); }
+
+  /// In two parts, of which the first can be done for many at once.
+  static std::int32_t StepOf(float light) {
+    const float above = light > 0 ? light : 0;
+    const float inside = above < 1 ? above : 1;
+    return static_cast<std::int32_t>(inside * (kSteps - 1) + 0.5f);
   }
+  std::uint8_t At(std::int32_t step) const { return codes_[static_cast<std::size_t>(step)]; }
 
  private:
   CodeTable();

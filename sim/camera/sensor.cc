@@ -11,20 +11,29 @@ void Disturb(const SensorNoise& noise, const float* normals, std::size_t count, 
 
 void Sensor::ReadColours(RandomStream& random, LightImage& light) const {
   const std::size_t width = static_cast<std::size_t>(light.width);
-  NormalRows normals(random);
-  std::vector<float> values(3 * width);
+  const float* table = NormalRows::Table();
+  NormalRows throws(random);
+  std::vector<float> normals(4 * width);  // as light lies: the fourth of a pixel is nothing
+  const float gains[] = {toning.red, toning.green, toning.blue, 1};
   for (int y = 0; y < light.height; ++y) {
-    Light* row = &light.At(0, y);
-    for (std::size_t x = 0; x < width; ++x) {
-      const float share =
-          transmission == nullptr ? toning.exposure : toning.exposure * transmission->At(static_cast<int>(x), y);
-      values[3 * x] = row[x].r * share;
-      values[3 * x + 1] = row[x].g * share;
-      values[3 * x + 2] = row[x].b * share;
+    float* values = &light.At(0, y).r;
+    if (transmission == nullptr) {
+      for (std::size_t i = 0; i < 4 * width; ++i) values[i] *= toning.exposure;
+    } else {
+      const float* passes = &transmission->At(0, y);
+      for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t c = 0; c < 4; ++c) values[4 * x + c] *= toning.exposure * passes[x];
+      }
     }
-    if (!noise.IsNone()) Disturb(noise, normals.Next(3 * width), 3 * width, values.data());
+    if (!noise.IsNone()) {
+      const std::uint16_t* places = throws.NextPlaces(3 * width);
+      for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t c = 0; c < 3; ++c) normals[4 * x + c] = table[places[3 * x + c]];
+      }
+      Disturb(noise, normals.data(), 4 * width, values);
+    }
     for (std::size_t x = 0; x < width; ++x) {
-      row[x] = {values[3 * x] * toning.red, values[3 * x + 1] * toning.green, values[3 * x + 2] * toning.blue, 0};
+      for (std::size_t c = 0; c < 4; ++c) values[4 * x + c] *= gains[c];
     }
   }
 }
