@@ -39,6 +39,7 @@ MAY_INCLUDE = {
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
     "sim/body": "engine/motion",
+    "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
@@ -60,7 +61,7 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/transitions/choices engine/transitions/search sim/character sim/choreography sim/random sim/render "
+        "engine/transitions/choices engine/transitions/search sim/camera sim/character sim/choreography sim/random sim/render "
         "bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
@@ -82,7 +83,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/random sim/render sim/rig sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
+        "sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips bench/keys bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

@@ -44,7 +44,7 @@ class CaptureTaskWorld : public TaskWorld {
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
-  Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
+  Result<Payload> MakeTruth() override { return MakeCaptureTruth(study_.options, key_, stages_); }
 
   Result<CellResult> Judge(const Json& json) override {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);

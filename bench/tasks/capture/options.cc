@@ -1,5 +1,7 @@
 #include "bench/tasks/capture/options.h"
 
+#include "bench/tasks/capture/camera_fields.h"
+
 namespace etude {
 namespace {
 
@@ -22,12 +24,10 @@ void CheckStudio(Fields& fields, StudioOptions& options) {
                               rig.heights_m.size(), rig.angles_deg.size()));
 }
 
-}  // namespace
-
-const FieldTable<StudioOptions>& CaptureConditionFields() {
+FieldTable<StudioOptions> MakeConditionFields() {
   using Options = StudioOptions;
   using Key = Field<Options>;
-  static const FieldTable<Options> table{
+  FieldTable<Options> made{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
        Key::Name(
            "rig", InRig<&RigOptions::shape>,
@@ -51,7 +51,6 @@ const FieldTable<StudioOptions>& CaptureConditionFields() {
        Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
                  "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
-       Key::Number("camera_noise", &Options::camera_noise, {0, 20}, "Multiplies the camera's usual noise."),
        Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Measured points per camera."),
        Key::Number("calibration_noise_px", &Options::calibration_noise_px, {0, 20},
                    "Standard deviation of a calibration point's pixel, in u and in v."),
@@ -60,6 +59,15 @@ const FieldTable<StudioOptions>& CaptureConditionFields() {
        Key::Number("mark_every", &Options::mark_every, {1, 300},
                    "The annotator marks every n-th frame; what lies between is interpolated.")},
       CheckStudio};
+  const std::vector<Key> camera = CameraFields();
+  made.fields.insert(made.fields.end(), camera.begin(), camera.end());
+  return made;
+}
+
+}  // namespace
+
+const FieldTable<StudioOptions>& CaptureConditionFields() {
+  static const FieldTable<StudioOptions> table = MakeConditionFields();
   return table;
 }
 

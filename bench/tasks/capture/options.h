@@ -5,6 +5,7 @@
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/cameras/dlt.h"
 #include "engine/vision/change_detection.h"
+#include "sim/camera/camera_effects.h"
 #include "sim/rig/rig.h"
 
 namespace etude {
@@ -20,7 +21,7 @@ struct StudioOptions {
   RigOptions rig = {};  ///< where the cameras stand
   Clothes clothes = Clothes::kStudio;
   double light_drift = 0.06;   ///< largest relative change of the lamp's brightness
-  double camera_noise = 1;     ///< multiplies the camera sensor's usual noise
+  CameraEffects camera;        ///< of every camera
   int calibration_pairs = 24;  ///< measured points per camera
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "sim/camera/lens.h"
+
 namespace etude {
 namespace {
 
@@ -67,7 +69,6 @@ std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const 
                                             const glm::dvec3& middle, const WorldKey& key) {
   RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
   const glm::dvec3 low = middle + glm::dvec3(-0.8, 0.1, -0.8), high = middle + glm::dvec3(0.8, 1.9, 0.8);
-  const ProjectionMatrix matrix = MatrixOf(camera);
   std::vector<PointPair> pairs;
   for (int i = 0; i < options.calibration_pairs; ++i) {
     glm::dvec3 point;
@@ -77,7 +78,8 @@ std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const 
     const int wall = kWalls[i % 3];
     point[wall] = low[wall];
     const glm::dvec2 error(random.Normal(), random.Normal());
-    pairs.push_back({point, *Project(matrix, point) + options.calibration_noise_px * error});
+    const auto pixel = Project(camera, point);
+    if (pixel) pairs.push_back({point, *pixel + options.calibration_noise_px * error});
   }
   return pairs;
 }
@@ -105,6 +107,10 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   world.room.texture_seed = room.IndexBelow(1u << 30);
   world.brightness = MakeBrightness(options, world.truth.size(), key);
   world.cameras = SetUpCameras(options.rig, world.truth, key);
+  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+    RandomStream lens(key, fmt::format("capture/camera-{}/lens", i));
+    world.cameras[i].distortion = LensDistortion(options.camera, world.cameras[i].intrinsics, lens);
+  }
   world.in_view = FramesInView(world.cameras, world.truth);
   const glm::dvec3 middle = MiddleOnFloor(world.truth);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
