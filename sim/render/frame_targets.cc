@@ -31,12 +31,14 @@ void FrameTargets::Grow(int width, int height) {
   assert(gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
-void FrameTargets::Begin(int width, int height) {
+void FrameTargets::Begin(int width, int height, const RowRange& rows) {
   if (width > capacity_width_ || height > capacity_height_) Grow(width, height);
   width_ = width;
-  height_ = height;
+  rows_ = rows;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.Viewport(0, 0, width, height);
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(0, rows.first, width, rows.end - rows.first);
   const float farthest = 1;
   gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
 }
@@ -50,11 +52,12 @@ void FrameTargets::WriteOnly(bool colour, bool labels, bool depth) {
 
 View FrameTargets::Read(Targets targets) const {
   View view;
-  view.colour = ColourImage(width_, height_);
+  const int height = rows_.end - rows_.first;
+  view.colour = ColourImage(width_, height);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
   // Four bytes a pixel are what the framebuffer holds; letting GL drop the fourth is slower.
   std::vector<std::uint8_t> rgba(view.colour.pixels.size() * 4);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  gl_.ReadPixels(0, rows_.first, width_, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   const std::uint8_t* source = rgba.data();
   for (Rgb8& pixel : view.colour.pixels) {
     pixel = {source[0], source[1], source[2]};
@@ -62,12 +65,12 @@ View FrameTargets::Read(Targets targets) const {
   }
   if (targets == Targets::kColour) return view;
 
-  view.labels = LabelImage(width_, height_);
+  view.labels = LabelImage(width_, height);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, view.labels.pixels.data());
-  view.depth = DepthImage(width_, height_);
+  gl_.ReadPixels(0, rows_.first, width_, height, GL_RED_INTEGER, GL_UNSIGNED_INT, view.labels.pixels.data());
+  view.depth = DepthImage(width_, height);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, view.depth.pixels.data());
+  gl_.ReadPixels(0, rows_.first, width_, height, GL_RED, GL_FLOAT, view.depth.pixels.data());
   return view;
 }
 

@@ -14,11 +14,11 @@ class FrameTargets {
   FrameTargets(const FrameTargets&) = delete;
   FrameTargets& operator=(const FrameTargets&) = delete;
 
-  /// Makes drawing go into the top left `width` × `height` pixels, depth buffer cleared.
-  void Begin(int width, int height);
+  /// Makes drawing go into those rows of the top left `width` × `height` pixels, depth buffer cleared there.
+  void Begin(int width, int height, const RowRange& rows);
   /// Which of the attachments the next draws write.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies the pictures drawn since `Begin` out of GL.
+  /// Copies the rows drawn since `Begin` out of GL.
   View Read(Targets targets) const;
 
  private:
@@ -29,7 +29,8 @@ class FrameTargets {
   GLuint framebuffer_ = 0;
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
-  int width_ = 0, height_ = 0;
+  int width_ = 0;
+  RowRange rows_;
 };
 
 }  // namespace etude

@@ -59,6 +59,7 @@ namespace etude {
   X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                           \
   X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
+  X(PFNGLSCISSORPROC, Scissor)                                 \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \

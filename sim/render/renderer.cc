@@ -180,13 +180,19 @@ std::string RendererVersion() {
 }
 
 View Renderer::Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets) {
+  return RenderRows(room, figures, camera, targets, {0, camera.intrinsics.height});
+}
+
+View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
+                          const RowRange& rows) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);
+  assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   const bool all = targets == Targets::kAll;
 
   state_->context->MakeCurrent();
   const GLuint kept_room = state_->rooms.FindOrDraw(room.texture_seed, camera);
-  state_->targets.Begin(width, height);
+  state_->targets.Begin(width, height, rows);
   state_->gl.BindTexture(GL_TEXTURE_2D, kept_room);
   state_->DrawBackdrop(room.brightness, all);
 
@@ -194,6 +200,7 @@ View Renderer::Render(const Room& room, const std::vector<Figure>& figures, cons
   state_->surfaces.stream.Upload(MakeCorners(figures, camera.p_WC));
   if (room.casts_shadows) state_->DrawShadows(camera, room.brightness, all);
   state_->DrawBodies(camera, room.brightness, all);
+  state_->gl.Disable(GL_SCISSOR_TEST);  // kept rooms are drawn whole
   return state_->targets.Read(targets);
 }
 

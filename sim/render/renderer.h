@@ -56,6 +56,12 @@ struct View {
   DepthImage depth;   ///< metres along the viewing axis; infinity where only the clear colour is seen
 };
 
+/// Rows `first` to `end` − 1 of a picture.
+struct RowRange {
+  int first = 0;
+  int end = 0;
+};
+
 /// Which pictures a caller needs; colour alone is the fastest. The others are left empty.
 enum class Targets { kColour, kAll };
 
@@ -76,6 +82,11 @@ class Renderer {
   /// camera stands above the floor and in front of the wall; up to about 55° to the side, every pixel then shows floor,
   /// wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
+
+  /// Only those rows of that picture, the same bytes: the view is as high as there are rows. A rolling shutter sees
+  /// each band of rows at another time.
+  View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
+                  const RowRange& rows);
 
   /// The same picture with smooth edges, for people to look at: drawn at twice the size and averaged,
   /// at about four times the cost. At most kLargestPicture / 2 wide and high.

@@ -4,6 +4,7 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/capture/shooting.h"
 #include "engine/cameras/opencv_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/joint_csv.h"
@@ -126,7 +127,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   return problem;
 }
 
-Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
+Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
   const CaptureWorld& world = stages.world();
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
@@ -137,10 +138,11 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
                  {"truth.trc", WriteTrc(motion, "truth")},
                  {"truth.csv", WriteJointCsv(motion)}};
+  Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-      ASSIGN_OR_RETURN(auto bytes, EncodeExr(RenderFrame(world, camera, frame, *renderer)));
+      ASSIGN_OR_RETURN(auto bytes, EncodeExr(shooting.Shoot(camera, frame, Targets::kAll)));
       truth.files.push_back({PictureName(camera, frame, "exr"), std::move(bytes)});
     }
   }

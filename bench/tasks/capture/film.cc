@@ -4,9 +4,9 @@
 
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/marking.h"
+#include "bench/tasks/capture/shooting.h"
 #include "engine/base/digest.h"
 #include "sim/body/shape.h"
-#include "sim/sensors/camera_sensor.h"
 
 namespace etude {
 namespace {
@@ -38,12 +38,9 @@ Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
 class Crew {
  public:
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
-      : world_(world), key_(key), renderer_(renderer) {
-    noise_.read_noise *= options.camera_noise;
-    noise_.photon_noise *= options.camera_noise;
+      : shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-      const View view = renderer_.Render(world.room, {}, world.cameras[camera], Targets::kColour);
-      backgrounds_.push_back(WithNoise(view.colour, fmt::format("capture/camera-{}/background", camera)));
+      backgrounds_.push_back(shooting_.ShootBackground(camera));
     }
   }
 
@@ -55,12 +52,11 @@ class Crew {
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    View view = RenderFrame(world_, camera, frame, renderer_);
+    View view = shooting_.Shoot(camera, frame, Targets::kAll);
     Mask person = MaskWhere(view.labels, IsPerformerPart);
     Mask shadow =
         MaskWhere(view.labels, [](std::uint32_t l) { return l == static_cast<std::uint32_t>(Part::kShadow); });
-    return {WithNoise(view.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)), std::move(view.labels),
-            std::move(person), std::move(shadow)};
+    return {std::move(view.colour), std::move(view.labels), std::move(person), std::move(shadow)};
   }
 
   Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
@@ -71,26 +67,11 @@ class Crew {
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
 
  private:
-  ColourImage WithNoise(const ColourImage& picture, const std::string& purpose) const {
-    RandomStream random(key_, purpose);
-    return AddCameraNoise(picture, noise_, random);
-  }
-
-  const CaptureWorld& world_;
-  const WorldKey& key_;
-  Renderer& renderer_;
-  CameraNoise noise_;
+  Shooting shooting_;
   std::vector<ColourImage> backgrounds_;
 };
 
 }  // namespace
-
-View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer) {
-  Room room = world.room;
-  room.brightness *= world.brightness[frame];
-  const Figure performer{BodyCapsules(world.truth[frame]), world.colours};
-  return renderer.Render(room, {performer}, world.cameras[camera], Targets::kAll);
-}
 
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink) {

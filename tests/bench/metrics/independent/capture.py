@@ -136,6 +136,7 @@ METRICS = {
     "annotator_distance_px": annotator_distance,
     "annotator_overlap": annotator_overlap,
     "reprojection_rms_px": reprojection,
+    "frames_in_view": lambda g: common.share(g["in_view"]),
     "frames_recovered": lambda g: common.share(g["recovered"]),
     "iou": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f or t),
     "mask_precision": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f),
