@@ -82,8 +82,9 @@ MAY_INCLUDE = {
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
-        "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips bench/keys bench/metrics bench/recordings bench/tasks/base",
+        "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
+        "engine/vision sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips bench/keys "
+        "bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

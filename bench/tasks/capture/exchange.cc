@@ -104,7 +104,8 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
   Payload problem = PayloadOf({});
   Json cameras = Json::array();
-  for (const std::vector<PointPair>& pairs : world.calibration_pairs) {
+  ASSIGN_OR_RETURN(const CalibrationPairs* calibration, stages.GetCalibrationPairs());
+  for (const std::vector<PointPair>& pairs : *calibration) {
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
   }
   const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {

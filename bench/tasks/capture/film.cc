@@ -40,7 +40,7 @@ class Crew {
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
       : world_(world), options_(options), key_(key), shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-      backgrounds_.push_back(shooting_.ShootBackground(camera));
+      backgrounds_.push_back(shooting_.ShootStage(camera));
     }
   }
 

@@ -15,14 +15,22 @@ enum class Clothes {
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
 };
 
+/// What the cameras are calibrated with.
+enum class CalibrationTargetKind {
+  kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
+  kBoards,  ///< "boards": a cube of calibration boards, found in the picture
+};
+
 /// One condition of a capture scenario: the studio and what goes wrong in it.
 struct StudioOptions {
   double duration_s = 2;
   RigOptions rig = {};  ///< where the cameras stand
   Clothes clothes = Clothes::kStudio;
-  double light_drift = 0.06;   ///< largest relative change of the lamp's brightness
-  CameraEffects camera;        ///< of every camera
-  int calibration_pairs = 24;  ///< measured points per camera
+  double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
+  CameraEffects camera = {};       ///< of every camera
+  CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
+  int calibration_pairs = 24;         ///< kPoints: measured points per camera
+  double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
   int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between

@@ -79,10 +79,10 @@ BodyPose Shooting::SeenPose(std::size_t camera, std::size_t frame) const {
   return PoseAt(world_.truth, cameras_[camera].shutter().TimeOf(frame));
 }
 
-ColourImage Shooting::ShootBackground(std::size_t camera) {
+ColourImage Shooting::ShootStage(std::size_t camera, const std::vector<Figure>& props) {
   CameraModel& model = cameras_[camera];
   return model.ShootBackground([&](double, const RowRange& rows, Targets wanted) {
-    return renderer_.RenderRows(world_.room, {}, model.pinhole(), wanted, rows);
+    return renderer_.RenderRows(world_.room, props, model.pinhole(), wanted, rows);
   });
 }
 

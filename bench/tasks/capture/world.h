@@ -6,7 +6,6 @@
 #include "bench/clips/clip_library.h"
 #include "bench/tasks/capture/options.h"
 #include "engine/cameras/camera.h"
-#include "engine/cameras/dlt.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
@@ -24,7 +23,6 @@ struct CaptureWorld {
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
   Room room;                       ///< its brightness is that of the background pictures
   std::vector<double> brightness;  ///< of each frame
-  std::vector<std::vector<PointPair>> calibration_pairs;  ///< of each camera, pixels noisy
 };
 
 /// The world of `key`. The window of the clip begins by dice; among a few throws the first is taken that
