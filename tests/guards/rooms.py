@@ -84,7 +84,7 @@ MAY_INCLUDE = {
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
         "engine/vision sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips bench/keys "
-        "bench/metrics bench/recordings bench/tasks/base",
+        "bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
@@ -123,6 +123,7 @@ MAY_INCLUDE = {
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model reports/words",
+    "reports/sensors": "engine/base bench/model reports/films",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/

@@ -87,11 +87,15 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   world.brightness = MakeBrightness(options, world.truth.size(), key);
   world.cameras = SetUpCameras(options.rig, world.truth, key);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    RandomStream lens(key, fmt::format("capture/camera-{}/lens", i));
-    world.cameras[i].distortion = LensDistortion(options.camera, world.cameras[i].intrinsics, lens);
+    world.cameras[i].distortion = LensOf(options.camera, world.cameras[i], i, key);
   }
   world.in_view = FramesInView(world.cameras, world.truth);
   return world;
+}
+
+Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key) {
+  RandomStream random(key, fmt::format("capture/camera-{}/lens", index));
+  return LensDistortion(effects, camera.intrinsics, random);
 }
 
 FrameMeasurement TrueMeasurement(const BodyPose& truth) {

@@ -30,6 +30,9 @@ struct CaptureWorld {
 /// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
 
+/// The lens that a camera of the world has under those effects.
+Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key);
+
 /// What faultless marks and cameras would measure of a frame.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);
 
