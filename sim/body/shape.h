@@ -28,6 +28,10 @@ enum class Part : std::uint32_t {
   kRightFoot,
 };
 constexpr std::uint32_t kFirstBodyPart = 2;
+constexpr std::uint32_t kPartCount = 16;
+
+/// Whether a label is a part of the performer: not the room, its furniture or another person.
+constexpr bool IsPerformerPart(std::uint32_t label) { return label >= kFirstBodyPart && label < kPartCount; }
 
 /// A cylinder with two half-spheres: every point within `radius` of the segment a–b, metres.
 struct Capsule {

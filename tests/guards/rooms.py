@@ -38,6 +38,7 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
+    "sim/annotator": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random",
     "sim/body": "engine/motion",
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
@@ -47,7 +48,7 @@ MAY_INCLUDE = {
     "sim/render": "engine/base engine/cameras sim/body sim/random",
     "sim/rig": "engine/base engine/boards engine/cameras engine/motion sim/random sim/render",
     "sim/sensors":
-        "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
+        "engine/base engine/cameras engine/motion engine/recognition sim/body sim/random sim/render",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
@@ -61,8 +62,8 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/transitions/choices engine/transitions/search sim/camera sim/character sim/choreography sim/random sim/render "
-        "bench/clips",
+        "engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
+        "sim/character sim/choreography sim/random sim/render bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
@@ -83,8 +84,8 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
-        "engine/vision sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips bench/keys "
-        "bench/metrics bench/model bench/recordings bench/tasks/base",
+        "engine/vision sim/annotator sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips "
+        "bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

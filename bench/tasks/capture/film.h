@@ -27,6 +27,8 @@ struct Observation {
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
   std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for
   MaskScore score;                        ///< mean over all pictures
+  /// How two annotators agree, over all pictures; nothing when one marks alone.
+  std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;
   std::string marks_digest;
 };

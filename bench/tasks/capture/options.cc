@@ -64,7 +64,9 @@ FieldTable<StudioOptions> MakeConditionFields() {
                    "Standard deviation of a calibration point's pixel, in u and in v.")
            .With("calibration_target", {"points"}),
        Key::Number("annotation_error_px", &Options::annotation_error_px, {0, 50},
-                   "Standard deviation of the annotator's marks, in u and in v."),
+                   "Standard deviation of an annotator's marks, in u and in v; what else people get wrong grows with it."),
+       Key::Number("annotators", &Options::annotators, {1, 2},
+                   "How many people mark the same pictures, each by themselves; methods get the mean of both."),
        Key::Number("mark_every", &Options::mark_every, {1, 300},
                    "The annotator marks every n-th frame; what lies between is interpolated.")},
       CheckStudio};

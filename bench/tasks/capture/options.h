@@ -33,6 +33,7 @@ struct StudioOptions {
   double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
+  int annotators = 1;  ///< people who mark the same pictures, each by themselves: 1 or 2
   int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
 };
 
