@@ -10,8 +10,7 @@ bool operator==(const Lights& a, const Lights& b) {
 namespace {
 
 bool Same(const FurnitureBox& a, const FurnitureBox& b) {
-  return a.box.centre == b.box.centre && a.box.half_size == b.box.half_size && a.box.heading == b.box.heading &&
-         a.paint == b.paint;
+  return a.centre == b.centre && a.half_size == b.half_size && a.heading == b.heading && a.paint == b.paint;
 }
 
 bool Same(const WallPicture& a, const WallPicture& b) {

@@ -4,15 +4,17 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "sim/body/box.h"
-#include "sim/render/paint.h"
+#include "sim/render/surface_paint.h"
 
 namespace etude {
 
-/// A box that stands in the room all the time; its pixels are kFurniture.
+/// A box that stands in the room all the time, turned about the vertical; its pixels are kFurniture. As sim/body/box.h
+/// has it.
 struct FurnitureBox {
-  Box box;
-  Paint paint;
+  glm::dvec3 centre{0};     ///< metres
+  glm::dvec3 half_size{0};  ///< along its own axes
+  double heading = 0;       ///< radians: its own +Z points to (sin heading, 0, cos heading)
+  SurfacePaint paint;
 };
 
 /// A picture or a window: a rectangle painted on a wall; its pixels are the wall's.
@@ -21,7 +23,7 @@ struct WallPicture {
   Wall wall = Wall::kBack;
   glm::dvec2 centre{0};     ///< metres: along the wall (x, or z of a side wall), above the floor
   glm::dvec2 half_size{0};  ///< metres, its frame included
-  Paint paint;
+  SurfacePaint paint;
   Rgb8 frame{};
   double glow = 0;  ///< light of its own: 1 = a window at noon shows its paint whatever the lamps do
 };
@@ -46,11 +48,11 @@ constexpr std::size_t kMostWallPictures = 8;
 struct Interior {
   glm::dvec3 low{-4, 0, -2.5};  ///< its corners, metres
   glm::dvec3 high{4, 3.3, 5};
-  Paint floor, wall, ceiling;
+  SurfacePaint floor, wall, ceiling;
   Rgb8 skirting{};
   double studio = 0;  ///< how much of the walls and the floor still is the studio's paint: 1 = all
   glm::dvec4 rug{0};  ///< x, z of its middle, half its size along x and z; 0: none
-  Paint rug_paint;
+  SurfacePaint rug_paint;
   Lights lights;
   std::vector<FurnitureBox> furniture;
   std::vector<WallPicture> pictures;

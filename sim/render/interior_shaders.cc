@@ -265,6 +265,8 @@ std::string InteriorFragmentShader() {
   return AssembleShader({kRoomGeometry, kStudioPaint, kPaintPatterns, kInteriorGeometry, kInteriorPaint});
 }
 std::string InteriorShadowVertexShader() { return AssembleShader({kInteriorShadowPlace}); }
-std::string InteriorShadowFragmentShader() { return AssembleShader({kRoomGeometry, kSegmentDistance, kInteriorShadowPaint}); }
+std::string InteriorShadowFragmentShader() {
+  return AssembleShader({kRoomGeometry, kSegmentDistance, kInteriorShadowPaint});
+}
 
 }  // namespace etude

@@ -40,12 +40,12 @@ void SetNumber(const GlFunctions& gl, GLuint program, const char* name, double v
 void SetFurniture(const GlFunctions& gl, GLuint program, const std::vector<FurnitureBox>& furniture) {
   const std::size_t count = std::min(furniture.size(), kMostFurnitureBoxes);
   std::vector<glm::vec4> centres, halves;
-  std::vector<Paint> paints;
+  std::vector<SurfacePaint> paints;
   for (std::size_t i = 0; i < count; ++i) {
-    const Box& box = furniture[i].box;
+    const FurnitureBox& box = furniture[i];
     centres.emplace_back(glm::vec3(box.centre), static_cast<float>(std::sin(box.heading)));
     halves.emplace_back(glm::vec3(box.half_size), static_cast<float>(std::cos(box.heading)));
-    paints.push_back(furniture[i].paint);
+    paints.push_back(box.paint);
   }
   SetArray(gl, program, "box_centre", centres);
   SetArray(gl, program, "box_half", halves);
@@ -56,7 +56,7 @@ void SetFurniture(const GlFunctions& gl, GLuint program, const std::vector<Furni
 void SetPictures(const GlFunctions& gl, GLuint program, const std::vector<WallPicture>& pictures) {
   const std::size_t count = std::min(pictures.size(), kMostWallPictures);
   std::vector<glm::vec4> places, frames;
-  std::vector<Paint> paints;
+  std::vector<SurfacePaint> paints;
   for (std::size_t i = 0; i < count; ++i) {
     const WallPicture& picture = pictures[i];
     places.emplace_back(glm::vec2(picture.centre), glm::vec2(picture.half_size));

@@ -45,9 +45,9 @@ void SetLights(const GlFunctions& gl, GLuint program, const Lights& lights) {
 
 glm::vec3 ToShares(Rgb8 colour) { return glm::vec3(colour.r, colour.g, colour.b) / 255.0f; }
 
-void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<Paint>& paints, int first) {
+void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<SurfacePaint>& paints, int first) {
   std::vector<glm::vec4> firsts, seconds, patches;
-  for (const Paint& paint : paints) {
+  for (const SurfacePaint& paint : paints) {
     firsts.emplace_back(ToShares(paint.first), static_cast<float>(paint.pattern));
     seconds.emplace_back(ToShares(paint.second), static_cast<float>(paint.size));
     const bool has_patch = paint.patch_half.x > 0 && paint.patch_half.y > 0;

@@ -14,7 +14,7 @@ void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camer
 void SetLights(const GlFunctions& gl, GLuint program, const Lights& lights);
 
 /// Tells `program` (in use) the paints `first`, `first` + 1, ….
-void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<Paint>& paints, int first = 0);
+void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<SurfacePaint>& paints, int first = 0);
 
 void SetPoint(const GlFunctions& gl, GLuint program, const char* name, const glm::dvec3& point);
 glm::vec3 ToShares(Rgb8 colour);

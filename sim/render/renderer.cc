@@ -217,7 +217,8 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
-  void DrawBodies(GLuint program, const VertexStream& stream, const Shot& shot, const std::vector<Paint>& paints) {
+  void DrawBodies(GLuint program, const VertexStream& stream, const Shot& shot,
+                  const std::vector<SurfacePaint>& paints) {
     Use(program, shot);
     SetPixelGeometry(gl, program, shot.camera, shot.room);
     SetLights(gl, program, LightsOf(shot.room));
@@ -226,7 +227,7 @@ struct Renderer::State {
     stream.Draw();
   }
 
-  void DrawBodies(const Shot& shot, const std::vector<Paint>& paints) {
+  void DrawBodies(const Shot& shot, const std::vector<SurfacePaint>& paints) {
     targets.WriteOnly(true, shot.labels, shot.depth);
     gl.Enable(GL_DEPTH_TEST);
     if (!capsules.IsEmpty()) {

@@ -13,7 +13,7 @@
 #include "engine/cameras/camera.h"
 #include "sim/body/shape.h"
 #include "sim/render/interior.h"
-#include "sim/render/paint.h"
+#include "sim/render/surface_paint.h"
 
 namespace etude {
 
@@ -28,8 +28,8 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Part> parts;                              ///< one per triangle: its number in label images
   Rgb8 colour;
-  std::optional<Paint> paint{};   ///< in place of `colour`
-  std::vector<glm::vec3> rest{};  ///< with `paint`, one per position: where it is on the body at rest, metres
+  std::optional<SurfacePaint> paint{};  ///< in place of `colour`
+  std::vector<glm::vec3> rest{};        ///< with `paint`, one per position: where it is on the body at rest, metres
 };
 
 /// A person or a moving thing in the scene: capsules and the colour of each part, or surfaces, or both.

@@ -54,8 +54,8 @@ std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const
   return corners;
 }
 
-std::vector<Paint> PaintsOf(const std::vector<Figure>& figures) {
-  std::vector<Paint> paints;
+std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures) {
+  std::vector<SurfacePaint> paints;
   for (const Figure& figure : figures) {
     for (const Surface& surface : figure.surfaces) {
       if (surface.paint) paints.push_back(*surface.paint);

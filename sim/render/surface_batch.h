@@ -23,6 +23,6 @@ std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const
 void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, std::vector<SurfaceCorner>& corners);
 
 /// The paints of all surfaces, in the order of their numbers.
-std::vector<Paint> PaintsOf(const std::vector<Figure>& figures);
+std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures);
 
 }  // namespace etude

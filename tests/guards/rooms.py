@@ -38,13 +38,15 @@ MAY_INCLUDE = {
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
     "sim/body": "engine/motion",
-    "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
+    "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
     "sim/sensors":
         "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
+    "sim/stage":
+        "engine/base engine/cameras engine/motion sim/body sim/character sim/choreography sim/random sim/render",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
@@ -80,7 +82,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
+        "sim/body sim/random sim/render sim/sensors sim/stage bench/clips bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

@@ -42,7 +42,10 @@ class Crew {
     noise_.read_noise *= options.camera_noise;
     noise_.photon_noise *= options.camera_noise;
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-      const View view = renderer_.Render(world.room, {}, world.cameras[camera], Targets::kColour);
+      Room room = world.room;
+      room.interior = world.stage.interior();
+      const View view = renderer_.Render(room, world.stage.MoversAt(Stage::kBackgroundSeconds), world.cameras[camera],
+                                         Targets::kColour);
       backgrounds_.push_back(WithNoise(view.colour, fmt::format("capture/camera-{}/background", camera)));
     }
   }
@@ -57,7 +60,7 @@ class Crew {
     const View view = RenderFrame(world_, camera, frame, renderer_);
     return {
         WithNoise(view.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)),
-        MaskWhere(view.labels, [](std::uint32_t label) { return label >= kFirstBodyPart; }),
+        MaskWhere(view.labels, IsPerformer),
         MaskWhere(view.labels, [](std::uint32_t label) { return label == static_cast<std::uint32_t>(Part::kShadow); })};
   }
 
@@ -96,9 +99,12 @@ class Crew {
 
 View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer) {
   Room room = world.room;
-  room.brightness *= world.brightness[frame];
-  const Figure performer{BodyCapsules(world.truth[frame]), world.colours};
-  return renderer.Render(room, {performer}, world.cameras[camera], Targets::kAll);
+  const double seconds = static_cast<double>(frame) / kJudgedRateHz;
+  room.brightness *= world.brightness[frame] * world.stage.FlickerAt(seconds);
+  room.interior = world.stage.interior();
+  std::vector<Figure> figures = world.stage.MoversAt(seconds);
+  figures.push_back(world.stage.PerformerAt(world.truth[frame], world.colours));
+  return renderer.Render(room, figures, world.cameras[camera], Targets::kAll);
 }
 
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,

@@ -22,6 +22,8 @@ const FieldTable<StudioOptions>& CaptureConditionFields() {
        Key::Number("camera_distance_m", &Options::camera_distance_m, {2, 10}, "From the middle of the stage."),
        Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
                  "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."),
+       Key::Number("scene", &Options::scene, {0, 1},
+                   "How much a room people live in: 0 = the studio, 1 = furniture, clutter, a second person, hues alike."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
        Key::Number("camera_noise", &Options::camera_noise, {0, 20}, "Multiplies the camera's usual noise."),
        Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Measured points per camera."),

@@ -25,6 +25,8 @@ struct StudioOptions {
   std::vector<double> camera_heights_m = {1.0, 2.2};
   double camera_distance_m = 3.8;
   Clothes clothes = Clothes::kStudio;
+  /// 0 = the studio; 1 = a furnished room with people and things that move (sim/stage/README.md has the steps between).
+  double scene = 0;
   double light_drift = 0.06;   ///< largest relative change of the lamp's brightness
   double camera_noise = 1;     ///< multiplies the camera sensor's usual noise
   int calibration_pairs = 24;  ///< measured points per camera

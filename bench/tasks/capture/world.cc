@@ -61,6 +61,14 @@ std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
   return colours;
 }
 
+StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
+  RandomStream random(key, "capture/stage");
+  const bool everyday = options.clothes == Clothes::kEveryday;
+  return {.seed = random.IndexBelow(1u << 30),
+          .scene = options.scene,
+          .wardrobe = everyday ? Wardrobe::kEveryday : Wardrobe::kStudio};
+}
+
 // Tripods are never set up to the centimetre.
 Camera PlaceCamera(const StudioOptions& options, std::size_t index, const WorldKey& key) {
   RandomStream random(key, fmt::format("capture/camera-{}/place", index));
@@ -118,6 +126,8 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
     world.cameras.push_back(PlaceCamera(options, i, key));
     world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, key));
   }
+  world.stage_options = StageOptionsOf(options, key);
+  world.stage = Stage(world.stage_options, world.truth, world.cameras);
   return world;
 }
 

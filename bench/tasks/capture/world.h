@@ -12,6 +12,7 @@
 #include "engine/motion/body.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
+#include "sim/stage/stage.h"
 
 namespace etude {
 
@@ -21,7 +22,9 @@ struct CaptureWorld {
   LimbLengths lengths;             ///< measured on the performer beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<Camera> cameras;     ///< two
-  Room room;                       ///< its brightness is that of the background pictures
+  Room room;                       ///< its brightness is that of the background pictures; of the studio alone
+  StageOptions stage_options;      ///< what `stage` was made of
+  Stage stage;                     ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< of each frame
   std::vector<std::vector<PointPair>> calibration_pairs;  ///< of each camera, pixels noisy
 };

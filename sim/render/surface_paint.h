@@ -21,7 +21,7 @@ enum class Pattern {
 };
 
 /// A painted surface.
-struct Paint {
+struct SurfacePaint {
   Rgb8 first{};
   Rgb8 second{};
   Pattern pattern = Pattern::kPlain;
@@ -29,7 +29,7 @@ struct Paint {
   glm::dvec2 patch{0};       ///< x and y of the middle of a patch of the second colour, in front (z > 0)
   glm::dvec2 patch_half{0};  ///< half its width and height; 0: no patch
   bool is_cloth = false;     ///< with seams and creases
-  friend bool operator==(const Paint&, const Paint&) = default;
+  friend bool operator==(const SurfacePaint&, const SurfacePaint&) = default;
 };
 
 }  // namespace etude
