@@ -65,6 +65,7 @@ const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
 KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   KeptRoom kept;
+  kept.serial = ++drawn_;
   GLuint framebuffer = 0;
   gl_.GenFramebuffers(1, &framebuffer);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
+#include "sim/render/averaged.h"
 #include "sim/render/backdrop.h"
 #include "sim/render/capsule_batch.h"
 #include "sim/render/frame_targets.h"
@@ -90,6 +91,14 @@ VertexStream CornerStream(const GlFunctions& gl) {
            {4, offsetof(SurfaceCorner, paint_and_label)},
            {4, offsetof(SurfaceCorner, rest_and_paint)}}};
 }
+
+// The empty room with smooth edges, and the last large picture: only what figures touch of it is current.
+struct SmoothRoom {
+  std::uint64_t room = 0;  // KeptRoom::serial
+  double brightness = 0;
+  View large;
+  ColourImage small;
+};
 
 // From the lamp to the farthest corner of the room.
 double ShadowReach(const Interior& interior) {
@@ -249,6 +258,19 @@ struct Renderer::State {
     contacts.Upload(NearFloor(all, eye));
   }
 
+  // `rects` of the picture, into those of `view`.
+  void DrawTouched(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, const Camera& camera,
+                   Targets asked, const std::vector<PixelRect>& rects, View& view) {
+    if (rects.empty()) return;
+    Begin(kept, camera);
+    Upload(room, figures, camera.p_WC);
+    const Shot shot{room, camera, rects, asked != Targets::kColour, asked == Targets::kAll};
+    DrawBackdrop(shot);
+    if (room.casts_shadows) DrawShadows(shot);
+    DrawBodies(shot, PaintsOf(figures));
+    for (const PixelRect& rect : rects) targets.Read(rect, asked, view);
+  }
+
   std::unique_ptr<GlContext> context;
   const GlFunctions& gl;
   Programs programs;
@@ -257,6 +279,7 @@ struct Renderer::State {
   std::vector<SurfaceCorner> corners;  // reused
   FrameTargets targets;
   KeptRooms rooms;
+  SmoothRoom smooth;
 };
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -266,6 +289,13 @@ Result<std::unique_ptr<Renderer>> Renderer::Create() {
   ASSIGN_OR_RETURN(auto context, GlContext::Create());
   ASSIGN_OR_RETURN(const auto programs, LinkAll(*context));
   return std::unique_ptr<Renderer>(new Renderer(std::make_unique<State>(std::move(context), programs)));
+}
+
+Result<Renderer*> SharedRenderer() {
+  // Never destroyed: Mesa may be gone by then.
+  static const auto* const shared = new Result<std::unique_ptr<Renderer>>(Renderer::Create());
+  if (!*shared) return tl::unexpected(shared->error());
+  return (*shared)->get();
 }
 
 std::string RendererVersion() {
@@ -288,20 +318,37 @@ void Renderer::Render(const Room& room, const std::vector<Figure>& figures, cons
   const Rows rows{std::clamp(asked.first, 0, height), std::clamp(asked.end, 0, height)};
   if (rows.first >= rows.end) return;
 
+  state_->context->MakeCurrent();
+  const KeptRoom& kept = state_->rooms.FindOrDraw(room, camera);
+  FillBackdrop(kept, width, height, room.brightness, targets, rows, view);
+  state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), view);
+}
+
+ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera) {
+  const Camera large = Doubled(camera);
+  const int width = large.intrinsics.width, height = large.intrinsics.height;
+  assert(width <= kLargestPicture && height <= kLargestPicture);
   State& state = *state_;
   state.context->MakeCurrent();
-  const KeptRoom& kept = state.rooms.FindOrDraw(room, camera);
-  FillBackdrop(kept, width, height, room.brightness, targets, rows, view);
-  const std::vector<PixelRect> rects = TouchedPixels(room, figures, camera, rows);
-  if (rects.empty()) return;
-
-  state.Begin(kept, camera);
-  state.Upload(room, figures, camera.p_WC);
-  const State::Shot shot{room, camera, rects, targets != Targets::kColour, targets == Targets::kAll};
-  state.DrawBackdrop(shot);
-  if (room.casts_shadows) state.DrawShadows(shot);
-  state.DrawBodies(shot, PaintsOf(figures));
-  for (const PixelRect& rect : rects) state.targets.Read(rect, targets, view);
+  const KeptRoom& kept = state.rooms.FindOrDraw(room, large);
+  const Rows rows{0, height};
+  // Most films stay in one light: the empty room then is averaged once.
+  SmoothRoom& smooth = state.smooth;
+  if (smooth.room != kept.serial || smooth.brightness != room.brightness) {
+    FillBackdrop(kept, width, height, room.brightness, Targets::kColour, rows, smooth.large);
+    smooth.small = ColourImage(camera.intrinsics.width, camera.intrinsics.height);
+    AverageFours(smooth.large.colour, {0, 0, width, height}, smooth.small);
+    smooth.room = kept.serial;
+    smooth.brightness = room.brightness;
+  }
+  ColourImage picture = smooth.small;
+  std::vector<PixelRect> rects = TouchedPixels(room, figures, large, rows);
+  for (PixelRect& rect : rects) {
+    rect = {rect.left & ~1, rect.top & ~1, (rect.right + 1) & ~1, (rect.bottom + 1) & ~1};
+  }
+  state.DrawTouched(kept, room, figures, large, Targets::kColour, rects, smooth.large);
+  for (const PixelRect& rect : rects) AverageFours(smooth.large.colour, rect, picture);
+  return picture;
 }
 
 }  // namespace etude

@@ -111,6 +111,10 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
+/// The one renderer of this process, made when first asked for: compiling its shaders takes longer than drawing a hundred
+/// pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
+Result<Renderer*> SharedRenderer();
+
 /// What draws, and its version, on which pixels depend: "4.5 (Core Profile) Mesa 22.3.6"; else why nothing draws.
 std::string RendererVersion();
 

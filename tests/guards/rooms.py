@@ -117,7 +117,7 @@ MAY_INCLUDE = {
         "bench/files reports/films reports/words",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
-        "bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
+        "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model reports/words",

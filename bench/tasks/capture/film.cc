@@ -57,11 +57,11 @@ class Crew {
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    const View view = RenderFrame(world_, camera, frame, renderer_);
-    return {
-        WithNoise(view.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)),
-        MaskWhere(view.labels, IsPerformer),
-        MaskWhere(view.labels, [](std::uint32_t label) { return label == static_cast<std::uint32_t>(Part::kShadow); })};
+    RenderFrame(world_, camera, frame, renderer_, Targets::kColourAndLabels, view_);
+    return {WithNoise(view_.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)),
+            MaskWhere(view_.labels, IsPerformer), MaskWhere(view_.labels, [](std::uint32_t label) {
+              return label == static_cast<std::uint32_t>(Part::kShadow);
+            })};
   }
 
   Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
@@ -91,6 +91,7 @@ class Crew {
   const StudioOptions& options_;
   const WorldKey& key_;
   Renderer& renderer_;
+  View view_;  // of one picture after the other
   CameraNoise noise_;
   std::vector<ColourImage> backgrounds_;
 };
@@ -98,13 +99,20 @@ class Crew {
 }  // namespace
 
 View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer) {
+  View view;
+  RenderFrame(world, camera, frame, renderer, Targets::kAll, view);
+  return view;
+}
+
+void RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer, Targets targets,
+                 View& view, const Rows& rows) {
   Room room = world.room;
   const double seconds = static_cast<double>(frame) / kJudgedRateHz;
   room.brightness *= world.brightness[frame] * world.stage.FlickerAt(seconds);
   room.interior = world.stage.interior();
   std::vector<Figure> figures = world.stage.MoversAt(seconds);
   figures.push_back(world.stage.PerformerAt(world.truth[frame], world.colours));
-  return renderer.Render(room, figures, world.cameras[camera], Targets::kAll);
+  renderer.Render(room, figures, world.cameras[camera], targets, view, rows);
 }
 
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,

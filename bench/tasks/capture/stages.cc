@@ -75,9 +75,7 @@ CaptureStages::CaptureStages(const StudioOptions& options, const LibraryClip& cl
 }
 
 Result<Renderer*> CaptureStages::GetRenderer() {
-  if (!renderer_) renderer_ = Renderer::Create();
-  if (!*renderer_) return tl::unexpected(renderer_->error());
-  return (*renderer_)->get();
+  return SharedRenderer();
 }
 
 Result<const Take*> CaptureStages::GetTake() {
