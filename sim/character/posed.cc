@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/srgb.h"
 #include "engine/retargeting/rig.h"
-#include "sim/character/srgb.h"
 #include "sim/choreography/stance.h"
 
 namespace etude {

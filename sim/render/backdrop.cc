@@ -26,24 +26,19 @@ void RoundToBytes(const float* light, std::size_t count, float brightness, std::
 
 }  // namespace
 
-void FillBackdrop(const KeptRoom& room, int width, int height, double brightness, Targets targets, const Rows& rows,
+void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view) {
+  const int height = rows.end - rows.first;
   Shape(width, height, true, view.colour);
   Shape(width, height, targets != Targets::kColour, view.labels);
   Shape(width, height, targets == Targets::kAll, view.depth);
   const std::size_t first = static_cast<std::size_t>(width) * rows.first;
-  const std::size_t count = static_cast<std::size_t>(width) * rows.end - first;
+  const std::size_t count = static_cast<std::size_t>(width) * height;
 
   static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
-  RoundToBytes(&room.colours[3 * first], 3 * count, static_cast<float>(brightness), &view.colour.pixels[first].r);
-  if (targets != Targets::kColour) {
-    std::copy_n(room.labels.begin() + static_cast<std::ptrdiff_t>(first), count,
-                view.labels.pixels.begin() + static_cast<std::ptrdiff_t>(first));
-  }
-  if (targets == Targets::kAll) {
-    std::copy_n(room.depths.begin() + static_cast<std::ptrdiff_t>(first), count,
-                view.depth.pixels.begin() + static_cast<std::ptrdiff_t>(first));
-  }
+  RoundToBytes(&room.colours[3 * first], 3 * count, static_cast<float>(brightness), &view.colour.pixels.front().r);
+  if (targets != Targets::kColour) std::copy_n(&room.labels[first], count, view.labels.pixels.begin());
+  if (targets == Targets::kAll) std::copy_n(&room.depths[first], count, view.depth.pixels.begin());
 }
 
 }  // namespace etude

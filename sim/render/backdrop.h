@@ -4,9 +4,8 @@
 
 namespace etude {
 
-/// Fills `rows` of `view` with the empty room at `brightness`: the very bytes that GL draws (round to nearest even).
-/// Pictures of another size are made anew.
-void FillBackdrop(const KeptRoom& room, int width, int height, double brightness, Targets targets, const Rows& rows,
-                  View& view);
+/// Fills `view` with those rows of the empty room at `brightness`, `width` pixels each: the very bytes that GL draws
+/// (round to nearest even). Pictures of another size are made anew.
+void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows, View& view);
 
 }  // namespace etude

@@ -46,7 +46,7 @@ void FrameTargets::WriteOnly(bool colour, bool labels, bool depth) {
   }
 }
 
-void FrameTargets::Read(const PixelRect& rect, Targets targets, View& view) {
+void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, View& view) {
   const int width = rect.Width();
   const std::size_t pixels = static_cast<std::size_t>(width) * rect.Height();
   bytes_.resize(4 * pixels);
@@ -55,7 +55,7 @@ void FrameTargets::Read(const PixelRect& rect, Targets targets, View& view) {
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
   const std::uint8_t* source = bytes_.data();
   for (int y = rect.top; y < rect.bottom; ++y) {
-    Rgb8* row = &view.colour.At(rect.left, y);
+    Rgb8* row = &view.colour.At(rect.left, y - top_row);
     for (int x = 0; x < width; ++x, source += 4) row[x] = {source[0], source[1], source[2]};
   }
   if (targets == Targets::kColour) return;
@@ -63,7 +63,7 @@ void FrameTargets::Read(const PixelRect& rect, Targets targets, View& view) {
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
   for (int y = 0; y < rect.Height(); ++y) {
-    std::copy_n(&bytes_[static_cast<std::size_t>(y) * width], width, &view.labels.At(rect.left, rect.top + y));
+    std::copy_n(&bytes_[static_cast<std::size_t>(y) * width], width, &view.labels.At(rect.left, rect.top + y - top_row));
   }
   if (targets == Targets::kColourAndLabels) return;
 
@@ -71,7 +71,7 @@ void FrameTargets::Read(const PixelRect& rect, Targets targets, View& view) {
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());
   for (int y = 0; y < rect.Height(); ++y) {
-    std::copy_n(&depths_[static_cast<std::size_t>(y) * width], width, &view.depth.At(rect.left, rect.top + y));
+    std::copy_n(&depths_[static_cast<std::size_t>(y) * width], width, &view.depth.At(rect.left, rect.top + y - top_row));
   }
 }
 

@@ -258,9 +258,9 @@ struct Renderer::State {
     contacts.Upload(NearFloor(all, eye));
   }
 
-  // `rects` of the picture, into those of `view`.
+  // `rects` of the picture, into `view`, whose pictures begin with `top_row`.
   void DrawTouched(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, const Camera& camera,
-                   Targets asked, const std::vector<PixelRect>& rects, View& view) {
+                   Targets asked, const std::vector<PixelRect>& rects, int top_row, View& view) {
     if (rects.empty()) return;
     Begin(kept, camera);
     Upload(room, figures, camera.p_WC);
@@ -268,7 +268,7 @@ struct Renderer::State {
     DrawBackdrop(shot);
     if (room.casts_shadows) DrawShadows(shot);
     DrawBodies(shot, PaintsOf(figures));
-    for (const PixelRect& rect : rects) targets.Read(rect, asked, view);
+    for (const PixelRect& rect : rects) targets.Read(rect, top_row, asked, view);
   }
 
   std::unique_ptr<GlContext> context;
@@ -306,22 +306,21 @@ std::string RendererVersion() {
 }
 
 View Renderer::Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets) {
-  View view;
-  Render(room, figures, camera, targets, view);
-  return view;
+  return RenderRows(room, figures, camera, targets, {0, camera.intrinsics.height});
 }
 
-void Renderer::Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
-                      View& view, const Rows& asked) {
+View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
+                          const RowRange& rows) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
   assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);
-  const Rows rows{std::clamp(asked.first, 0, height), std::clamp(asked.end, 0, height)};
-  if (rows.first >= rows.end) return;
-
+  assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   state_->context->MakeCurrent();
   const KeptRoom& kept = state_->rooms.FindOrDraw(room, camera);
-  FillBackdrop(kept, width, height, room.brightness, targets, rows, view);
-  state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), view);
+  View view;
+  FillBackdrop(kept, width, room.brightness, targets, rows, view);
+  state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), rows.first,
+                      view);
+  return view;
 }
 
 ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera) {
@@ -331,11 +330,11 @@ ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& 
   State& state = *state_;
   state.context->MakeCurrent();
   const KeptRoom& kept = state.rooms.FindOrDraw(room, large);
-  const Rows rows{0, height};
+  const RowRange rows{0, height};
   // Most films stay in one light: the empty room then is averaged once.
   SmoothRoom& smooth = state.smooth;
   if (smooth.room != kept.serial || smooth.brightness != room.brightness) {
-    FillBackdrop(kept, width, height, room.brightness, Targets::kColour, rows, smooth.large);
+    FillBackdrop(kept, width, room.brightness, Targets::kColour, rows, smooth.large);
     smooth.small = ColourImage(camera.intrinsics.width, camera.intrinsics.height);
     AverageFours(smooth.large.colour, {0, 0, width, height}, smooth.small);
     smooth.room = kept.serial;
@@ -346,7 +345,7 @@ ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& 
   for (PixelRect& rect : rects) {
     rect = {rect.left & ~1, rect.top & ~1, (rect.right + 1) & ~1, (rect.bottom + 1) & ~1};
   }
-  state.DrawTouched(kept, room, figures, large, Targets::kColour, rects, smooth.large);
+  state.DrawTouched(kept, room, figures, large, Targets::kColour, rects, 0, smooth.large);
   for (const PixelRect& rect : rects) AverageFours(smooth.large.colour, rect, picture);
   return picture;
 }

@@ -69,17 +69,17 @@ struct View {
   DepthImage depth;   ///< metres along the viewing axis; infinity where only the clear colour is seen
 };
 
+/// Rows `first` to `end` − 1 of a picture.
+struct RowRange {
+  int first = 0;
+  int end = 0;
+};
+
 /// Which pictures a caller needs; colour alone is the fastest. The others are left empty.
 enum class Targets { kColour, kColourAndLabels, kAll };
 
 /// The largest picture, pixels per side.
 constexpr int kLargestPicture = 4096;
-
-/// Rows first … end − 1 of a picture; those beyond its last row are left out.
-struct Rows {
-  int first = 0;
-  int end = kLargestPicture;
-};
 
 /// Draws rooms and people offscreen with OSMesa (the one door to GL). Not thread-safe: one renderer
 /// per process is enough, it can be used for cameras of any size.
@@ -96,10 +96,10 @@ class Renderer {
   /// wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
 
-  /// The same into `view`, whose memory is used again; only `rows`, the others keep what they show (a picture of
-  /// another size is cleared first).
-  void Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets, View& view,
-              const Rows& rows = {});
+  /// Only those rows of that picture, the same bytes: the view is as high as there are rows. A rolling shutter sees
+  /// each band of rows at another time.
+  View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
+                  const RowRange& rows);
 
   /// The same picture with smooth edges, for people to look at: drawn at twice the size and averaged,
   /// at about four times the cost. At most kLargestPicture / 2 wide and high.

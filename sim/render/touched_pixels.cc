@@ -44,7 +44,7 @@ class SeenRect {
   }
   void AddEverything() { low_ = glm::dvec2(-kInfinity), high_ = glm::dvec2(kInfinity); }
 
-  PixelRect Pixels(const Rows& rows) const {
+  PixelRect Pixels(const RowRange& rows) const {
     constexpr double kMargin = 2;  // pixels, for what floats round otherwise
     const auto clamp = [](double value, int low, int high) {
       return static_cast<int>(std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
@@ -143,7 +143,7 @@ void Merge(std::vector<PixelRect>& rects) {
 }  // namespace
 
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
-                                     const Rows& rows) {
+                                     const RowRange& rows) {
   std::vector<PixelRect> rects;
   for (const Figure& figure : figures) {
     std::vector<Extent> bodies = ExtentsOf(figure.shape);

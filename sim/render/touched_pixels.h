@@ -17,6 +17,6 @@ struct PixelRect {
 /// Rectangles of the picture outside which it shows the empty room: around every figure and, if it throws one, its
 /// shadow. They may overlap. All within `rows` of the picture.
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
-                                     const Rows& rows);
+                                     const RowRange& rows);
 
 }  // namespace etude

@@ -39,12 +39,11 @@ struct Scene {
   const Camera& camera;
   const Mask& person;
   const AnnotatorOptions& options;
-  ProjectionMatrix matrix;
 
   // Where the hand puts a mark that is meant for `role`; nothing when the joint is not before the camera.
   std::optional<glm::dvec2> Aim(Role role, RandomStream& random) const {
     const glm::dvec2 shake(random.Normal(), random.Normal());  // thrown even when not used
-    const auto pixel = Project(matrix, truth[role]);
+    const auto pixel = Project(camera, truth[role]);
     if (!pixel) return std::nullopt;
     const bool hidden = IsHidden(body, truth, role, camera.p_WC);
     return *pixel + options.error_px * (hidden ? options.hidden_factor : 1) * shake;
@@ -55,7 +54,7 @@ struct Scene {
     int shown = 0;
     for (int i = 0; i < kSamples; ++i) {
       const glm::dvec3 point = glm::mix(truth[mark.from], truth[mark.to], (i + 0.5) / kSamples);
-      const auto pixel = Project(matrix, point);
+      const auto pixel = Project(camera, point);
       shown += pixel && IsOnPerson(person, *pixel, options.margin_px);
     }
     return shown >= options.visible_share * kSamples;
@@ -91,7 +90,7 @@ void DrawDisc(const glm::dvec2& centre, const EffectorMark& mark, ColourImage& p
 
 ColourImage Annotate(const BodyPose& truth, const std::vector<Capsule>& body, const Camera& camera, const Mask& person,
                      const AnnotatorOptions& options, RandomStream& random) {
-  const Scene scene{truth, body, camera, person, options, MatrixOf(camera)};
+  const Scene scene{truth, body, camera, person, options};
   ColourImage picture(person.width, person.height);
   for (const StrokeMark& mark : StrokeMarks()) {
     const auto from = scene.Aim(mark.from, random), to = scene.Aim(mark.to, random);
@@ -100,7 +99,7 @@ ColourImage Annotate(const BodyPose& truth, const std::vector<Capsule>& body, co
   for (const EffectorMark& mark : EffectorMarks()) {
     const auto centre = scene.Aim(mark.role, random);
     if (!centre) continue;
-    const auto true_pixel = Project(scene.matrix, truth[mark.role]);
+    const auto true_pixel = Project(camera, truth[mark.role]);
     if (IsOnPerson(person, *true_pixel, options.margin_px)) DrawDisc(*centre, mark, picture);
   }
   return picture;

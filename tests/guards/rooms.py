@@ -8,6 +8,7 @@ renames or joins rooms edits this file, and only this. The rooms form no circle.
 MAY_INCLUDE = {
     # engine/
     "engine/base": "",
+    "engine/boards": "engine/base",
     "engine/cameras": "engine/base",
     "engine/capture":
         "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
@@ -38,11 +39,13 @@ MAY_INCLUDE = {
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
     "sim/body": "engine/motion",
+    "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
+    "sim/rig": "engine/base engine/boards engine/cameras engine/motion sim/random sim/render",
     "sim/sensors":
         "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
     "sim/stage":
@@ -60,7 +63,7 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/transitions/choices engine/transitions/search sim/character sim/choreography sim/random sim/render "
+        "engine/transitions/choices engine/transitions/search sim/camera sim/character sim/choreography sim/random sim/render "
         "bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
@@ -82,7 +85,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/random sim/render sim/sensors sim/stage bench/clips bench/metrics bench/recordings bench/tasks/base",
+        "sim/body sim/camera sim/random sim/render sim/rig sim/sensors sim/stage bench/clips bench/keys bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

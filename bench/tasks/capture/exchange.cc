@@ -4,6 +4,7 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/capture/shooting.h"
 #include "engine/cameras/opencv_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/joint_csv.h"
@@ -74,8 +75,9 @@ Json PartNumbers() {
   constexpr std::array kNames = {"background",     "shadow",       "trunk",       "head",
                                  "left_upper_arm", "left_forearm", "left_hand",   "right_upper_arm",
                                  "right_forearm",  "right_hand",   "left_thigh",  "left_shank",
-                                 "left_foot",      "right_thigh",  "right_shank", "right_foot"};
-  static_assert(kNames.size() == static_cast<std::size_t>(Part::kRightFoot) + 1);
+                                 "left_foot",      "right_thigh",  "right_shank", "right_foot",
+                                 "furniture",      "clutter",      "bystander"};
+  static_assert(kNames.size() == static_cast<std::size_t>(Part::kBystander) + 1);
   Json numbers = Json::object();
   for (std::size_t part = 0; part < kNames.size(); ++part) numbers[kNames[part]] = part;
   return numbers;
@@ -126,7 +128,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   return problem;
 }
 
-Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
+Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
   const CaptureWorld& world = stages.world();
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
@@ -137,10 +139,11 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
                  {"truth.trc", WriteTrc(motion, "truth")},
                  {"truth.csv", WriteJointCsv(motion)}};
+  Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-      ASSIGN_OR_RETURN(auto bytes, EncodeExr(RenderFrame(world, camera, frame, *renderer)));
+      ASSIGN_OR_RETURN(auto bytes, EncodeExr(shooting.Shoot(camera, frame, Targets::kAll)));
       truth.files.push_back({PictureName(camera, frame, "exr"), std::move(bytes)});
     }
   }

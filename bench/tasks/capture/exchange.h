@@ -44,7 +44,7 @@ constexpr std::size_t kMostPictures = 1200;
 /// (depth along the viewing axis, metres), and `R`, `G`, `B` as a camera without noise would see them.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
-Result<Payload> MakeCaptureTruth(CaptureStages& stages);
+Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
 /// What a method outside answers, one entry per frame, null where it has no pose:
 ///

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "bench/recordings/capture_extras.h"
+#include "bench/tasks/capture/shooting.h"
 #include "engine/base/digest.h"
 #include "sim/body/shape.h"
 #include "sim/sensors/annotator.h"
-#include "sim/sensors/camera_sensor.h"
 
 namespace etude {
 namespace {
@@ -38,15 +38,9 @@ Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
 class Crew {
  public:
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
-      : world_(world), options_(options), key_(key), renderer_(renderer) {
-    noise_.read_noise *= options.camera_noise;
-    noise_.photon_noise *= options.camera_noise;
+      : world_(world), options_(options), key_(key), shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-      Room room = world.room;
-      room.interior = world.stage.interior();
-      const View view = renderer_.Render(room, world.stage.MoversAt(Stage::kBackgroundSeconds), world.cameras[camera],
-                                         Targets::kColour);
-      backgrounds_.push_back(WithNoise(view.colour, fmt::format("capture/camera-{}/background", camera)));
+      backgrounds_.push_back(shooting_.ShootBackground(camera));
     }
   }
 
@@ -57,11 +51,10 @@ class Crew {
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    RenderFrame(world_, camera, frame, renderer_, Targets::kColourAndLabels, view_);
-    return {WithNoise(view_.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)),
-            MaskWhere(view_.labels, IsPerformer), MaskWhere(view_.labels, [](std::uint32_t label) {
-              return label == static_cast<std::uint32_t>(Part::kShadow);
-            })};
+    View view = shooting_.Shoot(camera, frame, Targets::kColourAndLabels);
+    return {
+        std::move(view.colour), MaskWhere(view.labels, IsPerformer),
+        MaskWhere(view.labels, [](std::uint32_t label) { return label == static_cast<std::uint32_t>(Part::kShadow); })};
   }
 
   Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
@@ -73,7 +66,7 @@ class Crew {
   Marks Mark(const Mask& person, std::size_t camera, std::size_t frame) const {
     if (frame % static_cast<std::size_t>(options_.mark_every) != 0) return {};
     RandomStream random(key_, fmt::format("capture/camera-{}/annotator/{}", camera, frame));
-    const BodyPose& truth = world_.truth[frame];
+    const BodyPose truth = shooting_.SeenPose(camera, frame);
     AnnotatorOptions annotator;
     annotator.error_px = options_.annotation_error_px;
     return ReadMarks(Annotate(truth, BodyCapsules(truth), world_.cameras[camera], person, annotator, random));
@@ -82,38 +75,14 @@ class Crew {
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
 
  private:
-  ColourImage WithNoise(const ColourImage& picture, const std::string& purpose) const {
-    RandomStream random(key_, purpose);
-    return AddCameraNoise(picture, noise_, random);
-  }
-
   const CaptureWorld& world_;
   const StudioOptions& options_;
   const WorldKey& key_;
-  Renderer& renderer_;
-  View view_;  // of one picture after the other
-  CameraNoise noise_;
+  Shooting shooting_;
   std::vector<ColourImage> backgrounds_;
 };
 
 }  // namespace
-
-View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer) {
-  View view;
-  RenderFrame(world, camera, frame, renderer, Targets::kAll, view);
-  return view;
-}
-
-void RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer, Targets targets,
-                 View& view, const Rows& rows) {
-  Room room = world.room;
-  const double seconds = static_cast<double>(frame) / kJudgedRateHz;
-  room.brightness *= world.brightness[frame] * world.stage.FlickerAt(seconds);
-  room.interior = world.stage.interior();
-  std::vector<Figure> figures = world.stage.MoversAt(seconds);
-  figures.push_back(world.stage.PerformerAt(world.truth[frame], world.colours));
-  renderer.Render(room, figures, world.cameras[camera], targets, view, rows);
-}
 
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink) {

@@ -44,10 +44,4 @@ using PictureSink = std::function<void(std::size_t camera, std::optional<std::si
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink = {});
 
-/// What a camera without noise would see in a frame, with labels and depth.
-View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer);
-/// The same into `view`, whose memory is used again: those of its pictures that `targets` says, those of its `rows`.
-void RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer, Targets targets,
-                 View& view, const Rows& rows = {});
-
 }  // namespace etude

@@ -1,4 +1,4 @@
-#include "sim/character/srgb.h"
+#include "engine/base/srgb.h"
 
 #include <gtest/gtest.h>
 
