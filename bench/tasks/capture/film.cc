@@ -52,8 +52,8 @@ class Crew {
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    View view = shooting_.Shoot(camera, frame, Targets::kAll);
-    Mask person = MaskWhere(view.labels, IsPerformerPart);
+    View view = shooting_.Shoot(camera, frame, Targets::kColourAndLabels);
+    Mask person = MaskWhere(view.labels, IsPerformer);
     Mask shadow =
         MaskWhere(view.labels, [](std::uint32_t l) { return l == static_cast<std::uint32_t>(Part::kShadow); });
     return {std::move(view.colour), std::move(view.labels), std::move(person), std::move(shadow)};

@@ -26,8 +26,10 @@ struct StudioOptions {
   double duration_s = 2;
   RigOptions rig = {};  ///< where the cameras stand
   Clothes clothes = Clothes::kStudio;
+  /// 0 = the studio; 1 = a furnished room with people and things that move (sim/stage/README.md has the steps between).
+  double scene = 0;
   double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
-  CameraEffects camera = {};       ///< of every camera
+  CameraEffects camera = {};  ///< of every camera
   CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
   int calibration_pairs = 24;         ///< kPoints: measured points per camera
   double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis

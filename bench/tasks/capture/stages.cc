@@ -76,11 +76,7 @@ CaptureStages::CaptureStages(const StudioOptions& options, const LibraryClip& cl
   for (std::size_t k = 0; k < marked_.size(); ++k) marked_[k] = k % static_cast<std::size_t>(options.mark_every) == 0;
 }
 
-Result<Renderer*> CaptureStages::GetRenderer() {
-  if (!renderer_) renderer_ = Renderer::Create();
-  if (!*renderer_) return tl::unexpected(renderer_->error());
-  return (*renderer_)->get();
-}
+Result<Renderer*> CaptureStages::GetRenderer() { return SharedRenderer(); }
 
 Result<const Take*> CaptureStages::GetTake() {
   if (take_) return &*take_;

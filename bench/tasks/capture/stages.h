@@ -73,7 +73,6 @@ class CaptureStages {
   const bool keeps_masks_;
   const CaptureWorld world_;
   std::vector<bool> marked_;
-  std::optional<Result<std::unique_ptr<Renderer>>> renderer_;
   std::optional<Take> take_;
   std::optional<CalibrationPairs> pairs_;
   std::map<CameraChoice, Result<CalibratedCameras>> cameras_;

@@ -63,6 +63,14 @@ std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
   return colours;
 }
 
+StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
+  RandomStream random(key, "capture/stage");
+  const bool everyday = options.clothes == Clothes::kEveryday;
+  return {.seed = random.IndexBelow(1u << 30),
+          .scene = options.scene,
+          .wardrobe = everyday ? Wardrobe::kEveryday : Wardrobe::kStudio};
+}
+
 // The lamp waxes and wanes slowly about the brightness of the background pictures.
 std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t frames, const WorldKey& key) {
   RandomStream random(key, "capture/light");
@@ -90,6 +98,8 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
     world.cameras[i].distortion = LensOf(options.camera, world.cameras[i], i, key);
   }
   world.in_view = FramesInView(world.cameras, world.truth);
+  world.stage_options = StageOptionsOf(options, key);
+  world.stage = Stage(world.stage_options, world.truth, world.cameras);
   return world;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/motion/body.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
+#include "sim/stage/stage.h"
 
 namespace etude {
 
@@ -21,7 +22,9 @@ struct CaptureWorld {
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<Camera> cameras;     ///< two or more, each with its lens
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
-  Room room;                       ///< its brightness is that of the background pictures
+  Room room;                       ///< its brightness is that of the background pictures; of the studio alone
+  StageOptions stage_options;      ///< what `stage` was made of
+  Stage stage;                     ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< of each frame
 };
 
