@@ -87,7 +87,7 @@ std::array<std::optional<glm::dvec2>, kCocoKeypoints> CocoKeypointsOf(const Mark
 }
 
 Result<std::string> WriteCocoKeypoints(const Intrinsics& camera, std::span<const std::string> pictures,
-                               std::span<const Marks> marks) {
+                                       std::span<const Marks> marks) {
   assert(pictures.size() == marks.size());
   Json images = Json::array(), annotations = Json::array();
   for (std::size_t frame = 0; frame < pictures.size(); ++frame) {

@@ -28,6 +28,6 @@ std::array<std::optional<glm::dvec2>, kCocoKeypoints> CocoKeypointsOf(const Mark
 /// @param pictures the file name of each frame
 /// @param marks of each frame
 Result<std::string> WriteCocoKeypoints(const Intrinsics& camera, std::span<const std::string> pictures,
-                               std::span<const Marks> marks);
+                                       std::span<const Marks> marks);
 
 }  // namespace etude

@@ -38,7 +38,7 @@ TEST(Coco, HasTheEndsOfStrokesAndTheirMeanWhereTheyMeet) {
 TEST(Coco, WritesWhatItsReadersExpect) {
   const std::vector<std::string> pictures{"camera-1-0000.png", "camera-1-0001.png"};
   const std::vector<Marks> marks{Marks{}, SomeMarks()};
-  const Json file = Json::parse(WriteCocoKeypoints({}, pictures, marks));
+  const Json file = Json::parse(*WriteCocoKeypoints({}, pictures, marks));
   ASSERT_EQ(file["images"].size(), 2u);
   EXPECT_EQ(file["images"][1]["file_name"], "camera-1-0001.png");
   EXPECT_EQ(file["images"][1]["width"], 640);
