@@ -24,7 +24,7 @@ const Shot& StandingShot() {
     shot.view = (*renderer)->Render({}, {{BodyCapsules(StandingPose()), PerformerColours()}}, camera, Targets::kAll);
     shot.whole = shot.none = Mask(640, 480);
     for (std::size_t i = 0; i < shot.whole.pixels.size(); ++i) {
-      shot.whole.pixels[i] = IsPerformerPart(shot.view.labels.pixels[i]);
+      shot.whole.pixels[i] = IsPerformer(shot.view.labels.pixels[i]);
     }
     return shot;
   }();

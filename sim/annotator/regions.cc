@@ -56,7 +56,7 @@ class RegionFinder {
 
   static bool HasPerformer(const std::uint32_t* labels, int count) {
     std::uint32_t found = 0;
-    for (int i = 0; i < count; ++i) found |= static_cast<std::uint32_t>(IsPerformerPart(labels[i]));
+    for (int i = 0; i < count; ++i) found |= static_cast<std::uint32_t>(IsPerformer(labels[i]));
     return found != 0;
   }
 
@@ -68,7 +68,7 @@ class RegionFinder {
         x += kBlock - 1;
         continue;
       }
-      if (!IsPerformerPart(labels[x]) || !IsNearPerson(x, y)) continue;
+      if (!IsPerformer(labels[x]) || !IsNearPerson(x, y)) continue;
       seen_.At(x, y) = static_cast<std::uint8_t>(labels[x]);
       first_ = std::min(first_, x);
       last_ = std::max(last_, x);
@@ -111,7 +111,7 @@ class RegionFinder {
     const int outside = x + kApart * step, inside = std::clamp(x - kApart * step, run.x0, run.x1 - 1);
     if (outside < 0 || outside >= labels_.width) return;
     const std::uint32_t other = labels_.At(outside, run.y);
-    if (other == part || (IsPerformerPart(other) && kBorderOf[part][other] != kNoBorder)) return;
+    if (other == part || (IsPerformer(other) && kBorderOf[part][other] != kNoBorder)) return;
     const Rgb8 a = colours_.At(inside, run.y), b = colours_.At(outside, run.y);
     const double r = a.r - b.r, g = a.g - b.g, blue = a.b - b.b;
     found_.parts[part].contrast += std::sqrt(r * r + g * g + blue * blue);

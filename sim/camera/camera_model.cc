@@ -104,11 +104,9 @@ void CameraModel::AddBand(const Shutter::Band& band, const Scene& scene, Targets
   const bool is_blurred = effects_.motion_blur > 0;
   const RowRange rows = lens_.SourceRows(band.rows);
   View middle;
-  if (targets == Targets::kAll || !is_blurred) middle = scene(band.time, rows, targets);
-  if (targets == Targets::kAll) {
-    lens_.Warp(middle.labels, band.rows, view.labels);
-    lens_.Warp(middle.depth, band.rows, view.depth);
-  }
+  if (targets != Targets::kColour || !is_blurred) middle = scene(band.time, rows, targets);
+  if (targets != Targets::kColour) lens_.Warp(middle.labels, band.rows, view.labels);
+  if (targets == Targets::kAll) lens_.Warp(middle.depth, band.rows, view.depth);
   if (needs_light_) {
     AddLight(band, scene, middle);
   } else {
@@ -144,7 +142,7 @@ View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets
     view = scene(bands.front().time, bands.front().rows, targets);
   } else {
     view.colour = ColourImage(width_, height_);
-    if (targets == Targets::kAll) view.labels = LabelImage(width_, height_);
+    if (targets != Targets::kColour) view.labels = LabelImage(width_, height_);
     if (targets == Targets::kAll) view.depth = DepthImage(width_, height_);
     for (const Shutter::Band& band : bands) AddBand(band, scene, targets, view);
   }

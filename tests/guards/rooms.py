@@ -41,7 +41,7 @@ MAY_INCLUDE = {
     "sim/annotator": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random",
     "sim/body": "engine/motion",
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
-    "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
+    "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
@@ -49,6 +49,8 @@ MAY_INCLUDE = {
     "sim/rig": "engine/base engine/boards engine/cameras engine/motion sim/random sim/render",
     "sim/sensors":
         "engine/base engine/cameras engine/motion engine/recognition sim/body sim/random sim/render",
+    "sim/stage":
+        "engine/base engine/cameras engine/motion sim/character sim/choreography sim/random sim/render",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
@@ -83,8 +85,9 @@ MAY_INCLUDE = {
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
-        "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/annotator sim/body sim/camera sim/random sim/render sim/rig sim/sensors bench/clips bench/keys bench/metrics bench/recordings bench/tasks/base",
+        "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
+        "engine/vision sim/annotator sim/body sim/camera sim/random sim/render sim/rig sim/sensors "
+        "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
@@ -119,10 +122,11 @@ MAY_INCLUDE = {
         "bench/files reports/films reports/words",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
-        "bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
+        "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model reports/words",
+    "reports/sensors": "engine/base bench/model reports/films",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/

@@ -3,16 +3,14 @@
 namespace etude {
 namespace {
 
-using Key = Field<StudioOptions>;
-
-Key Effect(const std::string& key, double CameraEffects::*effect, Range range, std::string meaning) {
+Field<StudioOptions> Effect(const std::string& key, double CameraEffects::*effect, Range range, std::string meaning) {
   const auto member = [effect](auto& options) -> auto& { return options.camera.*effect; };
-  return Key::Number(key, member, range, std::move(meaning));
+  return Field<StudioOptions>::Number(key, member, range, std::move(meaning));
 }
 
 }  // namespace
 
-std::vector<Key> CameraFields() {
+std::vector<Field<StudioOptions>> CameraFields() {
   using E = CameraEffects;
   return {
       Effect("sync_offset_ms", &E::sync_offset_ms, {0, 500},

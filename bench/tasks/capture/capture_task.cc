@@ -7,6 +7,7 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
+#include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
 
 namespace etude {
@@ -45,6 +46,8 @@ class CaptureTaskWorld : public TaskWorld {
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
   Result<Payload> MakeTruth() override { return MakeCaptureTruth(study_.options, key_, stages_); }
+
+  Result<SensorSheet> MakeSensorSheet() override { return MakeCaptureSheet(study_.options, key_, stages_); }
 
   Result<CellResult> Judge(const Json& json) override {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);

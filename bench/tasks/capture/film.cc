@@ -40,7 +40,7 @@ class Crew {
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
       : shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-      backgrounds_.push_back(shooting_.ShootBackground(camera));
+      backgrounds_.push_back(shooting_.ShootStage(camera));
     }
   }
 
@@ -52,8 +52,8 @@ class Crew {
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    View view = shooting_.Shoot(camera, frame, Targets::kAll);
-    Mask person = MaskWhere(view.labels, IsPerformerPart);
+    View view = shooting_.Shoot(camera, frame, Targets::kColourAndLabels);
+    Mask person = MaskWhere(view.labels, IsPerformer);
     Mask shadow =
         MaskWhere(view.labels, [](std::uint32_t l) { return l == static_cast<std::uint32_t>(Part::kShadow); });
     return {std::move(view.colour), std::move(view.labels), std::move(person), std::move(shadow)};

@@ -67,10 +67,13 @@ Shooting::Shooting(const CaptureWorld& world, const CameraEffects& effects, cons
 View Shooting::Shoot(std::size_t camera, std::size_t frame, Targets targets) {
   CameraModel& model = cameras_[camera];
   const auto scene = [&](double time, const RowRange& rows, Targets wanted) {
+    const double seconds = time / kJudgedRateHz;
     Room room = world_.room;
-    room.brightness *= BrightnessAt(world_.brightness, time);
-    const Figure performer{BodyCapsules(PoseAt(world_.truth, time)), world_.colours};
-    return renderer_.RenderRows(room, {performer}, model.pinhole(), wanted, rows);
+    room.brightness *= BrightnessAt(world_.brightness, time) * world_.stage.FlickerAt(seconds);
+    room.interior = world_.stage.interior();
+    std::vector<Figure> figures = world_.stage.MoversAt(seconds);
+    figures.push_back(world_.stage.PerformerAt(PoseAt(world_.truth, time), world_.colours));
+    return renderer_.RenderRows(room, figures, model.pinhole(), wanted, rows);
   };
   return model.Shoot(frame, scene, targets);
 }
@@ -79,10 +82,14 @@ BodyPose Shooting::SeenPose(std::size_t camera, std::size_t frame) const {
   return PoseAt(world_.truth, cameras_[camera].shutter().TimeOf(frame));
 }
 
-ColourImage Shooting::ShootBackground(std::size_t camera) {
+ColourImage Shooting::ShootStage(std::size_t camera, const std::vector<Figure>& props) {
   CameraModel& model = cameras_[camera];
   return model.ShootBackground([&](double, const RowRange& rows, Targets wanted) {
-    return renderer_.RenderRows(world_.room, {}, model.pinhole(), wanted, rows);
+    Room room = world_.room;
+    room.interior = world_.stage.interior();
+    std::vector<Figure> figures = world_.stage.MoversAt(Stage::kBackgroundSeconds);
+    figures.insert(figures.end(), props.begin(), props.end());
+    return renderer_.RenderRows(room, figures, model.pinhole(), wanted, rows);
   });
 }
 

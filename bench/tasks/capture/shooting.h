@@ -25,8 +25,9 @@ class Shooting {
 
   /// A camera's own frame, as its clock, lens and sensor have it; labels and depth if asked for.
   View Shoot(std::size_t camera, std::size_t frame, Targets targets);
-  /// The empty stage.
-  ColourImage ShootBackground(std::size_t camera);
+  /// The stage without the performer, with what moves there where it was before the take, and what `props` stand on it:
+  /// none for the background picture.
+  ColourImage ShootStage(std::size_t camera, const std::vector<Figure>& props = {});
 
   /// Who is seen in a frame: the pose at the time of the picture's middle row.
   BodyPose SeenPose(std::size_t camera, std::size_t frame) const;

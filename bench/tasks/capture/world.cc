@@ -63,25 +63,12 @@ std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
   return colours;
 }
 
-// Points stuck on three walls of a box around the stage (paper B: "on different planes"), seen by the
-// camera and clicked with a small error.
-std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const Camera& camera, std::size_t index,
-                                            const glm::dvec3& middle, const WorldKey& key) {
-  RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
-  const glm::dvec3 low = middle + glm::dvec3(-0.8, 0.1, -0.8), high = middle + glm::dvec3(0.8, 1.9, 0.8);
-  std::vector<PointPair> pairs;
-  for (int i = 0; i < options.calibration_pairs; ++i) {
-    glm::dvec3 point;
-    for (int axis = 0; axis < 3; ++axis) point[axis] = random.Uniform(low[axis], high[axis]);
-    // In turn the back wall, the left wall and the floor of the box.
-    constexpr int kWalls[] = {2, 0, 1};
-    const int wall = kWalls[i % 3];
-    point[wall] = low[wall];
-    const glm::dvec2 error(random.Normal(), random.Normal());
-    const auto pixel = Project(camera, point);
-    if (pixel) pairs.push_back({point, *pixel + options.calibration_noise_px * error});
-  }
-  return pairs;
+StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
+  RandomStream random(key, "capture/stage");
+  const bool everyday = options.clothes == Clothes::kEveryday;
+  return {.seed = random.IndexBelow(1u << 30),
+          .scene = options.scene,
+          .wardrobe = everyday ? Wardrobe::kEveryday : Wardrobe::kStudio};
 }
 
 // The lamp waxes and wanes slowly about the brightness of the background pictures.
@@ -108,15 +95,17 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   world.brightness = MakeBrightness(options, world.truth.size(), key);
   world.cameras = SetUpCameras(options.rig, world.truth, key);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    RandomStream lens(key, fmt::format("capture/camera-{}/lens", i));
-    world.cameras[i].distortion = LensDistortion(options.camera, world.cameras[i].intrinsics, lens);
+    world.cameras[i].distortion = LensOf(options.camera, world.cameras[i], i, key);
   }
   world.in_view = FramesInView(world.cameras, world.truth);
-  const glm::dvec3 middle = MiddleOnFloor(world.truth);
-  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, middle, key));
-  }
+  world.stage_options = StageOptionsOf(options, key);
+  world.stage = Stage(world.stage_options, world.truth, world.cameras);
   return world;
+}
+
+Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key) {
+  RandomStream random(key, fmt::format("capture/camera-{}/lens", index));
+  return LensDistortion(effects, camera.intrinsics, random);
 }
 
 FrameMeasurement TrueMeasurement(const BodyPose& truth) {

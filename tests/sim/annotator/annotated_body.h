@@ -42,7 +42,7 @@ struct Shown {
   explicit Shown(LabelImage of)
       : labels(std::move(of)), colours(labels.width, labels.height), person(labels.width, labels.height, 1) {
     for (std::size_t i = 0; i < labels.pixels.size(); ++i) {
-      if (IsPerformerPart(labels.pixels[i])) colours.pixels[i] = {200, 200, 200};
+      if (IsPerformer(labels.pixels[i])) colours.pixels[i] = {200, 200, 200};
     }
   }
   AnnotatedPicture picture() const { return {labels, colours, person}; }
