@@ -98,8 +98,8 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
 TEST(HeadBelowCrown, FollowsFromTheShapeWhateverThePose) {
   BodyPose pose = StandingBody();
   const double standing = HeadBelowCrown(pose);
-  // A trunk of 50 cm has a skull of radius 9.25 cm whose centre reaches 3 cm beyond 17 cm above the neck's base; the head
-  // joint lies 25.1 cm above it.
+  // A trunk of 50 cm has a skull of radius 9.25 cm whose centre reaches 3 cm beyond 17 cm above the neck's base; the
+  // head joint lies 25.1 cm above it.
   EXPECT_NEAR(standing, (0.17 + 0.03 + 0.0925 - std::hypot(0.25, 0.02)) / 0.0925, 1e-9);
   const glm::dvec3 neck = pose[Role::kShoulderCentre];
   const glm::dvec3 head = pose[Role::kHead] - neck;
