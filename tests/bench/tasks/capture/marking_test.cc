@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/choreography/stance.h"
-#include "sim/render/renderer.h"
+#include <cmath>
+
+#include "tests/sim/annotator/annotated_body.h"
 
 namespace etude {
 namespace {
@@ -11,21 +12,14 @@ namespace {
 // A world of one standing frame, seen by one camera.
 CaptureWorld StandingWorld() {
   CaptureWorld world;
-  world.truth = {StandingPose()};
-  world.cameras = {LookAt({}, {1.2, 1.3, 3.6}, {0, 0.9, 0})};
+  world.truth = {StandingBody()};
+  world.cameras = {FrontCamera()};
   return world;
 }
 
 class MarkingTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto renderer = Renderer::Create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    view_ = (*renderer)->Render({}, {{BodyCapsules(world_.truth[0]), PerformerColours()}}, world_.cameras[0],
-                                Targets::kAll);
-    person_ = Mask(view_.labels.width, view_.labels.height, 1);
-  }
-  AnnotatedPicture picture() const { return {view_.labels, view_.colour, person_}; }
+  AnnotatedPicture picture() const { return shown_.picture(); }
   Marking MarkingBy(int annotators, double error_px, int trial = 0) const {
     StudioOptions options;
     options.annotators = annotators;
@@ -34,8 +28,7 @@ class MarkingTest : public testing::Test {
   }
 
   const CaptureWorld world_ = StandingWorld();
-  View view_;
-  Mask person_;
+  const Shown shown_{LabelsOf(BodyCapsules(StandingBody()), FrontCamera())};
 };
 
 TEST(MeanMarks, IsTheMeanOfBothOrTheOneThereIs) {
@@ -103,10 +96,11 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
 }
 
 TEST(HeadBelowCrown, FollowsFromTheShapeWhateverThePose) {
-  BodyPose pose = StandingPose();
+  BodyPose pose = StandingBody();
   const double standing = HeadBelowCrown(pose);
-  EXPECT_GT(standing, 0.9);
-  EXPECT_LT(standing, 1.6);
+  // A trunk of 50 cm has a skull of radius 9.25 cm whose centre reaches 3 cm beyond 17 cm above the neck's base; the
+  // head joint lies 25.1 cm above it.
+  EXPECT_NEAR(standing, (0.17 + 0.03 + 0.0925 - std::hypot(0.25, 0.02)) / 0.0925, 1e-9);
   const glm::dvec3 neck = pose[Role::kShoulderCentre];
   const glm::dvec3 head = pose[Role::kHead] - neck;
   pose[Role::kHead] = neck + glm::dvec3(head.y, -head.x, head.z);  // nodded aside by 90°
