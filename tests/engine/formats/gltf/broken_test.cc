@@ -118,6 +118,11 @@ TEST(BrokenGltf, IsRefusedNamingThePlaceAndWhatIsAllowed) {
   }
 }
 
+TEST(BrokenGltf, ThatIsNoJsonIsRefusedWithItsLineAndColumnAndTheParsersWords) {
+  EXPECT_THAT(Complaint("{\"asset\":\n  {\"version\": x}}"),
+              StartsWith("test.glb:2:15: not glTF 2.0: syntax error while parsing value"));
+}
+
 TEST(BrokenGltf, IsRefusedForItsNumbers) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();

@@ -157,6 +157,26 @@ TEST(GltfRoundTrip, KeepsASkeletonAlone) {
   ExpectSame(Read(WriteGlb(bones, {})), bones, {}, kFloat);
 }
 
+TEST(GltfRoundTrip, BindsMeshesOfOneBindingByOneSkin) {
+  const auto skins = [](const Character& character) {
+    const std::string bytes = WriteGlb(character, {});
+    int count = 0;
+    for (std::size_t at = 0; (at = bytes.find("inverseBindMatrices", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  Character person = Dressed();
+  SkinnedMesh cape = person.meshes[0], scarf = cape;
+  cape.name = "cape";
+  scarf.name = "scarf";
+  person.meshes = {person.meshes[0], cape};
+  EXPECT_EQ(skins(person), 1);
+  ExpectSame(Read(WriteGlb(person, {})), person, {}, kFloat);
+  scarf.bindings[1].inverse_bind[3].y += 0.5;
+  person.meshes = {person.meshes[0], scarf, cape};
+  EXPECT_EQ(skins(person), 2) << "the control";
+  ExpectSame(Read(WriteGlb(person, {})), person, {}, kFloat);
+}
+
 TEST(GltfRoundTrip, KeepsAClipInWhichNothingMoves) {
   const Character person = Dressed();
   Clip still = testing::AtRest(person.skeleton, 41, 20);
