@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
@@ -116,6 +117,26 @@ TEST(CeresLm, FindsTheMinimumThatDampedLeastSquaresFindsWhereTargetsContradict) 
     EXPECT_GT(found, 1e-3) << "contradictions leave something";
     EXPECT_NEAR(found, ours, 1e-3 * ours);
   }
+}
+
+TEST(CeresLm, TakesAllItsIterationsWhenItNeedsThemAndNoMore) {
+  IkOptions patient, hasty;
+  patient.position_goal = hasty.position_goal = patient.axis_goal = hasty.axis_goal = 1e-12;
+  patient.stall_change = hasty.stall_change = 0;
+  patient.max_iterations = 1000;
+  hasty.max_iterations = 100;
+  int cut_short = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30);
+    const IkSolution solved = SolveCeresLm(Body(), problem, patient), stopped = SolveCeresLm(Body(), problem, hasty);
+    EXPECT_EQ(solved.status, IkStatus::kConverged) << trial;
+    EXPECT_EQ(stopped.iterations, std::min(solved.iterations, 100)) << trial;
+    if (solved.iterations <= 100) continue;
+    EXPECT_EQ(stopped.status, IkStatus::kIterationLimit) << trial;
+    EXPECT_GT(Sum(problem, stopped.angles), Sum(problem, solved.angles)) << trial;
+    ++cut_short;
+  }
+  EXPECT_GE(cut_short, 4) << "6 of 8";
 }
 
 TEST(CeresLm, LeavesAnglesThatCannotMove) {
