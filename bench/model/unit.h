@@ -1,9 +1,8 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "engine/base/named.h"
 

@@ -1,19 +1,19 @@
 #include "bench/run/dry_run.h"
 
-#include <algorithm>
 #include <set>
 
 #include "bench/run/cell_runner.h"
 #include "bench/run/clock.h"
-#include "bench/run/manifest.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
+#include "bench/scenario/study_of.h"
+#include "bench/statistics/summary.h"
 
 namespace etude {
 namespace {
 
 /// What the worlds of the first condition are drawn from.
-int CountUnits(const PreparedScenario& prepared) {
+int CountUnitsOf(const PreparedScenario& prepared) {
   const Scenario& scenario = prepared.scenario();
   if (IsEveryWorldItsOwn(scenario.unit)) return scenario.trials;
   std::set<std::string> units;
@@ -40,8 +40,8 @@ double MeasureSecondsPerWorld(const PreparedScenario& prepared, double until, Cl
 }  // namespace
 
 Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
-  ASSIGN_OR_RETURN(const auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
-  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  ASSIGN_OR_RETURN(const auto suite, ReadSuiteToRun(options));
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs)};
   const auto start = Clock::now();
   double total = 0;
@@ -53,12 +53,10 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
                          .conditions = scenario.conditions.size(),
                          .methods = scenario.methods.size(),
                          .unit = scenario.unit,
-                         .units = CountUnits(scenarios[i])};
+                         .units = CountUnitsOf(scenarios[i])};
     const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
     one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], until, start);
-    const auto compared = std::count_if(scenario.methods.begin(), scenario.methods.end(),
-                                        [](const MethodEntry& method) { return method.against != method.name; });
-    one.comparisons = static_cast<int>(static_cast<std::size_t>(compared) * scenario.metrics.size() * one.conditions);
+    one.comparisons = CountComparisons(StudyOf(scenario));
     total += one.seconds_per_world * static_cast<double>(one.worlds * one.conditions);
     forecast.scenarios.push_back(std::move(one));
   }

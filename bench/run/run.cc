@@ -110,17 +110,10 @@ Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
 
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress) {
   const auto start = Clock::now();
-  ASSIGN_OR_RETURN(const auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
-  if (suite.scored) {
-    return Fail({options.from, 0, 0}, "is of answers that were scored ('{}'), which cannot be run; etude score does it",
-                suite.scored->name);
-  }
+  ASSIGN_OR_RETURN(const auto suite, ReadSuiteToRun(options));
   const fs::path folder = FolderFor(options, suite);
   ASSIGN_OR_RETURN(const auto state, CheckFolder(folder, options));
-  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
-  if (!options.from.empty()) {
-    RETURN_IF_ERROR(CheckClips(options.from, scenarios));
-  }
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   const Plan plan(scenarios);
   ASSIGN_OR_RETURN(const auto manifest, WriteJson(MakeManifest(suite, scenarios, options.program_version)));
   ASSIGN_OR_RETURN(const auto build, BuildDigest());

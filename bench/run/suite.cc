@@ -6,6 +6,7 @@
 #include <set>
 
 #include "bench/files/files.h"
+#include "bench/run/manifest.h"
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
@@ -119,6 +120,21 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   }
   if (!options.clips.empty()) RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
   return suite;
+}
+
+Result<SuiteSetup> ReadSuiteToRun(const RunOptions& options) {
+  ASSIGN_OR_RETURN(auto suite, options.from.empty() ? ReadSuite(options) : ReadManifest(options.from));
+  if (!suite.scored) return suite;
+  return Fail({options.from, 0, 0}, "is of answers that were scored ('{}'), which cannot be run; etude score does it",
+              suite.scored->name);
+}
+
+Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, const RunOptions& options) {
+  ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
+  if (!options.from.empty()) {
+    RETURN_IF_ERROR(CheckClips(options.from, scenarios));
+  }
+  return scenarios;
 }
 
 }  // namespace etude

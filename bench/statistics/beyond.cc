@@ -170,6 +170,4 @@ std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, Sampli
   return "it differs, but neither way is better";
 }
 
-int UnitsNeeded(int comparisons) { return std::max(PairsNeeded(comparisons, kAlpha), kFewestUnits); }
-
 }  // namespace etude

@@ -48,7 +48,4 @@ std::optional<Verdict> VerdictBeyond(const Beyond& beyond, const MetricInfo& met
 /// Why there is no verdict, or it is inconclusive, in words; "" when it is clear. `comparisons` were made together.
 std::string WhyOpenBeyond(const Beyond& beyond, const MetricInfo& metric, SamplingUnit unit, int comparisons);
 
-/// How many units the sign flips need among so many comparisons.
-int UnitsNeeded(int comparisons);
-
 }  // namespace etude

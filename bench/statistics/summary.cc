@@ -102,14 +102,14 @@ struct Family {
   }
 };
 
+int SizeOf(const Study& study, int methods) {
+  return methods * static_cast<int>(study.metrics.size() * study.conditions.size());
+}
+
 /// Every method against its baseline.
 std::vector<std::vector<Question>> AskAgainstBaselines(const Study& study, const ScenarioTable& table,
                                                        std::uint64_t seed) {
-  const auto compared = std::count_if(study.methods.begin(), study.methods.end(),
-                                      [](const ComparedMethod& method) { return method.name != method.against; });
-  const Family family{
-      study, seed,
-      static_cast<int>(static_cast<std::size_t>(compared) * study.metrics.size() * table.conditions().size())};
+  const Family family{study, seed, CountComparisons(study)};
   std::vector<std::vector<Question>> asked;
   for (const ConditionTable& condition : table.conditions()) {
     std::vector<Question>& questions = asked.emplace_back();
@@ -130,13 +130,11 @@ std::vector<std::vector<Question>> AskAgainstBaselines(const Study& study, const
 /// Every method that competes against the strongest other one.
 std::vector<std::vector<Question>> AskAgainstRivals(const Study& study, const ScenarioTable& table,
                                                     std::uint64_t seed) {
-  const auto competing = std::count_if(study.methods.begin(), study.methods.end(),
-                                       [&](const ComparedMethod& method) { return Competes(study, method); });
-  const Family family{
-      study, seed,
-      static_cast<int>(static_cast<std::size_t>(competing) * study.metrics.size() * table.conditions().size())};
+  const auto asking = std::count_if(study.methods.begin(), study.methods.end(), [&](const ComparedMethod& method) {
+    return Competes(study, method) && method.name != study.rival;
+  });
+  const Family family{study, seed, SizeOf(study, static_cast<int>(asking))};
   std::vector<std::vector<Question>> asked(table.conditions().size());
-  if (competing < 2) return asked;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const ConditionTable& condition = table.conditions()[i];
     for (const ComparedMethod& entry : study.methods) {
@@ -170,6 +168,12 @@ int JudgeTogether(std::vector<std::vector<Question>>& asked, SamplingUnit unit,
 }
 
 }  // namespace
+
+int CountComparisons(const Study& study) {
+  const auto compared = std::count_if(study.methods.begin(), study.methods.end(),
+                                      [](const ComparedMethod& method) { return method.name != method.against; });
+  return SizeOf(study, static_cast<int>(compared));
+}
 
 ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed) {
   ScenarioSummary summary{study.scenario, study.task, study.question, study.unit, {}, study.metrics, {}, {}};

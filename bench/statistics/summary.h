@@ -5,6 +5,9 @@
 
 namespace etude {
 
+/// How many comparisons of methods with their baselines are judged together.
+int CountComparisons(const Study& study);
+
 /// Sums up one study's rows: per condition and method the aggregate of every metric with its
 /// interval and its share of cells that are ok, every method against its baseline on the headline metrics, judged
 /// as one family, every method against the strongest other one (rival.h), judged as another, and the verdict on each

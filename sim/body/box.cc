@@ -8,8 +8,6 @@
 namespace etude {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // From the world's axes to the box's.
 glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
   return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
@@ -18,6 +16,7 @@ glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
 }  // namespace
 
 double HitDistance(const Box& box, const glm::dvec3& origin, const glm::dvec3& direction) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double sine = std::sin(box.heading), cosine = std::cos(box.heading);
   const glm::dvec3 from = Turned(origin - box.centre, sine, cosine), along = Turned(direction, sine, cosine);
   double enter = 0, leave = kInfinity;

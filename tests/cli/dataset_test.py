@@ -73,6 +73,7 @@ class DataSets(EtudeCase):
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
         self.assertIn(f"{len(rows) - 8} of {len(rows) - 8} cells came out the same", replayed.stdout)
         for arguments in (["run", "--from", self.out / "manifest.json"],
+                          ["run", "--from", self.out / "manifest.json", "--dry-run"],
                           ["replay", self.out, "--cell", "ik/joint_noise_deg=2/000/oracle"]):
             refused = self.etude(*arguments)
             self.assertEqual(refused.returncode, 2)

@@ -43,6 +43,7 @@ MAY_INCLUDE = {
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
+    "sim/rig": "engine/base engine/cameras engine/motion sim/random sim/render",
     "sim/sensors":
         "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
     # bench/
@@ -80,7 +81,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
+        "sim/body sim/random sim/render sim/rig sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
         "bench/metrics bench/tasks/base",

@@ -1,17 +1,53 @@
 #include "bench/tasks/capture/options.h"
 
 namespace etude {
+namespace {
+
+template <bool Oracle::*kStage>
+bool& OracleOf(CaptureMethod& method) {
+  return method.oracle.*kStage;
+}
+
+template <auto kMember>
+auto& InRig(StudioOptions& options) {
+  return options.rig.*kMember;
+}
+
+void CheckStudio(Fields& fields, StudioOptions& options) {
+  const RigOptions& rig = options.rig;
+  if (rig.shape != RigShape::kAngles || rig.heights_m.size() == rig.angles_deg.size()) return;
+  const Node* written = fields.Raw("camera_heights_m");
+  fields.Complain((written != nullptr ? *written : fields.node()).place,
+                  fmt::format("'camera_heights_m' has {} numbers; it needs one for each of the {} cameras",
+                              rig.heights_m.size(), rig.angles_deg.size()));
+}
+
+}  // namespace
 
 const FieldTable<StudioOptions>& CaptureConditionFields() {
   using Options = StudioOptions;
   using Key = Field<Options>;
   static const FieldTable<Options> table{
       {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
-       Key::Numbers("camera_angles_deg", &Options::camera_angles_deg, "camera", "two of -180…180", {-180, 180},
-                    "Where the cameras stand about the performer: 0 = in front, positive = to the performer's left."),
-       Key::Numbers("camera_heights_m", &Options::camera_heights_m, "camera", "two of 0.2…5", {0.2, 5},
-                    "How high the cameras stand."),
-       Key::Number("camera_distance_m", &Options::camera_distance_m, {2, 10}, "From the middle of the stage."),
+       Key::Name(
+           "rig", InRig<&RigOptions::shape>,
+           {{"angles", RigShape::kAngles},
+            {"stereo", RigShape::kStereo},
+            {"ring", RigShape::kRing},
+            {"corners", RigShape::kCorners}},
+           "How the cameras stand about the performer: at given angles, side by side in front, evenly around, or in "
+           "four corners."),
+       Key::Numbers("camera_angles_deg", InRig<&RigOptions::angles_deg>, {2, kMostCameras}, "two to eight of -180…180",
+                    {-180, 180}, "Where they stand: 0 = in front, positive = to the performer's left.")
+           .With("rig", {"angles"}),
+       Key::Number("camera_baseline_m", InRig<&RigOptions::baseline_m>, {0.05, 3}, "From one to the other.")
+           .With("rig", {"stereo"}),
+       Key::Number("cameras", InRig<&RigOptions::cameras>, {2, kMostCameras}, "How many stand around.")
+           .With("rig", {"ring"}),
+       Key::Numbers("camera_heights_m", InRig<&RigOptions::heights_m>, {1, kMostCameras}, "one to eight of 0.2…5",
+                    {0.2, 5}, "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
+       Key::Number("camera_distance_m", InRig<&RigOptions::distance_m>, {2, 10},
+                   "From the middle of where the performer moves, as far as the room allows."),
        Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
                  "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."),
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
@@ -22,7 +58,8 @@ const FieldTable<StudioOptions>& CaptureConditionFields() {
        Key::Number("annotation_error_px", &Options::annotation_error_px, {0, 50},
                    "Standard deviation of the annotator's marks, in u and in v."),
        Key::Number("mark_every", &Options::mark_every, {1, 300},
-                   "The annotator marks every n-th frame; what lies between is interpolated.")}};
+                   "The annotator marks every n-th frame; what lies between is interpolated.")},
+      CheckStudio};
   return table;
 }
 
@@ -30,35 +67,23 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Method = CaptureMethod;
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
-    FieldTable<Method> made{
-        {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
-                   "How the person is cut out of the pictures."),
-         Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
-                   "How a camera is computed from its calibration points."),
-         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
-         Key::Flags("oracle",
-                    {{"calibration", [](auto& m) -> auto& { return m.oracle.calibration; }},
-                     {"segmentation", [](auto& m) -> auto& { return m.oracle.segmentation;
-  }
-}
-, {"directions", [](auto& m) -> auto& {return m.oracle.directions;
-}
-}
-, {
-  "points", [](auto& m) -> auto& { return m.oracle.points; }
-}
-},
-                    "Stages replaced by the truth.")
-}
-}
-;
-const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
-made.fields.insert(made.fields.end(), solver.begin(), solver.end());
-return made;
-}
-();
-return table;
+    FieldTable<Method> made{{Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
+                                       "How the person is cut out of the pictures."),
+                             Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
+                                       "How a camera is computed from its calibration points."),
+                             ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
+                             SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+                             Key::Flags("oracle",
+                                        {{"calibration", OracleOf<&Oracle::calibration>},
+                                         {"segmentation", OracleOf<&Oracle::segmentation>},
+                                         {"directions", OracleOf<&Oracle::directions>},
+                                         {"points", OracleOf<&Oracle::points>}},
+                                        "Stages replaced by the truth.")}};
+    const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
+    made.fields.insert(made.fields.end(), solver.begin(), solver.end());
+    return made;
+  }();
+  return table;
 }
 
 }  // namespace etude

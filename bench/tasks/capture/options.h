@@ -1,11 +1,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/cameras/dlt.h"
 #include "engine/vision/change_detection.h"
+#include "sim/rig/rig.h"
 
 namespace etude {
 
@@ -17,13 +17,7 @@ enum class Clothes {
 /// One condition of a capture scenario: the studio and what goes wrong in it.
 struct StudioOptions {
   double duration_s = 2;
-  /// Where the two cameras stand: angles about the performer (0 = in front, positive = to the performer's
-  /// left), and heights. Two cameras alike cannot tell the direction of a limb parallel to the line
-  /// between them, and a performer facing them has hips, shoulders and stretched arms there: so they
-  /// stand at different heights.
-  std::vector<double> camera_angles_deg = {-40, 40};
-  std::vector<double> camera_heights_m = {1.0, 2.2};
-  double camera_distance_m = 3.8;
+  RigOptions rig = {};  ///< where the cameras stand
   Clothes clothes = Clothes::kStudio;
   double light_drift = 0.06;   ///< largest relative change of the lamp's brightness
   double camera_noise = 1;     ///< multiplies the camera sensor's usual noise

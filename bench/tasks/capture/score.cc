@@ -104,6 +104,21 @@ void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellRe
   if (before != nullptr) cell.series.push_back({"mpjpe_before_ik_mm", "frame", before->frame_mpjpe_mm});
 }
 
+/// Those of one value per frame in which the performer was in view: no others are judged.
+template <typename Value>
+std::vector<Value> InView(const CaptureWorld& world, const std::vector<Value>& values) {
+  std::vector<Value> kept;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (world.in_view[k]) kept.push_back(values[k]);
+  }
+  return kept;
+}
+
+/// The joint errors of the frames in view.
+PoseErrors JudgePoses(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
+  return ComparePoses(InView(world, poses), InView(world, world.truth));
+}
+
 /// From the end effectors to where they were seen, mean over the frames in which they were.
 double MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
   constexpr double kCmPerMetre = 100;
@@ -130,16 +145,19 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
   }
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
-  const PoseErrors before = ComparePoses(fixed, world.truth);
-  ReportJointErrors(ComparePoses(poses, world.truth), &before, cell);
-  cell.Measure("position_error_cm", MeanEffectorErrorCm(frames));
+  const PoseErrors before = JudgePoses(world, fixed);
+  ReportJointErrors(JudgePoses(world, poses), &before, cell);
+  cell.Measure("position_error_cm", MeanEffectorErrorCm(InView(world, frames)));
 }
 
-/// Tells how many frames have a skeleton; whether any has.
+/// Tells how many frames are in view, and how many of these have a skeleton; whether any has.
 template <typename Frame>
-bool ReportRecovered(const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
-  const auto count = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.has_value(); });
-  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(frames.size())));
+bool ReportRecovered(const CaptureWorld& world, const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
+  const auto judged = InView(world, frames);
+  const auto count = std::count_if(judged.begin(), judged.end(), [](const auto& frame) { return frame.has_value(); });
+  const auto in_view = static_cast<std::int64_t>(judged.size());
+  cell.Measure("frames_in_view", *Share(in_view, static_cast<std::int64_t>(frames.size())));
+  cell.Measure("frames_recovered", *Share(count, in_view));
   return count > 0;
 }
 
@@ -162,7 +180,7 @@ std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
   CellResult cell;
   ReportStages(world, run, cell);
-  if (!ReportRecovered(run.frames, cell)) {
+  if (!ReportRecovered(world, run.frames, cell)) {
     FailWithoutPoses(ReasonForNoSkeleton(run.measured.frames), cell);
     return cell;
   }
@@ -177,7 +195,7 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion) {
   CellResult cell;
   for (const char* id : kStageMetrics) cell.Missing(id, kNoStages);
-  if (!ReportRecovered(answer, cell)) {
+  if (!ReportRecovered(world, answer, cell)) {
     FailWithoutPoses("no frame has a pose", cell);
     return cell;
   }
@@ -185,7 +203,7 @@ CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& an
   Digest digest;
   for (const BodyPose& pose : poses) Add(pose, digest);
   cell.digests = {{"pose", digest.Hex()}};
-  ReportJointErrors(ComparePoses(poses, world.truth), nullptr, cell);
+  ReportJointErrors(JudgePoses(world, poses), nullptr, cell);
   cell.Missing("position_error_cm", kNoStages);
   if (keeps_motion) cell.recording = MakeRecording(world, poses);
   cell.status = Status::kOk;

@@ -61,22 +61,12 @@ std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
   return colours;
 }
 
-// Tripods are never set up to the centimetre.
-Camera PlaceCamera(const StudioOptions& options, std::size_t index, const WorldKey& key) {
-  RandomStream random(key, fmt::format("capture/camera-{}/place", index));
-  const double angle = Radians(options.camera_angles_deg[index] + random.Normal(0, 2));
-  const double distance = options.camera_distance_m + random.Normal(0, 0.05);
-  const double height = options.camera_heights_m[index] + random.Normal(0, 0.03);
-  const glm::dvec3 target(random.Normal(0, 0.02), 0.95 + random.Normal(0, 0.02), 0);
-  return LookAt({}, {distance * std::sin(angle), height, distance * std::cos(angle)}, target);
-}
-
 // Points stuck on three walls of a box around the stage (paper B: "on different planes"), seen by the
 // camera and clicked with a small error.
 std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const Camera& camera, std::size_t index,
-                                            const WorldKey& key) {
+                                            const glm::dvec3& middle, const WorldKey& key) {
   RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
-  const glm::dvec3 low(-0.8, 0.1, -0.8), high(0.8, 1.9, 0.8);
+  const glm::dvec3 low = middle + glm::dvec3(-0.8, 0.1, -0.8), high = middle + glm::dvec3(0.8, 1.9, 0.8);
   const ProjectionMatrix matrix = MatrixOf(camera);
   std::vector<PointPair> pairs;
   for (int i = 0; i < options.calibration_pairs; ++i) {
@@ -114,9 +104,11 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   RandomStream room(key, "capture/room");
   world.room.texture_seed = room.IndexBelow(1u << 30);
   world.brightness = MakeBrightness(options, world.truth.size(), key);
-  for (std::size_t i = 0; i < options.camera_angles_deg.size(); ++i) {
-    world.cameras.push_back(PlaceCamera(options, i, key));
-    world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, key));
+  world.cameras = SetUpCameras(options.rig, world.truth, key);
+  world.in_view = FramesInView(world.cameras, world.truth);
+  const glm::dvec3 middle = MiddleOnFloor(world.truth);
+  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+    world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, middle, key));
   }
   return world;
 }

@@ -20,7 +20,8 @@ struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
   LimbLengths lengths;             ///< measured on the performer beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
-  std::vector<Camera> cameras;     ///< two
+  std::vector<Camera> cameras;     ///< two or more
+  std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
   Room room;                       ///< its brightness is that of the background pictures
   std::vector<double> brightness;  ///< of each frame
   std::vector<std::vector<PointPair>> calibration_pairs;  ///< of each camera, pixels noisy

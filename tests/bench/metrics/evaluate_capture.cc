@@ -39,9 +39,9 @@ double ReprojectionOf(const Json& in) {
   return MeanReprojectionRmsPx(fits);
 }
 
-Value ShareOfFrames(const Json& in) {
-  const auto recovered = in.at("recovered").get<std::vector<int>>();
-  return Share(std::count(recovered.begin(), recovered.end(), 1), static_cast<std::int64_t>(recovered.size()));
+Value ShareOf(const Json& flags) {
+  const auto frames = flags.get<std::vector<int>>();
+  return Share(std::count(frames.begin(), frames.end(), 1), static_cast<std::int64_t>(frames.size()));
 }
 
 MaskScore MasksOf(const Json& in) {
@@ -71,7 +71,8 @@ std::span<const Evaluator> CaptureEvaluators() {
       {"triangulation_coverage",
        [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).coverage; }},
       {"reprojection_rms_px", [](const Json& in) -> Value { return ReprojectionOf(in); }},
-      {"frames_recovered", ShareOfFrames},
+      {"frames_in_view", [](const Json& in) -> Value { return ShareOf(in.at("in_view")); }},
+      {"frames_recovered", [](const Json& in) -> Value { return ShareOf(in.at("recovered")); }},
       {"iou", [](const Json& in) -> Value { return MasksOf(in).iou; }},
       {"mask_precision", [](const Json& in) -> Value { return MasksOf(in).precision; }},
       {"mask_recall", [](const Json& in) -> Value { return MasksOf(in).recall; }},

@@ -123,6 +123,7 @@ METRICS = {
     "triangulation_error_mm": triangulation_error,
     "triangulation_coverage": lambda g: coverage(g["ends_m"]),
     "reprojection_rms_px": reprojection,
+    "frames_in_view": lambda g: common.share(g["in_view"]),
     "frames_recovered": lambda g: common.share(g["recovered"]),
     "iou": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f or t),
     "mask_precision": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f),
