@@ -101,6 +101,15 @@ TEST(WorstError, IsOfTheWorstSingleAxisNotOfTheMeanOfThree) {
   EXPECT_TRUE(FindWorst(errors, problem.targets).Within({}));
 }
 
+TEST(EffectorError, IsTheMeanOfTheAxesThatCount) {
+  const EffectorError error{.position = 0, .axis_angles = {1, 2, 6}};
+  EXPECT_EQ(error.MeanAxisAngle(glm::dvec3(1)), 3);
+  EXPECT_EQ(error.MeanAxisAngle({5, 0, 0}), 1);
+  EXPECT_EQ(error.MeanAxisAngle({0, 0.1, 0}), 2);
+  EXPECT_EQ(error.MeanAxisAngle({0, 1, 1}), 4);
+  EXPECT_EQ(error.MeanAxisAngle(glm::dvec3(0)), 0);
+}
+
 TEST(WorstError, MayBeOfAnyEffector) {
   IkProblem problem = PositionsOf({kEndRightFoot, kEndLeftHand, kEndRightHand, kEndHead});
   for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(1);

@@ -177,6 +177,14 @@ TEST(GltfRoundTrip, BindsMeshesOfOneBindingByOneSkin) {
   ExpectSame(Read(WriteGlb(person, {})), person, {}, kFloat);
 }
 
+TEST(GltfRoundTrip, WritesMaterialsThatAreNoMetal) {
+  const Character person = Dressed();
+  const std::string bytes = WriteGlb(person, {});
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = bytes.find(R"("metallicFactor":0.0)", at)) != std::string::npos; ++at) ++count;
+  EXPECT_EQ(count, person.materials.size()) << "the format's default is bare metal";
+}
+
 TEST(GltfRoundTrip, KeepsAClipInWhichNothingMoves) {
   const Character person = Dressed();
   Clip still = testing::AtRest(person.skeleton, 41, 20);

@@ -70,6 +70,16 @@ TEST(Tween, KeepsLimbsTheFootAndTheFloor) {
   }
 }
 
+TEST(Tween, RisesFromTheFloorInProportion) {
+  const BodyPose standing = ArmsAt(20);
+  BodyPose jumping = ArmsAt(60);
+  for (glm::dvec3& joint : jumping.joints) joint.y += 0.3;
+  const Tween tween(standing, jumping);
+  for (double part : {0.0, 0.25, 0.5, 1.0}) {
+    EXPECT_NEAR(Lowest(tween.At(part)), Lowest(standing) + 0.3 * part, 1e-12) << part;
+  }
+}
+
 TEST(Tween, SwingsAnArmSidewaysWhenBothWaysAreAsShort) {
   PosedBody hanging, raised;
   raised.left_arm = {{0, 1, 0}, {0, 1, 0}};

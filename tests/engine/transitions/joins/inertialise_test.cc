@@ -84,6 +84,15 @@ TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
   EXPECT_GT(Left(law, 0.3, -0.2, 0.35), 0);
 }
 
+// Bollo's choice: five halves of the time in which a parabola from x0 with slope v0 would come to rest, 2 x0 / −v0.
+TEST(QuinticDecay, TakesFiveHalvesOfAParabolasTimeWhereThatIsShorterThanTheBlend) {
+  const DecayLaw law = QuinticLaw({.blend_s = 0.4});
+  constexpr double kEnd = 5 * 0.3 / 6;
+  EXPECT_EQ(Left(law, 0.3, -6, kEnd), 0);
+  EXPECT_GT(Left(law, 0.3, -6, 0.95 * kEnd), 0);
+  EXPECT_GT(Left(law, 0.3, -6, 0.5 * kEnd), 1e-3);
+}
+
 TEST(QuinticDecay, NeverOvershootsNorGrows) {
   for (double velocity : {0.0, -0.1, -1.0, -5.0, -50.0}) {
     double last = 0.3;

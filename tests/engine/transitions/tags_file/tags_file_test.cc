@@ -124,6 +124,7 @@ TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
   EXPECT_THAT(error.message, HasSubstr("bytes without a new tag"));
   EXPECT_EQ(error.place.line, 2);
   EXPECT_THAT(Complaint(" \n").message, HasSubstr("is empty"));
+  EXPECT_EQ(ToString(Complaint(" \n").place), "tags.xml") << "nothing has no line";
 }
 
 TEST(TagsFile, GivesLibxml2sWordsUpTo500Bytes) {
