@@ -113,9 +113,8 @@ std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const Body
 }
 
 bool IsInPicture(const Camera& camera, const BodyPose& pose) {
-  const ProjectionMatrix matrix = MatrixOf(camera);
   return std::ranges::all_of(pose.joints, [&](const glm::dvec3& joint) {
-    const auto pixel = Project(matrix, joint);
+    const auto pixel = Project(camera, joint);
     return pixel && pixel->x >= 0 && pixel->y >= 0 && pixel->x < camera.intrinsics.width &&
            pixel->y < camera.intrinsics.height;
   });

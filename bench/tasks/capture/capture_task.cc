@@ -7,6 +7,7 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
+#include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
 
 namespace etude {
@@ -44,7 +45,9 @@ class CaptureTaskWorld : public TaskWorld {
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
-  Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
+  Result<Payload> MakeTruth() override { return MakeCaptureTruth(study_.options, key_, stages_); }
+
+  Result<SensorSheet> MakeSensorSheet() override { return MakeCaptureSheet(study_.options, key_, stages_); }
 
   Result<CellResult> Judge(const Json& json) override {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
@@ -108,10 +111,7 @@ TaskKind MakeCaptureTaskKind() {
           .question = "How close does the skeleton that two cameras see come to the true one?",
           .default_metrics = {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm",
                               "frames_recovered"},
-          .metrics = {"reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-                      "limb_direction_error_deg", "limb_direction_coverage", "triangulation_error_mm",
-                      "triangulation_coverage", "frames_in_view", "frames_recovered", "mpjpe_mm", "mpjpe_before_ik_mm",
-                      "pa_mpjpe_mm", "pck_50mm", "auc_200mm", "bone_length_error_cm", "position_error_cm"},
+          .metrics = CaptureMetrics(),
           .make = MakeCaptureTask,
           .condition_keys = CaptureConditionFields().Describe(),
           .method_keys = CaptureMethodFields().Describe(),

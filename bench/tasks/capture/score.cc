@@ -40,6 +40,12 @@ void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured,
   cell.MeasureOr("triangulation_coverage", points.coverage, "there are no end effectors");
 }
 
+void ReportAnnotators(const Observation& observation, CellResult& cell) {
+  constexpr const char* kAlone = "one annotator marked the pictures, or two marked nothing in common";
+  cell.MeasureOr("annotator_distance_px", observation.annotator_distance_px, kAlone);
+  cell.MeasureOr("annotator_overlap", observation.annotator_overlap, kAlone);
+}
+
 void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& cell) {
   cell.digests = {{"calibration", run.cameras.digest},
                   {"pictures", run.take.pictures_digest},
@@ -49,27 +55,17 @@ void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& 
                   {"points", run.measured.points_digest}};
   cell.Measure("reprojection_rms_px", run.cameras.reprojection_rms_px);
   ReportMasks(run.observation.score, cell);
+  ReportAnnotators(run.observation, cell);
   ReportMeasurements(world, run.measured, cell);
 }
 
-// "the left hand was never marked in both pictures", for the first thing that is never measured.
 std::string ReasonForNoSkeleton(std::span<const FrameMeasurement> frames) {
-  auto never = [&](auto member, Role role) {
-    return std::none_of(frames.begin(), frames.end(),
-                        [&](const FrameMeasurement& frame) { return (frame.*member)[Index(role)].has_value(); });
-  };
-  for (const EffectorMark& mark : EffectorMarks()) {
-    if (never(&FrameMeasurement::ends, mark.role)) {
-      return fmt::format("no skeleton: {} was never marked in both pictures", RoleName(mark.role));
-    }
-  }
-  for (const StrokeMark& mark : StrokeMarks()) {
-    if (never(&FrameMeasurement::directions, mark.to)) {
-      return fmt::format("no skeleton: the direction of the limb to {} was never seen in both pictures",
-                         RoleName(mark.to));
-    }
-  }
-  return "no skeleton: no frame has all its marks within half a second, or its limbs fit no body";
+  const bool has_end = std::ranges::any_of(frames, [](const FrameMeasurement& frame) {
+    return std::ranges::any_of(frame.ends, [](const auto& end) { return end.has_value(); });
+  });
+  if (!has_end)
+    return "no skeleton: no end effector was ever marked in both pictures, so nothing tells where the body is";
+  return "no skeleton: the limbs that were marked fit no body";
 }
 
 constexpr const char* kNoStages = "only a built-in method's stages tell";
@@ -80,6 +76,8 @@ constexpr std::array kStageMetrics = {"reprojection_rms_px",
                                       "mask_recall",
                                       "mask_f1",
                                       "shadow_error",
+                                      "annotator_distance_px",
+                                      "annotator_overlap",
                                       "limb_direction_error_deg",
                                       "limb_direction_coverage",
                                       "triangulation_error_mm",
@@ -176,6 +174,13 @@ std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
 }
 
 }  // namespace
+
+std::vector<std::string> CaptureMetrics() {
+  std::vector<std::string> ids(kStageMetrics.begin(), kStageMetrics.end());
+  ids.insert(ids.end(), {"frames_in_view", "frames_recovered"});
+  ids.insert(ids.end(), kPoseMetrics.begin(), kPoseMetrics.end());
+  return ids;
+}
 
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
   CellResult cell;

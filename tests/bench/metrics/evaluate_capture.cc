@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/metrics/annotation.h"
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
 #include "bench/metrics/segmentation.h"
@@ -21,6 +22,19 @@ std::vector<Sighted> SightedThings(const Json& list) {
   std::vector<Sighted> things;
   for (const Json& thing : list) {
     things.push_back({ReadOptionalPoint(thing.at("found")), ReadOptionalPoint(thing.at("truth"))});
+  }
+  return things;
+}
+
+std::optional<glm::dvec2> ReadOptionalPixel(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return glm::dvec2(json.at(0).get<double>(), json.at(1).get<double>());
+}
+
+std::vector<MarkedTwice> MarkedThings(const Json& list) {
+  std::vector<MarkedTwice> things;
+  for (const Json& thing : list) {
+    things.push_back({ReadOptionalPixel(thing.at("first")), ReadOptionalPixel(thing.at("second"))});
   }
   return things;
 }
@@ -70,6 +84,9 @@ std::span<const Evaluator> CaptureEvaluators() {
        [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).mean; }},
       {"triangulation_coverage",
        [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).coverage; }},
+      {"annotator_distance_px",
+       [](const Json& in) -> Value { return AnnotatorDistancePx(MarkedThings(in.at("joints_px"))); }},
+      {"annotator_overlap", [](const Json& in) -> Value { return AnnotatorOverlap(MarkedThings(in.at("limbs_px"))); }},
       {"reprojection_rms_px", [](const Json& in) -> Value { return ReprojectionOf(in); }},
       {"frames_in_view", [](const Json& in) -> Value { return ShareOf(in.at("in_view")); }},
       {"frames_recovered", [](const Json& in) -> Value { return ShareOf(in.at("recovered")); }},
