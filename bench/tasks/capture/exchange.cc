@@ -131,9 +131,10 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
                    {"marks", std::move(marks)}};
   for (std::size_t i = 0; i < sources.size(); ++i) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+      ASSIGN_OR_RETURN(auto coco, WriteCocoKeypoints(world.cameras[camera].intrinsics, pictures[camera],
+                                                     take.observations[i].marks[camera]));
       problem.files.push_back(
-          {fmt::format("marks-{}-camera-{}.coco.json", SegmenterNames()[i], camera + 1),
-           WriteCocoKeypoints(world.cameras[camera].intrinsics, pictures[camera], take.observations[i].marks[camera])});
+          {fmt::format("marks-{}-camera-{}.coco.json", SegmenterNames()[i], camera + 1), std::move(coco)});
     }
   }
   return problem;

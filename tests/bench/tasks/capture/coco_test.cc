@@ -7,8 +7,6 @@
 namespace etude {
 namespace {
 
-using Json = nlohmann::json;
-
 std::size_t StrokeOf(Role from, Role to) {
   std::size_t i = 0;
   while (i < kStrokeCount && !(StrokeMarks()[i].from == from && StrokeMarks()[i].to == to)) ++i;
@@ -38,7 +36,7 @@ TEST(Coco, HasTheEndsOfStrokesAndTheirMeanWhereTheyMeet) {
 TEST(Coco, WritesWhatItsReadersExpect) {
   const std::vector<std::string> pictures{"camera-1-0000.png", "camera-1-0001.png"};
   const std::vector<Marks> marks{Marks{}, SomeMarks()};
-  const Json file = Json::parse(WriteCocoKeypoints({}, pictures, marks));
+  const nlohmann::json file = nlohmann::json::parse(*WriteCocoKeypoints({}, pictures, marks));
   ASSERT_EQ(file["images"].size(), 2u);
   EXPECT_EQ(file["images"][1]["file_name"], "camera-1-0001.png");
   EXPECT_EQ(file["images"][1]["width"], 640);
@@ -47,7 +45,7 @@ TEST(Coco, WritesWhatItsReadersExpect) {
   EXPECT_EQ(file["categories"][0]["keypoints"][16], "right_ankle");
   EXPECT_EQ(file["categories"][0]["skeleton"].size(), 19u);
   ASSERT_EQ(file["annotations"].size(), 1u) << "nothing was marked in the first";
-  const Json& person = file["annotations"][0];
+  const nlohmann::json& person = file["annotations"][0];
   EXPECT_EQ(person["image_id"], file["images"][1]["id"]);
   EXPECT_EQ(person["category_id"], file["categories"][0]["id"]);
   ASSERT_EQ(person["keypoints"].size(), 51u);
@@ -55,7 +53,7 @@ TEST(Coco, WritesWhatItsReadersExpect) {
   for (int i = 0; i < 15; ++i) EXPECT_EQ(person["keypoints"][static_cast<std::size_t>(i)], 0) << "no face";
   EXPECT_EQ(person["keypoints"][15], 100) << "the first pixel's centre is 0, not 0.5";
   EXPECT_EQ(person["keypoints"][17], 2);
-  EXPECT_EQ(person["bbox"], Json({58, 50, 82, 210}));
+  EXPECT_EQ(person["bbox"], nlohmann::json({58, 50, 82, 210}));
   EXPECT_EQ(person["area"], 82 * 210);
 }
 

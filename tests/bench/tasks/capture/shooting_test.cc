@@ -46,7 +46,7 @@ CaptureWorld WorldOf(std::vector<BodyPose> poses) {
   return world;
 }
 
-constexpr WorldKey kKey{.suite_seed = 5, .scenario = "shooting", .trial = 0};
+constexpr WorldKey kShootingKey{.suite_seed = 5, .scenario = "shooting", .trial = 0};
 
 // Pictures of a late camera are those that the first one's place would have seen then.
 TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
@@ -54,14 +54,14 @@ TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
   ASSERT_TRUE(renderer) << renderer.error().message;
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.05 * k; }));
   const CameraEffects late{.sync_offset_ms = 50, .noise = 0};
-  Shooting shooting(world, late, kKey, **renderer);
+  Shooting shooting(world, late, kShootingKey, **renderer);
   const double time = shooting.camera(1).shutter().TimeOf(4);
   EXPECT_NEAR(std::abs(time - 4), 1.5, 1e-12);
   EXPECT_EQ(shooting.camera(0).shutter().TimeOf(4), 4);
   EXPECT_EQ(shooting.SeenPose(1, 4).joints, PoseAt(world.truth, time).joints);
 
   CaptureWorld then = WorldOf({PoseAt(world.truth, time)});
-  Shooting punctual(then, {.noise = 0}, kKey, **renderer);
+  Shooting punctual(then, {.noise = 0}, kShootingKey, **renderer);
   EXPECT_EQ(shooting.Shoot(1, 4, Targets::kAll).colour.pixels, punctual.Shoot(1, 0, Targets::kAll).colour.pixels);
   EXPECT_NE(shooting.Shoot(0, 4, Targets::kAll).colour.pixels, punctual.Shoot(0, 0, Targets::kAll).colour.pixels);
 }
@@ -71,12 +71,12 @@ TEST(Shooting, RollsExactlyBandByBand) {
   const auto renderer = Renderer::Create();
   ASSERT_TRUE(renderer) << renderer.error().message;
   const CaptureWorld world = WorldOf(Poses(9, [](double k) { return 0.08 * k; }));
-  Shooting rolling(world, {.rolling_shutter_ms = 30, .noise = 0}, kKey, **renderer);
+  Shooting rolling(world, {.rolling_shutter_ms = 30, .noise = 0}, kShootingKey, **renderer);
   const View view = rolling.Shoot(0, 4, Targets::kAll);
   int differing = 0;
   for (const Shutter::Band& band : rolling.camera(0).shutter().BandsOf(4, 480)) {
     CaptureWorld then = WorldOf({PoseAt(world.truth, band.time)});
-    Shooting still(then, {.noise = 0}, kKey, **renderer);
+    Shooting still(then, {.noise = 0}, kShootingKey, **renderer);
     const View whole = still.Shoot(0, 0, Targets::kAll);
     for (int y = band.rows.first; y < band.rows.end; ++y) {
       for (int x = 0; x < 640; ++x) {
@@ -85,7 +85,7 @@ TEST(Shooting, RollsExactlyBandByBand) {
         ASSERT_EQ(view.depth.At(x, y), whole.depth.At(x, y));
       }
     }
-    Shooting global(world, {.noise = 0}, kKey, **renderer);
+    Shooting global(world, {.noise = 0}, kShootingKey, **renderer);
     differing += global.Shoot(0, 4, Targets::kAll).labels.pixels != whole.labels.pixels;
   }
   EXPECT_EQ(differing, 8) << "none of the bands is the picture of the middle";
