@@ -74,9 +74,8 @@ bool IsLower(char c) { return c >= 'a' && c <= 'z'; }
 bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether a new word begins at `i`: "upLeg", "Bip01", "LHip" (where the next letter is small again).
+/// Whether a new word begins at `i`, within a word: "upLeg", "Bip01", "LHip" (where the next letter is small again).
 bool BeginsWord(std::string_view name, std::size_t i) {
-  if (i == 0) return true;
   const char before = name[i - 1];
   const char here = name[i];
   if (IsDigit(here)) return !IsDigit(before);

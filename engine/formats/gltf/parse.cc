@@ -100,12 +100,9 @@ Error NotGltf(const std::string& file, const std::string& complaint) {
   Place place{file};
   std::string what = complaint;
   if (const std::size_t at = complaint.find("parse error at line "); at != std::string::npos) {
-    int length = 0;
-    if (std::sscanf(complaint.c_str() + at, "parse error at line %d, column %d: %n", &place.line, &place.column,
-                    &length) == 2 &&
-        length > 0) {
-      what = complaint.substr(at + static_cast<std::size_t>(length));
-    }
+    std::sscanf(complaint.c_str() + at, "parse error at line %d, column %d", &place.line, &place.column);
+    constexpr std::string_view kSeparator = ": ";
+    what = complaint.substr(complaint.find(kSeparator, at) + kSeparator.size());
   }
   constexpr std::size_t kLongest = 200;
   return Fail(std::move(place), "not glTF 2.0: {}", what.substr(0, kLongest)).value();

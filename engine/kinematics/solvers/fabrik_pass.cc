@@ -1,6 +1,7 @@
 #include "engine/kinematics/solvers/fabrik_pass.h"
 
 #include <Eigen/Dense>
+#include <cmath>
 
 #include "engine/kinematics/euler.h"
 
@@ -35,7 +36,7 @@ glm::dmat3 BestTurn(std::span<const glm::dvec3> from, std::span<const glm::dvec3
   for (std::size_t i = 0; i < from.size(); ++i) sum += ToEigen(to[i]) * ToEigen(from[i]).transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  sign(2, 2) = std::copysign(1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant());
   const Eigen::Matrix3d turn = svd.matrixU() * sign * svd.matrixV().transpose();
   glm::dmat3 result;
   for (int column = 0; column < 3; ++column) {

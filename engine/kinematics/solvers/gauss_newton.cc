@@ -106,12 +106,10 @@ class Solver {
     for (int pass = 0; pass < own_.extra_passes && damping < kSmallDamping && !step_.is_exact(); ++pass) {
       change = step_.Solve(state_.angles, posture, run_.ranges(), damping);
     }
-    double largest = 0, sum = 0;
-    for (const double c : change) {
-      largest = std::max(largest, std::abs(c));
-      sum += std::abs(c);
-    }
-    if (!std::isfinite(sum)) largest = 0;  // overflow, from weights and limbs of absurd sizes: no step
+    double largest = 0;
+    for (const double c : change) largest = std::max(largest, std::abs(c));
+    // Overflow, from weights and limbs of absurd sizes: no step.
+    if (!std::ranges::all_of(change, [](double c) { return std::isfinite(c); })) largest = 0;
     const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
     for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
       const AngleRange& range = run_.ranges()[d];

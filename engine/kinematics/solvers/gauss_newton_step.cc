@@ -67,7 +67,7 @@ GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const Effe
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
   const glm::dvec3 p_WR = frames.joints[0].position;
-  for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
+  for (const int n : inwards_) {
     const TreeJoint& joint = tree_.joints[n];
     const glm::dvec3 p_RJ_W = frames.joints[n].position - p_WR;
     for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {

@@ -25,13 +25,13 @@ PointCloudRows::PointCloudRows(const BodyMotion& playing, const BodyMotion& next
       next_sums_{CloudSum{}},
       products_(first_frame_, static_cast<int>(next.poses.size()), 2 * half_ + 2) {
   const glm::dvec3 next_origin = OnFloor(next.poses.front());
-  for (std::size_t f = 0; f < next.poses.size(); ++f) {
-    BodyPose pose = next.poses[f];
+  for (std::size_t f = 0; BodyPose pose : next.poses) {
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       pose.joints[j] -= next_origin;
       for (int axis = 0; axis < 3; ++axis) blocks_[f / kLanes][j][axis][f % kLanes] = pose.joints[j][axis];
     }
     next_sums_.push_back(Plus(next_sums_.back(), pose));
+    ++f;
   }
 }
 
@@ -69,11 +69,11 @@ void PointCloudRows::AddFrame(int frame) {
 
 void PointCloudRows::Compute(int leave_frame, std::span<const int> enter_frames, std::span<double> costs) {
   const int playing_frames = static_cast<int>(playing_.poses.size());
-  while (products_.NextRow() <= std::min(leave_frame + half_, playing_frames - 1)) AddFrame(products_.NextRow());
   for (std::size_t i = 0; i < enter_frames.size(); ++i) {
     const int enter = enter_frames[i];
     const Reach reach = ReachAround(leave_frame, playing_frames, enter, next_frames_, half_);
     const int row = leave_frame + reach.after, column = enter + reach.after;
+    while (products_.NextRow() <= row) AddFrame(products_.NextRow());
     const glm::dvec3 of_pair = products_.SumEndingAt(row, column, reach.Count());
     const auto of_cloud = [&](const std::vector<CloudSum>& sums, int last) {
       const CloudSum &end = sums[last + 1], &begin = sums[last + 1 - reach.Count()];

@@ -12,7 +12,7 @@ namespace {
 
 using enum Role;
 
-/// Where a limb of a standing body points to; not of unit length for the feet, which fall to the floor.
+/// Where a limb of a standing body points to, but for the feet, which fall to the floor.
 glm::dvec3 StandingDirection(Role child) {
   switch (child) {
     case kLeftShoulder:
@@ -25,9 +25,6 @@ glm::dvec3 StandingDirection(Role child) {
     case kShoulderCentre:
     case kHead:
       return {0, 1, 0};
-    case kLeftFoot:
-    case kRightFoot:
-      return {0, 0, 1};
     default:
       return {0, -1, 0};
   }

@@ -92,5 +92,24 @@ TEST(VerdictRatesMarkdown, HasALineForEveryDesignOfAllLaws) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 36 + 2 + 1 + 24 + 2);
 }
 
+// Each bound of the promise by itself; at the bound it is still kept.
+TEST(KeepsPromise, NeedsFewFalseAlarmsForCertainAndIntervalsThatHoldTheTruth) {
+  VerdictRates rates;
+  rates.false_alarms = {.percent = 5.5, .low = 5, .high = 6.5};
+  rates.coverage_without = 93;
+  EXPECT_TRUE(KeepsPromise(rates));
+  const auto breaks = [&](auto change) {
+    VerdictRates broken = rates;
+    change(broken);
+    return !KeepsPromise(broken);
+  };
+  EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.low = 5.01; })) << "above 5 % for all that samples can tell";
+  EXPECT_TRUE(breaks([](VerdictRates& r) { r.false_alarms.high = 6.51; })) << "too few samples to be certain";
+  EXPECT_TRUE(breaks([](VerdictRates& r) { r.coverage_without = 92.9; }));
+  EXPECT_FALSE(breaks([](VerdictRates& r) { r.false_alarms_of_worlds.percent = 60; })) << "that is told, not promised";
+  EXPECT_FALSE(breaks([](VerdictRates& r) { r.power = {}; }));
+  EXPECT_FALSE(KeepsPromise({})) << "nothing measured";
+}
+
 }  // namespace
 }  // namespace etude

@@ -6,6 +6,7 @@
 #include "bench/model/payload.h"
 #include "bench/model/row.h"
 #include "bench/model/summary.h"
+#include "bench/model/unit.h"
 
 namespace etude {
 namespace {
@@ -66,6 +67,17 @@ TEST(Payload, OwnsItsJson) {
   const Payload moved = std::move(payload);
   EXPECT_EQ(moved.json->at("angles").size(), 2u);
   EXPECT_EQ(moved.files[0].name, "left.png");
+}
+
+TEST(SamplingUnits, AreCountedInPlainEnglish) {
+  EXPECT_EQ(CountUnits(1, SamplingUnit::kWorld), "1 world");
+  EXPECT_EQ(CountUnits(12, SamplingUnit::kWorld), "12 worlds");
+  EXPECT_EQ(CountUnits(1, SamplingUnit::kPerson), "1 person");
+  EXPECT_EQ(CountUnits(0, SamplingUnit::kPerson), "0 people");
+  EXPECT_EQ(CountUnits(1, SamplingUnit::kClip), "1 clip");
+  EXPECT_EQ(CountUnits(6, SamplingUnit::kClipPair), "6 clips") << "a pair counts its clips";
+  EXPECT_EQ(CountUnits(1, SamplingUnit::kLibrary), "1 library");
+  EXPECT_EQ(CountUnits(2, SamplingUnit::kLibrary), "2 libraries");
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
+#include "bench/statistics/proportion.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -96,6 +98,26 @@ TEST(ComparePaired, CountsTiesHalf) {
   const std::vector<Pair> pairs = {{1, 0}, {1, 1}, {1, 2}, {1, 0}};
   EXPECT_DOUBLE_EQ(ComparePaired(pairs, Metric(Direction::kLowerIsBetter, 0), 1, "x").share_better, 2.5 / 4);
   EXPECT_DOUBLE_EQ(ComparePaired(pairs, Metric(Direction::kHigherIsBetter, 0), 1, "x").share_better, 1.5 / 4);
+}
+
+TEST(AreShares, IsSoWhereEveryValueOfBothMethodsIsZeroOrOne) {
+  EXPECT_TRUE(AreShares(std::vector<Pair>{{0, 1}, {1, 1}, {0, 0}, {1, 0}}));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {0.5, 1}}));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, 2}}));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {-1, 0}}));
+  EXPECT_FALSE(AreShares(std::vector<Pair>{{0, 1}, {1, std::numeric_limits<double>::quiet_NaN()}}));
+}
+
+// A mean of shares has an interval of its own, of the counts of worlds gained and lost; any other a bootstrap's.
+TEST(AreShares, DecidesHowTheMeansIntervalIsMade) {
+  MetricInfo metric = Metric(Direction::kHigherIsBetter, 0.05);
+  metric.aggregate = Aggregate::kMean;
+  std::vector<Pair> pairs(20, Pair{0, 0});
+  for (int i = 0; i < 4; ++i) pairs[i].method = 1;
+  const Interval of_shares = PairedShareInterval(4, 0, 20, kConfidence);
+  EXPECT_EQ(ComparePaired(pairs, metric, 1, "x").ci_low, of_shares.low);
+  for (Pair& pair : pairs) pair.baseline += 2, pair.method += 2;  // the same differences of what is no share
+  EXPECT_NE(ComparePaired(pairs, metric, 1, "x").ci_low, of_shares.low);
 }
 
 }  // namespace

@@ -68,6 +68,8 @@ TEST(UnknownName, SaysWhatWasFoundWhatWasMeantAndWhatIsAllowed) {
             "unknown solver 'cdc'; did you mean 'ccd'? Allowed: ccd, dls");
   EXPECT_EQ(UnknownName("solver", "newton", std::vector<std::string>{"ccd", "dls"}),
             "unknown solver 'newton'. Allowed: ccd, dls");
+  EXPECT_EQ(UnknownName("solver", std::string(61, 'x'), std::vector<std::string>{"ccd"}),
+            "unknown solver '" + std::string(60, 'x') + "'. Allowed: ccd");
 }
 
 TEST(Quote, ShowsWhatAReaderSees) {

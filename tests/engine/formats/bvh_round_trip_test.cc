@@ -144,6 +144,14 @@ TEST(BvhRoundTrip, TellsJointsOfOneNameApart) {
   EXPECT_EQ(text.find("JOINT bone\n"), text.rfind("JOINT bone\n"));
 }
 
+TEST(BvhRoundTrip, WritesNamesWithoutTheBlanksAroundThem) {
+  Clip clip = RandomClip(6);
+  clip.skeleton.joints[0].name = "  two words   ";
+  EXPECT_NE(WriteBvh(clip).find("ROOT two words\n"), std::string::npos);
+  clip.skeleton.joints[0].name = "   ";
+  EXPECT_NE(WriteBvh(clip).find("ROOT unnamed\n"), std::string::npos);
+}
+
 TEST(BvhRoundTrip, PrintsNumbersAsTheyAreRoundedToSixDecimals) {
   Clip clip = RandomClip(6);
   clip.frames = {RestPose(clip.skeleton)};

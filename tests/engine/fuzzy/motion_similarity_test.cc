@@ -75,6 +75,17 @@ TEST(MotionSimilarity, GivesUpOnlyBelowWhatIsAskedFor) {
   EXPECT_EQ(ComputeMotionSimilarity(a, b, {.at_least = similarity * 1.0001}), std::nullopt);
 }
 
+TEST(MotionSimilarity, GivesUpWhereOnlyTheLastFramesDiffer) {
+  // The best path so far is free until its very end, where both frames must be paired.
+  Motion a(20, Grades{}), b = a;
+  b.back()[0] = kPaperThreshold;
+  const double similarity = Similarity(a, b);
+  EXPECT_NEAR(similarity, 1 / (1 + 1 / 40.0), 1e-12) << "one step of 40 costs the threshold";
+  EXPECT_EQ(ComputeMotionSimilarity(a, b, {.at_least = 0.99}), std::nullopt);
+  EXPECT_EQ(ComputeMotionSimilarity(b, a, {.at_least = 0.99}), std::nullopt);
+  EXPECT_EQ(ComputeMotionSimilarity(a, b, {.at_least = 0.97}), similarity);
+}
+
 TEST(MotionSimilarity, HoldsForMotionsOfOneFrameAndOfNone) {
   const Motion a = ArmRaise(30, 90), still = {a.front()};
   EXPECT_EQ(Similarity(still, still), 1);

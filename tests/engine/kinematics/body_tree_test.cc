@@ -20,6 +20,16 @@ TEST(BodyTree, HasPaperBs29DegreesOfFreedomAndFourEffectors) {
   EXPECT_EQ(tree.effectors[3].name, "head");
 }
 
+// A root has no parent to stand away from: the state alone says where it is.
+TEST(BodyTree, StandsWhereItsStatePutsTheRoot) {
+  const KinematicTree tree = MakeBodyTree({});
+  EXPECT_EQ(tree.joints[0].parent, -1);
+  EXPECT_EQ(tree.joints[0].p_PJ, glm::dvec3(0));
+  TreeState state = StandingState(tree);
+  state.root_position = {1, 2, 3};
+  EXPECT_EQ(ComputeFrames(tree, state).joints[0].position, glm::dvec3(1, 2, 3));
+}
+
 // Every limb's Z axis runs from its role to the next one's, in any pose.
 TEST(BodyTree, LimbsRunFromRoleToRole) {
   const KinematicTree tree = MakeBodyTree({});

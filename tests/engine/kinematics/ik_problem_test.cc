@@ -101,6 +101,26 @@ TEST(WorstError, IsOfTheWorstSingleAxisNotOfTheMeanOfThree) {
   EXPECT_TRUE(FindWorst(errors, problem.targets).Within({}));
 }
 
+TEST(EffectorError, IsTheMeanOfTheAxesThatCount) {
+  const EffectorError error{.position = 0, .axis_angles = {1, 2, 6}};
+  EXPECT_EQ(error.MeanAxisAngle(glm::dvec3(1)), 3);
+  EXPECT_EQ(error.MeanAxisAngle({5, 0, 0}), 1);
+  EXPECT_EQ(error.MeanAxisAngle({0, 0.1, 0}), 2);
+  EXPECT_EQ(error.MeanAxisAngle({0, 1, 1}), 4);
+  EXPECT_EQ(error.MeanAxisAngle(glm::dvec3(0)), 0);
+}
+
+TEST(WorstError, MayBeOfAnyEffector) {
+  IkProblem problem = PositionsOf({kEndRightFoot, kEndLeftHand, kEndRightHand, kEndHead});
+  for (EffectorTarget& target : problem.targets) target.axis_weights = glm::dvec3(1);
+  for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+    std::vector<EffectorError> errors(problem.targets.size(), {0.01, glm::dvec3(0.02)});
+    errors[e] = {0.03, {0.02, 0.02, 0.05}};
+    EXPECT_EQ(FindWorst(errors, problem.targets).position, 0.03) << e;
+    EXPECT_EQ(FindWorst(errors, problem.targets).axis, 0.05) << e;
+  }
+}
+
 TEST(Faults, AreAxesThatAreNoRotation) {
   const IkProblem sound = PositionsOf({kEndRightFoot});
   EXPECT_EQ(FindFault(Body(), sound, {}), "");

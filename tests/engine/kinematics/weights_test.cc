@@ -25,7 +25,9 @@ TEST(Weights, AdaptiveOnesFollowEveryErrorByItself) {
   const EffectorWeights plain = Weights(WeightRule::kAdaptive);
   EXPECT_DOUBLE_EQ(plain.position, 4 * kPerCm2);
   EXPECT_NEAR(glm::length(plain.axes - glm::dvec3(10, 20, 0)), 0, 1e-12);
-  EXPECT_DOUBLE_EQ(Weights(WeightRule::kAdaptiveTuned).position, 0.012 * kPerCm2);
+  const EffectorWeights tuned = Weights(WeightRule::kAdaptiveTuned);
+  EXPECT_DOUBLE_EQ(tuned.position, 0.012 * kPerCm2);
+  EXPECT_EQ(tuned.axes, plain.axes) << "only the position is tuned";
   const EffectorWeights power = Weights(WeightRule::kAdaptivePower);
   EXPECT_NEAR(power.position, 5e-5 * 2.8284271247461903 * kPerCm2, 1e-12) << "4^0.75 = √8";
   EXPECT_NEAR(power.axes.x, std::pow(0.17453292519943295, 0.75), 1e-12);

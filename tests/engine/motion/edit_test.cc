@@ -223,6 +223,24 @@ TEST(WithoutScales, StandsJointsThatAreFlattenedOrMirrored) {
   }
 }
 
+TEST(WithoutScales, StandsJointsWhoseOneAxisIsLongBeyondMeasure) {
+  // A joint turned under a stretched one, and stretched itself: its axes are sheared.
+  Clip clip = Turning(glm::normalize(glm::dvec3(1, 2, 3)), 20, 2, 20);
+  clip.skeleton.joints.push_back({.name = "child", .parent = 0, .rest = {}});
+  const glm::dquat own = glm::angleAxis(1.0, glm::normalize(glm::dvec3(2, -1, 1)));
+  const auto turn_of_child = [&](int axis, double stretch) {
+    LocalTransform above{.scale = {3, 1, 1}}, child{.rotation = own};
+    child.scale[axis] = stretch;
+    clip.frames = {{above, child}};
+    const Clip unscaled = WithoutScales(clip);
+    return glm::length(unscaled.frames[0][1].rotation - own);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_LT(turn_of_child(axis, 1e6), 1e-12) << "flat for all that its inverse says: keeps the rotation of its own";
+    EXPECT_GT(turn_of_child(axis, 1e3), 0.05) << "the control: takes the rotation nearest to its axes";
+  }
+}
+
 TEST(WithoutScales, LeavesAClipWithoutAnyAsItIs) {
   const Clip clip = RandomClip(11, {.rest_rotations = true, .moving_offsets = true});
   EXPECT_EQ(WithoutScales(clip).frames, clip.frames);

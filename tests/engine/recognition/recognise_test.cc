@@ -174,6 +174,7 @@ TEST(Recognise, RefusesWhatItCannotJudgeAndSaysWhatIsAllowed) {
   EXPECT_EQ(complaint(asked, exact, {}), "a target of move 'raise' has no tolerance above 0");
   EXPECT_EQ(complaint(asked, raise, {.threshold = 0}), "threshold 0; allowed: above 0, up to 1");
   EXPECT_EQ(complaint(asked, raise, {.threshold = 1.1}), "threshold 1.1; allowed: above 0, up to 1");
+  EXPECT_EQ(complaint(asked, raise, {.threshold = 1}), "no complaint") << "the whole match is a threshold, too";
   EXPECT_EQ(complaint(asked, raise, {.hold_frames = 0}), "hold_frames 0; allowed: 1 or more");
 }
 

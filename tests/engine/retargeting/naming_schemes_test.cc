@@ -337,6 +337,19 @@ TEST(JointNames, TellAWordFromAPartOfAWord) {
   EXPECT_THAT(JointsOf(JointNames(skeleton).Find("arm", Side::kRight)), IsEmpty());
 }
 
+TEST(JointNames, TakeEveryDigitForOne) {
+  for (const char digit : std::string("0123456789")) {
+    Skeleton skeleton;
+    for (const std::string& name : {std::string("Spine") + digit, std::string("LeftArm") + digit + "Twist"}) {
+      skeleton.joints.push_back({.name = name, .parent = -1, .rest = {}});
+    }
+    const JointNames names(skeleton);
+    EXPECT_THAT(JointsOf(names.Find(std::string("spine") + digit)), ElementsAre(0));
+    EXPECT_THAT(JointsOf(names.Find("spine")), ElementsAre(0)) << "a number at the end may be left out";
+    EXPECT_THAT(JointsOf(names.Find(std::string("arm") + digit + "twist", Side::kLeft)), ElementsAre(1));
+  }
+}
+
 TEST(JointNames, GiveThePrefixWithoutItsNumbers) {
   Skeleton skeleton;
   for (const char* name : {"Bip01 L Thigh", "rig|mixamorig:LeftThigh", "l_thigh_jnt"})

@@ -111,6 +111,13 @@ TEST(GltfAnimation, TurnsLinearRotationsAtConstantSpeedTheShortWay) {
   }
 }
 
+TEST(GltfAnimation, KeepsTheThreeAxesOfAScaleApart) {
+  const auto frames = Frames(OnlyClip(Animated({{"scale", "LINEAR", {0, 1}, {1, 2, 4, 3, 5, 0.5f}}})));
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0].scale, glm::dvec3(1, 2, 4));
+  EXPECT_EQ(frames[1].scale, glm::dvec3(3, 5, 0.5));
+}
+
 TEST(GltfAnimation, HoldsStepsUntilTheNextKey) {
   const Clip clip = OnlyClip(Animated({{"scale", "STEP", {0, 0.5f, 1}, {1, 1, 1, 2, 2, 2, 3, 3, 3}}}));
   EXPECT_EQ(clip.rate_hz, 60);

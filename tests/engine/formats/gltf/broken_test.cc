@@ -46,7 +46,7 @@ constexpr BrokenText kBrokenTexts[] = {
     {"child twice", R"("children":[1])", R"("children":[1,1])", "nodes[0].children[1]: found node 1, a child of node 0 already"},
     {"translation of two numbers", "[0,0.5,0]", "[0,0.5]", "nodes[1].translation: found 2 numbers; allowed: 3"},
     {"translation beyond sense", "[0,0.5,0]", "[0,1e10,0]", "nodes[1].translation: found 10000000000; allowed: numbers within ±1e+09"},
-    {"beyond any double", "[0,0.5,0]", "[0,1e999,0]", "not glTF 2.0: "},
+    {"beyond any double", "[0,0.5,0]", "[0,1e999,0]", "number overflow parsing '1e999'"},
     {"rotation of length 0", R"("translation":[0,0.5,0])", R"("rotation":[0,0,0,0])", "nodes[1].rotation: found a quaternion of length 0; allowed: unit quaternions"},
     {"matrix of 15 numbers", R"("translation":[0,0.5,0])", R"("matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0])", "nodes[1].matrix: found 15 numbers; allowed: 16"},
     {"sheared matrix", R"("translation":[0,0.5,0])", R"("matrix":[1,0,0,0,0.5,1,0,0,0,0,1,0,0,0,0,1])", "nodes[1].matrix: shears; allowed: translation, rotation, scale"},
@@ -118,6 +118,11 @@ TEST(BrokenGltf, IsRefusedNamingThePlaceAndWhatIsAllowed) {
   }
 }
 
+TEST(BrokenGltf, ThatIsNoJsonIsRefusedWithItsLineAndColumnAndTheParsersWords) {
+  EXPECT_THAT(Complaint("{\"asset\":\n  {\"version\": x}}"),
+              StartsWith("test.glb:2:15: not glTF 2.0: syntax error while parsing value"));
+}
+
 TEST(BrokenGltf, IsRefusedForItsNumbers) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -146,6 +151,28 @@ TEST(BrokenGltf, IsRefusedForItsNumbers) {
     binary.replace(part, bytes.size(), bytes);
     EXPECT_THAT(Complaint(Glb(std::string(kSmallGltf), binary)), HasSubstr(complaint));
   }
+}
+
+TEST(BrokenGltf, MayHaveBindMatricesThatAreAffineButForAThousandth) {
+  for (const std::size_t entry : {3u, 7u, 11u, 15u}) {
+    for (const float off : {0.0009f, -0.0009f, 0.0011f, -0.0011f}) {
+      std::string binary = SmallBinary();
+      binary.replace(testing::kBind + 4 * entry, 4, Floats({(entry == 15 ? 1 : 0) + off}));
+      EXPECT_THAT(
+          Complaint(Glb(std::string(kSmallGltf), binary)),
+          HasSubstr(std::abs(off) < 0.001f ? "read without complaint" : "inverseBindMatrices[0]: found a projection"))
+          << entry;
+    }
+  }
+}
+
+TEST(BrokenGltf, MayLackWhatTheFormatLeavesOpen) {
+  // Bones without bind matrices, and a channel that drives no node: tinygltf mentions each of them.
+  const std::string no_binds = Replaced(kSmallGltf, R"(,"inverseBindMatrices":4)", "");
+  EXPECT_EQ(Complaint(Glb(no_binds, SmallBinary())), "read without complaint");
+  const std::string twice =
+      Replaced(no_binds, R"("skins":[{"joints":[0,1]}])", R"("skins":[{"joints":[0,1]},{"joints":[0]}])");
+  EXPECT_EQ(Complaint(Glb(twice, SmallBinary())), "read without complaint");
 }
 
 TEST(BrokenGltf, IsRefusedForUrisThatLeaveItsFolder) {

@@ -60,6 +60,25 @@ TEST(GltfNodes, OutsideTheSceneAreKeptWhenTheyAreAnimatedOrBones) {
   EXPECT_EQ(content.character.meshes.size(), 1u);
 }
 
+TEST(GltfNodes, OutsideTheSceneAreKeptWithTheirAncestorsWhereEitherAloneNeedsThem) {
+  std::string json(testing::kSmallGltf);
+  const auto cut = [&](const std::string& from, std::size_t bytes, const std::string& to) {
+    ASSERT_NE(json.find(from), std::string::npos) << from;
+    json.replace(json.find(from), bytes, to);
+  };
+  cut(R"("nodes":[0,2])", 13, R"("nodes":[2])");
+  const std::string with_skin = json;
+  cut(R"(,"mesh":0,"skin":0)", 18, "");
+  cut(R"("skins":)", json.find(R"("meshes":)") - json.find(R"("skins":)"), "");
+  EXPECT_THAT(Names(Read(Glb(json, testing::SmallBinary())).character.skeleton), ElementsAre("Hips", "Spine", "Body"));
+  cut(R"("animations":)", json.find(R"("accessors":)") - json.find(R"("animations":)"), "");
+  EXPECT_THAT(Names(Read(Glb(json, testing::SmallBinary())).character.skeleton), ElementsAre("Body"));
+  json = with_skin;
+  cut(R"("animations":)", json.find(R"("accessors":)") - json.find(R"("animations":)"), "");
+  EXPECT_THAT(Names(Read(Glb(json, testing::SmallBinary())).character.skeleton), ElementsAre("Hips", "Spine"))
+      << "bones that nothing moves";
+}
+
 TEST(GltfNodes, ThatOnlyHoldASkinnedMeshAreNoJoints) {
   EXPECT_THAT(Names(Read(testing::SmallGlb()).character.skeleton), ElementsAre("Hips", "Spine"));
 }

@@ -157,6 +157,34 @@ TEST(GltfRoundTrip, KeepsASkeletonAlone) {
   ExpectSame(Read(WriteGlb(bones, {})), bones, {}, kFloat);
 }
 
+TEST(GltfRoundTrip, BindsMeshesOfOneBindingByOneSkin) {
+  const auto skins = [](const Character& character) {
+    const std::string bytes = WriteGlb(character, {});
+    int count = 0;
+    for (std::size_t at = 0; (at = bytes.find("inverseBindMatrices", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  Character person = Dressed();
+  SkinnedMesh cape = person.meshes[0], scarf = cape;
+  cape.name = "cape";
+  scarf.name = "scarf";
+  person.meshes = {person.meshes[0], cape};
+  EXPECT_EQ(skins(person), 1);
+  ExpectSame(Read(WriteGlb(person, {})), person, {}, kFloat);
+  scarf.bindings[1].inverse_bind[3].y += 0.5;
+  person.meshes = {person.meshes[0], scarf, cape};
+  EXPECT_EQ(skins(person), 2) << "the control";
+  ExpectSame(Read(WriteGlb(person, {})), person, {}, kFloat);
+}
+
+TEST(GltfRoundTrip, WritesMaterialsThatAreNoMetal) {
+  const Character person = Dressed();
+  const std::string bytes = WriteGlb(person, {});
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = bytes.find(R"("metallicFactor":0.0)", at)) != std::string::npos; ++at) ++count;
+  EXPECT_EQ(count, person.materials.size()) << "the format's default is bare metal";
+}
+
 TEST(GltfRoundTrip, KeepsAClipInWhichNothingMoves) {
   const Character person = Dressed();
   Clip still = testing::AtRest(person.skeleton, 41, 20);

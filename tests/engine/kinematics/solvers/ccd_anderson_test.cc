@@ -110,5 +110,25 @@ TEST(CcdAnderson, TurnsAFreeAngleByHalfATurn) {
   }
 }
 
+TEST(CcdAnderson, IsPlainSweepsAsLongAsAnAngleIsAtThePole) {
+  const int neck_twist = Body().joints[kTreeNeck].first_dof + 2;
+  for (const WeightRule rule : {WeightRule::kFixedTuned, WeightRule::kWangChen}) {
+    IkOptions options = Options(rule);
+    options.limits = false;
+    options.position_goal = options.axis_goal = options.stall_change = 0;
+    IkProblem problem = Problem(0, 0.2);
+    problem.start.angles[neck_twist] += kPi;
+    for (options.max_iterations = 1; options.max_iterations <= 4; ++options.max_iterations) {
+      const IkSolution ours = SolveCcdAnderson(Body(), problem, options);
+      const IkSolution plain = SolveCcdHinges(Body(), problem, options);
+      ASSERT_GT(std::abs(ours.angles[neck_twist] - problem.start.angles[neck_twist]), kPi - 0.019) << "the pole";
+      for (std::size_t d = 0; d < plain.angles.size(); ++d) EXPECT_NEAR(ours.angles[d], plain.angles[d], 1e-9);
+      for (std::size_t e = 0; e < plain.errors.size(); ++e) {
+        EXPECT_NEAR(ours.errors[e].position, plain.errors[e].position, 1e-9);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace etude

@@ -161,6 +161,26 @@ TEST(Ccd, RefreshingFixedWeightsChangesNoBit) {
   }
 }
 
+// Where every joint is a hinge, anew for each degree of freedom is anew for each joint.
+TEST(Ccd, RefreshingPerHingeIsRefreshingPerJointOnAChainOfHinges) {
+  const KinematicTree arm = Arm({0.5, 0.4, 0.3}, 1);
+  const IkProblem problem = Reach(arm, {0.3, 0.2, -0.4}, {0, 0.5, 1.2});
+  for (const auto& solve : {SolveCcd, SolveCcdHinges}) {
+    const auto angles = [&](WeightRefresh refresh) {
+      IkProblem turned = problem;  // with axes, or weights would scale the gain and move no optimum
+      turned.targets[0].axis_weights = glm::dvec3(1);
+      turned.targets[0].axes = RotationXyz({0.8, 0, 0}) * arm.standing_root;
+      IkOptions options;
+      options.weights = WeightRule::kAdaptive;
+      options.max_iterations = 4;
+      options.refresh = refresh;
+      return solve(arm, turned, options).angles;
+    };
+    EXPECT_EQ(angles(WeightRefresh::kDof), angles(WeightRefresh::kJoint));
+    EXPECT_NE(angles(WeightRefresh::kSweep), angles(WeightRefresh::kJoint)) << "else nothing is refreshed";
+  }
+}
+
 TEST(Ccd, TheOrderInWhichEffectorsAreListedDoesNotMatter) {
   KinematicTree tree = MakeBodyTree({});
   IkProblem problem = DisturbedProblem(tree, RandomPose(tree, 5, 0.5), 5, 15);

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "tests/engine/kinematics/posed_tree.h"
+#include "tests/engine/kinematics/solvers/arms.h"
 
 namespace etude {
 namespace {
@@ -55,6 +59,50 @@ TEST(CeresLm, ConvergesInFewStepsWhateverTheWeights) {
   }
 }
 
+/// The residuals of one whole frame: the gap in units of 0.30 m, and twice √2 the vector part of the quaternion between
+/// the axes.
+Eigen::VectorXd ResidualsOfFrame(const KinematicTree& arm, const IkProblem& problem, const Eigen::VectorXd& angles) {
+  TreeState state = problem.start;
+  state.angles.assign(angles.begin(), angles.end());
+  const LimbFrame tip = ComputeFrames(arm, state).effectors[0];
+  const EffectorTarget& target = problem.targets[0];
+  const glm::dvec3 gap = std::sqrt(target.position_weight) / 0.30 * (tip.position - target.position);
+  glm::dquat turn = glm::quat_cast(target.axes * glm::transpose(tip.axes));
+  if (turn.w < 0) turn = -turn;
+  const double scale = -2 * std::sqrt(2 * target.axis_weights.x);
+  return Eigen::VectorXd{{gap.x, gap.y, gap.z, scale * turn.x, scale * turn.y, scale * turn.z}};
+}
+
+// Second implementation: the Jacobian by differences, and a dense solution of (JᵀJ + 1/radius) step = −Jᵀr. Far from
+// the target, where all terms of the derivative count.
+TEST(CeresLm, BeginsWithTheStepOfTheDampedNormalEquations) {
+  const KinematicTree arm = Arm({0.5, 0.4}, 3);
+  IkOptions options;
+  options.limits = false;
+  options.max_iterations = 1;
+  for (const double radius : {0.05, 1.0, 20.0}) {
+    IkProblem problem = Reach(arm, {0.3, -0.2, 0.1, 0.4, 0.2, -0.3}, {0.2, -0.4, 1.5});
+    problem.targets[0].position_weight = 0.3;
+    problem.targets[0].axis_weights = glm::dvec3(1.5);
+    problem.targets[0].axes =
+        glm::mat3_cast(glm::angleAxis(1.2, glm::normalize(glm::dvec3(1, -2, 0.5)))) * arm.standing_root;
+    const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(problem.start.angles.data(), 6);
+    const Eigen::VectorXd residuals = ResidualsOfFrame(arm, problem, start);
+    Eigen::MatrixXd jacobian(6, 6);
+    constexpr double kStep = 1e-6;
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::VectorXd by = kStep * Eigen::VectorXd::Unit(6, i);
+      jacobian.col(i) =
+          (ResidualsOfFrame(arm, problem, start + by) - ResidualsOfFrame(arm, problem, start - by)) / (2 * kStep);
+    }
+    const Eigen::MatrixXd normal = jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(6, 6) / radius;
+    const Eigen::VectorXd step = normal.ldlt().solve(-jacobian.transpose() * residuals);
+    ASSERT_LT(ResidualsOfFrame(arm, problem, start + step).norm(), residuals.norm()) << "else the step is not taken";
+    const IkSolution solution = SolveCeresLm(arm, problem, options, {.first_radius = radius});
+    for (int i = 0; i < 6; ++i) EXPECT_NEAR(solution.angles[i], start[i] + step[i], 1e-6) << radius;
+  }
+}
+
 TEST(CeresLm, FindsTheMinimumThatDampedLeastSquaresFindsWhereTargetsContradict) {
   for (const glm::dvec3& weights : {glm::dvec3(1), glm::dvec3(0, 0, 1), glm::dvec3(1, 2, 3)}) {
     IkProblem problem = PosedProblem(1, 3);
@@ -69,6 +117,26 @@ TEST(CeresLm, FindsTheMinimumThatDampedLeastSquaresFindsWhereTargetsContradict) 
     EXPECT_GT(found, 1e-3) << "contradictions leave something";
     EXPECT_NEAR(found, ours, 1e-3 * ours);
   }
+}
+
+TEST(CeresLm, TakesAllItsIterationsWhenItNeedsThemAndNoMore) {
+  IkOptions patient, hasty;
+  patient.position_goal = hasty.position_goal = patient.axis_goal = hasty.axis_goal = 1e-12;
+  patient.stall_change = hasty.stall_change = 0;
+  patient.max_iterations = 1000;
+  hasty.max_iterations = 100;
+  int cut_short = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 30);
+    const IkSolution solved = SolveCeresLm(Body(), problem, patient), stopped = SolveCeresLm(Body(), problem, hasty);
+    EXPECT_EQ(solved.status, IkStatus::kConverged) << trial;
+    EXPECT_EQ(stopped.iterations, std::min(solved.iterations, 100)) << trial;
+    if (solved.iterations <= 100) continue;
+    EXPECT_EQ(stopped.status, IkStatus::kIterationLimit) << trial;
+    EXPECT_GT(Sum(problem, stopped.angles), Sum(problem, solved.angles)) << trial;
+    ++cut_short;
+  }
+  EXPECT_GE(cut_short, 4) << "6 of 8";
 }
 
 TEST(CeresLm, LeavesAnglesThatCannotMove) {

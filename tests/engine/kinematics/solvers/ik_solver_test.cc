@@ -268,5 +268,38 @@ TEST(Solvers, TakeTheirSettingsInTheOrderInWhichTheyAreDescribed) {
   EXPECT_EQ(settings, 9);
 }
 
+// What the documentation of scenarios promises: these values are taken, and none beyond.
+TEST(Solvers, TakeSettingsInTheRangesThatAreDocumented) {
+  struct Range {
+    std::string solver, key;
+    double lowest, largest;
+    bool is_whole = false;
+  };
+  const std::vector<Range> documented = {
+      {"ccd-anderson", "memory", 1, 20, true},
+      {"gauss-newton", "first_sweeps", 0, 100, true},
+      {"levenberg-marquardt", "damping_share", 0.000001, 1000},
+      {"ceres-lm", "first_radius", 0.000001, 1'000'000'000'000},
+      {"damped-least-squares", "damping", 0.000000001, 1'000'000},
+      {"damped-least-squares-active-set", "damping", 0.000000001, 1'000'000},
+      {"jacobian-pinv", "pinv_damping", 0, 100},
+      {"jacobian-pinv-active-set", "pinv_damping", 0, 100},
+      {"jacobian-transpose", "gain", 0.01, 2},
+  };
+  std::size_t found = 0;
+  for (const IkSolver& solver : AllIkSolvers()) {
+    for (const NumberSetting& setting : solver.settings) {
+      ASSERT_LT(found, documented.size());
+      const Range& range = documented[found++];
+      EXPECT_EQ(solver.name, range.solver);
+      EXPECT_EQ(setting.key, range.key) << solver.name;
+      EXPECT_EQ(setting.lowest, range.lowest) << solver.name;
+      EXPECT_EQ(setting.largest, range.largest) << solver.name;
+      EXPECT_EQ(setting.is_whole, range.is_whole) << solver.name;
+    }
+  }
+  EXPECT_EQ(found, documented.size());
+}
+
 }  // namespace
 }  // namespace etude

@@ -83,10 +83,12 @@ TEST(AbruptChoices, GoToTheFirstFrameNowOrAtTheEnd) {
   EXPECT_EQ(now.segments[1].first, 0);
   EXPECT_EQ(now.wait_s, 0);
   EXPECT_NEAR(now.distances[0].value, 2 - 0.85, 1e-12);
+  EXPECT_EQ(now.why, "at once into the first frame, whatever the poses; d = 1.15");
 
   const TransitionRecord end = Plan("wait-for-end", {.from = 2, .request_frame = 8, .to = 1});
   EXPECT_EQ(end.segments[0].last, 20);
   EXPECT_NEAR(end.wait_s, 12 / 30.0, 1e-12);
+  EXPECT_EQ(end.why, "the playing clip ended, after 0.40 s; d = 0.05 to the first frame");
 }
 
 }  // namespace

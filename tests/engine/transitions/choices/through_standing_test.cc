@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine/fuzzy/features.h"
 #include "engine/transitions/base/alignment.h"
 #include "engine/transitions/choices/unbroken.h"
@@ -27,6 +29,20 @@ TEST(StandingPose, StandsUprightOnTheFloorWithHangingArms) {
   EXPECT_NEAR(Heading(pose), 0, 1e-12);
   for (const Bone& bone : AllBones()) {
     EXPECT_NEAR(BoneLength(pose, bone), proportions.limb_lengths[Index(bone.child)], 1e-12) << RoleName(bone.child);
+  }
+}
+
+TEST(StandingPose, PutsTheToesOnTheFloorStraightAhead) {
+  BodyProportions proportions = Waving().proportions;
+  for (const Role foot : {Role::kLeftFoot, Role::kRightFoot}) proportions.limb_lengths[Index(foot)] = 0.2;
+  const BodyPose pose = StandingPose(proportions);
+  for (const auto& [foot, ankle] :
+       {std::pair{Role::kLeftFoot, Role::kLeftAnkle}, {Role::kRightFoot, Role::kRightAnkle}}) {
+    const double height = pose[ankle].y;
+    ASSERT_TRUE(height > 0.05 && height < 0.1) << height;
+    EXPECT_NEAR(pose[foot].y, 0, 1e-12);
+    EXPECT_NEAR(pose[foot].x, pose[ankle].x, 1e-12);
+    EXPECT_NEAR(pose[foot].z - pose[ankle].z, std::sqrt(0.2 * 0.2 - height * height), 1e-12);
   }
 }
 

@@ -44,6 +44,15 @@ TEST(Tween, BeginsAndEndsInItsPoses) {
   EXPECT_NEAR(Heading(tween.At(1)), Heading(ArmsAt(20)), 1e-9) << "the second pose is turned to the first";
 }
 
+TEST(Tween, BeginsInATurnedAndBentPose) {
+  PosedBody twisted;
+  twisted.twist = 0.5;
+  const BodyPose from = FloorMove{.yaw = -2.1, .x = 1, .z = 4}.Apply(twisted.Pose());
+  const Tween tween(from, ArmsAt(80));
+  for (Role role : AllRoles()) EXPECT_NEAR(glm::distance(tween.At(0)[role], from[role]), 0, 1e-12) << RoleName(role);
+  EXPECT_NEAR(PoseGap(tween.At(1), ArmsAt(80)), 0, 1e-9);
+}
+
 TEST(Tween, TurnsAnArmAlongItsArc) {
   const BodyPose middle = Tween(ArmsAt(10), ArmsAt(90)).At(0.5);
   EXPECT_NEAR(PoseGap(middle, ArmsAt(50)), 0, 1e-9) << "halfway between 10 and 90 degrees";
@@ -58,6 +67,16 @@ TEST(Tween, KeepsLimbsTheFootAndTheFloor) {
     for (const Bone& bone : AllBones()) EXPECT_NEAR(BoneLength(pose, bone), BoneLength(from, bone), 1e-12);
     EXPECT_GE(Lowest(pose), lowest - 1e-12);
     EXPECT_NEAR(glm::distance(pose[Role::kRightAnkle], from[Role::kRightAnkle]), 0, 1e-9) << "the standing leg";
+  }
+}
+
+TEST(Tween, RisesFromTheFloorInProportion) {
+  const BodyPose standing = ArmsAt(20);
+  BodyPose jumping = ArmsAt(60);
+  for (glm::dvec3& joint : jumping.joints) joint.y += 0.3;
+  const Tween tween(standing, jumping);
+  for (double part : {0.0, 0.25, 0.5, 1.0}) {
+    EXPECT_NEAR(Lowest(tween.At(part)), Lowest(standing) + 0.3 * part, 1e-12) << part;
   }
 }
 

@@ -48,6 +48,33 @@ TEST(Inertialise, StartsInTheShownPoseWithTheShownSpeed) {
   EXPECT_NEAR(SpeedAtStart(QuinticLaw(), 0.3, 0.5), 0, 1e-3) << "the quintic does not";
 }
 
+/// How fast an arm's elbow, seen 1/30 s before the transition point and at it raised by so many degrees sideways over a
+/// new motion in which it hangs still, goes on, degrees per second. A limb's turn is its rotation vector.
+double SpeedOfElbow(double before, double now) {
+  const auto raised = [](double degrees) {
+    PosedBody body;
+    body.left_arm.upper = body.left_arm.lower = PosedBody::Raised(degrees, {1, 0, 0});
+    return body.Pose();
+  };
+  const BodyPose hanging = raised(0);
+  const Inertialiser offsets({.shown = {raised(before), raised(now)}, .target = {hanging, hanging}, .continuation = {}},
+                             SpringLaw());
+  constexpr double kStep = 1e-6;
+  const auto angle = [&](double seconds) {
+    const BodyPose pose = offsets.Apply(hanging, seconds);
+    const glm::dvec3 arm = pose[Role::kLeftElbow] - pose[Role::kLeftShoulder];
+    return Degrees(std::atan2(arm.x, -arm.y));
+  };
+  return (angle(kStep) - angle(0)) / kStep;
+}
+
+TEST(Inertialise, GoesOnAtTheSpeedOfEveryLimbButOneThatChangesOverAtHalfATurn) {
+  EXPECT_NEAR(SpeedOfElbow(30, 40), 10 * kJudgedRateHz, 0.1);
+  EXPECT_NEAR(SpeedOfElbow(15, 100), 85 * kJudgedRateHz, 1) << "fast, and far off: no change of sign";
+  EXPECT_NEAR(SpeedOfElbow(-10, 40), 50 * kJudgedRateHz, 0.1) << "to the other side, but near: no artefact either";
+  EXPECT_NEAR(SpeedOfElbow(-178, 178), 0, 0.1) << "by 4 degrees or by -356: no speed to rely on";
+}
+
 TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
   const DecayLaw law = QuinticLaw({.blend_s = 0.4});
   constexpr double kStep = 1e-4;
@@ -55,6 +82,15 @@ TEST(QuinticDecay, ComesToRestAtZeroWhenTheBlendEnds) {
   // A root of third order: speed and acceleration are zero, too.
   EXPECT_NEAR(Left(law, 0.3, -0.2, 0.4 - kStep), 0, 1e-9);
   EXPECT_GT(Left(law, 0.3, -0.2, 0.35), 0);
+}
+
+// Bollo's choice: five halves of the time in which a parabola from x0 with slope v0 would come to rest, 2 x0 / −v0.
+TEST(QuinticDecay, TakesFiveHalvesOfAParabolasTimeWhereThatIsShorterThanTheBlend) {
+  const DecayLaw law = QuinticLaw({.blend_s = 0.4});
+  constexpr double kEnd = 5 * 0.3 / 6;
+  EXPECT_EQ(Left(law, 0.3, -6, kEnd), 0);
+  EXPECT_GT(Left(law, 0.3, -6, 0.95 * kEnd), 0);
+  EXPECT_GT(Left(law, 0.3, -6, 0.5 * kEnd), 1e-3);
 }
 
 TEST(QuinticDecay, NeverOvershootsNorGrows) {

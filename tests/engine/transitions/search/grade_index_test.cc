@@ -93,6 +93,24 @@ TEST(GradeIndex, TakesTheLowestOfEqualFrames) {
             static_cast<int>(std::ranges::find(frames, frames[700]) - frames.begin()));
 }
 
+TEST(GradeIndex, DoesNoWorkForAThresholdThatNoDistanceIsBelow) {
+  RandomStream dice = SearchDice("nothing");
+  const std::vector<Grades> frames = WanderingFrames(100, dice);
+  const GradeIndex index(frames, PaperWeights());
+  for (double threshold : {0.0, -1.0, -kInfinity, std::numeric_limits<double>::quiet_NaN()}) {
+    SearchWork work;
+    EXPECT_FALSE(index.First(frames[0], threshold, &work));
+    EXPECT_TRUE(index.Within(frames[0], threshold, &work).empty());
+    EXPECT_EQ(work.distances + work.boxes, 0) << threshold;
+  }
+  SearchWork work;
+  EXPECT_TRUE(index.First(frames[0], 1e-9, &work)) << "the control";
+  EXPECT_GT(work.distances, 0);
+  const GradeIndex empty({}, PaperWeights());
+  EXPECT_FALSE(empty.First(frames[0], 1));
+  EXPECT_TRUE(empty.Within(frames[0], 1).empty());
+}
+
 TEST(GradeIndex, LeavesOutAFrameThatIsExactlyAtTheThreshold) {
   // More frames than the head has, which is searched apart from the tree.
   RandomStream dice = SearchDice("threshold");

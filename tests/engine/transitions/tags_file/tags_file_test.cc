@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/transitions/bridge_frames/bridge_frames.h"
+#include "engine/transitions/in_betweens/in_between_net.h"
 #include "engine/transitions/tags_file/compare_tags.h"
 #include "tests/engine/transitions/test_clips.h"
 
@@ -78,6 +80,7 @@ TEST(TagsFile, RefusesHostileInput) {
       "<!ENTITY n \"&m;&m;&m;&m;&m;&m;&m;&m;\">]>\n<bridge-tags>&n;</bridge-tags>";
   EXPECT_THAT(Complaint(bomb).message, HasSubstr("document type declaration"));
   EXPECT_EQ(Complaint(bomb).place.line, 2);
+  EXPECT_EQ(Complaint(bomb).place.column, 0) << "not known";
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "<a>";
   const std::string inputs[] = {
@@ -121,6 +124,32 @@ TEST(TagsFile, IsRefusedBeforeItTakesMinutes) {
   EXPECT_THAT(error.message, HasSubstr("bytes without a new tag"));
   EXPECT_EQ(error.place.line, 2);
   EXPECT_THAT(Complaint(" \n").message, HasSubstr("is empty"));
+  EXPECT_EQ(ToString(Complaint(" \n").place), "tags.xml") << "nothing has no line";
+}
+
+TEST(TagsFile, GivesLibxml2sWordsUpTo500Bytes) {
+  // The value found is part of the complaint: a letter more makes it longer by one.
+  const std::string text = SomeText();
+  const auto complaint = [&](std::size_t letters) {
+    return Complaint(With(text, "RH=\"mid\"", "RH=\"" + std::string(letters, 'x') + "\"")).message;
+  };
+  const std::size_t others = complaint(100).size() - 100;
+  ASSERT_LT(others, 400u);
+  const std::string longest = complaint(500 - others);
+  EXPECT_EQ(longest.size(), 500u);
+  EXPECT_FALSE(longest.ends_with("…"));
+  for (std::size_t more : {1u, 100u}) {
+    const std::string cut = complaint(500 - others + more);
+    EXPECT_EQ(cut.size(), 500 + std::string("…").size());
+    EXPECT_TRUE(cut.ends_with("…"));
+  }
+}
+
+TEST(TagsFile, SaysThatNothingWasSetButTheRulesDefaults) {
+  const BridgeTags tags;
+  EXPECT_EQ(tags.min_clips, TagRules{}.min_clips);
+  EXPECT_EQ(tags.most_per_class, TagRules{}.most_per_class);
+  EXPECT_EQ(tags.threshold, InBetweenRules{}.threshold);
 }
 
 TEST(TagsFile, MayHoldTheLongestNames) {
