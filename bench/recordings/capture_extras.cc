@@ -21,18 +21,21 @@ Json ToJson(const CaptureExtras::View& view) {
   Json masks = Json::array();
   for (const Mask& mask : view.masks) masks.push_back(EncodeMask(mask));
   const glm::dvec3& p = view.truth.p_WC;
-  return {{"width", in.width},
-          {"height", in.height},
-          {"fx", in.fx},
-          {"fy", in.fy},
-          {"cx", in.cx},
-          {"cy", in.cy},
-          {"skew", in.skew},
-          {"R_CW", std::move(rotation)},
-          {"p_WC", {p.x, p.y, p.z}},
-          {"mask_width", view.masks.empty() ? 0 : view.masks[0].width},
-          {"mask_height", view.masks.empty() ? 0 : view.masks[0].height},
-          {"masks", std::move(masks)}};
+  Json json = {{"width", in.width},
+               {"height", in.height},
+               {"fx", in.fx},
+               {"fy", in.fy},
+               {"cx", in.cx},
+               {"cy", in.cy},
+               {"skew", in.skew},
+               {"R_CW", std::move(rotation)},
+               {"p_WC", {p.x, p.y, p.z}},
+               {"mask_width", view.masks.empty() ? 0 : view.masks[0].width},
+               {"mask_height", view.masks.empty() ? 0 : view.masks[0].height},
+               {"masks", std::move(masks)}};
+  const Distortion& d = view.truth.distortion;
+  if (!d.IsNone()) json["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  return json;
 }
 
 Result<CaptureExtras::View> ToView(const Json& json) {
@@ -42,6 +45,10 @@ Result<CaptureExtras::View> ToView(const Json& json) {
         json.at("cx"),    json.at("cy"),     json.at("skew")};
   for (int i = 0; i < 9; ++i) view.truth.R_CW[i % 3][i / 3] = json.at("R_CW").at(i);
   for (int i = 0; i < 3; ++i) view.truth.p_WC[i] = json.at("p_WC").at(i);
+  if (json.contains("distortion")) {
+    const Json& d = json.at("distortion");
+    view.truth.distortion = {d.at(0), d.at(1), d.at(2), d.at(3), d.at(4)};
+  }
   const int width = json.at("mask_width"), height = json.at("mask_height");
   for (const Json& text : json.at("masks")) {
     ASSIGN_OR_RETURN(auto mask, DecodeMask(text.get_ref<const std::string&>(), width, height));

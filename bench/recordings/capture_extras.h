@@ -27,6 +27,7 @@ namespace etude {
 ///      "brightness": [1.0, 1.01, …],                       one per frame
 ///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
+///                   "distortion": [k1, k2, p1, p2, k3],        only of a lens that has one (OpenCV's)
 ///                   "mask_width": 320, "mask_height": 240,
 ///                   "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text

@@ -23,11 +23,10 @@ struct ProjectedJoints {
 };
 
 ProjectedJoints ProjectAll(const BodyPose& pose, const Camera& camera, const Box& panel) {
-  const ProjectionMatrix matrix = MatrixOf(camera);
   const glm::dvec2 scale{panel.width / camera.intrinsics.width, panel.height / camera.intrinsics.height};
   ProjectedJoints projected;
   for (const Role role : AllRoles()) {
-    const auto pixel = Project(matrix, pose[role]);
+    const auto pixel = Project(camera, pose[role]);
     // Far outside lies nothing to see, and cairo's fixed-point coordinates would overflow.
     if (!pixel || glm::length(*pixel) > 1e4) continue;
     projected.points[Index(role)] = glm::dvec2{panel.x, panel.y} + *pixel * scale;
@@ -56,12 +55,11 @@ void DrawSkeleton(Canvas& canvas, const ProjectedJoints& joints) {
 // The part of the pictures, in their own proportions, that holds the person in every frame with some air.
 Box CropAround(const BodyMotion& motion, const Camera& camera) {
   constexpr double kAirPixels = 45;
-  const ProjectionMatrix matrix = MatrixOf(camera);
   const glm::dvec2 size{camera.intrinsics.width, camera.intrinsics.height};
   glm::dvec2 low = size, high{0};
   for (const BodyPose& pose : motion.poses) {
     for (const glm::dvec3& joint : pose.joints) {
-      const auto pixel = Project(matrix, joint);
+      const auto pixel = Project(camera, joint);
       if (!pixel) continue;
       low = glm::min(low, *pixel - kAirPixels);
       high = glm::max(high, *pixel + kAirPixels);
@@ -112,7 +110,10 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   panel.recovered_ = *recovered;
   panel.extras_ = std::move(extras);
   panel.stage_ = StageOf(panel.extras_, panel.truth_);
-  for (const auto& view : panel.extras_.views) panel.crops_.push_back(CropAround(panel.truth_, view.truth));
+  for (const auto& view : panel.extras_.views) {
+    panel.crops_.push_back(CropAround(panel.truth_, view.truth));
+    panel.lenses_.emplace_back(view.truth);
+  }
   panel.method_ = cell.row->method;
   panel.clip_ = ClipInWords(cell.row->clip);
   panel.error_mm_ = ValueOf(*cell.row, "mpjpe_mm");
@@ -148,7 +149,8 @@ View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targe
                   .interior = stage_.interior()};
   std::vector<Figure> figures = stage_.MoversAt(seconds);
   figures.push_back(stage_.PerformerAt(truth_.poses[k], extras_.colours));
-  return renderer.Render(room, figures, extras_.views[camera].truth, targets);
+  const LensWarp& lens = lenses_[camera];
+  return lens.Warp(renderer.Render(room, figures, lens.pinhole(), targets));
 }
 
 void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {

@@ -7,6 +7,7 @@
 #include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
+#include "sim/camera/lens.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
 
@@ -40,6 +41,7 @@ class CapturePanel {
   BodyMotion truth_, recovered_;
   CaptureExtras extras_;
   Stage stage_;
+  std::vector<LensWarp> lenses_;   ///< one per camera
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
   std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve
   std::optional<double> error_mm_;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "engine/base/angles.h"
 
@@ -117,6 +118,34 @@ void LensWarp::Warp(const LabelImage& source, const RowRange& rows, LabelImage& 
 }
 void LensWarp::Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const {
   Nearest(source, rows, out);
+}
+
+View LensWarp::Warp(const View& pinhole) const {
+  if (is_none()) return pinhole;
+  const RowRange all{0, height_}, rows = SourceRows(all);
+  const auto rows_of = [&](const auto& picture) {
+    std::remove_cvref_t<decltype(picture)> part(picture.width, rows.end - rows.first);
+    std::copy_n(&picture.At(0, rows.first), part.pixels.size(), part.pixels.begin());
+    return part;
+  };
+  View view;
+  if (!pinhole.colour.pixels.empty()) {
+    const ColourImage colour = rows_of(pinhole.colour);
+    LightImage light(colour.width, colour.height), warped(width_, height_);
+    DecodeRow(colour.pixels.data(), static_cast<int>(colour.pixels.size()), light.pixels.data());
+    Warp(light, all, warped);
+    view.colour = ColourImage(width_, height_);
+    EncodeRow(warped.pixels.data(), width_ * height_, view.colour.pixels.data());
+  }
+  if (!pinhole.labels.pixels.empty()) {
+    view.labels = LabelImage(width_, height_);
+    Warp(rows_of(pinhole.labels), all, view.labels);
+  }
+  if (!pinhole.depth.pixels.empty()) {
+    view.depth = DepthImage(width_, height_);
+    Warp(rows_of(pinhole.depth), all, view.depth);
+  }
+  return view;
 }
 
 }  // namespace etude

@@ -36,6 +36,9 @@ class LensWarp {
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
 
+  /// A whole picture of the pinhole as the lens shows it. (Colour goes through light and back.)
+  View Warp(const View& pinhole) const;
+
  private:
   /// Where a pixel comes from: its upper left neighbour, and how far it is from there.
   struct Source {

@@ -121,7 +121,7 @@ MAY_INCLUDE = {
         "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
         "bench/files reports/films reports/words",
     "reports/films":
-        "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
+        "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/camera sim/character sim/render sim/sensors "
         "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",

@@ -30,6 +30,7 @@ CaptureExtras Sample() {
     in.fy = 601.5;
     extras.views.push_back({LookAt(in, {x, 1.4, 3}, {0, 1, 0}), {Pattern(32, 24, 1), Pattern(32, 24, 2)}});
   }
+  extras.views[1].truth.distortion = {.k1 = -0.2, .k2 = 0.03, .p1 = 0.001, .p2 = -0.002, .k3 = 0.01};
   extras.bvh = "HIERARCHY\n";
   return extras;
 }
@@ -48,6 +49,7 @@ TEST(CaptureExtras, SurviveWritingAndReading) {
     EXPECT_EQ(read->views[i].truth.R_CW, written.views[i].truth.R_CW);
     EXPECT_EQ(read->views[i].truth.p_WC, written.views[i].truth.p_WC);
     EXPECT_EQ(read->views[i].truth.intrinsics.fy, 601.5);
+    EXPECT_EQ(read->views[i].truth.distortion, written.views[i].truth.distortion);
     ASSERT_EQ(read->views[i].masks.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(read->views[i].masks[k].pixels, written.views[i].masks[k].pixels);
   }

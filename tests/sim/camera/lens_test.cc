@@ -342,5 +342,23 @@ TEST(Lens, WarpsBandsAsItWarpsTheWhole) {
   EXPECT_EQ(Shoot(whole, pattern).pixels, Shoot(banded, pattern).pixels) << "nothing moves";
 }
 
+TEST(Lens, ShowsAWholeViewAsACameraWithIt) {
+  const CameraEffects effects{.radial_distortion = -0.08, .tangential_distortion = 0.01, .noise = 0};
+  CameraModel model = ModelOf(effects);
+  Camera camera = PlainCamera();
+  camera.distortion = Set(effects);
+  const LensWarp lens(camera);
+  const auto pattern = [](int x, int y, double) {
+    return Rgb8{static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 5), static_cast<std::uint8_t>(x * y)};
+  };
+  const CameraModel::Scene scene = SceneOf(model, pattern);
+  const View whole = lens.Warp(scene(0, {0, lens.pinhole().intrinsics.height}, Targets::kAll));
+  const View shot = model.Shoot(0, scene, Targets::kAll);
+  EXPECT_EQ(whole.colour.pixels, shot.colour.pixels);
+  EXPECT_EQ(whole.labels.pixels, shot.labels.pixels);
+  EXPECT_EQ(whole.depth.pixels, shot.depth.pixels);
+  EXPECT_EQ(LensWarp(PlainCamera()).Warp(whole).colour.pixels, whole.colour.pixels) << "no lens, no change";
+}
+
 }  // namespace
 }  // namespace etude
