@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/angles.h"
+#include "sim/body/shape.h"
 #include "sim/random/stream.h"
 
 namespace etude {
