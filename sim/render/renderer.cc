@@ -337,7 +337,8 @@ View Renderer::Render(const Room& room, const std::vector<Figure>& figures, cons
 
 View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                           const RowRange& rows) {
-  const int width = camera.intrinsics.width, height = camera.intrinsics.height;
+  const int width = camera.intrinsics.width;
+  [[maybe_unused]] const int height = camera.intrinsics.height;
   assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);
   assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   state_->context->MakeCurrent();
