@@ -1,10 +1,12 @@
 // What a picture costs: of the empty room, of a person of capsules, of a character of some thousand triangles.
 #include <benchmark/benchmark.h>
 
+#include "bench/micro/bare_draw.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
 #include "sim/choreography/stance.h"
 #include "sim/render/renderer.h"
+#include "sim/stage/stage.h"
 
 namespace etude {
 namespace {
@@ -21,7 +23,7 @@ void InMilliseconds(benchmark::internal::Benchmark* benchmark) {
   benchmark->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
-enum class Kind { kColour, kAll, kSmooth };
+enum class Kind { kColour, kLabels, kAll, kSmooth };
 
 void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intrinsics& intrinsics, Kind kind) {
   const auto renderer = Renderer::Create();
@@ -35,7 +37,9 @@ void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intri
     if (kind == Kind::kSmooth) {
       benchmark::DoNotOptimize((*renderer)->RenderSmooth({}, figures, camera));
     } else {
-      const Targets targets = kind == Kind::kAll ? Targets::kAll : Targets::kColour;
+      const Targets targets = kind == Kind::kAll      ? Targets::kAll
+                              : kind == Kind::kLabels ? Targets::kColourAndLabels
+                                                      : Targets::kColour;
       benchmark::DoNotOptimize((*renderer)->Render({}, figures, camera, targets));
     }
   };
@@ -45,10 +49,49 @@ void Picture(benchmark::State& state, std::vector<Figure> (*make)(), const Intri
 BENCHMARK_CAPTURE(Picture, room_vga, Nobody, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, capsules_vga, OfCapsules, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, capsules_vga_all, OfCapsules, kVga, Kind::kAll)->Apply(InMilliseconds);
+BENCHMARK_CAPTURE(Picture, capsules_vga_labels, OfCapsules, kVga, Kind::kLabels)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga, OfSurfaces, kVga, Kind::kColour)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_vga_all, OfSurfaces, kVga, Kind::kAll)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, capsules_hd_smooth, OfCapsules, kHd, Kind::kSmooth)->Apply(InMilliseconds);
 BENCHMARK_CAPTURE(Picture, surfaces_hd_smooth, OfSurfaces, kHd, Kind::kSmooth)->Apply(InMilliseconds);
+
+// What the picture `capsules_vga_labels` is measured by.
+void Bare(benchmark::State& state) {
+  const Camera camera = LookAt(kVga, {-1.2, 1.4, 3.9}, {0, 0.95, 0});
+  const auto bare = BareDraw::Create({}, camera);
+  if (!bare) {
+    state.SkipWithError(bare.error().message.c_str());
+    return;
+  }
+  const std::vector<Figure> figures = OfCapsules();
+  (*bare)->Draw(figures);
+  for (auto _ : state) (*bare)->Draw(figures);
+}
+BENCHMARK(Bare)->Apply(InMilliseconds);
+
+// What a camera of the capture task shoots, people and movers posed anew for each picture; the argument is the scene in
+// percent.
+void Staged(benchmark::State& state) {
+  const auto renderer = Renderer::Create();
+  if (!renderer) {
+    state.SkipWithError(renderer.error().message.c_str());
+    return;
+  }
+  const BodyPose pose = StandingPose();
+  const std::vector<Camera> cameras = {LookAt(kVga, {-2.4, 1.0, 2.9}, {0, 0.95, 0})};
+  const Stage stage({.seed = 3, .scene = 0.01 * static_cast<double>(state.range(0))}, {&pose, 1}, cameras);
+  double seconds = 0;
+  const auto draw = [&] {
+    std::vector<Figure> figures = stage.MoversAt(seconds);
+    figures.push_back(stage.PerformerAt(pose, PerformerColours()));
+    const Room room{.brightness = stage.FlickerAt(seconds), .interior = stage.interior()};
+    benchmark::DoNotOptimize((*renderer)->Render(room, figures, cameras[0], Targets::kColourAndLabels));
+    seconds += 1 / 30.0;
+  };
+  draw();
+  for (auto _ : state) draw();
+}
+BENCHMARK(Staged)->Apply(InMilliseconds)->Arg(0)->Arg(25)->Arg(50)->Arg(75)->Arg(100);
 
 // A character brought into a pose, before it is drawn.
 void Pose(benchmark::State& state) {

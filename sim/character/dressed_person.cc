@@ -44,6 +44,7 @@ DressedPerson::DressedPerson(const Outfit& outfit) {
     surface.parts = PartsOfTriangles(character_.skeleton, mesh);
     surface.colour = all[i].paint.first;
     surface.paint = all[i].paint;
+    surface.is_closed = true;
     for (const SkinnedMesh::Vertex& vertex : mesh.vertices) surface.rest.emplace_back(vertex.position);
   }
 }

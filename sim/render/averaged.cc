@@ -1,6 +1,7 @@
+#include "sim/render/averaged.h"
+
 #include <algorithm>
 
-#include "sim/render/averaged.h"
 #include "sim/render/renderer.h"
 
 namespace etude {

@@ -108,6 +108,13 @@ vec3 Normal(vec3 point) {
   return (from_start - share * along) / capsule_start.w;
 }
 
+)glsl";
+
+constexpr const char* kPlainSkin = R"glsl(
+vec3 SkinPaint(vec3 point) { return paint.rgb; }
+)glsl";
+
+constexpr const char* kFaceSkin = R"glsl(
 // Hair, eyes and a smile, so that one sees where the person looks.
 vec3 FacePaint(vec3 skin, vec3 point) {
   vec3 middle = 0.5 * (capsule_start.xyz + capsule_end.xyz);
@@ -127,6 +134,10 @@ vec3 FacePaint(vec3 skin, vec3 point) {
   return skin;
 }
 
+vec3 SkinPaint(vec3 point) { return FacePaint(paint.rgb, point); }
+)glsl";
+
+constexpr const char* kBodyMain = R"glsl(
 void main() {
   vec3 ray = PixelRay();
   depth = MeetCapsule(ray);
@@ -134,9 +145,7 @@ void main() {
   vec3 point = depth * ray;
   vec3 normal = Normal(point);
 
-  vec3 skin = paint.rgb;
-  if (paint.a > 0.5) skin = FacePaint(skin, point);
-  colour = LitPaint(skin, normal, point, ray);
+  colour = LitPaint(SkinPaint(point), normal, point, ray);
   label = uint(capsule_end.w);
   gl_FragDepth = depth / farthest;
 }
@@ -198,7 +207,9 @@ void main() {
 std::string ContactVertexShader() { return AssembleShader({kBox, kBodyPlace}); }
 std::string ContactFragmentShader() { return AssembleShader({kRoomGeometry, kContact}); }
 std::string CapsuleVertexShader() { return AssembleShader({kBox, kBodyPlace}); }
-std::string CapsuleFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kBody}); }
+std::string CapsuleFragmentShader(bool with_face) {
+  return AssembleShader({kRoomGeometry, kBodyLight, kBody, with_face ? kFaceSkin : kPlainSkin, kBodyMain});
+}
 std::string CapsuleShadowVertexShader() { return AssembleShader({kBox, kShadowPlace}); }
 std::string CapsuleShadowFragmentShader() {
   return AssembleShader({kRoomGeometry, kShadowLight, kSegmentDistance, kShadow});

@@ -63,7 +63,8 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
   for (int y = 0; y < rect.Height(); ++y) {
-    std::copy_n(&bytes_[static_cast<std::size_t>(y) * width], width, &view.labels.At(rect.left, rect.top + y - top_row));
+    std::copy_n(&bytes_[static_cast<std::size_t>(y) * width], width,
+                &view.labels.At(rect.left, rect.top + y - top_row));
   }
   if (targets == Targets::kColourAndLabels) return;
 
@@ -71,7 +72,8 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());
   for (int y = 0; y < rect.Height(); ++y) {
-    std::copy_n(&depths_[static_cast<std::size_t>(y) * width], width, &view.depth.At(rect.left, rect.top + y - top_row));
+    std::copy_n(&depths_[static_cast<std::size_t>(y) * width], width,
+                &view.depth.At(rect.left, rect.top + y - top_row));
   }
 }
 

@@ -21,8 +21,8 @@ class FrameTargets {
   void Begin(int width, int height);
   /// Which of the attachments the next draws write. By masks: other attachments would make Mesa finish what is drawn.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies a rectangle of what was drawn out of GL into the pictures of `view`, which have their size already and begin
-  /// with `top_row`.
+  /// Copies a rectangle of what was drawn out of GL into the pictures of `view`, which have their size already and
+  /// begin with `top_row`.
   void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
 
  private:

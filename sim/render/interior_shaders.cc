@@ -199,7 +199,8 @@ uniform mat3 image_of_direction;
 uniform vec2 image_size;
 uniform vec3 eye;
 uniform vec3 lamp;
-uniform float shadow_reach;  // from the lamp, metres
+uniform vec3 room_low;   // in the world
+uniform vec3 room_high;
 
 flat out vec4 capsule_start;
 flat out vec4 capsule_end;
@@ -221,10 +222,22 @@ void main() {
   vec2 low = vec2(min(x_start - slope_start, x_end - slope_end), -max(slope_start, slope_end));
   vec2 high = vec2(max(x_start + slope_start, x_end + slope_end), max(slope_start, slope_end));
 
+  // How far until all rays have left the room: behind every wall that all of them meet, the nearest one.
+  float way_out = 1e3;
+  for (int axis = 0; axis < 3; ++axis) {
+    vec2 to_planes = vec2(room_low[axis], room_high[axis]) - lamp[axis];
+    vec4 slants = forward[axis] + vec4(low.x, high.x, low.x, high.x) * along[axis] +
+                  vec4(low.y, low.y, high.y, high.y) * across[axis];
+    float least = min(min(slants.x, slants.y), min(slants.z, slants.w));
+    float most = max(max(slants.x, slants.y), max(slants.z, slants.w));
+    if (most < 0.0) way_out = min(way_out, to_planes.x / most);
+    if (least > 0.0) way_out = min(way_out, to_planes.y / least);
+  }
+
   int bit = 1 << gl_VertexID;
   bool is_far = (0x31e3 & bit) != 0;
   vec2 slope = vec2((0x287a & bit) != 0 ? high.x : low.x, (0x02af & bit) != 0 ? high.y : low.y);
-  float reach = is_far ? shadow_reach : max(min(near_start, near_end) - radius, 0.05);
+  float reach = is_far ? 1.01 * way_out : max(min(near_start, near_end) - radius, 0.05);
   vec3 corner = lamp_E + reach * (forward + slope.x * along + slope.y * across);
   vec3 image = image_of_direction * corner;
   gl_Position = vec4(2.0 * image.xy / image_size - image.z, 0.0, image.z);
@@ -262,7 +275,8 @@ void main() {
 }  // namespace
 
 std::string InteriorFragmentShader() {
-  return AssembleShader({kRoomGeometry, kStudioPaint, kPaintPatterns, kInteriorGeometry, kInteriorPaint});
+  return AssembleShader(
+      {kRoomGeometry, kStudioPaint, kPaintPatterns, kRoomPatterns, kPainted, kInteriorGeometry, kInteriorPaint});
 }
 std::string InteriorShadowVertexShader() { return AssembleShader({kInteriorShadowPlace}); }
 std::string InteriorShadowFragmentShader() {

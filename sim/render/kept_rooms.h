@@ -11,7 +11,7 @@ namespace etude {
 
 /// The empty room as one camera sees it at brightness 1, as textures for shaders and as numbers for what needs none.
 struct KeptRoom {
-  std::uint64_t serial = 0;         ///< 1 for the first that was drawn, and so on
+  std::uint64_t serial = 0;          ///< 1 for the first that was drawn, and so on
   GLuint room = 0;                   ///< RGB colour, A depth
   GLuint extra = 0;                  ///< RGB the lamp's share of the light, A label
   std::vector<float> colours;        ///< RGB, three per pixel

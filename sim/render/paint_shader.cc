@@ -23,20 +23,12 @@ float Bands(float place, float period, float blur) {
 float Line(float place, float half_width, float blur) {
   return (1.0 - smoothstep(half_width, half_width + blur, abs(place))) * half_width / (half_width + 0.5 * blur);
 }
+)glsl";
 
-vec3 Painted(int index, vec3 place, float blur) {
-  vec4 first = paint_first[index], second = paint_second[index], patch_at = paint_patch[index];
-  int pattern = int(first.a + 0.5);
-  float size = second.a, share = 0.0, tone = 1.0;
-  if (pattern == 1) {
-    share = Bands(place.y, size, blur);
-  } else if (pattern == 2) {
-    share = Bands(place.x + place.z, size, blur);
-  } else if (pattern == 3) {
-    share = 0.5 * (Bands(place.y, size, blur) + Bands(place.x + place.z, size, blur));
-  } else if (pattern == 4) {
-    share = 1.0 - smoothstep(size - blur, size + blur, place.y);
-  } else if (pattern == 5) {
+const char* const kRoomPatterns = R"glsl(
+float RoomPattern(int pattern, vec3 place, float size, float blur, inout float tone) {
+  float share = 0.0;
+  if (pattern == 5) {
     float lane = floor(place.x / size);
     float along = place.y / (9.0 * size) + Hash(ivec3(int(lane), 7, 1));
     share = Hash(ivec3(int(lane), int(floor(along)), 3));
@@ -56,6 +48,31 @@ vec3 Painted(int index, vec3 place, float blur) {
     vec2 cell = floor(place.xy / (size * vec2(1.0, 1.7)));
     share = Hash(ivec3(ivec2(cell), 13));
     tone = 0.75 + 0.25 * Hash(ivec3(ivec2(cell), 17));
+  }
+  return share;
+}
+)glsl";
+
+// Shaders run every branch: what people wear is spared the patterns of rooms.
+const char* const kNoRoomPatterns = R"glsl(
+float RoomPattern(int pattern, vec3 place, float size, float blur, inout float tone) { return 0.0; }
+)glsl";
+
+const char* const kPainted = R"glsl(
+vec3 Painted(int index, vec3 place, float blur) {
+  vec4 first = paint_first[index], second = paint_second[index], patch_at = paint_patch[index];
+  int pattern = int(first.a + 0.5);
+  float size = second.a, share = 0.0, tone = 1.0;
+  if (pattern == 1) {
+    share = Bands(place.y, size, blur);
+  } else if (pattern == 2) {
+    share = Bands(place.x + place.z, size, blur);
+  } else if (pattern == 3) {
+    share = 0.5 * (Bands(place.y, size, blur) + Bands(place.x + place.z, size, blur));
+  } else if (pattern == 4) {
+    share = 1.0 - smoothstep(size - blur, size + blur, place.y);
+  } else if (pattern > 4) {
+    share = RoomPattern(pattern, place, size, blur, tone);
   }
   if (abs(patch_at.z) > 0.0 && place.z > 0.0 && patch_at.w > 0.0) {
     vec2 inside = abs(patch_at.zw) - abs(place.xy - patch_at.xy);

@@ -36,6 +36,7 @@ struct Programs {
   GLuint backdrop = 0;
   GLuint interior_shadow = 0;
   GLuint contact = 0;
+  GLuint face = 0;  // capsules with one
   BodyPrograms capsules;
   BodyPrograms surfaces;
 };
@@ -54,7 +55,8 @@ Result<Programs> LinkAll(const GlContext& context) {
       {programs.backdrop, FullScreenVertexShader(), BackdropFragmentShader(), {}},
       {programs.interior_shadow, InteriorShadowVertexShader(), InteriorShadowFragmentShader(), capsule},
       {programs.contact, ContactVertexShader(), ContactFragmentShader(), capsule},
-      {programs.capsules.body, CapsuleVertexShader(), CapsuleFragmentShader(), capsule},
+      {programs.capsules.body, CapsuleVertexShader(), CapsuleFragmentShader(false), capsule},
+      {programs.face, CapsuleVertexShader(), CapsuleFragmentShader(true), capsule},
       {programs.capsules.shadow, CapsuleShadowVertexShader(), CapsuleShadowFragmentShader(), capsule},
       {programs.surfaces.body, SurfaceVertexShader(), SurfaceFragmentShader(), corner},
       {programs.surfaces.shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
@@ -100,10 +102,10 @@ struct SmoothRoom {
   ColourImage small;
 };
 
-// From the lamp to the farthest corner of the room.
-double ShadowReach(const Interior& interior) {
-  const glm::dvec3& lamp = interior.lights.key;
-  return glm::length(glm::max(glm::abs(interior.high - lamp), glm::abs(interior.low - lamp)));
+bool AllClosed(const std::vector<Figure>& figures) {
+  return std::ranges::all_of(figures, [](const Figure& figure) {
+    return std::ranges::all_of(figure.surfaces, [](const Surface& surface) { return surface.is_closed; });
+  });
 }
 
 }  // namespace
@@ -115,6 +117,7 @@ struct Renderer::State {
         programs(linked),
         empty_vertices(MakeVertexArray(gl)),
         capsules(CapsuleStream(gl)),
+        faces(CapsuleStream(gl)),
         casters(CapsuleStream(gl)),
         contacts(CapsuleStream(gl)),
         surfaces(CornerStream(gl)),
@@ -187,7 +190,12 @@ struct Renderer::State {
   }
 
   void DrawStudioShadows(const Shot& shot) {
-    if (!capsules.IsEmpty()) ThrowShadows(programs.capsules.shadow, capsules, shot);
+    // Thrown flat, a box's near and far faces cover the same pixels: one layer is enough.
+    gl.Enable(GL_CULL_FACE);
+    for (const VertexStream* stream : {&capsules, &faces}) {
+      if (!stream->IsEmpty()) ThrowShadows(programs.capsules.shadow, *stream, shot);
+    }
+    gl.Disable(GL_CULL_FACE);
     if (!surfaces.IsEmpty()) {
       for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
       ThrowShadows(programs.surfaces.shadow, surfaces, shot);
@@ -201,7 +209,8 @@ struct Renderer::State {
       const GLuint program = programs.interior_shadow;
       Use(program, shot);
       SetPixelGeometry(gl, program, shot.camera, shot.room);
-      SetNumber(program, "shadow_reach", ShadowReach(*shot.room.interior));
+      SetPoint(gl, program, "room_low", shot.room.interior->low);
+      SetPoint(gl, program, "room_high", shot.room.interior->high);
       casters.Draw();
     }
     if (!contacts.IsEmpty()) {
@@ -244,12 +253,28 @@ struct Renderer::State {
       DrawBodies(programs.capsules.body, capsules, shot, {});
       gl.Disable(GL_CULL_FACE);
     }
-    if (!surfaces.IsEmpty()) DrawBodies(programs.surfaces.body, surfaces, shot, paints);
+    if (!faces.IsEmpty()) {
+      gl.Enable(GL_CULL_FACE);
+      DrawBodies(programs.face, faces, shot, {});
+      gl.Disable(GL_CULL_FACE);
+    }
+    if (!surfaces.IsEmpty()) {
+      if (all_closed) gl.Enable(GL_CULL_FACE);
+      DrawBodies(programs.surfaces.body, surfaces, shot, paints);
+      gl.Disable(GL_CULL_FACE);
+    }
     gl.Disable(GL_DEPTH_TEST);
   }
 
   void Upload(const Room& room, const std::vector<Figure>& figures, const glm::dvec3& eye) {
-    capsules.Upload(MakeInstances(figures, eye));
+    std::vector<CapsuleInstance> plain = MakeInstances(figures, eye), with_face;
+    const auto first_face =
+        std::ranges::stable_partition(plain, [](const CapsuleInstance& instance) { return instance.paint.a == 0; });
+    with_face.assign(first_face.begin(), first_face.end());
+    plain.erase(first_face.begin(), first_face.end());
+    capsules.Upload(plain);
+    faces.Upload(with_face);
+    all_closed = AllClosed(figures);
     MakeCorners(figures, eye, corners);
     surfaces.Upload(corners);
     if (room.interior == nullptr || !room.casts_shadows) return;
@@ -275,7 +300,8 @@ struct Renderer::State {
   const GlFunctions& gl;
   Programs programs;
   GLuint empty_vertices;
-  VertexStream capsules, casters, contacts, surfaces;
+  VertexStream capsules, faces, casters, contacts, surfaces;
+  bool all_closed = false;             // of `surfaces`: no backs are in sight
   std::vector<SurfaceCorner> corners;  // reused
   FrameTargets targets;
   KeptRooms rooms;
@@ -311,7 +337,8 @@ View Renderer::Render(const Room& room, const std::vector<Figure>& figures, cons
 
 View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                           const RowRange& rows) {
-  const int width = camera.intrinsics.width, height = camera.intrinsics.height;
+  const int width = camera.intrinsics.width;
+  [[maybe_unused]] const int height = camera.intrinsics.height;
   assert(width > 0 && height > 0 && width <= kLargestPicture && height <= kLargestPicture);
   assert(0 <= rows.first && rows.first < rows.end && rows.end <= height);
   state_->context->MakeCurrent();

@@ -29,6 +29,7 @@ struct Surface {
   std::vector<Part> parts;                              ///< one per triangle: its number in label images
   Rgb8 colour;
   std::optional<SurfacePaint> paint{};  ///< in place of `colour`
+  bool is_closed = false;               ///< no back of it is ever in sight: drawn faster
   std::vector<glm::vec3> rest{};        ///< with `paint`, one per position: where it is on the body at rest, metres
 };
 
@@ -111,8 +112,8 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
-/// The one renderer of this process, made when first asked for: compiling its shaders takes longer than drawing a hundred
-/// pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
+/// The one renderer of this process, made when first asked for: compiling its shaders takes longer than drawing a
+/// hundred pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
 Result<Renderer*> SharedRenderer();
 
 /// What draws, and its version, on which pixels depend: "4.5 (Core Profile) Mesa 22.3.6"; else why nothing draws.

@@ -18,8 +18,12 @@ extern const char* const kShadowLight;
 extern const char* const kSegmentDistance;
 /// `vec3 StudioPaint(place, is_wall, blur)`: the studio's tiles and spots.
 extern const char* const kStudioPaint;
-/// `vec3 Painted(index, place, blur)`: the patterns of paint.h.
+/// `vec3 Painted(index, place, blur)`: the patterns of surface_paint.h, made of these: what they share, those of rooms
+/// or nothing in their place, the function itself.
 extern const char* const kPaintPatterns;
+extern const char* const kRoomPatterns;
+extern const char* const kNoRoomPatterns;
+extern const char* const kPainted;
 
 /// One shader's source, version first.
 std::string AssembleShader(std::initializer_list<const char*> pieces);

@@ -26,7 +26,8 @@ std::string BackdropFragmentShader();
 
 /// A box around each capsule, drawn only to find the pixels worth asking.
 std::string CapsuleVertexShader();
-std::string CapsuleFragmentShader();
+/// With hair, eyes and a smile, or without, which is faster.
+std::string CapsuleFragmentShader(bool with_face);
 /// The same box, thrown from the lamp onto the floor or the wall.
 std::string CapsuleShadowVertexShader();
 std::string CapsuleShadowFragmentShader();

@@ -6,8 +6,9 @@
 
 namespace etude {
 
-/// How two colours share a surface. Places are metres in the surface's own space: of clothes the body at rest (so that
-/// patterns move with it), of a wall or floor its plane, of furniture the box.
+/// How two colours share a surface; those from kPlanks on are for rooms only, on figures they are plain. Places are
+/// metres in the surface's own space: of clothes the body at rest (so that patterns move with it), of a wall or floor
+/// its plane, of furniture the box.
 enum class Pattern {
   kPlain,      ///< the first colour
   kBands,      ///< level bands, `size` apart

@@ -111,7 +111,9 @@ void main() {
 }  // namespace
 
 std::string SurfaceVertexShader() { return AssembleShader({kCorner, kPlace}); }
-std::string SurfaceFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kPaintPatterns, kSurface}); }
+std::string SurfaceFragmentShader() {
+  return AssembleShader({kRoomGeometry, kBodyLight, kPaintPatterns, kNoRoomPatterns, kPainted, kSurface});
+}
 std::string SurfaceShadowVertexShader() { return AssembleShader({kCorner, kShadowPlace}); }
 std::string SurfaceShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }
 

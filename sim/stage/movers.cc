@@ -108,8 +108,9 @@ Figure Movers::ScreenAt(double seconds) const {
   }
   surface.triangles = {{0, 1, 2}, {0, 2, 3}};
   surface.parts = {Part::kClutter, Part::kClutter};
+  surface.is_closed = true;  // its back is in its box
   surface.paint =
-      SurfacePaint{.first = ToRgb(bright), .second = ToRgb(other), .pattern = Pattern::kPatchwork, .size = size};
+      SurfacePaint{.first = ToRgb(bright), .second = ToRgb(other), .pattern = Pattern::kChecks, .size = size};
   return {.shape = {}, .surfaces = {surface}, .seen_as = Part::kClutter};
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/base/angles.h"
+#include "sim/body/shape.h"
 #include "sim/random/stream.h"
 
 namespace etude {
@@ -28,7 +29,7 @@ FreeFloor FloorOf(std::span<const BodyPose> poses) {
 
 double ColourShare(double scene) {
   // Hue segmentation bears much: these steps make its IoU fall about evenly (README.md).
-  constexpr std::array kSteps = {0.0, 0.57, 0.67, 0.77, 1.0};
+  constexpr std::array kSteps = {0.0, 0.85, 0.92, 0.95, 1.0};
   const double step = std::clamp(scene, 0.0, 1.0) * (kSteps.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(step), kSteps.size() - 2);
   return std::lerp(kSteps[below], kSteps[below + 1], step - static_cast<double>(below));

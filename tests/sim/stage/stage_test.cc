@@ -7,6 +7,7 @@
 
 #include "sim/choreography/move.h"
 #include "sim/choreography/stance.h"
+#include "sim/stage/occluders.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {
@@ -144,6 +145,30 @@ TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
     }
   }
   for (const std::ptrdiff_t pixels : seen) EXPECT_GT(pixels, 2000);
+}
+
+TEST_F(RenderedStage, OccludersAreTheFurnitureThatIsDrawn) {
+  const Stage stage = MakeStage(5, 1);
+  const std::vector<Box> boxes = BoxesOf(*stage.interior());
+  const Camera camera = Cameras().front();
+  const View view = renderer_->Render({.interior = stage.interior()}, {}, camera, Targets::kAll);
+  const Intrinsics& in = camera.intrinsics;
+  int checked = 0, agree = 0;
+  for (int y = 0; y < view.labels.height; y += 5) {
+    for (int x = 0; x < view.labels.width; x += 5) {
+      if (view.labels.At(x, y) != static_cast<std::uint32_t>(Part::kFurniture)) continue;
+      const glm::dvec3 along =
+          glm::transpose(camera.R_CW) * glm::dvec3((x + 0.5 - in.cx) / in.fx, (y + 0.5 - in.cy) / in.fy, 1);
+      double nearest = 1e9;
+      for (const Box& box : boxes) {
+        nearest = std::min(nearest, HitDistance(box, camera.p_WC, glm::normalize(along)) / glm::length(along));
+      }
+      ++checked;
+      agree += std::abs(nearest - view.depth.At(x, y)) < 1e-3;
+    }
+  }
+  EXPECT_GT(checked, 500);
+  EXPECT_GE(agree, checked - checked / 500) << "but for pixels whose centres are on an edge";
 }
 
 TEST_F(RenderedStage, JointsLieInTheDressedBody) {
