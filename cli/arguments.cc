@@ -9,6 +9,7 @@
 #include "cli/bridge_arguments.h"
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
+#include "cli/sensor_arguments.h"
 #include "cli/train_arguments.h"
 #include "cli/validators.h"
 
@@ -258,6 +259,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineClip(app, action);
   DefineBridge(app, action);
   DefineTrain(app, action);
+  DefineSensor(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

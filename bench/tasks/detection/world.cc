@@ -7,7 +7,7 @@
 #include "bench/metrics/detection.h"
 #include "engine/base/angles.h"
 #include "engine/base/named.h"
-#include "sim/sensors/skeleton_sensor.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 namespace {
@@ -54,10 +54,11 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
 
   // The distance at which Kinect's makers ask players to stand, roughly.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
-  const Camera sensor = SkeletonSensorAt(place_dice.Uniform(kNearest, kFarthest), Radians(options.turn_deg));
-  SkeletonSensorOptions errors;
+  SkeletonSensorOptions errors = SensorV2();
   errors.strength = options.noise;
-  world.stream = SenseSkeleton(world.session.motion, sensor, errors, key);
+  const Camera sensor = SkeletonSensorAt(
+      {.distance = place_dice.Uniform(kNearest, kFarthest), .turn = Radians(options.turn_deg)}, errors.view);
+  world.stream = SenseSkeleton(world.session.motion, sensor, {}, errors, key);
   return world;
 }
 
