@@ -191,7 +191,7 @@ constexpr int kTurnsOfSearch = 8, kTurnsAtEnd = 200;
 /// The best of the shifts from `centre - reach` to `centre + reach`.
 std::optional<TwinAlignment> BestShift(const JointRecording& recording, const TwinMotion& twin,
                                        const TwinAlignment& start, double reach_s, double step_s) {
-  constexpr std::size_t kFramesOfSearch = 400;
+  constexpr std::size_t kFramesOfSearch = 150;
   const std::size_t stride = std::max<std::size_t>(1, recording.frames.size() / kFramesOfSearch);
   std::optional<TwinAlignment> best;
   const long steps = std::lround(reach_s / step_s);

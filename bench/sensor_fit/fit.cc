@@ -49,6 +49,7 @@ void FitFastPart(const SensorStatistics& real, const SensorStatistics& simulated
 
 void FitStretch(const SensorStatistics& real, const SensorStatistics& simulated, SkeletonSensorOptions& sensor) {
   Scale(sensor.arm_stretch, real.arm_bones_percent, simulated.arm_bones_percent, {0.02, 4});
+  Scale(sensor.shoulder_stretch, real.shoulder_width_percent, simulated.shoulder_width_percent, {0.02, 4});
   Scale(sensor.hand_stretch, real.hand_bones_percent, simulated.hand_bones_percent, {0.02, 4});
 }
 

@@ -88,7 +88,7 @@ SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const Ske
                                      const WorldKey& first_world) {
   std::vector<SensorStatistics> recordings;
   TwinAlignment start = real.match.alignment;
-  start.shift_s -= options.lag_frames / real.recording.rate_hz;
+  start.shift_s -= options.Lag() / real.recording.rate_hz;
   for (int i = 0; i < worlds; ++i) {
     WorldKey world = first_world;
     world.trial += i;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 namespace etude {
 namespace {
@@ -58,16 +58,16 @@ double MiddleOf(std::vector<double>& values) {
 
 /// The deviation of the distance of two joints over its mean, percent.
 std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
-  double n = 0, sum = 0, squares = 0;
+  std::vector<double> lengths;
   for (const RolePlaces& places : recording.frames) {
-    if (!places[Index(a)] || !places[Index(b)]) continue;
-    const double length = glm::distance(*places[Index(a)], *places[Index(b)]);
-    ++n;
-    sum += length;
-    squares += length * length;
+    if (places[Index(a)] && places[Index(b)]) lengths.push_back(glm::distance(*places[Index(a)], *places[Index(b)]));
   }
-  if (n < 2 || sum == 0) return std::nullopt;
-  return 100 * std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / (sum / n);
+  if (lengths.size() < 2) return std::nullopt;
+  const auto count = static_cast<double>(lengths.size());
+  const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
+  double squares = 0;
+  for (const double length : lengths) squares += (length - mean) * (length - mean);
+  return mean > 0 ? std::optional(100 * std::sqrt(squares / count) / mean) : std::nullopt;
 }
 
 /// |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.

@@ -137,7 +137,7 @@ std::array<StiffBone, 2> StiffBonesOf(Role role, const SkeletonSensorOptions& op
   const auto child = [&] { return AllRoles()[Index(role) + 1]; };  // along an arm, roles follow each other
   switch (GroupOf(role)) {
     case JointGroup::kShoulders:
-      return {{{child(), options.arm_stretch}, {}}};
+      return {{{child(), options.arm_stretch}, {Mirrored(role), options.shoulder_stretch}}};
     case JointGroup::kElbows:
       return {{{ParentOf(role), options.arm_stretch}, {child(), options.arm_stretch}}};
     case JointGroup::kWrists:

@@ -1,5 +1,8 @@
 #include "sim/skeleton_sensor/options.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace etude {
 namespace {
 
@@ -95,15 +98,19 @@ double DepthDeviation(DepthLaw law, double z) {
   return 0.001 * (1.5 - 0.5 * z + 0.3 * z * z);
 }
 
+int SkeletonSensorOptions::Lag() const {
+  return static_cast<int>(std::lround(std::min(1.0, strength) * lag_frames));
+}
+
 SkeletonSensorOptions SensorV1() {
   SkeletonSensorOptions v1;
   v1.view = {.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};  // 57° × 43°
   v1.depth_law = DepthLaw::kStructuredLight;
-  // Sizes of torso and head, hands and feet: published. Elbows and knees: between them (ours). Depth errs more than
-  // the picture's plane: 1.2–1.8 at knees and feet of a v2, taken for all.
+  // Sizes of torso and head, hands and feet give the published errors in a dance. Elbows and knees: between them
+  // (ours). Depth errs more than the picture's plane: 1.2–1.8 at knees and feet of a v2, taken for all.
   constexpr GroupErrors kTrunk{.size = 0.025, .depth_ratio = 1.4, .still = 0.0014, .white = 0.0002};
   constexpr GroupErrors kMiddle{.size = 0.038, .depth_ratio = 1.4, .still = 0.0020, .white = 0.0006};
-  constexpr GroupErrors kEnds{.size = 0.052, .depth_ratio = 1.4, .still = 0.0030, .white = 0.0010};
+  constexpr GroupErrors kEnds{.size = 0.066, .depth_ratio = 1.4, .still = 0.0030, .white = 0.0010};
   v1.groups = {kTrunk, kTrunk, kMiddle, kEnds, kEnds, kTrunk, kMiddle, kEnds};
   // As the recordings of a v2 show them; no source tells v1's.
   v1.correlation = SensorV2().correlation;

@@ -88,6 +88,7 @@ struct SkeletonSensorOptions {
   /// A joint's own error along the bones that end in it is times this: below 1 the sensor knows how long limbs are.
   double arm_stretch = 1;   ///< of shoulders, elbows and wrists along upper arm and forearm
   double hand_stretch = 1;  ///< of hands along the hand
+  double shoulder_stretch = 1;  ///< of shoulders towards each other
   /// `size` of an ankle or foot that rests on the floor, of a slow noise (`rest_time_s`); in motion it is the group's.
   double planted_feet = 0.003;
   double rest_time_s = 0.2;  ///< (ours)
@@ -123,6 +124,9 @@ struct SkeletonSensorOptions {
   bool swaps_when_facing = true;  ///< else in proportion to 1 − cos of the body's turn from the sensor (ours)
   double outlier_chance = 0.001;  ///< per joint and frame (ours; Gaussian + uniform: arXiv 1512.04134)
   double outlier_size_m = 0.15;   ///< uniform in a cube of this half side (ours)
+
+  /// `lag_frames` at this strength.
+  int Lag() const;
 
   GroupErrors& operator[](JointGroup group) { return groups[Index(group)]; }
   const GroupErrors& operator[](JointGroup group) const { return groups[Index(group)]; }

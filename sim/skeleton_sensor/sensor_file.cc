@@ -23,6 +23,7 @@ const std::vector<NumberKey>& NumberKeys() {
       {"reference_distance_m", &Options::reference_distance_m, {0.5, 10}},
       {"arm_stretch", &Options::arm_stretch, {0, 5}},
       {"hand_stretch", &Options::hand_stretch, {0, 5}},
+      {"shoulder_stretch", &Options::shoulder_stretch, {0, 5}},
       {"planted_feet_m", &Options::planted_feet, kMetres},
       {"rest_time_s", &Options::rest_time_s, kSeconds},
       {"wander_time_s", &Options::wander_time_s, kSeconds},

@@ -83,7 +83,7 @@ SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, cons
     if (swaps[t].legs) Exchange(frame, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot});
     stream.frames.push_back(frame);
   }
-  Delay(stream.frames, static_cast<std::size_t>(std::lround(std::min(1.0, options.strength) * options.lag_frames)));
+  Delay(stream.frames, static_cast<std::size_t>(options.Lag()));
   return stream;
 }
 
