@@ -10,7 +10,8 @@ namespace etude {
 namespace {
 
 constexpr const char* kSensorExamples =
-    "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude clip\n"
+    "\nA recording is a Kinect v2's text (25 joints a line: x y z, or x y z and a quaternion) or joint CSV (etude "
+    "clip\n"
     "convert writes such files). A reference is the same motion by a system that can be trusted: 17 rigid targets of\n"
     "an optical system a line, or joint CSV. docs/sensor.md tells the formats, and what each statistic is.\n\n"
     "Try:\n"
@@ -44,8 +45,7 @@ void DefineFit(CLI::App& sensor, Action& action) {
   auto options = std::make_shared<SensorFitCommandOptions>();
   CLI::App* command = sensor.add_subcommand("fit", "A sensor file for scenarios, fitted to a recording");
   command->add_option("file", options->file, "A recording")->required();
-  command
-      ->add_option("--reference", options->reading.reference, "The same motion by a system that can be trusted")
+  command->add_option("--reference", options->reading.reference, "The same motion by a system that can be trusted")
       ->required();
   command->add_option("-o,--output", options->output, "The sensor file to write (YAML)")->required();
   command->add_option("--base", options->base, "What is not fitted is as here: v1, v2 or a sensor file")

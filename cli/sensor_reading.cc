@@ -36,7 +36,8 @@ std::string DescribeRecording(const JointRecording& recording) {
   }
   const double all = static_cast<double>(recording.frames.size() * kRoleCount);
   return fmt::format("{} frames at {:g} Hz, {:.1f} s; {:.1f} % of the joints missing", recording.frames.size(),
-                     recording.rate_hz, recording.DurationSeconds(), all > 0 ? 100 * static_cast<double>(missing) / all : 0);
+                     recording.rate_hz, recording.DurationSeconds(),
+                     all > 0 ? 100 * static_cast<double>(missing) / all : 0);
 }
 
 std::string DescribeMatch(const RealRecording& real) {

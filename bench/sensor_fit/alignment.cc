@@ -34,8 +34,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
 }
 
 /// All pairs in every `stride`-th frame.
-std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s,
-                          std::size_t stride) {
+std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
     const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + shift_s);

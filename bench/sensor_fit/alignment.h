@@ -11,9 +11,9 @@ namespace etude {
 
 /// How a recording and its twin lie to each other: what is not the sensor's error, as far as one recording tells.
 struct TwinAlignment {
-  double shift_s = 0;   ///< the recording's time 0 is this time of the twin: clocks, and the sensor's lag
-  glm::dmat3 R_ST{1};   ///< rotates the twin's directions into the sensor's space
-  glm::dvec3 p_ST{0};   ///< the twin's origin there
+  double shift_s = 0;  ///< the recording's time 0 is this time of the twin: clocks, and the sensor's lag
+  glm::dmat3 R_ST{1};  ///< rotates the twin's directions into the sensor's space
+  glm::dvec3 p_ST{0};  ///< the twin's origin there
   /// Of each joint in its carrier; no value where the two never saw it together.
   std::array<std::optional<glm::dvec3>, kRoleCount> offsets{};
   double rms_m = 0;  ///< what is left, over all joints

@@ -22,7 +22,9 @@ constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
     T::kRightThigh, T::kRightTibia,   T::kRightTibia,   T::kRightFoot};  // right leg
 
 /// Joint files have a line of headings.
-bool IsJointCsv(std::string_view text) { return text.substr(0, text.find('\n')).find("_x_m") != std::string_view::npos; }
+bool IsJointCsv(std::string_view text) {
+  return text.substr(0, text.find('\n')).find("_x_m") != std::string_view::npos;
+}
 
 TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
   TwinMotion twin;
@@ -60,8 +62,8 @@ class BoneFrames {
     if (!bone) return std::nullopt;
     // Where the limb points most of the time, seen from the trunk: the swing has no answer opposite to it.
     const double side = RoleName(role).starts_with("left") ? 1 : -1;
-    const glm::dvec3 usual = glm::normalize(region == Region::kArm ? glm::dvec3(side, -0.4, 0.5)
-                                                                      : glm::dvec3(0, -1, 0.2));
+    const glm::dvec3 usual =
+        glm::normalize(region == Region::kArm ? glm::dvec3(side, -0.4, 0.5) : glm::dvec3(0, -1, 0.2));
     return Carrier{*place, Swing(*trunk_ * usual, glm::normalize(*bone)) * *trunk_};
   }
 

@@ -52,7 +52,8 @@ BodyMotion WithoutShiver(const BodyMotion& motion) {
 }
 
 Camera SensorOf(const RealRecording& real, const BodyMotion& motion, const Intrinsics& view) {
-  if (real.recording.sensor_at) return LookAt(view, *real.recording.sensor_at, *real.recording.sensor_at + glm::dvec3(0, 0, 1));
+  if (real.recording.sensor_at)
+    return LookAt(view, *real.recording.sensor_at, *real.recording.sensor_at + glm::dvec3(0, 0, 1));
   const BodyPose& pose = motion.poses[motion.poses.size() / 2];
   const glm::dvec3 body = pose[Role::kHipCentre];
   const SensorPlace usual;
@@ -68,9 +69,7 @@ std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMot
   return RealRecording{std::move(recording), std::move(twin), *std::move(match)};
 }
 
-SensorStatistics StatisticsOf(const RealRecording& real) {
-  return StatisticsOf(real.recording, &real.match);
-}
+SensorStatistics StatisticsOf(const RealRecording& real) { return StatisticsOf(real.recording, &real.match); }
 
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world) {
   const BodyMotion motion = WithoutShiver(WholeMotion(real));
@@ -85,7 +84,7 @@ JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& 
 }
 
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
-                                     const WorldKey& first_world) {
+                                            const WorldKey& first_world) {
   std::vector<SensorStatistics> recordings;
   TwinAlignment start = real.match.alignment;
   start.shift_s -= options.Lag() / real.recording.rate_hz;

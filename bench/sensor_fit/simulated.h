@@ -27,6 +27,6 @@ JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& 
 
 /// The statistics of so many simulated recordings, each aligned to the twin as a real one.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
-                                     const WorldKey& first_world);
+                                            const WorldKey& first_world);
 
 }  // namespace etude

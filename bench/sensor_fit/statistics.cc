@@ -213,9 +213,9 @@ void MeasureJumps(const JointRecording& recording, SensorStatistics& result) {
 
 /// Every value of some statistics, in one order.
 std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
-  std::vector<std::optional<double>*> values = {&s.shoulders_and_hips_mm, &s.planted_feet_mm,   &s.quiet_white_mm,
-                                                &s.arm_bones_percent,     &s.leg_bones_percent, &s.shoulder_width_percent,
-                                                &s.hand_bones_percent,    &s.hand_jump_cm};
+  std::vector<std::optional<double>*> values = {
+      &s.shoulders_and_hips_mm, &s.planted_feet_mm,        &s.quiet_white_mm,     &s.arm_bones_percent,
+      &s.leg_bones_percent,     &s.shoulder_width_percent, &s.hand_bones_percent, &s.hand_jump_cm};
   for (auto& value : s.error_mm) values.push_back(&value);
   for (auto& value : s.depth_ratio) values.push_back(&value);
   for (auto& value : s.correlation) values.push_back(&value);

@@ -77,8 +77,7 @@ std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::v
   return guesses;
 }
 
-JointErrors Outliers(std::size_t frames, const SkeletonSensorOptions& options,
-                                                         const WorldKey& world) {
+JointErrors Outliers(std::size_t frames, const SkeletonSensorOptions& options, const WorldKey& world) {
   RandomStream dice(world, "skeleton/outliers");
   const double chance = std::min(1.0, options.outlier_chance * options.strength);
   JointErrors outliers(frames);

@@ -123,8 +123,8 @@ Sight SightOf(const Camera& sensor, const glm::dvec3& joint, const SkeletonSenso
 /// From unit errors (across, across, along) to metres in the world.
 glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, double depth_ratio) {
   const double across = size / std::sqrt(2 + depth_ratio * depth_ratio);
-  return sight.axes * (across * unit * glm::dvec3(sight.across_growth, sight.across_growth,
-                                                  depth_ratio * sight.along_growth));
+  return sight.axes *
+         (across * unit * glm::dvec3(sight.across_growth, sight.across_growth, depth_ratio * sight.along_growth));
 }
 
 /// The other end of a bone that ends in a joint, and how much of the joint's own error along it is left.
@@ -193,8 +193,8 @@ JointErrors ContinuousErrors(const BodyMotion& truth, const Camera& sensor, cons
       const glm::dvec3 fast = FastGain(speeds[t], j, options) * noise.fast.Next(fast_dice);
       const glm::dvec3 moving = by_pose_share * noise.by_pose.At(pose) + fast_share * fast;
       const glm::dvec3 resting = noise.resting.Next(rest_dice);
-      const glm::dvec3 own = Stiffened(std::sqrt(motion) * moving + std::sqrt(1 - motion) * resting, role, pose, sight,
-                                       options);
+      const glm::dvec3 own =
+          Stiffened(std::sqrt(motion) * moving + std::sqrt(1 - motion) * resting, role, pose, sight, options);
       const auto parent = ParentOf(role);
       const double rho = parent ? options.correlation[Index(BoneKindOf(role))] : 0;
       unit[j] = (parent ? rho * unit[Index(*parent)] : glm::dvec3(0)) + std::sqrt(1 - rho * rho) * own;

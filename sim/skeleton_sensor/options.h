@@ -86,8 +86,8 @@ struct SkeletonSensorOptions {
   /// parent's and √(1 − ρ²) of its own. ρ by the kind of bone, in (−1, 1).
   std::array<double, kBoneKindCount> correlation{};
   /// A joint's own error along the bones that end in it is times this: below 1 the sensor knows how long limbs are.
-  double arm_stretch = 1;   ///< of shoulders, elbows and wrists along upper arm and forearm
-  double hand_stretch = 1;  ///< of hands along the hand
+  double arm_stretch = 1;       ///< of shoulders, elbows and wrists along upper arm and forearm
+  double hand_stretch = 1;      ///< of hands along the hand
   double shoulder_stretch = 1;  ///< of shoulders towards each other
   /// `size` of an ankle or foot that rests on the floor, of a slow noise (`rest_time_s`); in motion it is the group's.
   double planted_feet = 0.003;
@@ -99,10 +99,10 @@ struct SkeletonSensorOptions {
 
   // What depends on the pose: a smooth random function of the places of the limbs, with modes: where a second such
   // function is high, another guess of the body is preferred, and the error jumps.
-  double pose_length_m = 0.25;      ///< correlation length over a joint's own place
-  double far_pose_length_m = 0.8;   ///< over the places of the arms, for joints of the trunk and legs (ours)
-  double mode_share = 0.12;         ///< of all poses (ours)
-  double mode_ratio = 4;            ///< size of errors in the mode ÷ elsewhere (ours)
+  double pose_length_m = 0.25;     ///< correlation length over a joint's own place
+  double far_pose_length_m = 0.8;  ///< over the places of the arms, for joints of the trunk and legs (ours)
+  double mode_share = 0.12;        ///< of all poses (ours)
+  double mode_ratio = 4;           ///< size of errors in the mode ÷ elsewhere (ours)
 
   // The fast part: short, in bursts, more when the body moves.
   double fast_share = 0.2;    ///< of the variance of `size`

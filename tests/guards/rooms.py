@@ -43,8 +43,9 @@ MAY_INCLUDE = {
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
-    "sim/sensors":
-        "engine/base engine/cameras engine/motion engine/recognition engine/vision sim/body sim/random sim/render",
+    "sim/sensors": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random sim/render",
+    "sim/skeleton_sensor":
+        "engine/base engine/cameras engine/document engine/motion engine/recognition sim/body sim/random",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
@@ -71,6 +72,8 @@ MAY_INCLUDE = {
         "bench/statistics bench/tasks bench/tasks/base",
     "bench/scenario":
         "engine/base engine/document bench/files bench/keys bench/metrics bench/model bench/tasks bench/tasks/base",
+    "bench/sensor_fit":
+        "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "sim/random bench/metrics bench/model",
     "bench/tasks":
         "engine/base bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik "
@@ -82,7 +85,7 @@ MAY_INCLUDE = {
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
         "sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
     "bench/tasks/detection":
-        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
+        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/skeleton_sensor bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
     "bench/tasks/ik":
         "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "

@@ -29,8 +29,7 @@ std::optional<RealRecording> Recorded(const SkeletonSensorOptions& sensor, const
   MadeUp made{.rotation = glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)), .translation = {0, -1, 2.9}};
   auto perfect = MakeRealRecording(PerfectRecording(twin, 7, made), twin);
   if (!perfect) return std::nullopt;
-  const JointRecording sensed =
-      Simulate(*perfect, sensor, {.suite_seed = 5, .scenario = "unknown-sensor", .trial = 0});
+  const JointRecording sensed = Simulate(*perfect, sensor, {.suite_seed = 5, .scenario = "unknown-sensor", .trial = 0});
   return MakeRealRecording(sensed, twin);
 }
 

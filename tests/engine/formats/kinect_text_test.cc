@@ -39,9 +39,9 @@ TEST(KinectText, GivesTheTwentyRolesOfAKinectV1) {
   ASSERT_TRUE(read);
   const RolePlaces places = PlacesOf((*read)[0]);
   // By the numbers of the SDK's JointType.
-  const std::pair<Role, int> expected[] = {{Role::kHipCentre, 0},     {Role::kSpine, 1},     {Role::kHead, 3},
+  const std::pair<Role, int> expected[] = {{Role::kHipCentre, 0},       {Role::kSpine, 1},     {Role::kHead, 3},
                                            {Role::kShoulderCentre, 20}, {Role::kLeftHand, 7},  {Role::kRightElbow, 9},
-                                           {Role::kLeftHip, 12},      {Role::kLeftFoot, 15}, {Role::kRightKnee, 17},
+                                           {Role::kLeftHip, 12},        {Role::kLeftFoot, 15}, {Role::kRightKnee, 17},
                                            {Role::kRightFoot, 19}};
   for (const auto& [role, joint] : expected) EXPECT_NEAR(places[Index(role)]->x, 0.1 * (joint + 1), 1e-12);
 }

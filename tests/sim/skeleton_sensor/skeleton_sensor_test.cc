@@ -52,8 +52,7 @@ BodyMotion StandingStill(std::size_t frames) {
 
 /// The covariance of a joint's errors over `lag` frames, averaged over joints and axes.
 template <std::size_t N>
-double Covariance(const JointErrors& errors, const std::array<Role, N>& roles,
-                  std::size_t lag) {
+double Covariance(const JointErrors& errors, const std::array<Role, N>& roles, std::size_t lag) {
   double sum = 0;
   for (Role role : roles) {
     glm::dvec3 mean(0);
@@ -237,7 +236,8 @@ SkeletonSensorOptions Faultless() {
 TEST(SkeletonSensor, InfersTheArmBehindTheBodyAndTracksTheOneBeforeIt) {
   // Seen from the performer's left, the trunk stands before the right arm.
   const BodyMotion motion = StandingStill(5);
-  const SkeletonStream stream = SenseSkeleton(motion, SkeletonSensorAt({.turn = Radians(90)}, SensorV1().view), {}, Faultless(), World(0));
+  const SkeletonStream stream =
+      SenseSkeleton(motion, SkeletonSensorAt({.turn = Radians(90)}, SensorV1().view), {}, Faultless(), World(0));
   for (const SensedFrame& frame : stream.frames) {
     EXPECT_EQ(frame[kLeftElbow].state, TrackingState::kTracked);
     EXPECT_EQ(frame[kRightElbow].state, TrackingState::kInferred);

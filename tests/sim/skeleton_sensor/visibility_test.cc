@@ -146,8 +146,8 @@ TEST(Visibility, IsWhatTheRendererDrawsForAllButOneJointInAThousand) {
     CompareWithPictures(**renderer, motion.poses[0], occluders, eye, FindHidden(motion, {}, eye)[0], blind);
   }
   EXPECT_GE(agreement.joints, 2000);
-  EXPECT_GE(agreement.agree, 0.999 * agreement.joints) << agreement.joints - agreement.agree << " of "
-                                                       << agreement.joints;
+  EXPECT_GE(agreement.agree, 0.999 * agreement.joints)
+      << agreement.joints - agreement.agree << " of " << agreement.joints;
   EXPECT_GT(agreement.hidden, agreement.joints / 10);  // there was something to tell
   EXPECT_LT(agreement.hidden, agreement.joints * 2 / 3);
   EXPECT_LT(blind.agree, 0.9 * blind.joints);
