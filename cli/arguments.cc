@@ -55,7 +55,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));
   const auto world_options = AddWorldOptions(*command, *options);
-  CLI::Option* part =
+  CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
   CLI::Option* overwrite =
       command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
@@ -63,7 +63,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
   auto dry_run = Keep<bool>(false);
   command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show")
-      ->excludes(part, overwrite, resume);
+      ->excludes(shard_option, overwrite, resume);
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
   command->callback([=, &action] {

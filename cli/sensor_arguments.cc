@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/sensor_commands.h"
+#include "cli/sensor_sheet_command.h"
 #include "cli/validators.h"
 
 namespace etude {
@@ -19,7 +20,7 @@ constexpr const char* kSensorExamples =
     "  etude sensor stats kinect.txt --reference vicon.txt --simulate v2    real beside simulated\n"
     "  etude sensor fit kinect.txt --reference vicon.txt -o sensor.yaml     then `sensor: sensor.yaml` in a scenario";
 
-void AddReading(CLI::App& command, SensorReading& reading) {
+void AddSensorReading(CLI::App& command, SensorReading& reading) {
   command.add_option("--rate", reading.rate_hz, "Of the recording (default: its own times, else 30 Hz)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command
@@ -37,7 +38,7 @@ void DefineStats(CLI::App& sensor, Action& action) {
   command->add_option("--worlds", options->worlds, "How many simulated recordings")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  AddReading(*command, options->reading);
+  AddSensorReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return SensorStatsCommand(*options); }; });
 }
 
@@ -57,18 +58,19 @@ void DefineFit(CLI::App& sensor, Action& action) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddSensorReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return SensorFitCommand(*options); }; });
 }
 
 }  // namespace
 
 void DefineSensor(CLI::App& app, Action& action) {
-  CLI::App* sensor = app.add_subcommand("sensor", "Statistics of skeleton sensors, and sensors fitted to them");
+  CLI::App* sensor = app.add_subcommand("sensor", "What sensors see, how they err, and sensors fitted to recordings");
   sensor->require_subcommand(1);
   sensor->footer(kSensorExamples);
   DefineStats(*sensor, action);
   DefineFit(*sensor, action);
+  DefineSensorSheet(*sensor, action);
 }
 
 }  // namespace etude

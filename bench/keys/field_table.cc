@@ -22,16 +22,16 @@ void ReadNumber(Fields& fields, const std::string& key, Range range, std::option
   if (const auto number = fields.OptionalWhole(key, range)) value = static_cast<std::uint64_t>(*number);
 }
 
-void ReadNumbers(Fields& fields, const std::string& key, Range range, const std::string& of_what,
-                 std::vector<double>& values) {
+void ReadNumbers(Fields& fields, const std::string& key, Count count, Range range, std::vector<double>& values) {
   const Node* node = fields.Raw(key);
   if (node == nullptr) return;
   std::vector<double> numbers = fields.Numbers(key, range);
-  if (numbers.size() == values.size()) {
+  if (numbers.size() >= count.fewest && numbers.size() <= count.most) {
     values = std::move(numbers);
   } else {
-    fields.Complain(node->place, fmt::format("'{}' has {} numbers; it needs one for each of the {} {}s", key,
-                                             numbers.size(), values.size(), of_what));
+    const std::string wanted = count.fewest == count.most ? fmt::format("{}", count.fewest)
+                                                          : fmt::format("{} to {}", count.fewest, count.most);
+    fields.Complain(node->place, fmt::format("'{}' has {} numbers; it needs {}", key, numbers.size(), wanted));
   }
 }
 

@@ -32,9 +32,8 @@ std::string DefaultText(const std::optional<Number>&) {
 inline std::string DegreesText(double radians) { return NumberText(Degrees(radians)); }
 inline std::string DegreesText(const std::optional<double>&) { return "(none)"; }
 
-/// Reads as many numbers as `values` holds, one per `of_what` ("camera").
-void ReadNumbers(Fields& fields, const std::string& key, Range range, const std::string& of_what,
-                 std::vector<double>& values);
+/// Reads `count` numbers into `values`.
+void ReadNumbers(Fields& fields, const std::string& key, Count count, Range range, std::vector<double>& values);
 /// Reads a list of names; complains of one that is not `known`.
 std::vector<std::string> ReadNames(Fields& fields, const std::string& key, const std::vector<std::string>& known);
 
@@ -69,16 +68,16 @@ struct Field {
             }};
   }
 
-  /// A vector of as many numbers as it has by default, one per `of_what`; `allowed` says it for people.
+  /// A vector of `count` numbers; `allowed` says for people how many, and which.
   template <typename Member>
-  static Field Numbers(const std::string& key, Member member, const std::string& of_what, std::string allowed,
-                       Range range, std::string meaning) {
+  static Field Numbers(const std::string& key, Member member, Count count, std::string allowed, Range range,
+                       std::string meaning) {
     std::string fallback;
     const auto values = Default(member);
     for (double value : values) fallback += (fallback.empty() ? "[" : ", ") + NumberText(value);
-    return {{key, ListKind(std::move(allowed), NumberKind(range), values.size()), fallback + "]", std::move(meaning)},
+    return {{key, ListKind(std::move(allowed), NumberKind(range), count), fallback + "]", std::move(meaning)},
             [=](Fields& fields, Options& options) {
-              ReadNumbers(fields, key, range, of_what, std::invoke(member, options));
+              ReadNumbers(fields, key, count, range, std::invoke(member, options));
             }};
   }
 

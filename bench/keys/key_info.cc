@@ -48,11 +48,9 @@ ValueKind NameKind(std::span<const std::string> names) {
   return {Join(names), Json{{"enum", std::vector(names.begin(), names.end())}}.dump()};
 }
 
-ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<std::size_t> count) {
+ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<Count> count) {
   Json schema{{"type", "array"}, {"items", Json::parse(item.schema)}};
-  for (const char* bound : {"minItems", "maxItems"}) {
-    if (count) schema[bound] = *count;
-  }
+  if (count) schema.update({{"minItems", count->fewest}, {"maxItems", count->most}});
   return {std::move(allowed), schema.dump()};
 }
 

@@ -23,8 +23,13 @@ ValueKind FlagKind();
 ValueKind TextKind(std::string allowed, const std::string& pattern = "");
 /// One of these texts.
 ValueKind NameKind(std::span<const std::string> names);
+/// How many values a list may have.
+struct Count {
+  std::size_t fewest = 0;
+  std::size_t most = 0;
+};
 /// A list of such values; `count` of them, or any number.
-ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<std::size_t> count = {});
+ValueKind ListKind(std::string allowed, const ValueKind& item, std::optional<Count> count = {});
 /// A mapping with these keys.
 ValueKind MappingKind(std::string allowed, std::span<const KeyInfo> keys);
 

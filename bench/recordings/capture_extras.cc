@@ -58,6 +58,12 @@ Result<CaptureExtras> ToExtras(const Json& json) {
   CaptureExtras extras;
   extras.texture_seed = json.at("room").at("texture_seed");
   extras.casts_shadows = json.at("room").at("casts_shadows");
+  if (json.contains("stage")) {
+    const Json& stage = json.at("stage");
+    extras.stage_seed = stage.at("seed");
+    extras.scene = stage.at("scene");
+    extras.wears_everyday = stage.at("everyday");
+  }
   for (std::size_t i = 0; i < extras.colours.size(); ++i) {
     const Json& colour = json.at("colours").at(i);
     extras.colours[i] = {colour.at(0), colour.at(1), colour.at(2)};
@@ -82,13 +88,16 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
   for (const Rgb8& colour : extras.colours) colours.push_back({colour.r, colour.g, colour.b});
   Json cameras = Json::array();
   for (const CaptureExtras::View& view : extras.views) cameras.push_back(ToJson(view));
-  const Json json = {{"format", kFormat},
-                     {"version", kVersion},
-                     {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
-                     {"colours", std::move(colours)},
-                     {"brightness", extras.brightness},
-                     {"cameras", std::move(cameras)},
-                     {"bvh", extras.bvh}};
+  Json json = {{"format", kFormat},
+               {"version", kVersion},
+               {"room", {{"texture_seed", extras.texture_seed}, {"casts_shadows", extras.casts_shadows}}},
+               {"colours", std::move(colours)},
+               {"brightness", extras.brightness},
+               {"cameras", std::move(cameras)},
+               {"bvh", extras.bvh}};
+  if (extras.scene > 0) {
+    json["stage"] = {{"seed", extras.stage_seed}, {"scene", extras.scene}, {"everyday", extras.wears_everyday}};
+  }
   return json.dump();
 }
 

@@ -14,15 +14,16 @@ namespace etude {
 
 /// What a recording of the `capture` task holds beside its tracks "truth" and "recovered" (both at
 /// 30 Hz, frame k of the tracks belongs to frame k here): enough to draw the stereo views again.
-/// To show frame k of camera c: render the truth, dressed in `colours`, in Room{texture_seed, brightness[k],
-/// casts_shadows} as seen by cameras[c].truth, lay masks[k] over it, and project the recovered joints with
-/// MatrixOf(cameras[c].truth).
+/// To show frame k of camera c: render the truth, dressed in `colours` (or as its stage dresses it), in
+/// Room{texture_seed, brightness[k], casts_shadows} as seen by cameras[c].truth, lay masks[k] over it, and project the
+/// recovered joints with MatrixOf(cameras[c].truth).
 ///
 /// As JSON (what `Recording::extras_json` holds):
 ///
 ///     {"format": "etude-capture", "version": 1,
 ///      "room": {"texture_seed": 7, "casts_shadows": true},
 ///      "colours": [[r, g, b], …],                          sixteen, by Part: Figure::colours
+///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    of what sim/stage is made; absent in the studio
 ///      "brightness": [1.0, 1.01, …],                       one per frame
 ///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
@@ -37,6 +38,9 @@ struct CaptureExtras {
 
   std::uint64_t texture_seed = 1;
   bool casts_shadows = true;
+  std::uint64_t stage_seed = 0;    ///< of what stands and moves in the room (sim/stage); with `scene` > 0
+  double scene = 0;                ///< 0 = the studio
+  bool wears_everyday = false;     ///< the performer's wardrobe on that stage
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;

@@ -12,7 +12,7 @@ Camera LookAt(const Intrinsics& intrinsics, const glm::dvec3& p_WC, const glm::d
   const glm::dvec3 x_W = glm::normalize(right_W);
   const glm::dvec3 y_W = glm::cross(z_W, x_W);
   // The rows of R_CW are the camera's axes in the world.
-  return {intrinsics, glm::transpose(glm::dmat3(x_W, y_W, z_W)), p_WC};
+  return {intrinsics, glm::transpose(glm::dmat3(x_W, y_W, z_W)), p_WC, {}};
 }
 
 ProjectionMatrix MatrixOf(const Camera& camera) {
@@ -37,6 +37,44 @@ std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dve
   constexpr double kOnThePlane = 1e-9;
   if (!(p.z > kOnThePlane)) return std::nullopt;
   return glm::dvec2(p.x / p.z, p.y / p.z);
+}
+
+namespace {
+
+/// The ray (x, y, 1) in the camera's frame of a pinhole's pixel, and back.
+glm::dvec2 RayOf(const Intrinsics& in, const glm::dvec2& pixel) {
+  const double y = (pixel.y - in.cy) / in.fy;
+  return {(pixel.x - in.cx - in.skew * y) / in.fx, y};
+}
+
+glm::dvec2 PixelOf(const Intrinsics& in, const glm::dvec2& ray) {
+  return {in.fx * ray.x + in.skew * ray.y + in.cx, in.fy * ray.y + in.cy};
+}
+
+}  // namespace
+
+std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ) {
+  const auto pixel = Project(MatrixOf(camera), p_WQ);
+  if (!pixel || camera.distortion.IsNone()) return pixel;
+  return DistortPixel(camera, *pixel);
+}
+
+std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& pixel) {
+  if (camera.distortion.IsNone()) return pixel;
+  const glm::dvec2 ray = RayOf(camera.intrinsics, pixel);
+  const glm::dvec2 distorted = Distort(camera.distortion, ray);
+  // What the lens folds back is seen at the place whose own ray is another one.
+  constexpr double kSameRay = 1e-6;
+  const auto back = Undistort(camera.distortion, distorted);
+  if (!back || glm::length(*back - ray) > kSameRay) return std::nullopt;
+  return PixelOf(camera.intrinsics, distorted);
+}
+
+std::optional<glm::dvec2> UndistortPixel(const Camera& camera, const glm::dvec2& pixel) {
+  if (camera.distortion.IsNone()) return pixel;
+  const auto ray = Undistort(camera.distortion, RayOf(camera.intrinsics, pixel));
+  if (!ray) return std::nullopt;
+  return PixelOf(camera.intrinsics, *ray);
 }
 
 }  // namespace etude

@@ -4,9 +4,11 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "engine/cameras/distortion.h"
+
 namespace etude {
 
-/// A pinhole camera's inside, pixels. Image axes: u right, v down, origin at the top left corner;
+/// A camera's inside, pixels. Image axes: u right, v down, origin at the top left corner;
 /// the centre of pixel (i, j) is (i + 0.5, j + 0.5).
 struct Intrinsics {
   int width = 640;
@@ -23,6 +25,7 @@ struct Camera {
   Intrinsics intrinsics;
   glm::dmat3 R_CW{1};  ///< rotates world directions into the camera's frame
   glm::dvec3 p_WC{0};  ///< the centre of projection in the world, metres
+  Distortion distortion{};
 };
 
 /// The camera at `p_WC` looking at the point T at `p_WT`, its v axis pointing down as far as possible.
@@ -35,10 +38,19 @@ struct ProjectionMatrix {
   std::array<std::array<double, 4>, 3> h{};
 };
 
+/// Of the camera's pinhole: a matrix knows no distortion.
 ProjectionMatrix MatrixOf(const Camera& camera);
 
 /// The pixel that shows the point Q at `p_WQ`; nothing when it lies on or behind the camera's plane. The sign of H is
 /// taken such that w > 0 in front of the camera (DLT normalises it so).
 std::optional<glm::dvec2> Project(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ);
+
+/// The same of a camera with its lens. Nothing, too, far outside the picture where a lens of that distortion would fold
+/// the world back into it.
+std::optional<glm::dvec2> Project(const Camera& camera, const glm::dvec3& p_WQ);
+
+/// The pixel that shows what a pinhole would show at `pixel`, and the other way round: nothing where there is none.
+std::optional<glm::dvec2> DistortPixel(const Camera& camera, const glm::dvec2& pixel);
+std::optional<glm::dvec2> UndistortPixel(const Camera& camera, const glm::dvec2& pixel);
 
 }  // namespace etude

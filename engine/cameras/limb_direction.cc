@@ -12,25 +12,16 @@ namespace {
 // Two rays this close to each other span no plane: 0.01 pixel at a focal length of 600.
 constexpr double kSamePixel = 1e-5;
 
-struct LimbPlane {
-  glm::dvec3 ray_a_W;   // unit
-  glm::dvec3 normal_W;  // unit, ray a × ray b
-};
-
 // The planes of the strokes that have a length.
-std::vector<LimbPlane> PlanesOf(std::span<const LimbSighting> sightings) {
-  std::vector<LimbPlane> planes;
+std::vector<StrokePlane> PlanesOf(std::span<const LimbSighting> sightings) {
+  std::vector<StrokePlane> planes;
   for (const LimbSighting& sighting : sightings) {
-    const glm::dvec3 a_W = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.a));
-    const glm::dvec3 b_W = glm::normalize(ViewingRay(sighting.matrix, sighting.stroke.b));
-    const glm::dvec3 normal_W = glm::cross(a_W, b_W);
-    const double length = glm::length(normal_W);
-    if (length > kSamePixel) planes.push_back({a_W, normal_W / length});  // not so for NaN
+    if (const auto plane = PlaneOf(sighting)) planes.push_back(*plane);
   }
   return planes;
 }
 
-double LargestPlaneAngle(std::span<const LimbPlane> planes) {
+double LargestPlaneAngle(std::span<const StrokePlane> planes) {
   double largest = 0;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
@@ -42,7 +33,7 @@ double LargestPlaneAngle(std::span<const LimbPlane> planes) {
 }
 
 // The unit vector nearest to normal to all normals; its sign means nothing.
-glm::dvec3 LineAlong(std::span<const LimbPlane> planes) {
+glm::dvec3 LineAlong(std::span<const StrokePlane> planes) {
   if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
   Eigen::MatrixX3d normals(planes.size(), 3);
   for (std::size_t i = 0; i < planes.size(); ++i) {
@@ -56,7 +47,7 @@ glm::dvec3 LineAlong(std::span<const LimbPlane> planes) {
 
 // How far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction =
 // α·a + β·b; a point on ray a moving along it is seen moving towards b exactly when β > 0.
-double Sense(const LimbPlane& plane, const glm::dvec3& direction_W) {
+double Sense(const StrokePlane& plane, const glm::dvec3& direction_W) {
   return glm::dot(glm::cross(plane.ray_a_W, direction_W), plane.normal_W);
 }
 
@@ -69,15 +60,25 @@ glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel) {
   return glm::dot(h3, ray_W) < 0 ? -ray_W : ray_W;  // w must grow along the ray
 }
 
+std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting) {
+  const auto& [matrix, stroke] = sighting;
+  const glm::dvec3 a_W = glm::normalize(ViewingRay(matrix, stroke.a)),
+                   b_W = glm::normalize(ViewingRay(matrix, stroke.b));
+  const glm::dvec3 normal_W = glm::cross(a_W, b_W);
+  const double length = glm::length(normal_W);
+  if (!(length > kSamePixel)) return std::nullopt;  // also for NaN
+  return StrokePlane{normal_W / length, a_W, b_W, glm::distance(stroke.a, stroke.b)};
+}
+
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle) {
-  const std::vector<LimbPlane> planes = PlanesOf(sightings);
+  const std::vector<StrokePlane> planes = PlanesOf(sightings);
   LimbDirection limb;
   limb.plane_angle = LargestPlaneAngle(planes);
   if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
 
   const glm::dvec3 along_W = LineAlong(planes);
   double sense = 0;
-  for (const LimbPlane& plane : planes) sense += Sense(plane, along_W);
+  for (const StrokePlane& plane : planes) sense += Sense(plane, along_W);
   return {DirectionStatus::kOk, sense < 0 ? -along_W : along_W, limb.plane_angle};
 }
 

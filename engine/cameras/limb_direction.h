@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "engine/base/angles.h"
@@ -23,6 +24,17 @@ struct LimbSighting {
 /// The direction in the world in which the camera sees `pixel`, pointing away from the camera: the cross product of
 /// the two planes through that pixel (paper B, equations 2.4 and 2.5). Of any length.
 glm::dvec3 ViewingRay(const ProjectionMatrix& matrix, const glm::dvec2& pixel);
+
+/// The plane through a camera's centre and a stroke, in which the limb lies.
+struct StrokePlane {
+  glm::dvec3 normal_W{0};  ///< unit, ray(a) × ray(b)
+  glm::dvec3 ray_a_W{0};   ///< unit, from the camera through the stroke's start
+  glm::dvec3 ray_b_W{0};   ///< unit, through its end
+  double length_px = 0;    ///< of the stroke
+};
+
+/// Nothing for a stroke without length: shorter than 0.01 pixel at a focal length of 600.
+std::optional<StrokePlane> PlaneOf(const LimbSighting& sighting);
 
 enum class DirectionStatus {
   kOk,

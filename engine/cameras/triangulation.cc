@@ -1,7 +1,10 @@
 #include "engine/cameras/triangulation.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+
+#include "engine/cameras/limb_direction.h"
 
 namespace etude {
 namespace {
@@ -21,6 +24,22 @@ double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& p_WQ) {
 }
 
 }  // namespace
+
+std::optional<SightLine> SightLineOf(const Sighting& sighting) {
+  const auto& h = sighting.matrix.h;
+  const glm::dmat3 M =
+      glm::transpose(glm::dmat3(h[0][0], h[0][1], h[0][2], h[1][0], h[1][1], h[1][2], h[2][0], h[2][1], h[2][2]));
+  const glm::dvec3 centre_W = -(glm::inverse(M) * glm::dvec3(h[0][3], h[1][3], h[2][3]));
+  const glm::dvec3 ray_W = ViewingRay(sighting.matrix, sighting.pixel);
+  const double length = glm::length(ray_W);
+  if (!(length > 0) || !std::isfinite(glm::length(centre_W) / length)) return std::nullopt;
+  return SightLine{centre_W, ray_W / length};
+}
+
+glm::dvec3 NearestOn(const SightLine& line, const glm::dvec3& p_WQ) {
+  const double depth = std::max(0.0, glm::dot(p_WQ - line.camera_W, line.direction_W));
+  return line.camera_W + depth * line.direction_W;
+}
 
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings) {
   TriangulatedPoint point;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 #include "engine/cameras/camera.h"
@@ -12,6 +13,18 @@ struct Sighting {
   ProjectionMatrix matrix;
   glm::dvec2 pixel{0};
 };
+
+/// All places that one pixel can show.
+struct SightLine {
+  glm::dvec3 camera_W{0};     ///< the camera's centre, metres
+  glm::dvec3 direction_W{0};  ///< unit, away from the camera
+};
+
+/// Nothing when the matrix has no centre (a camera at infinity) or a number is not finite.
+std::optional<SightLine> SightLineOf(const Sighting& sighting);
+
+/// Of all places on the line in front of the camera, the one nearest to the point at `p_WQ`.
+glm::dvec3 NearestOn(const SightLine& line, const glm::dvec3& p_WQ);
 
 enum class PointStatus {
   kOk,

@@ -1,8 +1,10 @@
 #include "engine/capture/bridge_gaps.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/unit_vector.h"
 #include "engine/vision/strokes.h"
 
 namespace etude {
@@ -18,43 +20,111 @@ glm::dvec3 SlerpDirections(const glm::dvec3& from, const glm::dvec3& to, double 
 
 glm::dvec3 MixPoints(const glm::dvec3& from, const glm::dvec3& to, double share) { return glm::mix(from, to, share); }
 
+/// What the measurements around a frame say of one quantity.
+struct Bridged {
+  glm::dvec3 value{0};
+  int distance = 0;  ///< frames to the nearest measurement; 0: measured in the frame itself
+};
+
 // The value at `frame` from the nearest measured ones, which `value_at` gives.
 template <typename ValueAt, typename Mix>
-std::optional<glm::dvec3> Bridge(int frame, int frames, int longest_gap, ValueAt value_at, Mix mix) {
+std::optional<Bridged> Bridge(int frame, int frames, int longest_gap, ValueAt value_at, Mix mix) {
   int before = frame, after = frame;
   while (before >= 0 && !value_at(before)) --before;
   while (after < frames && !value_at(after)) ++after;
   const bool has_before = before >= 0, has_after = after < frames;
   const bool is_near = (has_before && frame - before <= longest_gap) || (has_after && after - frame <= longest_gap);
   if (!is_near) return std::nullopt;
-  if (!has_after || before == after) return value_at(before);
-  if (!has_before) return value_at(after);
-  return mix(*value_at(before), *value_at(after), static_cast<double>(frame - before) / (after - before));
+  const int distance = std::min(has_before ? frame - before : frames, has_after ? after - frame : frames);
+  if (!has_after || before == after) return Bridged{*value_at(before), distance};
+  if (!has_before) return Bridged{*value_at(after), distance};
+  const double share = static_cast<double>(frame - before) / (after - before);
+  return Bridged{mix(*value_at(before), *value_at(after), share), distance};
 }
+
+// Of a limb that is taken for unforeshortened: from where its strokes begin to where they end.
+std::optional<glm::dvec3> DirectionAcrossSight(std::span<const StrokePlane> planes) {
+  glm::dvec3 sum(0);
+  for (const StrokePlane& plane : planes) sum += glm::normalize(plane.ray_b_W - plane.ray_a_W);
+  constexpr double kNone = 1e-6;
+  const double length = glm::length(sum);
+  if (!(length > kNone)) return std::nullopt;
+  return sum / length;
+}
+
+// The minimiser of the sum of squares in the header, at length 1.
+glm::dvec3 FuseDirection(std::span<const StrokePlane> planes, const Bridged& bridged, const BridgeOptions& options) {
+  const double turn = options.turn_per_frame * bridged.distance;
+  glm::dmat3 squares(1 / (turn * turn));
+  const glm::dvec3 wanted = bridged.value / (turn * turn);
+  for (const StrokePlane& plane : planes) {
+    constexpr double kLeastError = Radians(1);
+    const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
+    const double aside = glm::length(glm::cross(middle, bridged.value));
+    const double error = std::max(kLeastError, std::sqrt(2.0) * options.mark_error_px / plane.length_px * aside);
+    squares += glm::outerProduct(plane.normal_W, plane.normal_W) / (error * error);
+  }
+  const glm::dvec3 direction = glm::inverse(squares) * wanted;
+  return UnitOr(direction, bridged.value);
+}
+
+/// One frame of a take, completed.
+class FrameBridge {
+ public:
+  FrameBridge(std::span<const FrameMeasurement> frames, int frame, const BridgeOptions& options)
+      : frames_(frames), frame_(frame), options_(options) {}
+
+  std::optional<LimbObservation> Complete() const {
+    LimbObservation observation;
+    bool is_empty = true;
+    for (const EffectorMark& mark : EffectorMarks()) {
+      const std::optional<glm::dvec3> end = End(Index(mark.role));
+      is_empty &= !end;
+      observation.ends[mark.role] = end.value_or(glm::dvec3(0));
+      observation.lacks_end[Index(mark.role)] = !end;
+    }
+    for (const StrokeMark& mark : StrokeMarks()) {
+      const std::optional<glm::dvec3> direction = Direction(Index(mark.to));
+      is_empty &= !direction;
+      observation.directions[Index(mark.to)] = direction.value_or(glm::dvec3(0));
+      observation.lacks_direction[Index(mark.to)] = !direction;
+    }
+    if (is_empty) return std::nullopt;
+    return observation;
+  }
+
+ private:
+  int Count() const { return static_cast<int>(frames_.size()); }
+
+  std::optional<glm::dvec3> End(std::size_t role) const {
+    const auto end_at = [&](int k) -> const auto& { return frames_[k].ends[role]; };
+    const auto bridged = Bridge(frame_, Count(), options_.longest_gap, end_at, MixPoints);
+    if (!bridged) return std::nullopt;
+    const auto& line = frames_[frame_].sight_lines[role];
+    return line ? NearestOn(*line, bridged->value) : bridged->value;
+  }
+
+  std::optional<glm::dvec3> Direction(std::size_t role) const {
+    const auto direction_at = [&](int k) -> const auto& { return frames_[k].directions[role]; };
+    const auto bridged = Bridge(frame_, Count(), options_.longest_gap, direction_at, SlerpDirections);
+    const std::vector<StrokePlane>& planes = frames_[frame_].planes[role];
+    if (!bridged) return DirectionAcrossSight(planes);
+    if (bridged->distance == 0 || planes.empty()) return bridged->value;
+    return FuseDirection(planes, *bridged, options_);
+  }
+
+  const std::span<const FrameMeasurement> frames_;
+  const int frame_;
+  const BridgeOptions& options_;
+};
 
 }  // namespace
 
 std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
                                                        const BridgeOptions& options) {
-  const int count = static_cast<int>(frames.size());
   std::vector<std::optional<LimbObservation>> bridged;
-  for (int frame = 0; frame < count; ++frame) {
-    LimbObservation observation;
-    bool complete = true;
-    for (const EffectorMark& mark : EffectorMarks()) {
-      auto end_at = [&](int k) { return frames[k].ends[Index(mark.role)]; };
-      const auto end = Bridge(frame, count, options.longest_gap, end_at, MixPoints);
-      complete &= end.has_value();
-      observation.ends[mark.role] = end.value_or(glm::dvec3(0));
-    }
-    for (const StrokeMark& mark : StrokeMarks()) {
-      auto direction_at = [&](int k) { return frames[k].directions[Index(mark.to)]; };
-      const auto direction = Bridge(frame, count, options.longest_gap, direction_at, SlerpDirections);
-      complete &= direction.has_value();
-      observation.directions[Index(mark.to)] = direction.value_or(glm::dvec3(0));
-    }
-    bridged.push_back(complete ? std::optional(observation) : std::nullopt);
-  }
+  for (int k = 0; k < static_cast<int>(frames.size()); ++k)
+    bridged.push_back(FrameBridge(frames, k, options).Complete());
   return bridged;
 }
 

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "engine/cameras/limb_direction.h"
-#include "engine/cameras/triangulation.h"
-
 namespace etude {
 namespace {
 
@@ -15,27 +12,35 @@ class FrameMeter {
   FrameMeter(const MeasureInputs& inputs, std::size_t frame, const MeasureOptions& options)
       : inputs_(inputs), frame_(frame), options_(options) {}
 
-  RoleVectors Ends() const {
-    RoleVectors ends;
-    for (std::size_t i = 0; i < kEffectorCount; ++i) ends[Index(EffectorMarks()[i].role)] = End(i);
-    return ends;
+  void MeasureEnds(FrameMeasurement& frame) const {
+    for (std::size_t i = 0; i < kEffectorCount; ++i) {
+      const std::size_t role = Index(EffectorMarks()[i].role);
+      const std::vector<Sighting> sightings = SightingsOfEnd(i);
+      const TriangulatedPoint point = Triangulate(sightings);
+      if (point.status == PointStatus::kOk) {
+        frame.ends[role] = point.position;
+      } else if (!sightings.empty()) {
+        frame.sight_lines[role] = SightLineOf(sightings.front());
+      }
+    }
   }
 
-  RoleVectors Directions() const {
-    RoleVectors directions;
-    for (std::size_t i = 0; i < kStrokeCount; ++i) directions[Index(StrokeMarks()[i].to)] = Direction(i);
-    return directions;
+  void MeasureDirections(FrameMeasurement& frame) const {
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      const std::size_t role = Index(StrokeMarks()[i].to);
+      frame.directions[role] = Direction(i);
+      if (!frame.directions[role]) frame.planes[role] = Planes(i);
+    }
   }
 
  private:
-  std::optional<glm::dvec3> End(std::size_t effector) const {
+  std::vector<Sighting> SightingsOfEnd(std::size_t effector) const {
     std::vector<Sighting> sightings;
     for (std::size_t camera = 0; camera < inputs_.cameras.size(); ++camera) {
       const auto& pixel = MarksOf(camera).effectors[effector];
       if (pixel) sightings.push_back({inputs_.cameras[camera], *pixel});
     }
-    const TriangulatedPoint point = Triangulate(sightings);
-    return point.status == PointStatus::kOk ? std::optional(point.position) : std::nullopt;
+    return sightings;
   }
 
   std::optional<glm::dvec3> Direction(std::size_t stroke_mark) const {
@@ -46,6 +51,16 @@ class FrameMeter {
     }
     const LimbDirection limb = ComputeLimbDirection(sightings, options_.smallest_plane_angle);
     return limb.status == DirectionStatus::kOk ? std::optional(limb.direction) : std::nullopt;
+  }
+
+  std::vector<StrokePlane> Planes(std::size_t stroke_mark) const {
+    std::vector<StrokePlane> planes;
+    for (std::size_t camera = 0; camera < inputs_.cameras.size(); ++camera) {
+      const auto& stroke = MarksOf(camera).strokes[stroke_mark];
+      const auto plane = stroke ? PlaneOf({inputs_.cameras[camera], *stroke}) : std::nullopt;
+      if (plane) planes.push_back(*plane);
+    }
+    return planes;
   }
 
   const Marks& MarksOf(std::size_t camera) const { return inputs_.marks[camera][frame_]; }
@@ -69,8 +84,17 @@ std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const M
   for (std::size_t i = 0; i < count; ++i) {
     const FrameMeter meter(inputs, i, options);
     const KnownMeasurement known = inputs.known.empty() ? KnownMeasurement{} : inputs.known[i];
-    frames.push_back({.ends = known.ends ? *known.ends : meter.Ends(),
-                      .directions = known.directions ? *known.directions : meter.Directions()});
+    FrameMeasurement& frame = frames.emplace_back();
+    if (known.ends) {
+      frame.ends = *known.ends;
+    } else {
+      meter.MeasureEnds(frame);
+    }
+    if (known.directions) {
+      frame.directions = *known.directions;
+    } else {
+      meter.MeasureDirections(frame);
+    }
   }
   return frames;
 }

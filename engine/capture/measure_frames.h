@@ -8,6 +8,8 @@
 
 #include "engine/base/angles.h"
 #include "engine/cameras/camera.h"
+#include "engine/cameras/limb_direction.h"
+#include "engine/cameras/triangulation.h"
 #include "engine/motion/body.h"
 #include "engine/vision/strokes.h"
 
@@ -16,11 +18,14 @@ namespace etude {
 /// A vector for some of the twenty roles.
 using RoleVectors = std::array<std::optional<glm::dvec3>, kRoleCount>;
 
-/// What one frame's marks say about space; nothing where too few pictures show a mark, or where the geometry is
-/// ill-conditioned.
+/// What one frame's marks say about space.
 struct FrameMeasurement {
   RoleVectors ends;        ///< p_WE, metres: each end effector's place in the world, at its role
   RoleVectors directions;  ///< unit, in the world: each limb's direction, at the role of its lower joint
+  /// What is known of limbs without a direction: they lie in these planes, one for each picture that shows the limb.
+  std::array<std::vector<StrokePlane>, kRoleCount> planes = {};
+  /// What is known of ends that only one picture shows: they lie on this line.
+  std::array<std::optional<SightLine>, kRoleCount> sight_lines = {};
 };
 
 /// What the caller knows of one frame without marks: from another sensor, or true values, to see what a stage costs.
@@ -41,20 +46,21 @@ struct MeasureInputs {
 };
 
 struct MeasureOptions {
-  /// The direction of a limb is computed only if two of its viewing planes are at least this far from parallel
-  /// (radians). An error of the strokes is magnified by 1/sin of that angle: about seven times at 8°. Raise it when
-  /// marks are inexact and a bridged gap is better than a poor direction; lower it when marks are exact, or cameras
-  /// stand close together.
+  /// The direction of a limb is that of its strokes alone if two of its viewing planes are at least this far from
+  /// parallel (radians). An error of the strokes is magnified by 1/sin of that angle: about seven times at 8°. Below,
+  /// the planes are handed on, and the frames before and after help (`BridgeGaps`). Raise it when marks are inexact;
+  /// lower it when marks are exact, or cameras stand close together.
   double smallest_plane_angle = Radians(8);
-  /// Shorter strokes (pixels) are not used: when a limb is seen almost end on, the error of the marks hides its
-  /// direction. 6 is three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with that error.
+  /// Likewise for strokes (pixels): when a limb is seen almost end on, the error of the marks hides its direction. 6 is
+  /// three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with that error.
   double shortest_stroke_px = 6;
 };
 
 /// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4).
-/// Each mark is measured from all pictures that show it, if these are two or more. With two cameras these are the
-/// paper's formulas; with more, both are least squares in which every view counts alike (`Triangulate`,
-/// `ComputeLimbDirection`). No view is rejected for disagreeing with the others.
+/// Each mark is measured from all pictures that show it, if these are two or more; of others, what they tell is kept
+/// (`planes`, `sight_lines`). With two cameras these are the paper's formulas; with more, both are least squares in
+/// which every view counts alike (`Triangulate`, `ComputeLimbDirection`). No view is rejected for disagreeing with the
+/// others.
 std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options = {});
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "engine/kinematics/partial_observation.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/kinematics/tree_to_body.h"
 
@@ -21,9 +22,24 @@ std::optional<TreeState> FindStart(const KinematicTree& body, const BodyPose& fi
   return start;
 }
 
+// Of the effectors whose ends were seen.
+std::vector<EffectorError> ErrorsSeen(const KinematicTree& body, const LimbObservation& seen,
+                                      const std::vector<EffectorError>& errors) {
+  std::vector<EffectorError> kept;
+  for (std::size_t e = 0; e < errors.size(); ++e) {
+    const Role role = BodyTreeLimbs()[body.effectors[e].joint].to;
+    if (!seen.lacks_end[Index(role)]) kept.push_back(errors[e]);
+  }
+  return kept;
+}
+
 std::optional<RecoveredFrame> RecoverFrame(const KinematicTree& body, const LimbLengths& lengths,
-                                           const LimbObservation& seen, bool is_marked,
+                                           const LimbObservation& observed, bool is_marked,
                                            const std::optional<RecoveredFrame>& last, const RecoverOptions& options) {
+  const BodyPose like = last ? last->pose : ToBodyPose(body, StandingState(body));
+  const auto completed = CompleteObservation(observed, lengths, like, last.has_value());
+  if (!completed) return std::nullopt;
+  const LimbObservation& seen = *completed;
   const std::optional<BodyPose> fixed = FixLimbLengths(seen, lengths);
   if (!fixed) return std::nullopt;
   const std::optional<TreeState> start = FindStart(body, *fixed, is_marked, last);
@@ -33,7 +49,7 @@ std::optional<RecoveredFrame> RecoverFrame(const KinematicTree& body, const Limb
   TreeState state = *start;
   state.angles = std::move(solution.angles);
   const BodyPose pose = ToBodyPose(body, state);
-  return RecoveredFrame{*fixed, std::move(state), pose, std::move(solution.errors)};
+  return RecoveredFrame{*fixed, std::move(state), pose, ErrorsSeen(body, seen, solution.errors)};
 }
 
 }  // namespace

@@ -36,12 +36,14 @@ struct RecoveredFrame {
   BodyPose fixed;   ///< with the known limb lengths, before inverse kinematics
   TreeState state;  ///< after it
   BodyPose pose;    ///< the same as twenty joints
-  /// From the tree's end effectors to where they were seen; empty where they were not seen.
+  /// From the tree's end effectors to where they were seen, in the tree's order; those not seen are left out.
   std::vector<EffectorError> errors;
 };
 
 /// From what was seen to a skeleton (paper B, chapter 3): limb lengths fixed, then every end effector brought back by
-/// the solver. A frame without observation, or whose skeleton cannot be computed, stays empty.
+/// the solver. What an observation lacks comes from the last frame, or a standing body before there is one
+/// (`CompleteObservation`), and is no target. A frame without observation, or whose skeleton cannot be computed, stays
+/// empty, and so do frames that show no end before the first that does.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
 /// Every frame: an empty one shows the last skeleton before it, leading ones the first. At least one is not empty.

@@ -19,6 +19,8 @@ struct LimbObservation {
   /// shoulder to elbow, [head] from the neck's base to the head. Any length but zero. Only arms, hands, legs, feet and
   /// the neck count; trunk, hips and shoulders are inferred.
   std::array<glm::dvec3, kRoleCount> directions{};
+  /// What was not seen, and has no meaning above: ends and directions, at the same indices (`CompleteObservation`).
+  std::array<bool, kRoleCount> lacks_end{}, lacks_direction{};
 };
 
 /// The roles whose `LimbObservation::directions` count: the lower ends of thirteen limbs.

@@ -127,7 +127,8 @@ IkProblem MakeImageProblem(const KinematicTree& body, const LimbObservation& obs
     EffectorTarget target;
     target.position = observation.ends[role];
     target.axes = SmallestRotation(R_WE[2], seen) * R_WE;
-    target.axis_weights = {0, 0, 1};
+    target.position_weight = observation.lacks_end[Index(role)] ? 0 : 1;
+    target.axis_weights = {0, 0, observation.lacks_direction[Index(role)] ? 0.0 : 1.0};
     problem.targets.push_back(target);
   }
   return problem;

@@ -30,7 +30,8 @@ std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPos
 
 /// The problem that remains after the limb lengths are fixed: bring the ends back to where they were seen, the last
 /// limbs into their seen directions. The targets' Z axes are those directions, X and Y the start pose's, turned by the
-/// smallest rotation; a stroke says nothing about them, so their weight is 0. Limits are those of `body`.
+/// smallest rotation; a stroke says nothing about them, so their weight is 0, and so is that of all that `observation`
+/// lacks. Limits are those of `body`.
 IkProblem MakeImageProblem(const KinematicTree& body, const LimbObservation& observation, const TreeState& start);
 
 }  // namespace etude

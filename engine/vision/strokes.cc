@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "engine/base/angles.h"
@@ -112,6 +114,16 @@ constexpr std::array<Rgb8, kColourCount> kPalette = [] {
   return palette;
 }();
 
+// Most of an annotation picture is black: eight pixels at a time are passed over.
+constexpr int kBlock = 8;
+
+bool IsBlackBlock(const Rgb8* pixels) {
+  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  std::array<std::uint64_t, 3> bits;
+  std::memcpy(bits.data(), pixels, sizeof(bits));
+  return (bits[0] | bits[1] | bits[2]) == 0;
+}
+
 }  // namespace
 
 std::span<const StrokeMark, kStrokeCount> StrokeMarks() { return kStrokes; }
@@ -121,6 +133,10 @@ Marks ReadMarks(const ColourImage& annotation) {
   std::array<Pixels, kColourCount> pixels;
   for (int y = 0; y < annotation.height; ++y) {
     for (int x = 0; x < annotation.width; ++x) {
+      if (x + kBlock <= annotation.width && IsBlackBlock(&annotation.At(x, y))) {
+        x += kBlock - 1;
+        continue;
+      }
       const Rgb8 colour = annotation.At(x, y);
       if (colour == Rgb8{}) continue;
       const auto found = std::find(kPalette.begin(), kPalette.end(), colour);

@@ -73,6 +73,13 @@ Box CropAround(const BodyMotion& motion, const Camera& camera) {
   return {corner.x, corner.y, share * size.x, share * size.y};
 }
 
+Stage StageOf(const CaptureExtras& extras, const BodyMotion& truth) {
+  std::vector<Camera> cameras;
+  for (const CaptureExtras::View& view : extras.views) cameras.push_back(view.truth);
+  const Wardrobe wardrobe = extras.wears_everyday ? Wardrobe::kEveryday : Wardrobe::kStudio;
+  return Stage({.seed = extras.stage_seed, .scene = extras.scene, .wardrobe = wardrobe}, truth.poses, cameras);
+}
+
 }  // namespace
 
 Mask OutlineOf(const Mask& mask) {
@@ -104,6 +111,7 @@ Result<CapturePanel> CapturePanel::Make(const RunData& run, const CastCell& cell
   panel.truth_ = *truth;
   panel.recovered_ = *recovered;
   panel.extras_ = std::move(extras);
+  panel.stage_ = StageOf(panel.extras_, panel.truth_);
   for (const auto& view : panel.extras_.views) panel.crops_.push_back(CropAround(panel.truth_, view.truth));
   panel.method_ = cell.row->method;
   panel.clip_ = ClipInWords(cell.row->clip);
@@ -133,9 +141,14 @@ std::string CapturePanel::ErrorWords(int frame) const {
 
 View CapturePanel::Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const {
   const std::size_t k = static_cast<std::size_t>(frame);
-  const Room room{extras_.texture_seed, extras_.brightness[k], extras_.casts_shadows};
-  return renderer.Render(room, {{BodyCapsules(truth_.poses[k]), extras_.colours}}, extras_.views[camera].truth,
-                         targets);
+  const double seconds = static_cast<double>(frame) / truth_.rate_hz;
+  const Room room{.texture_seed = extras_.texture_seed,
+                  .brightness = extras_.brightness[k] * stage_.FlickerAt(seconds),
+                  .casts_shadows = extras_.casts_shadows,
+                  .interior = stage_.interior()};
+  std::vector<Figure> figures = stage_.MoversAt(seconds);
+  figures.push_back(stage_.PerformerAt(truth_.poses[k], extras_.colours));
+  return renderer.Render(room, figures, extras_.views[camera].truth, targets);
 }
 
 void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const {

@@ -8,6 +8,7 @@
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
 #include "sim/render/renderer.h"
+#include "sim/stage/stage.h"
 
 namespace etude {
 
@@ -38,6 +39,7 @@ class CapturePanel {
  private:
   BodyMotion truth_, recovered_;
   CaptureExtras extras_;
+  Stage stage_;
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
   std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve
   std::optional<double> error_mm_;

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// What a pixel or a ray can meet: the parts of a body, as numbers in label images.
+/// What a pixel or a ray can meet, as numbers in label images: the parts of the performer's body, and what else is there.
 enum class Part : std::uint32_t {
   kBackground = 0,
   kShadow = 1,
@@ -26,8 +26,17 @@ enum class Part : std::uint32_t {
   kRightThigh,
   kRightShank,
   kRightFoot,
+  kFurniture = 16,
+  kClutter = 17,    ///< what moves in the room: plants, balls, screens
+  kBystander = 18,  ///< a second person, from head to foot
 };
 constexpr std::uint32_t kFirstBodyPart = 2;
+constexpr std::uint32_t kPartCount = 16;
+
+/// Whether a number in a label image is a part of the performer's body: what truth masks hold.
+constexpr bool IsPerformer(std::uint32_t label) {
+  return label >= kFirstBodyPart && label <= static_cast<std::uint32_t>(Part::kRightFoot);
+}
 
 /// A cylinder with two half-spheres: every point within `radius` of the segment a–b, metres.
 struct Capsule {

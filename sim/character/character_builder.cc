@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "engine/base/srgb.h"
 #include "engine/motion/from_body.h"
-#include "sim/character/srgb.h"
 
 namespace etude {
 namespace {

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/srgb.h"
 #include "engine/retargeting/rig.h"
-#include "sim/character/srgb.h"
 #include "sim/choreography/stance.h"
 
 namespace etude {
@@ -25,29 +25,6 @@ Part PartOfJoint(const Skeleton& skeleton, int joint) {
     if (const auto role = FindRole(skeleton.joints[joint].name)) return kPartOfRole[Index(*role)];
   }
   return Part::kTrunk;
-}
-
-// Each triangle belongs to the part whose joints move its corners most.
-std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& mesh) {
-  std::vector<Part> part_of_binding;
-  for (const SkinnedMesh::Binding& binding : mesh.bindings) {
-    part_of_binding.push_back(PartOfJoint(skeleton, binding.joint));
-  }
-  std::vector<Part> parts;
-  parts.reserve(mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    std::array<double, std::tuple_size_v<PartColours>> share{};
-    for (const std::uint32_t corner : triangle) {
-      const SkinnedMesh::Vertex& vertex = mesh.vertices[corner];
-      for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
-        if (vertex.weights[i] != 0) {
-          share[static_cast<std::size_t>(part_of_binding[vertex.bindings[i]])] += vertex.weights[i];
-        }
-      }
-    }
-    parts.push_back(static_cast<Part>(std::ranges::max_element(share) - share.begin()));
-  }
-  return parts;
 }
 
 Figure FigureAt(const Character& character, const std::vector<GlobalTransform>& globals) {
@@ -90,6 +67,28 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
 
 }  // namespace
 
+std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& mesh) {
+  std::vector<Part> part_of_binding;
+  for (const SkinnedMesh::Binding& binding : mesh.bindings) {
+    part_of_binding.push_back(PartOfJoint(skeleton, binding.joint));
+  }
+  std::vector<Part> parts;
+  parts.reserve(mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    std::array<double, std::tuple_size_v<PartColours>> share{};
+    for (const std::uint32_t corner : triangle) {
+      const SkinnedMesh::Vertex& vertex = mesh.vertices[corner];
+      for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
+        if (vertex.weights[i] != 0) {
+          share[static_cast<std::size_t>(part_of_binding[vertex.bindings[i]])] += vertex.weights[i];
+        }
+      }
+    }
+    parts.push_back(static_cast<Part>(std::ranges::max_element(share) - share.begin()));
+  }
+  return parts;
+}
+
 Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world) {
   assert(pose.size() == character.skeleton.joints.size());
   std::vector<GlobalTransform> globals;
@@ -101,7 +100,7 @@ Figure PosedFigure(const Character& character, const LocalPose& pose, const glm:
   return FigureAt(character, globals);
 }
 
-Figure PosedFigure(const Character& character, const BodyPose& pose) {
+std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(character.skeleton, PoseRig(pose, StandingPose()), globals);
   for (const Role role : AllRoles()) {
@@ -109,7 +108,11 @@ Figure PosedFigure(const Character& character, const BodyPose& pose) {
     const glm::dvec3 size = SizeOf(role, pose);
     for (int i = 0; i < 3; ++i) axes[i] *= size[i];
   }
-  return FigureAt(character, globals);
+  return globals;
+}
+
+Figure PosedFigure(const Character& character, const BodyPose& pose) {
+  return FigureAt(character, FilledGlobals(character, pose));
 }
 
 }  // namespace etude

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
 #include "sim/render/renderer.h"
@@ -13,5 +15,11 @@ Figure PosedFigure(const Character& character, const LocalPose& pose, const glm:
 /// A character bound to BodySkeleton(StandingPose()), at a body's pose. A body of other proportions is filled too: each
 /// part is as large as the limb that it clothes, hips and chest as wide as their joints are apart.
 Figure PosedFigure(const Character& character, const BodyPose& pose);
+
+/// The joints of such a character in `pose`, their axes as much longer or shorter as its limbs are.
+std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);
+
+/// What each triangle shows: the part whose joints move its corners most.
+std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& mesh);
 
 }  // namespace etude

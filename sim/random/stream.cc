@@ -23,6 +23,17 @@ std::uint64_t RandomStream::Bits() {
   return block_[used_++];
 }
 
+void RandomStream::FillBits(std::span<std::uint64_t> out) {
+  std::size_t i = 0;
+  while (i < out.size() && used_ != 4) out[i++] = Bits();
+  // Whole blocks know nothing of each other, so the processor works at several of them at once.
+  for (; i + 4 <= out.size(); i += 4) {
+    const auto block = r123::Philox4x64()({{counter_++, 0, 0, 0}}, {{key_[0], key_[1]}});
+    for (std::size_t j = 0; j < 4; ++j) out[i + j] = block[j];
+  }
+  while (i < out.size()) out[i++] = Bits();
+}
+
 double RandomStream::Uniform() { return static_cast<double>(Bits() >> 11) * 0x1.0p-53; }
 
 double RandomStream::Normal() {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string_view>
 
 namespace etude {
@@ -24,6 +25,8 @@ class RandomStream {
   RandomStream(const WorldKey& world, std::string_view purpose);
 
   std::uint64_t Bits();
+  /// As many calls of Bits() as fit into `out`, faster.
+  void FillBits(std::span<std::uint64_t> out);
   /// Uniform in [0, 1), 53 bits.
   double Uniform();
   double Uniform(double low, double high) { return low + (high - low) * Uniform(); }

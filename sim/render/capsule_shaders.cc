@@ -13,6 +13,7 @@ in vec3 front_in;          // where the face looks
 
 uniform mat3 image_of_direction;  // E -> (u w, v w, w)
 uniform vec2 image_size;
+uniform float reach;  // beyond the capsule's skin; 0 of all but contacts
 
 flat out vec4 capsule_start;
 flat out vec4 capsule_end;
@@ -21,7 +22,7 @@ flat out vec3 front;
 
 vec3 BoxCorner() {
   vec3 start = start_and_radius.xyz, end = end_and_label.xyz;
-  float radius = 1.01 * start_and_radius.w;
+  float radius = 1.01 * start_and_radius.w + reach;
   float span = distance(start, end);
   vec3 along = span > 0.0 ? (end - start) / span : vec3(0.0, 1.0, 0.0);
   vec3 across = normalize(cross(along, abs(along.y) < 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
@@ -56,10 +57,10 @@ uniform bool onto_wall;
 void main() {
   vec3 lamp_E = lamp - eye;
   vec3 from_lamp = BoxCorner() - lamp_E;
-  float reach = onto_wall ? lamp.z - wall_z : lamp.y;
+  float drop = onto_wall ? lamp.z - wall_z : lamp.y;
   // A corner level with the lamp would throw its shadow to infinity: far is enough.
   float fall = max(onto_wall ? -from_lamp.z : -from_lamp.y, 0.05);
-  Place(lamp_E + from_lamp * (reach / fall));
+  Place(lamp_E + from_lamp * (drop / fall));
 }
 )glsl";
 
@@ -129,7 +130,7 @@ vec3 FacePaint(vec3 skin, vec3 point) {
 void main() {
   vec3 ray = PixelRay();
   depth = MeetCapsule(ray);
-  if (!(depth > 0.0 && depth < MeetRoom(ray).depth && depth < farthest)) discard;
+  if (!(depth > 0.0 && depth < farthest)) discard;
   vec3 point = depth * ray;
   vec3 normal = Normal(point);
 
@@ -150,18 +151,6 @@ flat in vec4 capsule_end;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint label;
 
-// The squared distance between the segments p1-q1 and p2-q2 (Ericson 2005, section 5.1.9).
-float SquaredDistance(vec3 p1, vec3 q1, vec3 p2, vec3 q2) {
-  vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
-  float a = dot(d1, d1), e = dot(d2, d2), f = dot(d2, r), c = dot(d1, r), b = dot(d1, d2);
-  float denominator = a * e - b * b;
-  float s = denominator > 1e-12 ? clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
-  float t = e > 0.0 ? clamp((b * s + f) / e, 0.0, 1.0) : 0.0;
-  s = clamp((b * t - c) / a, 0.0, 1.0);
-  vec3 gap = p1 + s * d1 - p2 - t * d2;
-  return dot(gap, gap);
-}
-
 void main() {
   vec3 ray = PixelRay();
   RoomHit hit = MeetRoom(ray);
@@ -178,11 +167,41 @@ void main() {
 }
 )glsl";
 
+// The floor under a shoe sees little of the light that comes from all sides.
+constexpr const char* kContact = R"glsl(
+uniform sampler2D kept_room;
+uniform sampler2D kept_extra;
+uniform float brightness;
+uniform float reach;
+
+flat in vec4 capsule_start;
+flat in vec4 capsule_end;
+
+layout(location = 0) out vec4 colour;
+
+void main() {
+  vec4 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0);
+  if (room.a == kInfinity) discard;
+  vec3 point = room.a * PixelRay();
+  vec3 along = capsule_end.xyz - capsule_start.xyz;
+  float share = clamp(dot(point - capsule_start.xyz, along) / max(dot(along, along), 1e-9), 0.0, 1.0);
+  float gap = distance(point, capsule_start.xyz + share * along) - capsule_start.w;
+  if (gap >= reach) discard;
+  float near = 1.0 - max(gap, 0.0) / reach;
+  vec3 lamps = texelFetch(kept_extra, ivec2(gl_FragCoord.xy), 0).rgb;
+  colour = vec4(room.rgb * brightness * (1.0 - near * near * near * (0.55 - 0.3 * lamps)), 1.0);
+}
+)glsl";
+
 }  // namespace
 
+std::string ContactVertexShader() { return AssembleShader({kBox, kBodyPlace}); }
+std::string ContactFragmentShader() { return AssembleShader({kRoomGeometry, kContact}); }
 std::string CapsuleVertexShader() { return AssembleShader({kBox, kBodyPlace}); }
 std::string CapsuleFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kBody}); }
 std::string CapsuleShadowVertexShader() { return AssembleShader({kBox, kShadowPlace}); }
-std::string CapsuleShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }
+std::string CapsuleShadowFragmentShader() {
+  return AssembleShader({kRoomGeometry, kShadowLight, kSegmentDistance, kShadow});
+}
 
 }  // namespace etude

@@ -17,7 +17,7 @@ void FrameTargets::Grow(int width, int height) {
   Release();
   capacity_width_ = std::max(width, capacity_width_);
   capacity_height_ = std::max(height, capacity_height_);
-  constexpr GLenum kFormats[] = {GL_RGBA8, GL_R32UI, GL_R32F, GL_DEPTH_COMPONENT32F};
+  constexpr GLenum kFormats[] = {GL_RGBA8, GL_R8UI, GL_R32F, GL_DEPTH_COMPONENT32F};
   constexpr GLenum kAttachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
                                      GL_DEPTH_ATTACHMENT};
   gl_.GenFramebuffers(1, &framebuffer_);
@@ -28,47 +28,51 @@ void FrameTargets::Grow(int width, int height) {
     gl_.RenderbufferStorage(GL_RENDERBUFFER, kFormats[i], capacity_width_, capacity_height_);
     gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, kAttachments[i], GL_RENDERBUFFER, buffers_[i]);
   }
+  gl_.DrawBuffers(3, kAttachments);
   assert(gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
 }
 
 void FrameTargets::Begin(int width, int height) {
   if (width > capacity_width_ || height > capacity_height_) Grow(width, height);
-  width_ = width;
-  height_ = height;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl_.Viewport(0, 0, width, height);
-  const float farthest = 1;
-  gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
 void FrameTargets::WriteOnly(bool colour, bool labels, bool depth) {
-  const GLenum none = GL_NONE;
-  const GLenum buffers[] = {colour ? GL_COLOR_ATTACHMENT0 : none, labels ? GL_COLOR_ATTACHMENT1 : none,
-                            depth ? GL_COLOR_ATTACHMENT2 : none};
-  gl_.DrawBuffers(3, buffers);
+  const bool writes[] = {colour, labels, depth};
+  for (GLuint i = 0; i < 3; ++i) {
+    const GLboolean write = writes[i] ? GL_TRUE : GL_FALSE;
+    gl_.ColorMaski(i, write, write, write, write);
+  }
 }
 
-View FrameTargets::Read(Targets targets) const {
-  View view;
-  view.colour = ColourImage(width_, height_);
+void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, View& view) {
+  const int width = rect.Width();
+  const std::size_t pixels = static_cast<std::size_t>(width) * rect.Height();
+  bytes_.resize(4 * pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
   // Four bytes a pixel are what the framebuffer holds; letting GL drop the fourth is slower.
-  std::vector<std::uint8_t> rgba(view.colour.pixels.size() * 4);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  const std::uint8_t* source = rgba.data();
-  for (Rgb8& pixel : view.colour.pixels) {
-    pixel = {source[0], source[1], source[2]};
-    source += 4;
+  gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RGBA, GL_UNSIGNED_BYTE, bytes_.data());
+  const std::uint8_t* source = bytes_.data();
+  for (int y = rect.top; y < rect.bottom; ++y) {
+    Rgb8* row = &view.colour.At(rect.left, y - top_row);
+    for (int x = 0; x < width; ++x, source += 4) row[x] = {source[0], source[1], source[2]};
   }
-  if (targets == Targets::kColour) return view;
+  if (targets == Targets::kColour) return;
 
-  view.labels = LabelImage(width_, height_);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RED_INTEGER, GL_UNSIGNED_INT, view.labels.pixels.data());
-  view.depth = DepthImage(width_, height_);
+  gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
+  for (int y = 0; y < rect.Height(); ++y) {
+    std::copy_n(&bytes_[static_cast<std::size_t>(y) * width], width, &view.labels.At(rect.left, rect.top + y - top_row));
+  }
+  if (targets == Targets::kColourAndLabels) return;
+
+  depths_.resize(pixels);
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, view.depth.pixels.data());
-  return view;
+  gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());
+  for (int y = 0; y < rect.Height(); ++y) {
+    std::copy_n(&depths_[static_cast<std::size_t>(y) * width], width, &view.depth.At(rect.left, rect.top + y - top_row));
+  }
 }
 
 }  // namespace etude

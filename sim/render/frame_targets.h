@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "sim/render/gl_context.h"
 #include "sim/render/renderer.h"
+#include "sim/render/touched_pixels.h"
 
 namespace etude {
 
@@ -14,12 +17,13 @@ class FrameTargets {
   FrameTargets(const FrameTargets&) = delete;
   FrameTargets& operator=(const FrameTargets&) = delete;
 
-  /// Makes drawing go into the top left `width` × `height` pixels, depth buffer cleared.
+  /// Makes drawing go into the top left `width` × `height` pixels.
   void Begin(int width, int height);
-  /// Which of the attachments the next draws write.
+  /// Which of the attachments the next draws write. By masks: other attachments would make Mesa finish what is drawn.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies the pictures drawn since `Begin` out of GL.
-  View Read(Targets targets) const;
+  /// Copies a rectangle of what was drawn out of GL into the pictures of `view`, which have their size already and begin
+  /// with `top_row`.
+  void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
 
  private:
   void Grow(int width, int height);
@@ -29,7 +33,8 @@ class FrameTargets {
   GLuint framebuffer_ = 0;
   GLuint buffers_[4] = {};  // colour, labels, depth, hidden surfaces
   int capacity_width_ = 0, capacity_height_ = 0;
-  int width_ = 0, height_ = 0;
+  std::vector<std::uint8_t> bytes_;  // reused
+  std::vector<float> depths_;
 };
 
 }  // namespace etude

@@ -14,6 +14,7 @@ namespace etude {
 // Every GL function that this folder calls. They are asked of OSMesa by name, because the ready-made
 // loaders (libepoxy, GLEW) do not work with it.
 #define ETUDE_GL_FUNCTIONS(X)                                  \
+  X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
   X(PFNGLATTACHSHADERPROC, AttachShader)                       \
   X(PFNGLBINDATTRIBLOCATIONPROC, BindAttribLocation)           \
   X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
@@ -24,7 +25,7 @@ namespace etude {
   X(PFNGLBLENDEQUATIONPROC, BlendEquation)                     \
   X(PFNGLBUFFERDATAPROC, BufferData)                           \
   X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
-  X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                     \
+  X(PFNGLCOLORMASKIPROC, ColorMaski)                           \
   X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
   X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
   X(PFNGLCREATESHADERPROC, CreateShader)                       \
@@ -33,6 +34,8 @@ namespace etude {
   X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)         \
   X(PFNGLDELETESHADERPROC, DeleteShader)                       \
   X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
+  X(PFNGLDEPTHFUNCPROC, DepthFunc)                             \
+  X(PFNGLDEPTHMASKPROC, DepthMask)                             \
   X(PFNGLDISABLEPROC, Disable)                                 \
   X(PFNGLDISABLEIPROC, Disablei)                               \
   X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
@@ -59,6 +62,7 @@ namespace etude {
   X(PFNGLREADBUFFERPROC, ReadBuffer)                           \
   X(PFNGLREADPIXELSPROC, ReadPixels)                           \
   X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
+  X(PFNGLSCISSORPROC, Scissor)                                 \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \

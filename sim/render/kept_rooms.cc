@@ -1,13 +1,16 @@
 #include "sim/render/kept_rooms.h"
 
+#include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "sim/render/interior_uniforms.h"
+#include "sim/render/pixel_geometry.h"
 #include "sim/render/room_texture.h"
 
 namespace etude {
 namespace {
 
-// Two stereo cameras, each plain and smooth: about 5 MB apiece at 640 × 480, 20 MB when smooth.
+// Two stereo cameras, each plain and smooth: about 15 MB apiece at 640 × 480, 60 MB when smooth.
 constexpr std::size_t kMostKept = 4;
 
 bool SameView(const Camera& a, const Camera& b) {
@@ -16,53 +19,95 @@ bool SameView(const Camera& a, const Camera& b) {
          i.skew == j.skew && a.R_CW == b.R_CW && a.p_WC == b.p_WC;
 }
 
+bool SameInterior(const std::optional<Interior>& kept, const Interior* wanted) {
+  return wanted == nullptr ? !kept : kept && *kept == *wanted;
+}
+
+void SetTiles(const GlFunctions& gl, GLuint program, std::uint64_t seed) {
+  const RoomTexture pattern = MakeRoomTexture(seed);
+  const auto set = [&](const char* name, const TilePattern& tiles) {
+    gl.Uniform4fv(gl.GetUniformLocation(program, name), static_cast<GLsizei>(tiles.size()),
+                  glm::value_ptr(tiles.front()));
+  };
+  set("floor_tiles", pattern.floor);
+  set("wall_tiles", pattern.wall);
+}
+
 }  // namespace
 
 KeptRooms::~KeptRooms() {
-  for (const Kept& kept : kept_) gl_.DeleteTextures(1, &kept.texture);
+  for (const Kept& kept : kept_) Drop(kept);
 }
 
-GLuint KeptRooms::FindOrDraw(std::uint64_t texture_seed, const Camera& camera) {
-  for (auto it = kept_.begin(); it != kept_.end(); ++it) {
-    if (it->texture_seed != texture_seed || !SameView(it->camera, camera)) continue;
-    const Kept found = *it;
-    kept_.erase(it);
-    kept_.push_front(found);
-    return found.texture;
+void KeptRooms::Drop(const Kept& kept) {
+  gl_.DeleteTextures(1, &kept.picture.room);
+  gl_.DeleteTextures(1, &kept.picture.extra);
+}
+
+const KeptRoom& KeptRooms::FindOrDraw(const Room& room, const Camera& camera) {
+  const auto found = std::ranges::find_if(kept_, [&](const Kept& kept) {
+    return kept.texture_seed == room.texture_seed && SameView(kept.camera, camera) &&
+           SameInterior(kept.interior, room.interior);
+  });
+  if (found != kept_.end()) {
+    std::rotate(kept_.begin(), found, found + 1);
+    return kept_.front().picture;
   }
   if (kept_.size() == kMostKept) {
-    gl_.DeleteTextures(1, &kept_.back().texture);
+    Drop(kept_.back());
     kept_.pop_back();
   }
-  kept_.push_front({texture_seed, camera, Draw(texture_seed, camera)});
-  return kept_.front().texture;
+  const auto interior = room.interior != nullptr ? std::optional(*room.interior) : std::nullopt;
+  kept_.push_front({room.texture_seed, interior, camera, Draw(room, camera)});
+  return kept_.front().picture;
 }
 
-GLuint KeptRooms::Draw(std::uint64_t texture_seed, const Camera& camera) {
+KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
   const int width = camera.intrinsics.width, height = camera.intrinsics.height;
-  const GLuint texture = MakeUnfilteredTexture(gl_);
+  KeptRoom kept;
+  kept.serial = ++drawn_;
   GLuint framebuffer = 0;
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
   gl_.GenFramebuffers(1, &framebuffer);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+  const GLenum attachments[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  for (int i = 0; i < 2; ++i) {
+    GLuint& texture = i == 0 ? kept.room : kept.extra;
+    texture = MakeUnfilteredTexture(gl_);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, nullptr);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, attachments[i], GL_TEXTURE_2D, texture, 0);
+  }
+  gl_.DrawBuffers(2, attachments);
 
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_DEPTH_TEST);
-  gl_.UseProgram(room_program_);
-  SetPixelGeometry(gl_, room_program_, camera);
-  const RoomTexture pattern = MakeRoomTexture(texture_seed);
-  const auto set_tiles = [this](const char* name, const TilePattern& tiles) {
-    gl_.Uniform4fv(gl_.GetUniformLocation(room_program_, name), static_cast<GLsizei>(tiles.size()),
-                   glm::value_ptr(tiles.front()));
-  };
-  set_tiles("floor_tiles", pattern.floor);
-  set_tiles("wall_tiles", pattern.wall);
-  gl_.Uniform1f(gl_.GetUniformLocation(room_program_, "pixel_angle"), static_cast<float>(1.0 / camera.intrinsics.fx));
+  gl_.Disable(GL_SCISSOR_TEST);
+  const GLuint program = room.interior != nullptr ? interior_program_ : studio_program_;
+  gl_.UseProgram(program);
+  SetPixelGeometry(gl_, program, camera, room);
+  SetTiles(gl_, program, room.texture_seed);
+  gl_.Uniform1f(gl_.GetUniformLocation(program, "pixel_angle"), static_cast<float>(1.0 / camera.intrinsics.fx));
+  if (room.interior != nullptr) SetInterior(gl_, program, *room.interior);
   gl_.BindVertexArray(empty_vertices_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  std::vector<float> four(4 * pixels);
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, four.data());
+  kept.colours.resize(3 * pixels);
+  kept.depths.resize(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::copy_n(&four[4 * i], 3, &kept.colours[3 * i]);
+    kept.depths[i] = four[4 * i + 3];
+  }
+  kept.labels.resize(pixels);
+  if (room.interior != nullptr) {
+    gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
+    gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, four.data());
+    for (std::size_t i = 0; i < pixels; ++i) kept.labels[i] = static_cast<std::uint8_t>(four[4 * i + 3]);
+  }
   gl_.DeleteFramebuffers(1, &framebuffer);
-  return texture;
+  return kept;
 }
 
 }  // namespace etude

@@ -36,6 +36,12 @@ vec3 RoomNormal(bool is_wall) { return is_wall ? vec3(0.0, 0.0, 1.0) : vec3(0.0,
 
 const char* const kBodyLight = R"glsl(
 uniform float brightness;
+uniform vec3 key_colour;
+uniform vec3 ambient_colour;
+uniform vec3 fill_direction;
+uniform vec3 fill_colour;
+uniform vec3 window;  // in the world
+uniform vec3 window_colour;
 
 // `point` in E, `normal` unit.
 vec4 LitPaint(vec3 skin, vec3 normal, vec3 point, vec3 ray) {
@@ -44,7 +50,11 @@ vec4 LitPaint(vec3 skin, vec3 normal, vec3 point, vec3 ray) {
   float sky = 0.5 + 0.5 * normal.y;
   float sun = max((dot(normal, to_lamp) + 0.2) / 1.2, 0.0);
   float rim = (1.0 - facing) * (1.0 - facing) * (1.0 - facing);
-  float light = 0.36 + 0.18 * sky + 0.52 * sun;
+  vec3 light = (0.36 + 0.18 * sky) * ambient_colour + 0.52 * sun * key_colour;
+  light += max(dot(normal, fill_direction), 0.0) * fill_colour;
+  vec3 to_window = window - eye - point;
+  float square = dot(to_window, to_window);
+  light += max(dot(normal, to_window), 0.0) * inversesqrt(square) * 6.0 / (3.0 + square) * window_colour;
   return vec4((skin * light + 0.12 * rim * sky) * brightness, 1.0);
 }
 )glsl";
@@ -60,6 +70,54 @@ vec4 RoomInShadow(RoomHit hit, vec3 point, float inside, float softness) {
   float left_over = 1.0 - smoothstep(0.0, softness, inside) * light.y / (light.x + light.y);
   vec3 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).rgb;
   return vec4(room * (brightness * left_over), 1.0);
+}
+)glsl";
+
+const char* const kSegmentDistance = R"glsl(
+// The squared distance between the segments p1-q1 and p2-q2 (Ericson 2005, section 5.1.9).
+float SquaredDistance(vec3 p1, vec3 q1, vec3 p2, vec3 q2) {
+  vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
+  float a = dot(d1, d1), e = dot(d2, d2), f = dot(d2, r), c = dot(d1, r), b = dot(d1, d2);
+  float denominator = a * e - b * b;
+  float s = denominator > 1e-12 ? clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
+  float t = e > 0.0 ? clamp((b * s + f) / e, 0.0, 1.0) : 0.0;
+  s = clamp((b * t - c) / a, 0.0, 1.0);
+  vec3 gap = p1 + s * d1 - p2 - t * d2;
+  return dot(gap, gap);
+}
+)glsl";
+
+const char* const kStudioPaint = R"glsl(
+uniform vec4 floor_tiles[64];
+uniform vec4 wall_tiles[64];
+
+int Wrap(float tile) { return int(tile - 8.0 * floor(tile / 8.0)); }
+
+// Hues stay between 140 and 240 degrees: people wear the others.
+vec3 SpotPaint(float tone, bool is_wall) {
+  float pick = fract(tone * 7.0);
+  if (!is_wall) return mix(vec3(0.26, 0.50, 0.62), vec3(0.34, 0.60, 0.64), pick);
+  if (pick < 0.34) return vec3(0.24, 0.58, 0.48);
+  if (pick < 0.67) return vec3(0.28, 0.48, 0.72);
+  return vec3(0.44, 0.74, 0.74);
+}
+
+vec3 StudioPaint(vec2 place, bool is_wall, float blur) {
+  float size = is_wall ? 0.85 : 0.6;
+  vec2 tile = floor(place / size);
+  vec2 within = place / size - tile;
+  int index = Wrap(tile.x) + 8 * Wrap(tile.y);
+  vec4 pattern = is_wall ? wall_tiles[index] : floor_tiles[index];
+  blur /= size;
+
+  vec3 paint = is_wall ? mix(vec3(0.34, 0.62, 0.62), vec3(0.36, 0.56, 0.68), pattern.w)
+                       : mix(vec3(0.30, 0.42, 0.62), vec3(0.36, 0.48, 0.70), pattern.w);
+  float spot = 1.0 - smoothstep(-blur, blur, distance(within, pattern.xy) - pattern.z);
+  paint = mix(paint, SpotPaint(pattern.w, is_wall), pattern.z > 0.0 ? 0.85 * spot : 0.0);
+
+  float to_joint = min(min(within.x, 1.0 - within.x), min(within.y, 1.0 - within.y));
+  float joint = 1.0 - smoothstep(-blur, blur, to_joint - 0.008);
+  return paint * (1.0 - (is_wall ? 0.10 : 0.20) * joint);
 }
 )glsl";
 

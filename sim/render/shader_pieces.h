@@ -14,6 +14,13 @@ extern const char* const kBodyLight;
 /// `vec4 RoomInShadow(hit, point, inside, softness)`: a pixel of the room that a body darkens. After kRoomGeometry.
 extern const char* const kShadowLight;
 
+/// `float SquaredDistance(p1, q1, p2, q2)` of two segments.
+extern const char* const kSegmentDistance;
+/// `vec3 StudioPaint(place, is_wall, blur)`: the studio's tiles and spots.
+extern const char* const kStudioPaint;
+/// `vec3 Painted(index, place, blur)`: the patterns of paint.h.
+extern const char* const kPaintPatterns;
+
 /// One shader's source, version first.
 std::string AssembleShader(std::initializer_list<const char*> pieces);
 

@@ -13,6 +13,14 @@ namespace etude {
 std::string FullScreenVertexShader();
 /// The empty room: RGB = its colour at brightness 1, A = its depth. Drawn once per camera, then kept.
 std::string RoomFragmentShader();
+/// The same of a furnished room. Both also write RGB = the share of the lamp in the light, A = the label.
+std::string InteriorFragmentShader();
+/// A capsule's shadow in a furnished room, on whatever stands there.
+std::string InteriorShadowVertexShader();
+std::string InteriorShadowFragmentShader();
+/// Where a capsule nearly touches the floor or furniture.
+std::string ContactVertexShader();
+std::string ContactFragmentShader();
 /// Copies the kept room into the picture.
 std::string BackdropFragmentShader();
 

@@ -15,38 +15,53 @@ bool IsWithin(const glm::vec3& v, float limit) {
   return std::abs(v.x) < limit && std::abs(v.y) < limit && std::abs(v.z) < limit;
 }
 
-void AddCorners(const Surface& surface, const glm::dvec3& eye, std::vector<SurfaceCorner>& corners) {
+bool IsSound(const SurfaceCorner& corner) {
+  return IsWithin(corner.place, kFarthestCorner) && IsWithin(corner.normal, 2);
+}
+
+void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, const glm::dvec3& eye,
+                std::vector<SurfaceCorner>& corners) {
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
-  const glm::vec3 paint = glm::vec3(surface.colour.r, surface.colour.g, surface.colour.b) / 255.0f;
+  assert(!surface.paint || surface.rest.size() == surface.positions.size());
+  const glm::vec3 colour = glm::vec3(surface.colour.r, surface.colour.g, surface.colour.b) / 255.0f;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const glm::vec4 paint_and_label(paint, static_cast<std::uint32_t>(surface.parts[i]));
+    const glm::vec4 paint_and_label(colour, static_cast<std::uint32_t>(seen_as.value_or(surface.parts[i])));
     std::array<SurfaceCorner, 3> triangle{};
     std::ranges::transform(surface.triangles[i], triangle.begin(), [&](std::uint32_t vertex) {
+      const glm::vec3 rest = surface.paint ? surface.rest[vertex] : glm::vec3(0);
       return SurfaceCorner{glm::vec3(surface.positions[vertex] - eye), glm::vec3(surface.normals[vertex]),
-                           paint_and_label};
+                           paint_and_label, glm::vec4(rest, paint)};
     });
-    if (!std::ranges::all_of(triangle, [](const SurfaceCorner& corner) {
-          return IsWithin(corner.place, kFarthestCorner) && IsWithin(corner.normal, 2);
-        })) {
-      continue;
-    }
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
+    if (std::ranges::all_of(triangle, IsSound)) corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
 }
 
 }  // namespace
 
+void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, std::vector<SurfaceCorner>& corners) {
+  corners.clear();
+  int paints = 0;
+  for (const Figure& figure : figures) {
+    for (const Surface& surface : figure.surfaces) {
+      AddCorners(surface, figure.seen_as, surface.paint ? paints++ : -1, eye, corners);
+    }
+  }
+}
+
 std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye) {
   std::vector<SurfaceCorner> corners;
-  std::size_t triangles = 0;
-  for (const Figure& figure : figures) {
-    for (const Surface& surface : figure.surfaces) triangles += surface.triangles.size();
-  }
-  corners.reserve(3 * triangles);
-  for (const Figure& figure : figures) {
-    for (const Surface& surface : figure.surfaces) AddCorners(surface, eye, corners);
-  }
+  MakeCorners(figures, eye, corners);
   return corners;
+}
+
+std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures) {
+  std::vector<SurfacePaint> paints;
+  for (const Figure& figure : figures) {
+    for (const Surface& surface : figure.surfaces) {
+      if (surface.paint) paints.push_back(*surface.paint);
+    }
+  }
+  return paints;
 }
 
 }  // namespace etude

@@ -13,10 +13,16 @@ struct SurfaceCorner {
   glm::vec3 place;  ///< in E
   glm::vec3 normal;
   glm::vec4 paint_and_label;  ///< RGB 0…1; A = the triangle's label
+  glm::vec4 rest_and_paint;   ///< the place on the body at rest; A = the paint's number, or −1
 };
 
 /// All triangles of all figures, three corners each. Triangles with a corner or normal that is not finite, or
-/// that lies beyond any scene, are left out.
+/// that lies beyond any scene, are left out. Paints are numbered in the order of PaintsOf.
 std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye);
+/// The same into `corners`, whose memory is used again.
+void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, std::vector<SurfaceCorner>& corners);
+
+/// The paints of all surfaces, in the order of their numbers.
+std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures);
 
 }  // namespace etude

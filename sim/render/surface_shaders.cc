@@ -8,12 +8,15 @@ constexpr const char* kCorner = R"glsl(
 in vec3 place_in;   // in E
 in vec3 normal_in;
 in vec4 paint_in;   // rgb; a = label
+in vec4 rest_in;    // the place on the body at rest; a = number of its paint, or -1
 
 uniform mat3 image_of_direction;  // E -> (u w, v w, w)
 uniform vec2 image_size;
 
 out vec3 normal;
+out vec3 rest;
 flat out vec4 paint;
+flat out int pattern;
 
 // `point` is homogeneous in E. Row 0 of the framebuffer is the picture's top row, so nothing needs to be flipped.
 // Hidden surfaces are told by the depth that each pixel writes; z only cuts off what is nearer than 1 cm, or beyond
@@ -23,6 +26,8 @@ void Place(vec4 point) {
   gl_Position = vec4(2.0 * image.xy / image_size - image.z, image.z - 0.02 * point.w, image.z);
   normal = normal_in;
   paint = paint_in;
+  rest = rest_in.xyz;
+  pattern = int(rest_in.w);
 }
 )glsl";
 
@@ -56,9 +61,12 @@ void main() {
 
 constexpr const char* kSurface = R"glsl(
 uniform float farthest;
+uniform float pixel_angle;
 
 in vec3 normal;
+in vec3 rest;
 flat in vec4 paint;
+flat in int pattern;
 
 layout(location = 0) out vec4 colour;
 layout(location = 1) out uint label;
@@ -67,10 +75,11 @@ layout(location = 2) out float depth;
 void main() {
   vec3 ray = PixelRay();
   depth = 1.0 / gl_FragCoord.w;
-  if (!(depth < MeetRoom(ray).depth && depth < farthest)) discard;
+  if (!(depth < farthest)) discard;
   // Open surfaces show their back too. Upside down as the picture is drawn, GL takes backs for fronts.
   vec3 outward = gl_FrontFacing ? -normal : normal;
-  colour = LitPaint(paint.rgb, outward / max(length(normal), 1e-6), depth * ray, ray);
+  vec3 skin = pattern < 0 ? paint.rgb : Painted(pattern, rest, depth * pixel_angle);
+  colour = LitPaint(skin, outward / max(length(normal), 1e-6), depth * ray, ray);
   label = uint(paint.a);
   gl_FragDepth = depth / farthest;
 }
@@ -102,7 +111,7 @@ void main() {
 }  // namespace
 
 std::string SurfaceVertexShader() { return AssembleShader({kCorner, kPlace}); }
-std::string SurfaceFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kSurface}); }
+std::string SurfaceFragmentShader() { return AssembleShader({kRoomGeometry, kBodyLight, kPaintPatterns, kSurface}); }
 std::string SurfaceShadowVertexShader() { return AssembleShader({kCorner, kShadowPlace}); }
 std::string SurfaceShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }
 

@@ -16,6 +16,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/base/srgb.h"
+
 namespace etude {
 namespace {
 
@@ -90,10 +92,11 @@ Imf::Slice SliceOf(Imf::PixelType type, const void* pixels, const Imath::Box2i& 
 constexpr const char* kColourChannels[] = {"R", "G", "B"};
 constexpr const char* kDepthChannel = "Z";
 constexpr const char* kLabelChannel = "label";
+constexpr const char* kNormalChannels[] = {"N.X", "N.Y", "N.Z"};
 
-std::uint8_t ToByte(half value) {
-  const float scaled = static_cast<float>(value) * 255.0f;
-  return static_cast<std::uint8_t>(std::isnan(scaled) ? 0.0f : std::clamp(scaled + 0.5f, 0.0f, 255.0f));
+std::uint8_t ToByte(half light) {
+  const float value = light;
+  return SrgbOfLinear(std::isnan(value) ? 0 : value);
 }
 
 // Where OpenEXR puts a file's bytes.
@@ -117,7 +120,7 @@ class ByteStream : public Imf::OStream {
 };
 
 // Throws what OpenEXR throws.
-void WriteExr(const View& view, Imf::OStream& out) {
+void WriteExr(const View& view, const NormalImage& normals, Imf::OStream& out) {
   const int width = std::max({view.colour.width, view.depth.width, view.labels.width});
   const int height = std::max({view.colour.height, view.depth.height, view.labels.height});
   Imf::Header header(width, height);
@@ -131,7 +134,9 @@ void WriteExr(const View& view, Imf::OStream& out) {
 
   std::vector<half> colour;
   for (const Rgb8& pixel : view.colour.pixels) {
-    for (const std::uint8_t value : {pixel.r, pixel.g, pixel.b}) colour.push_back(half(value / 255.0f));
+    for (const std::uint8_t value : {pixel.r, pixel.g, pixel.b}) {
+      colour.push_back(half(static_cast<float>(LinearOfSrgb(value))));
+    }
   }
   if (!colour.empty()) {
     for (int i = 0; i < 3; ++i) add(kColourChannels[i], Imf::HALF, colour.data() + i, 3 * sizeof(half));
@@ -139,9 +144,29 @@ void WriteExr(const View& view, Imf::OStream& out) {
   if (!view.depth.pixels.empty()) add(kDepthChannel, Imf::FLOAT, view.depth.pixels.data(), sizeof(float));
   if (!view.labels.pixels.empty()) add(kLabelChannel, Imf::UINT, view.labels.pixels.data(), sizeof(std::uint32_t));
 
+  for (int i = 0; i < 3 && !normals.pixels.empty(); ++i) {
+    add(kNormalChannels[i], Imf::FLOAT, &normals.pixels.front()[i], sizeof(glm::vec3));
+  }
+
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
   file.writePixels(height);
+}
+
+// Throws what OpenEXR throws.
+NormalImage ReadExrNormals(const std::string& path) {
+  Imf::Header::setMaxImageSize(kLargestPicture, kLargestPicture);
+  Imf::InputFile file(path.c_str(), 0);
+  if (!file.header().channels().findChannel(kNormalChannels[0])) return {};
+  const Imath::Box2i window = file.header().dataWindow();
+  NormalImage normals(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, glm::vec3(0));
+  Imf::FrameBuffer channels;
+  for (int i = 0; i < 3; ++i) {
+    channels.insert(kNormalChannels[i], SliceOf(Imf::FLOAT, &normals.pixels.front()[i], window, sizeof(glm::vec3)));
+  }
+  file.setFrameBuffer(channels);
+  file.readPixels(window.min.y, window.max.y);
+  return normals;
 }
 
 // Throws what OpenEXR throws, for instance on more than kLargestPicture pixels a side.
@@ -204,10 +229,10 @@ Result<Mask> LoadMaskPng(const std::string& path) {
   return mask;
 }
 
-Result<std::string> EncodeExr(const View& view) {
+Result<std::string> EncodeExr(const View& view, const NormalImage& normals) {
   try {
     ByteStream stream;
-    WriteExr(view, stream);
+    WriteExr(view, normals, stream);
     return stream.TakeBytes();
   } catch (const std::exception& error) {
     return Fail({}, "cannot be written as OpenEXR: {}", error.what());
@@ -218,6 +243,14 @@ Result<void> SaveExr(const View& view, const std::string& path) {
   const auto bytes = EncodeExr(view);
   if (!bytes) return Fail({path}, "{}", bytes.error().message);
   return WriteBytes(*bytes, path);
+}
+
+Result<NormalImage> LoadExrNormals(const std::string& path) {
+  try {
+    return ReadExrNormals(path);
+  } catch (const std::exception& error) {
+    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
+  }
 }
 
 Result<View> LoadExr(const std::string& path) {

@@ -5,6 +5,7 @@
 #include "engine/base/image.h"
 #include "engine/base/result.h"
 #include "sim/render/renderer.h"
+#include "sim/sensors/normals.h"
 
 namespace etude {
 
@@ -25,12 +26,15 @@ Result<ColourImage> LoadColourPng(const std::string& path);
 /// Reads any PNG as a mask: 1 where the grey value is at least 128.
 Result<Mask> LoadMaskPng(const std::string& path);
 
-/// The bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half; the 8-bit values / 255, not
-/// linearised), Z (float, metres along the viewing axis) and label (uint). Empty pictures of `view` are
-/// left out; the others have one size. The same for the same view.
-Result<std::string> EncodeExr(const View& view);
+/// The bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half, linear light: 1 is the brightest that
+/// an 8-bit picture can show), Z (float, metres along the viewing axis), label (uint) and N.X, N.Y, N.Z (float, normals
+/// in the world). Empty pictures are left out; the others have one size. The same for the same pictures.
+Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {});
 Result<void> SaveExr(const View& view, const std::string& path);
-/// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty.
+/// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty. Light beyond what 8 bits
+/// can show is cut off.
 Result<View> LoadExr(const std::string& path);
+/// The normals of such a file; empty when it has none.
+Result<NormalImage> LoadExrNormals(const std::string& path);
 
 }  // namespace etude

@@ -27,6 +27,7 @@ DOORS = {
     "OpenEXR/": ["sim/sensors"],
     "Imf": ["sim/sensors"],
     "png.h": ["sim/sensors"],
+    "jpeglib.h": ["sim/camera"],
     "cairo": ["reports"],
     "CLI/": ["cli"],
     "Random123/": ["sim/random"],

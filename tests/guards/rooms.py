@@ -8,6 +8,7 @@ renames or joins rooms edits this file, and only this. The rooms form no circle.
 MAY_INCLUDE = {
     # engine/
     "engine/base": "",
+    "engine/boards": "engine/base",
     "engine/cameras": "engine/base",
     "engine/capture":
         "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
@@ -37,15 +38,20 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
+    "sim/annotator": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random",
     "sim/body": "engine/motion",
-    "sim/character": "engine/base engine/motion engine/retargeting sim/choreography sim/render",
+    "sim/camera": "engine/base engine/cameras sim/random sim/render",
+    "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
-    "sim/sensors": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random sim/render",
+    "sim/rig": "engine/base engine/boards engine/cameras engine/motion sim/random sim/render",
+    "sim/sensors": "engine/base engine/cameras sim/render",
     "sim/skeleton_sensor":
         "engine/base engine/cameras engine/document engine/motion engine/recognition sim/body sim/random",
+    "sim/stage":
+        "engine/base engine/cameras engine/motion sim/character sim/choreography sim/random sim/render",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
@@ -59,8 +65,8 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/transitions/choices engine/transitions/search sim/character sim/choreography sim/random sim/render "
-        "bench/clips",
+        "engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
+        "sim/character sim/choreography sim/random sim/render bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
@@ -82,11 +88,12 @@ MAY_INCLUDE = {
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
-        "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision "
-        "sim/body sim/random sim/render sim/sensors bench/clips bench/metrics bench/recordings bench/tasks/base",
+        "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
+        "engine/vision sim/annotator sim/body sim/camera sim/random sim/render sim/rig sim/sensors "
+        "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
-        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/skeleton_sensor bench/clips bench/keys "
-        "bench/metrics bench/tasks/base",
+        "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "
+        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base",
     "bench/tasks/ik":
         "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
         "bench/tasks/base",
@@ -118,10 +125,11 @@ MAY_INCLUDE = {
         "bench/files reports/films reports/words",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/character sim/render sim/sensors "
-        "bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
+        "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model reports/words",
+    "reports/sensors": "engine/base bench/model reports/films",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",
     # cli/

@@ -12,6 +12,7 @@
 #include "bench/keys/key_info.h"
 #include "bench/model/cell_result.h"
 #include "bench/model/payload.h"
+#include "bench/model/sensor_sheet.h"
 #include "bench/model/unit.h"
 #include "engine/document/fields.h"
 #include "engine/fuzzy/fuzzy_system.h"
@@ -41,6 +42,9 @@ class TaskWorld {
   /// Scores an answer as if a built-in method had given it. An answer of the wrong shape, size or range is
   /// an Error that names where in the answer (e.g. "angles[3]"), what was found, and what is allowed.
   virtual Result<CellResult> Judge(const Json& answer) = 0;
+
+  /// What the sensors see, and what each effect of theirs does to it.
+  virtual Result<SensorSheet> MakeSensorSheet() { return Fail({}, "worlds of this task hold no pictures"); }
 };
 
 /// One scenario under one condition (one value of each swept parameter), ready to run any trial.

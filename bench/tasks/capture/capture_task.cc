@@ -7,6 +7,7 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
+#include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
 
 namespace etude {
@@ -20,6 +21,12 @@ struct CaptureStudy {
   ClipLibrary clips;
 };
 
+/// Why no method can be judged in this world; nothing where all can.
+std::optional<std::string> WhyUnjudged(const CaptureWorld& world) {
+  if (std::ranges::find(world.in_view, true) != world.in_view.end()) return std::nullopt;
+  return "in no frame do two cameras have the whole performer in their pictures";
+}
+
 class CaptureTaskWorld : public TaskWorld {
  public:
   CaptureTaskWorld(const CaptureStudy& study, const LibraryClip& clip, const WorldKey& key, bool keeps_motion)
@@ -31,15 +38,19 @@ class CaptureTaskWorld : public TaskWorld {
   void PrepareShared() override { (void)stages_.GetTake(); }  // a failure is told by every cell
 
   CellResult Run(std::size_t method) override {
+    if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
     const auto run = RunCapture(stages_, study_.methods[method]);
     if (!run) return CellResult::Ended(Status::kFailed, run.error().message);
     return ScoreCaptureRun(stages_.world(), *run, keeps_motion_);
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
-  Result<Payload> MakeTruth() override { return MakeCaptureTruth(stages_); }
+  Result<Payload> MakeTruth() override { return MakeCaptureTruth(study_.options, key_, stages_); }
+
+  Result<SensorSheet> MakeSensorSheet() override { return MakeCaptureSheet(study_.options, key_, stages_); }
 
   Result<CellResult> Judge(const Json& json) override {
+    if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
     ASSIGN_OR_RETURN(const auto answer, ReadCaptureAnswer(json, stages_.world().truth.size()));
     return ScoreCaptureAnswer(stages_.world(), answer, keeps_motion_);
   }
@@ -100,10 +111,7 @@ TaskKind MakeCaptureTaskKind() {
           .question = "How close does the skeleton that two cameras see come to the true one?",
           .default_metrics = {"mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm", "pck_50mm", "position_error_cm",
                               "frames_recovered"},
-          .metrics = {"reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
-                      "limb_direction_error_deg", "limb_direction_coverage", "triangulation_error_mm",
-                      "triangulation_coverage", "frames_recovered", "mpjpe_mm", "mpjpe_before_ik_mm", "pa_mpjpe_mm",
-                      "pck_50mm", "auc_200mm", "bone_length_error_cm", "position_error_cm"},
+          .metrics = CaptureMetrics(),
           .make = MakeCaptureTask,
           .condition_keys = CaptureConditionFields().Describe(),
           .method_keys = CaptureMethodFields().Describe(),

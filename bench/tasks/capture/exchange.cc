@@ -4,7 +4,10 @@
 
 #include "bench/tasks/base/answer_fields.h"
 #include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/capture/coco.h"
+#include "bench/tasks/capture/shooting.h"
 #include "engine/cameras/opencv_file.h"
+#include "engine/cameras/pose2sim_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/joint_csv.h"
 #include "engine/formats/trc.h"
@@ -71,11 +74,11 @@ Result<void> CheckSize(const CaptureWorld& world) {
 }
 
 Json PartNumbers() {
-  constexpr std::array kNames = {"background",     "shadow",       "trunk",       "head",
-                                 "left_upper_arm", "left_forearm", "left_hand",   "right_upper_arm",
-                                 "right_forearm",  "right_hand",   "left_thigh",  "left_shank",
-                                 "left_foot",      "right_thigh",  "right_shank", "right_foot"};
-  static_assert(kNames.size() == static_cast<std::size_t>(Part::kRightFoot) + 1);
+  constexpr std::array kNames = {"background",   "shadow",     "trunk",           "head",          "left_upper_arm",
+                                 "left_forearm", "left_hand",  "right_upper_arm", "right_forearm", "right_hand",
+                                 "left_thigh",   "left_shank", "left_foot",       "right_thigh",   "right_shank",
+                                 "right_foot",   "furniture",  "clutter",         "bystander"};
+  static_assert(kNames.size() == static_cast<std::size_t>(Part::kBystander) + 1);
   Json numbers = Json::object();
   for (std::size_t part = 0; part < kNames.size(); ++part) numbers[kNames[part]] = part;
   return numbers;
@@ -102,14 +105,17 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   std::vector<PersonSource> sources;
   for (const std::string& name : SegmenterNames()) sources.push_back({.segmenter = SegmenterNamed(name)});
   Payload problem = PayloadOf({});
+  std::vector<std::vector<std::string>> pictures(world.cameras.size());
   Json cameras = Json::array();
-  for (const std::vector<PointPair>& pairs : world.calibration_pairs) {
+  ASSIGN_OR_RETURN(const CalibrationPairs* calibration, stages.GetCalibrationPairs());
+  for (const std::vector<PointPair>& pairs : *calibration) {
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
   }
   const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
     const std::string& name = problem.files.emplace_back(PictureName(camera, frame, "png"), EncodePng(picture)).name;
     if (frame) {
       cameras[camera]["pictures"].push_back(name);
+      pictures[camera].push_back(name);
     } else {
       cameras[camera]["background"] = name;
     }
@@ -123,10 +129,18 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
                    {"limb_lengths_m", ToJson(world.lengths)},
                    {"cameras", std::move(cameras)},
                    {"marks", std::move(marks)}};
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+      ASSIGN_OR_RETURN(auto coco, WriteCocoKeypoints(world.cameras[camera].intrinsics, pictures[camera],
+                                                     take.observations[i].marks[camera]));
+      problem.files.push_back(
+          {fmt::format("marks-{}-camera-{}.coco.json", SegmenterNames()[i], camera + 1), std::move(coco)});
+    }
+  }
   return problem;
 }
 
-Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
+Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
   const CaptureWorld& world = stages.world();
   RETURN_IF_ERROR(CheckSize(world));
   ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
@@ -137,13 +151,18 @@ Result<Payload> MakeCaptureTruth(CaptureStages& stages) {
   truth.files = {{"truth.bvh", WriteBvh(ToClip(motion, "truth"))},
                  {"truth.trc", WriteTrc(motion, "truth")},
                  {"truth.csv", WriteJointCsv(motion)}};
+  std::vector<NamedCamera> rig;
+  Shooting shooting(world, FaultlessPictures(options.camera), key, *renderer);
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
+    rig.push_back({fmt::format("cam_{:02}", camera + 1), world.cameras[camera]});
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
-      ASSIGN_OR_RETURN(auto bytes, EncodeExr(RenderFrame(world, camera, frame, *renderer)));
+      const View view = shooting.Shoot(camera, frame, Targets::kAll);
+      ASSIGN_OR_RETURN(auto bytes, EncodeExr(view, NormalsOf(view.depth, world.cameras[camera])));
       truth.files.push_back({PictureName(camera, frame, "exr"), std::move(bytes)});
     }
   }
+  truth.files.push_back({"calibration.toml", WritePose2SimCalibration(rig)});
   return truth;
 }
 

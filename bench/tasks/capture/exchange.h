@@ -35,16 +35,20 @@ Payload DescribeStudio();
 /// marked; by the segmenter's name, then [camera][frame]; null is a frame that the annotator did not see, a mark that
 /// is missing or could not be read. A stroke goes from its limb's `from` to its `to`.
 ///
+/// The same marks lie beside as COCO keypoints, `marks-hue-camera-1.coco.json` and so on (coco.h).
+///
 /// Fails when there is no renderer, and for takes of more than kMostPictures pictures.
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 constexpr std::size_t kMostPictures = 1200;
 
 /// Truth: the poses, themselves a perfect answer; beside it `truth.bvh`, `truth.trc` and `truth.csv` (the same for
-/// other programs), `camera-1.yaml`… (OpenCV's calibration file), and per frame `camera-1-0000.exr`: `label`, `Z`
-/// (depth along the viewing axis, metres), and `R`, `G`, `B` as a camera without noise would see them.
+/// other programs), `camera-1.yaml`… (OpenCV's calibration file), `calibration.toml` (all of them as Pose2Sim's), and
+/// per frame `camera-1-0000.exr`: `label`, `Z` (depth along the viewing axis, metres), `N.X`, `N.Y`, `N.Z` (normals in
+/// the world), and `R`, `G`, `B`, linear light as a camera would see it that has this one's lens and clock, and no
+/// other faults.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
-Result<Payload> MakeCaptureTruth(CaptureStages& stages);
+Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);
 
 /// What a method outside answers, one entry per frame, null where it has no pose:
 ///

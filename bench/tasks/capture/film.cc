@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "bench/recordings/capture_extras.h"
+#include "bench/tasks/capture/marking.h"
+#include "bench/tasks/capture/shooting.h"
 #include "engine/base/digest.h"
 #include "sim/body/shape.h"
-#include "sim/sensors/annotator.h"
-#include "sim/sensors/camera_sensor.h"
 
 namespace etude {
 namespace {
@@ -38,27 +38,25 @@ Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
 class Crew {
  public:
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
-      : world_(world), options_(options), key_(key), renderer_(renderer) {
-    noise_.read_noise *= options.camera_noise;
-    noise_.photon_noise *= options.camera_noise;
+      : shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
-      const View view = renderer_.Render(world.room, {}, world.cameras[camera], Targets::kColour);
-      backgrounds_.push_back(WithNoise(view.colour, fmt::format("capture/camera-{}/background", camera)));
+      backgrounds_.push_back(shooting_.ShootStage(camera));
     }
   }
 
   struct Picture {
     ColourImage colour;
+    LabelImage labels;
     Mask person;
     Mask shadow;
   };
 
   Picture Shoot(std::size_t camera, std::size_t frame) {
-    const View view = RenderFrame(world_, camera, frame, renderer_);
-    return {
-        WithNoise(view.colour, fmt::format("capture/camera-{}/noise/{}", camera, frame)),
-        MaskWhere(view.labels, [](std::uint32_t label) { return label >= kFirstBodyPart; }),
-        MaskWhere(view.labels, [](std::uint32_t label) { return label == static_cast<std::uint32_t>(Part::kShadow); })};
+    View view = shooting_.Shoot(camera, frame, Targets::kColourAndLabels);
+    Mask person = MaskWhere(view.labels, IsPerformer);
+    Mask shadow =
+        MaskWhere(view.labels, [](std::uint32_t l) { return l == static_cast<std::uint32_t>(Part::kShadow); });
+    return {std::move(view.colour), std::move(view.labels), std::move(person), std::move(shadow)};
   }
 
   Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
@@ -66,40 +64,14 @@ class Crew {
     return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {}});
   }
 
-  // The annotator's marks on this cut-out, read back. Their dice depend on camera and frame alone.
-  Marks Mark(const Mask& person, std::size_t camera, std::size_t frame) const {
-    if (frame % static_cast<std::size_t>(options_.mark_every) != 0) return {};
-    RandomStream random(key_, fmt::format("capture/camera-{}/annotator/{}", camera, frame));
-    const BodyPose& truth = world_.truth[frame];
-    AnnotatorOptions annotator;
-    annotator.error_px = options_.annotation_error_px;
-    return ReadMarks(Annotate(truth, BodyCapsules(truth), world_.cameras[camera], person, annotator, random));
-  }
-
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
 
  private:
-  ColourImage WithNoise(const ColourImage& picture, const std::string& purpose) const {
-    RandomStream random(key_, purpose);
-    return AddCameraNoise(picture, noise_, random);
-  }
-
-  const CaptureWorld& world_;
-  const StudioOptions& options_;
-  const WorldKey& key_;
-  Renderer& renderer_;
-  CameraNoise noise_;
+  Shooting shooting_;
   std::vector<ColourImage> backgrounds_;
 };
 
 }  // namespace
-
-View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer) {
-  Room room = world.room;
-  room.brightness *= world.brightness[frame];
-  const Figure performer{BodyCapsules(world.truth[frame]), world.colours};
-  return renderer.Render(room, {performer}, world.cameras[camera], Targets::kAll);
-}
 
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink) {
@@ -115,6 +87,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
+  std::vector<Marking> marking(sources.size(), Marking(options, world, key));
   for (const PersonSource& source : sources) {
     Observation& observation = take.observations.emplace_back();
     observation.source = source;
@@ -132,7 +105,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
         masks[i].Add(std::span<const std::uint8_t>(person.pixels));
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
         if (wants_masks) observation.masks[camera].push_back(HalveMask(person));
-        observation.marks[camera].push_back(crew.Mark(person, camera, frame));
+        observation.marks[camera].push_back(marking[i].Mark(camera, frame, {picture.labels, picture.colour, person}));
         AddMarks(observation.marks[camera].back(), marks[i]);
       }
     }
@@ -142,6 +115,8 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
     take.observations[i].score = MeanScore(scores[i]);
     take.observations[i].masks_digest = masks[i].Hex();
     take.observations[i].marks_digest = marks[i].Hex();
+    take.observations[i].annotator_distance_px = AnnotatorDistancePx(marking[i].joints());
+    take.observations[i].annotator_overlap = AnnotatorOverlap(marking[i].limbs());
   }
   return take;
 }

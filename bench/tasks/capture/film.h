@@ -27,6 +27,8 @@ struct Observation {
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
   std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for
   MaskScore score;                        ///< mean over all pictures
+  /// How two annotators agree, over all pictures; nothing when one marks alone.
+  std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;
   std::string marks_digest;
 };
@@ -43,8 +45,5 @@ using PictureSink = std::function<void(std::size_t camera, std::optional<std::si
 /// `sources`, and marked on each cut-out with the same dice.
 Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key,
           std::span<const PersonSource> sources, bool wants_masks, Renderer& renderer, const PictureSink& sink = {});
-
-/// What a camera without noise would see in a frame, with labels and depth.
-View RenderFrame(const CaptureWorld& world, std::size_t camera, std::size_t frame, Renderer& renderer);
 
 }  // namespace etude

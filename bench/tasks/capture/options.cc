@@ -1,5 +1,7 @@
 #include "bench/tasks/capture/options.h"
 
+#include "bench/tasks/capture/camera_fields.h"
+
 namespace etude {
 namespace {
 
@@ -8,29 +10,79 @@ bool& OracleOf(CaptureMethod& method) {
   return method.oracle.*kStage;
 }
 
+template <auto kMember>
+auto& InRig(StudioOptions& options) {
+  return options.rig.*kMember;
+}
+
+void CheckStudio(Fields& fields, StudioOptions& options) {
+  const RigOptions& rig = options.rig;
+  if (rig.shape != RigShape::kAngles || rig.heights_m.size() == rig.angles_deg.size()) return;
+  const Node* written = fields.Raw("camera_heights_m");
+  fields.Complain((written != nullptr ? *written : fields.node()).place,
+                  fmt::format("'camera_heights_m' has {} numbers; it needs one for each of the {} cameras",
+                              rig.heights_m.size(), rig.angles_deg.size()));
+}
+
+FieldTable<StudioOptions> MakeConditionFields() {
+  using Options = StudioOptions;
+  using Key = Field<Options>;
+  FieldTable<Options> made{
+      {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
+       Key::Name(
+           "rig", InRig<&RigOptions::shape>,
+           {{"angles", RigShape::kAngles},
+            {"stereo", RigShape::kStereo},
+            {"ring", RigShape::kRing},
+            {"corners", RigShape::kCorners}},
+           "How the cameras stand about the performer: at given angles, side by side in front, evenly around, or in "
+           "four corners."),
+       Key::Numbers("camera_angles_deg", InRig<&RigOptions::angles_deg>, {2, kMostCameras}, "two to eight of -180…180",
+                    {-180, 180}, "Where they stand: 0 = in front, positive = to the performer's left.")
+           .With("rig", {"angles"}),
+       Key::Number("camera_baseline_m", InRig<&RigOptions::baseline_m>, {0.05, 3}, "From one to the other.")
+           .With("rig", {"stereo"}),
+       Key::Number("cameras", InRig<&RigOptions::cameras>, {2, kMostCameras}, "How many stand around.")
+           .With("rig", {"ring"}),
+       Key::Numbers("camera_heights_m", InRig<&RigOptions::heights_m>, {1, kMostCameras}, "one to eight of 0.2…5",
+                    {0.2, 5}, "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
+       Key::Number("camera_distance_m", InRig<&RigOptions::distance_m>, {2, 10},
+                   "From the middle of where the performer moves, as far as the room allows."),
+       Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
+                 "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."),
+       Key::Number(
+           "scene", &Options::scene, {0, 1},
+           "How much a room people live in: 0 = the studio, 1 = furniture, clutter, a second person, hues alike."),
+       Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
+       Key::Name(
+           "calibration_target", &Options::calibration_target,
+           {{"points", CalibrationTargetKind::kPoints}, {"boards", CalibrationTargetKind::kBoards}},
+           "What the cameras are calibrated with: points on planes, clicked by a human, or a cube of boards that is "
+           "found in a picture."),
+       Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Clicked points per camera.")
+           .With("calibration_target", {"points"}),
+       Key::Number("calibration_measure_mm", &Options::calibration_measure_mm, {0, 100},
+                   "Standard deviation of the target's measured places, along each axis: of a point, or of a board."),
+       Key::Number("calibration_noise_px", &Options::calibration_noise_px, {0, 20},
+                   "Standard deviation of a calibration point's pixel, in u and in v.")
+           .With("calibration_target", {"points"}),
+       Key::Number(
+           "annotation_error_px", &Options::annotation_error_px, {0, 50},
+           "Standard deviation of an annotator's marks, in u and in v; what else people get wrong grows with it."),
+       Key::Number("annotators", &Options::annotators, {1, 2},
+                   "How many people mark the same pictures, each by themselves; methods get the mean of both."),
+       Key::Number("mark_every", &Options::mark_every, {1, 300},
+                   "The annotator marks every n-th frame; what lies between is interpolated.")},
+      CheckStudio};
+  const std::vector<Key> camera = CameraFields();
+  made.fields.insert(made.fields.end(), camera.begin(), camera.end());
+  return made;
+}
+
 }  // namespace
 
 const FieldTable<StudioOptions>& CaptureConditionFields() {
-  using Options = StudioOptions;
-  using Key = Field<Options>;
-  static const FieldTable<Options> table{
-      {Key::Number("duration_s", &Options::duration_s, {0.1, 60}, "Length of the filmed window."),
-       Key::Numbers("camera_angles_deg", &Options::camera_angles_deg, "camera", "two of -180…180", {-180, 180},
-                    "Where the cameras stand about the performer: 0 = in front, positive = to the performer's left."),
-       Key::Numbers("camera_heights_m", &Options::camera_heights_m, "camera", "two of 0.2…5", {0.2, 5},
-                    "How high the cameras stand."),
-       Key::Number("camera_distance_m", &Options::camera_distance_m, {2, 10}, "From the middle of the stage."),
-       Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
-                 "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."),
-       Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
-       Key::Number("camera_noise", &Options::camera_noise, {0, 20}, "Multiplies the camera's usual noise."),
-       Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Measured points per camera."),
-       Key::Number("calibration_noise_px", &Options::calibration_noise_px, {0, 20},
-                   "Standard deviation of a calibration point's pixel, in u and in v."),
-       Key::Number("annotation_error_px", &Options::annotation_error_px, {0, 50},
-                   "Standard deviation of the annotator's marks, in u and in v."),
-       Key::Number("mark_every", &Options::mark_every, {1, 300},
-                   "The annotator marks every n-th frame; what lies between is interpolated.")}};
+  static const FieldTable<StudioOptions> table = MakeConditionFields();
   return table;
 }
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/cameras/dlt.h"
 #include "engine/vision/change_detection.h"
+#include "sim/camera/camera_effects.h"
+#include "sim/rig/rig.h"
 
 namespace etude {
 
@@ -14,22 +15,27 @@ enum class Clothes {
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
 };
 
+/// What the cameras are calibrated with.
+enum class CalibrationTargetKind {
+  kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
+  kBoards,  ///< "boards": a cube of calibration boards, found in the picture
+};
+
 /// One condition of a capture scenario: the studio and what goes wrong in it.
 struct StudioOptions {
   double duration_s = 2;
-  /// Where the two cameras stand: angles about the performer (0 = in front, positive = to the performer's
-  /// left), and heights. Two cameras alike cannot tell the direction of a limb parallel to the line
-  /// between them, and a performer facing them has hips, shoulders and stretched arms there: so they
-  /// stand at different heights.
-  std::vector<double> camera_angles_deg = {-40, 40};
-  std::vector<double> camera_heights_m = {1.0, 2.2};
-  double camera_distance_m = 3.8;
+  RigOptions rig = {};  ///< where the cameras stand
   Clothes clothes = Clothes::kStudio;
-  double light_drift = 0.06;   ///< largest relative change of the lamp's brightness
-  double camera_noise = 1;     ///< multiplies the camera sensor's usual noise
-  int calibration_pairs = 24;  ///< measured points per camera
+  /// 0 = the studio; 1 = a furnished room with people and things that move (sim/stage/README.md has the steps between).
+  double scene = 0;
+  double light_drift = 0.06;  ///< largest relative change of the lamp's brightness
+  CameraEffects camera = {};  ///< of every camera
+  CalibrationTargetKind calibration_target = CalibrationTargetKind::kPoints;
+  int calibration_pairs = 24;         ///< kPoints: measured points per camera
+  double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
+  int annotators = 1;  ///< people who mark the same pictures, each by themselves: 1 or 2
   int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
 };
 

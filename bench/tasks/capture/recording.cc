@@ -11,6 +11,9 @@ CaptureExtras DescribeStage(const CaptureWorld& world) {
   CaptureExtras extras;
   extras.texture_seed = world.room.texture_seed;
   extras.casts_shadows = world.room.casts_shadows;
+  extras.stage_seed = world.stage_options.seed;
+  extras.scene = world.stage_options.scene;
+  extras.wears_everyday = world.stage_options.wardrobe == Wardrobe::kEveryday;
   extras.colours = world.colours;
   extras.brightness = world.brightness;
   return extras;

@@ -10,7 +10,8 @@
 
 namespace etude {
 
-/// The recording of a built-in method's motion, with its masks (bench/recordings/capture_extras.h). `name`: its BVH clip's.
+/// The recording of a built-in method's motion, with its masks (bench/recordings/capture_extras.h). `name`: its BVH
+/// clip's.
 Recording MakeRecording(const CaptureWorld& world, const Observation& observation,
                         const std::vector<RecoveredFrame>& frames, const std::string& name);
 

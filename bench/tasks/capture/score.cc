@@ -40,6 +40,12 @@ void ReportMeasurements(const CaptureWorld& world, const MeasuredTake& measured,
   cell.MeasureOr("triangulation_coverage", points.coverage, "there are no end effectors");
 }
 
+void ReportAnnotators(const Observation& observation, CellResult& cell) {
+  constexpr const char* kAlone = "one annotator marked the pictures, or two marked nothing in common";
+  cell.MeasureOr("annotator_distance_px", observation.annotator_distance_px, kAlone);
+  cell.MeasureOr("annotator_overlap", observation.annotator_overlap, kAlone);
+}
+
 void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& cell) {
   cell.digests = {{"calibration", run.cameras.digest},
                   {"pictures", run.take.pictures_digest},
@@ -49,27 +55,17 @@ void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& 
                   {"points", run.measured.points_digest}};
   cell.Measure("reprojection_rms_px", run.cameras.reprojection_rms_px);
   ReportMasks(run.observation.score, cell);
+  ReportAnnotators(run.observation, cell);
   ReportMeasurements(world, run.measured, cell);
 }
 
-// "the left hand was never marked in both pictures", for the first thing that is never measured.
 std::string ReasonForNoSkeleton(std::span<const FrameMeasurement> frames) {
-  auto never = [&](auto member, Role role) {
-    return std::none_of(frames.begin(), frames.end(),
-                        [&](const FrameMeasurement& frame) { return (frame.*member)[Index(role)].has_value(); });
-  };
-  for (const EffectorMark& mark : EffectorMarks()) {
-    if (never(&FrameMeasurement::ends, mark.role)) {
-      return fmt::format("no skeleton: {} was never marked in both pictures", RoleName(mark.role));
-    }
-  }
-  for (const StrokeMark& mark : StrokeMarks()) {
-    if (never(&FrameMeasurement::directions, mark.to)) {
-      return fmt::format("no skeleton: the direction of the limb to {} was never seen in both pictures",
-                         RoleName(mark.to));
-    }
-  }
-  return "no skeleton: no frame has all its marks within half a second, or its limbs fit no body";
+  const bool has_end = std::ranges::any_of(frames, [](const FrameMeasurement& frame) {
+    return std::ranges::any_of(frame.ends, [](const auto& end) { return end.has_value(); });
+  });
+  if (!has_end)
+    return "no skeleton: no end effector was ever marked in both pictures, so nothing tells where the body is";
+  return "no skeleton: the limbs that were marked fit no body";
 }
 
 constexpr const char* kNoStages = "only a built-in method's stages tell";
@@ -80,6 +76,8 @@ constexpr std::array kStageMetrics = {"reprojection_rms_px",
                                       "mask_recall",
                                       "mask_f1",
                                       "shadow_error",
+                                      "annotator_distance_px",
+                                      "annotator_overlap",
                                       "limb_direction_error_deg",
                                       "limb_direction_coverage",
                                       "triangulation_error_mm",
@@ -102,6 +100,21 @@ void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellRe
   cell.Measure("bone_length_error_cm", after.bone_length_error_cm);
   cell.series.push_back({"mpjpe_mm", "frame", after.frame_mpjpe_mm});
   if (before != nullptr) cell.series.push_back({"mpjpe_before_ik_mm", "frame", before->frame_mpjpe_mm});
+}
+
+/// Those of one value per frame in which the performer was in view: no others are judged.
+template <typename Value>
+std::vector<Value> InView(const CaptureWorld& world, const std::vector<Value>& values) {
+  std::vector<Value> kept;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (world.in_view[k]) kept.push_back(values[k]);
+  }
+  return kept;
+}
+
+/// The joint errors of the frames in view.
+PoseErrors JudgePoses(const CaptureWorld& world, const std::vector<BodyPose>& poses) {
+  return ComparePoses(InView(world, poses), InView(world, world.truth));
 }
 
 /// From the end effectors to where they were seen, mean over the frames in which they were.
@@ -130,16 +143,19 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
   }
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
-  const PoseErrors before = ComparePoses(fixed, world.truth);
-  ReportJointErrors(ComparePoses(poses, world.truth), &before, cell);
-  cell.Measure("position_error_cm", MeanEffectorErrorCm(frames));
+  const PoseErrors before = JudgePoses(world, fixed);
+  ReportJointErrors(JudgePoses(world, poses), &before, cell);
+  cell.Measure("position_error_cm", MeanEffectorErrorCm(InView(world, frames)));
 }
 
-/// Tells how many frames have a skeleton; whether any has.
+/// Tells how many frames are in view, and how many of these have a skeleton; whether any has.
 template <typename Frame>
-bool ReportRecovered(const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
-  const auto count = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame.has_value(); });
-  cell.Measure("frames_recovered", *Share(count, static_cast<std::int64_t>(frames.size())));
+bool ReportRecovered(const CaptureWorld& world, const std::vector<std::optional<Frame>>& frames, CellResult& cell) {
+  const auto judged = InView(world, frames);
+  const auto count = std::count_if(judged.begin(), judged.end(), [](const auto& frame) { return frame.has_value(); });
+  const auto in_view = static_cast<std::int64_t>(judged.size());
+  cell.Measure("frames_in_view", *Share(in_view, static_cast<std::int64_t>(frames.size())));
+  cell.Measure("frames_recovered", *Share(count, in_view));
   return count > 0;
 }
 
@@ -159,10 +175,17 @@ std::vector<BodyPose> HoldPoses(const CaptureAnswer& answer) {
 
 }  // namespace
 
+std::vector<std::string> CaptureMetrics() {
+  std::vector<std::string> ids(kStageMetrics.begin(), kStageMetrics.end());
+  ids.insert(ids.end(), {"frames_in_view", "frames_recovered"});
+  ids.insert(ids.end(), kPoseMetrics.begin(), kPoseMetrics.end());
+  return ids;
+}
+
 CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
   CellResult cell;
   ReportStages(world, run, cell);
-  if (!ReportRecovered(run.frames, cell)) {
+  if (!ReportRecovered(world, run.frames, cell)) {
     FailWithoutPoses(ReasonForNoSkeleton(run.measured.frames), cell);
     return cell;
   }
@@ -177,7 +200,7 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion) {
   CellResult cell;
   for (const char* id : kStageMetrics) cell.Missing(id, kNoStages);
-  if (!ReportRecovered(answer, cell)) {
+  if (!ReportRecovered(world, answer, cell)) {
     FailWithoutPoses("no frame has a pose", cell);
     return cell;
   }
@@ -185,7 +208,7 @@ CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& an
   Digest digest;
   for (const BodyPose& pose : poses) Add(pose, digest);
   cell.digests = {{"pose", digest.Hex()}};
-  ReportJointErrors(ComparePoses(poses, world.truth), nullptr, cell);
+  ReportJointErrors(JudgePoses(world, poses), nullptr, cell);
   cell.Missing("position_error_cm", kNoStages);
   if (keeps_motion) cell.recording = MakeRecording(world, poses);
   cell.status = Status::kOk;

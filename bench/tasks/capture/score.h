@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/capture/exchange.h"
 #include "bench/tasks/capture/run.h"
@@ -11,5 +14,8 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
 
 /// Scores an answer of a method outside likewise; what only stages can tell is missing.
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);
+
+/// The ids of all metrics that a cell reports, a value or a reason for each.
+std::vector<std::string> CaptureMetrics();
 
 }  // namespace etude

@@ -16,20 +16,22 @@ void Add(const RoleVectors& vectors, Digest& digest) {
   }
 }
 
-Result<std::vector<ProjectionMatrix>> MatricesOf(const CaptureWorld& world, bool is_truth, Calibration calibration) {
-  if (!is_truth) return CalibrateCameras(world.calibration_pairs, {.method = calibration});
+Result<std::vector<ProjectionMatrix>> MatricesOf(const CaptureWorld& world, const CalibrationPairs& pairs,
+                                                 bool is_truth, Calibration calibration) {
+  if (!is_truth) return CalibrateCameras(pairs, {.method = calibration});
   std::vector<ProjectionMatrix> matrices;
   for (const Camera& camera : world.cameras) matrices.push_back(MatrixOf(camera));
   return matrices;
 }
 
-Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, bool is_truth, Calibration calibration) {
-  ASSIGN_OR_RETURN(auto matrices, MatricesOf(world, is_truth, calibration));
+Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const CalibrationPairs& pairs, bool is_truth,
+                                      Calibration calibration) {
+  ASSIGN_OR_RETURN(auto matrices, MatricesOf(world, pairs, is_truth, calibration));
   Digest digest;
   std::vector<CameraFit> fits;
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     for (const auto& row : matrices[i].h) digest.Add(std::span<const double>(row));
-    fits.push_back({matrices[i], world.calibration_pairs[i]});
+    fits.push_back({matrices[i], pairs[i]});
   }
   const double rms_px = MeanReprojectionRmsPx(fits);
   return CalibratedCameras{std::move(matrices), rms_px, digest.Hex()};
@@ -74,17 +76,24 @@ CaptureStages::CaptureStages(const StudioOptions& options, const LibraryClip& cl
   for (std::size_t k = 0; k < marked_.size(); ++k) marked_[k] = k % static_cast<std::size_t>(options.mark_every) == 0;
 }
 
-Result<Renderer*> CaptureStages::GetRenderer() {
-  if (!renderer_) renderer_ = Renderer::Create();
-  if (!*renderer_) return tl::unexpected(renderer_->error());
-  return (*renderer_)->get();
-}
+Result<Renderer*> CaptureStages::GetRenderer() { return SharedRenderer(); }
 
 Result<const Take*> CaptureStages::GetTake() {
   if (take_) return &*take_;
   ASSIGN_OR_RETURN(const auto renderer, GetRenderer());
   take_ = Film(world_, options_, key_, sources_, keeps_masks_, *renderer);
   return &*take_;
+}
+
+Result<const CalibrationPairs*> CaptureStages::GetCalibrationPairs() {
+  if (pairs_) return &*pairs_;
+  if (options_.calibration_target == CalibrationTargetKind::kPoints) {
+    pairs_ = ClickedPoints(options_, world_, key_);
+  } else {
+    ASSIGN_OR_RETURN(const auto renderer, GetRenderer());
+    pairs_ = FoundCorners(options_, world_, key_, *renderer);
+  }
+  return &*pairs_;
 }
 
 CaptureStages::CameraChoice CaptureStages::CameraChoiceOf(const CaptureMethod& method) {
@@ -96,7 +105,8 @@ Result<const CalibratedCameras*> CaptureStages::GetCameras(const CaptureMethod& 
   const CameraChoice choice = CameraChoiceOf(method);
   auto kept = cameras_.find(choice);
   if (kept == cameras_.end()) {
-    kept = cameras_.emplace(choice, MakeCameras(world_, choice.is_truth, choice.calibration)).first;
+    ASSIGN_OR_RETURN(const CalibrationPairs* pairs, GetCalibrationPairs());
+    kept = cameras_.emplace(choice, MakeCameras(world_, *pairs, choice.is_truth, choice.calibration)).first;
   }
   if (!kept->second) return tl::unexpected(kept->second.error());
   return &*kept->second;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/tasks/capture/calibration.h"
 #include "bench/tasks/capture/film.h"
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/world.h"
@@ -44,6 +45,7 @@ class CaptureStages {
   /// The renderer of this world; fails, saying why, when there can be none.
   Result<Renderer*> GetRenderer();
   Result<const Take*> GetTake();
+  Result<const CalibrationPairs*> GetCalibrationPairs();
   Result<const CalibratedCameras*> GetCameras(const CaptureMethod& method);
   /// `cameras` and `observation` are those of `method`.
   const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
@@ -71,8 +73,8 @@ class CaptureStages {
   const bool keeps_masks_;
   const CaptureWorld world_;
   std::vector<bool> marked_;
-  std::optional<Result<std::unique_ptr<Renderer>>> renderer_;
   std::optional<Take> take_;
+  std::optional<CalibrationPairs> pairs_;
   std::map<CameraChoice, Result<CalibratedCameras>> cameras_;
   std::map<MeasureChoice, MeasuredTake> measured_;
 };

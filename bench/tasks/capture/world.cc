@@ -4,6 +4,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "sim/camera/lens.h"
+
 namespace etude {
 namespace {
 
@@ -61,35 +63,12 @@ std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
   return colours;
 }
 
-// Tripods are never set up to the centimetre.
-Camera PlaceCamera(const StudioOptions& options, std::size_t index, const WorldKey& key) {
-  RandomStream random(key, fmt::format("capture/camera-{}/place", index));
-  const double angle = Radians(options.camera_angles_deg[index] + random.Normal(0, 2));
-  const double distance = options.camera_distance_m + random.Normal(0, 0.05);
-  const double height = options.camera_heights_m[index] + random.Normal(0, 0.03);
-  const glm::dvec3 target(random.Normal(0, 0.02), 0.95 + random.Normal(0, 0.02), 0);
-  return LookAt({}, {distance * std::sin(angle), height, distance * std::cos(angle)}, target);
-}
-
-// Points stuck on three walls of a box around the stage (paper B: "on different planes"), seen by the
-// camera and clicked with a small error.
-std::vector<PointPair> MakeCalibrationPairs(const StudioOptions& options, const Camera& camera, std::size_t index,
-                                            const WorldKey& key) {
-  RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
-  const glm::dvec3 low(-0.8, 0.1, -0.8), high(0.8, 1.9, 0.8);
-  const ProjectionMatrix matrix = MatrixOf(camera);
-  std::vector<PointPair> pairs;
-  for (int i = 0; i < options.calibration_pairs; ++i) {
-    glm::dvec3 point;
-    for (int axis = 0; axis < 3; ++axis) point[axis] = random.Uniform(low[axis], high[axis]);
-    // In turn the back wall, the left wall and the floor of the box.
-    constexpr int kWalls[] = {2, 0, 1};
-    const int wall = kWalls[i % 3];
-    point[wall] = low[wall];
-    const glm::dvec2 error(random.Normal(), random.Normal());
-    pairs.push_back({point, *Project(matrix, point) + options.calibration_noise_px * error});
-  }
-  return pairs;
+StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
+  RandomStream random(key, "capture/stage");
+  const bool everyday = options.clothes == Clothes::kEveryday;
+  return {.seed = random.IndexBelow(1u << 30),
+          .scene = options.scene,
+          .wardrobe = everyday ? Wardrobe::kEveryday : Wardrobe::kStudio};
 }
 
 // The lamp waxes and wanes slowly about the brightness of the background pictures.
@@ -114,11 +93,19 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   RandomStream room(key, "capture/room");
   world.room.texture_seed = room.IndexBelow(1u << 30);
   world.brightness = MakeBrightness(options, world.truth.size(), key);
-  for (std::size_t i = 0; i < options.camera_angles_deg.size(); ++i) {
-    world.cameras.push_back(PlaceCamera(options, i, key));
-    world.calibration_pairs.push_back(MakeCalibrationPairs(options, world.cameras[i], i, key));
+  world.cameras = SetUpCameras(options.rig, world.truth, key);
+  for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+    world.cameras[i].distortion = LensOf(options.camera, world.cameras[i], i, key);
   }
+  world.in_view = FramesInView(world.cameras, world.truth);
+  world.stage_options = StageOptionsOf(options, key);
+  world.stage = Stage(world.stage_options, world.truth, world.cameras);
   return world;
+}
+
+Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key) {
+  RandomStream random(key, fmt::format("capture/camera-{}/lens", index));
+  return LensDistortion(effects, camera.intrinsics, random);
 }
 
 FrameMeasurement TrueMeasurement(const BodyPose& truth) {

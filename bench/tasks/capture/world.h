@@ -6,12 +6,12 @@
 #include "bench/clips/clip_library.h"
 #include "bench/tasks/capture/options.h"
 #include "engine/cameras/camera.h"
-#include "engine/cameras/dlt.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
+#include "sim/stage/stage.h"
 
 namespace etude {
 
@@ -20,16 +20,21 @@ struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
   LimbLengths lengths;             ///< measured on the performer beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
-  std::vector<Camera> cameras;     ///< two
-  Room room;                       ///< its brightness is that of the background pictures
+  std::vector<Camera> cameras;     ///< two or more, each with its lens
+  std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
+  Room room;                       ///< its brightness is that of the background pictures; of the studio alone
+  StageOptions stage_options;      ///< what `stage` was made of
+  Stage stage;                     ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< of each frame
-  std::vector<std::vector<PointPair>> calibration_pairs;  ///< of each camera, pixels noisy
 };
 
 /// The world of `key`. The window of the clip begins by dice; among a few throws the first is taken that
 /// keeps the performer within 1.2 m of the middle, where both cameras see the whole body, else the one
 /// that strays least. Moves that loop are repeated; other clips shorter than the window are taken whole.
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key);
+
+/// The lens that a camera of the world has under those effects.
+Distortion LensOf(const CameraEffects& effects, const Camera& camera, std::size_t index, const WorldKey& key);
 
 /// What faultless marks and cameras would measure of a frame.
 FrameMeasurement TrueMeasurement(const BodyPose& truth);

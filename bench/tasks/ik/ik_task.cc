@@ -76,18 +76,15 @@ Result<std::unique_ptr<Task>> MakeIkTask(TaskInput& input) {
 }  // namespace
 
 TaskKind MakeIkTaskKind() {
-  return {
-      .name = "ik",
-      .question = "How near do the end effectors come to their targets, and how far do the hidden angles stray?",
-      .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg", "solved_practical",
-                          "iterations"},
-      .metrics = {"position_error_cm", "position_error_max_cm", "orientation_error_deg", "orientation_error_max_deg",
-                  "hidden_angle_error_deg", "hidden_angle_change_deg", "solved_practical", "solved_tight",
-                  "limit_violations", "iterations", "iterations_par2", "fk_evaluations", "fk_evaluations_par2"},
-      .make = MakeIkTask,
-      .condition_keys = IkConditionFields().Describe(),
-      .method_keys = IkMethodFields().Describe(),
-      .uses_clips = false};
+  return {.name = "ik",
+          .question = "How near do the end effectors come to their targets, and how far do the hidden angles stray?",
+          .default_metrics = {"orientation_error_deg", "position_error_cm", "hidden_angle_error_deg",
+                              "solved_practical", "iterations"},
+          .metrics = IkMetrics(),
+          .make = MakeIkTask,
+          .condition_keys = IkConditionFields().Describe(),
+          .method_keys = IkMethodFields().Describe(),
+          .uses_clips = false};
 }
 
 }  // namespace etude

@@ -29,6 +29,16 @@ void AddCost(const char* id, const char* penalised_id, const std::optional<int>&
 
 }  // namespace
 
+std::vector<std::string> IkMetrics() {
+  return {"position_error_cm",      "position_error_max_cm",
+          "orientation_error_deg",  "orientation_error_max_deg",
+          "hidden_angle_error_deg", "hidden_angle_change_deg",
+          "solved_practical",       "solved_tight",
+          "limit_violations",       "iterations",
+          "iterations_par2",        "fk_evaluations",
+          "fk_evaluations_par2"};
+}
+
 IkAsked AskedOf(const IkProblem& problem) {
   const EffectorTarget& target = problem.targets.front();
   return {.positions = target.position_weight > 0, .axes = target.axis_weights != glm::dvec3(0)};

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/metrics/ik_error.h"
 #include "bench/tasks/base/task.h"
@@ -33,6 +34,9 @@ CellResult ScoreAngles(const KinematicTree& tree, const IkWorld& world, std::spa
 /// limit of its cost.
 CellResult ScoreIkAnswer(const KinematicTree& tree, const IkWorld& world, const IkAnswer& answer, int max_steps,
                          const IkRecords& records);
+
+/// The ids of all metrics that a cell reports, a value or a reason for each.
+std::vector<std::string> IkMetrics();
 
 /// What a cell without an answer is credited with (PAR-2): 0 for solved shares, twice the limit for penalised costs.
 std::optional<double> IkValueOfFailure(std::string_view metric, int max_steps);

@@ -41,6 +41,10 @@ std::string DescribeMistakes(const std::vector<FoundFrames>& found, const std::v
 
 }  // namespace
 
+std::vector<std::string> SearchMetrics() {
+  return {"search_agreement", "matches_per_query", "distances_per_query", "boxes_per_query"};
+}
+
 CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> queries, const SearchAnswer& answer,
                        const std::vector<FoundFrames>& truth) {
   CellResult cell;

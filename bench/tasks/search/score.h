@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/search/run.h"
@@ -12,6 +14,9 @@ namespace etude {
 /// and the first of them. Series along the queries: how many frames were found and, where it is told, looked at.
 CellResult ScoreSearch(const SearchLibrary& library, std::span<const Grades> queries, const SearchAnswer& answer,
                        const std::vector<FoundFrames>& truth);
+
+/// The ids of all metrics that a cell reports, a value or a reason for each.
+std::vector<std::string> SearchMetrics();
 
 /// What a cell without an answer is credited with: no right answer.
 std::optional<double> SearchFailureValue(std::string_view metric);

@@ -109,6 +109,12 @@ std::string DescribeFailure(const Outcome& outcome) {
 
 }  // namespace
 
+std::vector<std::string> TrackingMetrics() {
+  return {"frames_solved",         "frames_solved_tight",    "position_error_cm",
+          "orientation_error_deg", "hidden_angle_error_deg", "mpjpe_mm",
+          "angle_jerk_ratio",      "iterations_per_frame",   "iterations_per_frame_p95"};
+}
+
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion) {
   assert(answer.angles.size() == world.truth.size());
   Outcome outcome = Look(world, rate_hz, answer.angles);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/tracking/run.h"
 #include "bench/tasks/tracking/world.h"
@@ -11,6 +14,9 @@ namespace etude {
 /// of them; a broken limit makes its frame unsolved. Series along the frames; `keeps_motion`: a recording with the
 /// tracks "truth" and "solution".
 CellResult ScoreTracking(const TrackingWorld& world, double rate_hz, const TrackingAnswer& answer, bool keeps_motion);
+
+/// The ids of all metrics that a cell reports, a value or a reason for each.
+std::vector<std::string> TrackingMetrics();
 
 /// What a cell without an answer is credited with: 0 for shares of frames.
 std::optional<double> TrackingValueOfFailure(std::string_view metric);

@@ -37,7 +37,7 @@ const FieldTable<Weather>& WeatherFields() {
        Key::Name("wind", &Weather::wind, {{"none", Wind::kNone}, {"strong", Wind::kStrong}}, "How it blows."),
        Key::Number("gust", &Weather::gust, {0, 1}, "How suddenly.").With("wind", {"strong"}),
        Key::Angle("turn_deg", &Weather::turn, {0, 360}, "Whence."),
-       Key::Numbers("tides_m", &Weather::tides_m, "coast", "two of 0…20", {0, 20}, "How high the sea stands."),
+       Key::Numbers("tides_m", &Weather::tides_m, {2, 3}, "two or three of 0…20", {0, 20}, "How high the sea stands."),
        Key::Flags("oddities", {{"fog", &Weather::fog}, {"hail", &Weather::hail}}, "What else there is."),
        Key::Text("place", &Weather::place, "a town", "Where.").WhenAbsent("")},
       [](Fields& fields, Weather& weather) {
@@ -82,7 +82,8 @@ TEST(FieldTable, SaysWhereSomethingIsWrongAndWhatIsAllowed) {
   EXPECT_THAT(Read("{place: Ulm, warmth_c: 61}").complaint, HasSubstr("1:24: 'warmth_c': 61 is out of range"));
   EXPECT_THAT(Read("{place: Ulm, clouds: 1.5}").complaint, HasSubstr("'clouds' must be a whole number, found 1.5"));
   EXPECT_THAT(Read("{place: Ulm, wind: storng}").complaint, HasSubstr("did you mean 'strong'? Allowed: none, strong"));
-  EXPECT_THAT(Read("{place: Ulm, tides_m: [1]}").complaint, HasSubstr("it needs one for each of the 2 coasts"));
+  EXPECT_THAT(Read("{place: Ulm, tides_m: [1]}").complaint, HasSubstr("'tides_m' has 1 numbers; it needs 2 to 3"));
+  EXPECT_THAT(Read("{place: Ulm, tides_m: [1, 2, 3, 4]}").complaint, HasSubstr("has 4 numbers"));
   EXPECT_THAT(Read("{place: Ulm, oddities: [fog, hale]}").complaint, HasSubstr("1:30: unknown oddities 'hale'"));
   EXPECT_THAT(Read("{place: Ulm, cluods: 1}").complaint, HasSubstr("unknown key of a weather 'cluods'"));
   EXPECT_EQ(Read("{place: Ulm, clouds: 0, oddities: [hail]}").complaint, "w.yaml:1:1: hail needs a cloud");
@@ -95,10 +96,10 @@ TEST(FieldTable, TellsItsKeysWithTheDefaultsOfTheStruct) {
   std::vector<std::string> told;
   for (const KeyInfo& key : keys) told.push_back(key.key + " | " + key.AllowedWhere() + " | " + key.fallback);
   EXPECT_THAT(
-      told,
-      ElementsAre("warmth_c | -60…60 (degrees) | 20", "clouds | 0…8 | 3", "rain_mm | 0…1000 | (none fell)",
-                  "wind | none, strong | none", "gust | 0…1; with `wind: strong` | 0.5", "turn_deg | 0…360 | 30",
-                  "tides_m | two of 0…20 | [1, 2.5]", "oddities | a list of: fog, hail | []", "place | a town | "));
+      told, ElementsAre("warmth_c | -60…60 (degrees) | 20", "clouds | 0…8 | 3", "rain_mm | 0…1000 | (none fell)",
+                        "wind | none, strong | none", "gust | 0…1; with `wind: strong` | 0.5", "turn_deg | 0…360 | 30",
+                        "tides_m | two or three of 0…20 | [1, 2.5]", "oddities | a list of: fog, hail | []",
+                        "place | a town | "));
 }
 
 TEST(FieldTable, TellsEditorsTheSame) {
@@ -112,7 +113,7 @@ TEST(FieldTable, TellsEditorsTheSame) {
   EXPECT_FALSE(keys["rain_mm"].contains("default"));
   EXPECT_EQ(keys["wind"]["enum"], Json({"none", "strong"}));
   EXPECT_EQ(keys["tides_m"]["minItems"], 2);
-  EXPECT_EQ(keys["tides_m"]["maxItems"], 2);
+  EXPECT_EQ(keys["tides_m"]["maxItems"], 3);
   EXPECT_THAT(keys["gust"]["description"].get<std::string>(), HasSubstr("with `wind: strong`"));
   EXPECT_EQ(schema["dependencies"]["gust"]["properties"]["wind"]["enum"], Json::array({"strong"}));
   EXPECT_EQ(schema["dependencies"]["gust"]["required"], Json::array({"wind"})) << "its default is another";

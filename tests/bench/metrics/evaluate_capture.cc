@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/metrics/annotation.h"
 #include "bench/metrics/measurement.h"
 #include "bench/metrics/pose_error.h"
 #include "bench/metrics/segmentation.h"
@@ -25,6 +26,19 @@ std::vector<Sighted> SightedThings(const Json& list) {
   return things;
 }
 
+std::optional<glm::dvec2> ReadOptionalPixel(const Json& json) {
+  if (json.is_null()) return std::nullopt;
+  return glm::dvec2(json.at(0).get<double>(), json.at(1).get<double>());
+}
+
+std::vector<MarkedTwice> MarkedThings(const Json& list) {
+  std::vector<MarkedTwice> things;
+  for (const Json& thing : list) {
+    things.push_back({ReadOptionalPixel(thing.at("first")), ReadOptionalPixel(thing.at("second"))});
+  }
+  return things;
+}
+
 double ReprojectionOf(const Json& in) {
   std::vector<std::vector<PointPair>> pairs;
   std::vector<CameraFit> fits;
@@ -39,9 +53,9 @@ double ReprojectionOf(const Json& in) {
   return MeanReprojectionRmsPx(fits);
 }
 
-Value ShareOfFrames(const Json& in) {
-  const auto recovered = in.at("recovered").get<std::vector<int>>();
-  return Share(std::count(recovered.begin(), recovered.end(), 1), static_cast<std::int64_t>(recovered.size()));
+Value ShareOf(const Json& flags) {
+  const auto frames = flags.get<std::vector<int>>();
+  return Share(std::count(frames.begin(), frames.end(), 1), static_cast<std::int64_t>(frames.size()));
 }
 
 MaskScore MasksOf(const Json& in) {
@@ -70,8 +84,12 @@ std::span<const Evaluator> CaptureEvaluators() {
        [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).mean; }},
       {"triangulation_coverage",
        [](const Json& in) -> Value { return TriangulationErrorMm(SightedThings(in.at("ends_m"))).coverage; }},
+      {"annotator_distance_px",
+       [](const Json& in) -> Value { return AnnotatorDistancePx(MarkedThings(in.at("joints_px"))); }},
+      {"annotator_overlap", [](const Json& in) -> Value { return AnnotatorOverlap(MarkedThings(in.at("limbs_px"))); }},
       {"reprojection_rms_px", [](const Json& in) -> Value { return ReprojectionOf(in); }},
-      {"frames_recovered", ShareOfFrames},
+      {"frames_in_view", [](const Json& in) -> Value { return ShareOf(in.at("in_view")); }},
+      {"frames_recovered", [](const Json& in) -> Value { return ShareOf(in.at("recovered")); }},
       {"iou", [](const Json& in) -> Value { return MasksOf(in).iou; }},
       {"mask_precision", [](const Json& in) -> Value { return MasksOf(in).precision; }},
       {"mask_recall", [](const Json& in) -> Value { return MasksOf(in).recall; }},

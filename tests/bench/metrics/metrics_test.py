@@ -50,8 +50,8 @@ MUTANTS = {
         "orientation_error_deg", "orientation_error_max_deg", "limb_direction_error_deg", "rotation_step_change_deg",
         "frames_solved"]),
     "counts for shares": (common, {"share": sum}, [
-        "limb_direction_coverage", "triangulation_coverage", "frames_recovered", "precision", "recall", "frames_solved",
-        "frames_solved_tight"]),
+        "limb_direction_coverage", "triangulation_coverage", "frames_in_view", "frames_recovered", "precision", "recall",
+        "frames_solved", "frames_solved_tight"]),
     "a window of nine frames": (transition, {"REACH": 4}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
     "a window of thirteen": (transition, {"REACH": 6}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
     "joints within 49 mm": (capture, {"PCK_MM": 49}, ["pck_50mm"]),

@@ -64,5 +64,55 @@ TEST(OpenCvFile, HasTheHeadAndTheTypesThatFileStorageReads) {
       << text;
 }
 
+TEST(OpenCvFile, GivesTheCameraBackWithItsLens) {
+  Camera camera = LookAt({.width = 800, .height = 500, .fx = 610, .fy = 590, .cx = 401, .cy = 239, .skew = 1.5},
+                         {2, 1.2, 3}, {0.1, 0.9, 0.2});
+  camera.distortion = {.k1 = -0.21, .k2 = 0.03, .p1 = 1e-3, .p2 = -2e-3, .k3 = 0.004};
+  const std::string text = WriteOpenCvCamera(camera);
+  EXPECT_EQ(MatrixNamed(text, "distortion_coefficients"), (std::vector<double>{-0.21, 0.03, 1e-3, -2e-3, 0.004}));
+  const auto back = ReadOpenCvCamera(text);
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(back->distortion, camera.distortion);
+  EXPECT_EQ(back->intrinsics.width, 800);
+  EXPECT_EQ(back->intrinsics.skew, 1.5);
+  for (const glm::dvec3 X : {glm::dvec3(0.3, 1.5, -0.2), glm::dvec3(-0.6, 0.1, 0.4)}) {
+    EXPECT_LT(glm::length(*Project(*back, X) - *Project(camera, X)), 1e-9);
+  }
+}
+
+TEST(OpenCvFile, ReadsFourCoefficientsAndNoExtrinsics) {
+  const auto camera = ReadOpenCvCamera(
+      "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\n"
+      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 600., 0., 319.5, 0.,\n       "
+      "6.1e+02, 239.5, 0., "
+      "0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 4\n   cols: 1\n   dt: d\n   data: [ -0.1, 0.02, "
+      "0., 0.001 ]\n");
+  ASSERT_TRUE(camera) << ToString(camera.error());
+  EXPECT_EQ(camera->intrinsics.fy, 610);
+  EXPECT_EQ(camera->intrinsics.cx, 320);
+  EXPECT_EQ(camera->distortion, (Distortion{.k1 = -0.1, .k2 = 0.02, .p2 = 0.001}));
+  EXPECT_EQ(camera->p_WC, glm::dvec3(0));
+}
+
+TEST(OpenCvFile, SaysWhatIsWrong) {
+  const std::string good = WriteOpenCvCamera(LookAt({}, {0, 1, 4}, {0, 1, 0}));
+  const auto complaint = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    const auto read = ReadOpenCvCamera(text.replace(at, from.size(), to));
+    EXPECT_FALSE(read) << to;
+    return read ? "" : read.error().message;
+  };
+  EXPECT_NE(complaint("image_width: 640", "image_width: 0").find("pixels"), std::string::npos);
+  EXPECT_NE(complaint("camera_matrix", "matrix").find("0 numbers"), std::string::npos);
+  EXPECT_NE(complaint("600.", "-600.").find("focal"), std::string::npos);
+  EXPECT_NE(complaint("data: [ 1.,", "data: [ 1.1,").find("rotation"), std::string::npos);
+  EXPECT_NE(complaint("data: [ 0., 0., 0., 0., 0. ]", "data: [ 0., 0., nan, 0., 0. ]").find("finite"),
+            std::string::npos);
+  EXPECT_TRUE(ReadOpenCvCamera(good));
+  EXPECT_FALSE(ReadOpenCvCamera(""));
+}
+
 }  // namespace
 }  // namespace etude

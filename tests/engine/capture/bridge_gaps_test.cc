@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/engine/capture/marked_body.h"
 
 namespace etude {
@@ -51,9 +54,87 @@ TEST(BridgeGaps, HoldsTheNearestValueAndGivesUpBeyondTheLongestGap) {
   const auto bridged = BridgeGaps(frames, {.longest_gap = 2});
   for (int k = 0; k < 10; ++k) EXPECT_EQ(bridged[k].has_value(), k >= 2 && k <= 6) << k;
   EXPECT_EQ(bridged[2]->ends[Role::kHead], *frames[4].ends[Index(Role::kHead)]);
-  // One quantity missing throughout empties every frame.
-  frames[4].directions[Index(Role::kLeftKnee)].reset();
-  for (const auto& frame : BridgeGaps(frames, {.longest_gap = 2})) EXPECT_FALSE(frame);
+}
+
+TEST(BridgeGaps, SaysWhatAFrameLacksAndKeepsTheRest) {
+  std::vector<FrameMeasurement> frames(3, WholeMeasurement());
+  for (FrameMeasurement& frame : frames) {
+    frame.directions[Index(Role::kLeftKnee)].reset();
+    frame.ends[Index(Role::kHead)].reset();
+  }
+  for (const auto& frame : BridgeGaps(frames)) {
+    ASSERT_TRUE(frame);
+    for (const StrokeMark& mark : StrokeMarks()) {
+      EXPECT_EQ(frame->lacks_direction[Index(mark.to)], mark.to == Role::kLeftKnee) << RoleName(mark.to);
+    }
+    for (const EffectorMark& mark : EffectorMarks()) {
+      EXPECT_EQ(frame->lacks_end[Index(mark.role)], mark.role == Role::kHead) << RoleName(mark.role);
+    }
+    EXPECT_EQ(frame->directions[Index(Role::kRightKnee)], *frames[0].directions[Index(Role::kRightKnee)]);
+  }
+}
+
+TEST(BridgeGaps, PutsAnEndThatOneCameraSeesOnItsSightLine) {
+  std::vector<FrameMeasurement> frames(3, WholeMeasurement());
+  const std::size_t hand = Index(Role::kLeftHand);
+  frames[0].ends[hand] = glm::dvec3(0, 1, 0);
+  frames[2].ends[hand] = glm::dvec3(0.2, 1, 0);
+  frames[1].ends[hand].reset();
+  frames[1].sight_lines[hand] = SightLine{{0, 1.5, 4}, glm::normalize(glm::dvec3(0, -0.5, -4))};
+  // The middle of the neighbours is (0.1, 1, 0); the line passes through (0, 1, 0) and is normal to X.
+  EXPECT_LT(glm::distance(BridgeGaps(frames)[1]->ends[Role::kLeftHand], {0, 1, 0}), 1e-12);
+}
+
+// One plane: the minimiser of (N·d)²/ε² + |d − b|²/τ² is b − N (N·b) / (1 + ε²/τ²), at length 1.
+TEST(BridgeGaps, TurnsALimbIntoThePlaneThatOneCameraSeesItIn) {
+  const std::size_t head = Index(Role::kHead);
+  const BridgeOptions options{.mark_error_px = 2, .turn_per_frame = Radians(3)};
+  for (const int gap : {1, 4}) {
+    for (const double length_px : {40.0, 3.0}) {
+      std::vector<FrameMeasurement> frames(2 * static_cast<std::size_t>(gap) + 1);
+      for (const std::size_t k : {std::size_t{0}, frames.size() - 1}) {
+        frames[k] = WholeMeasurement();
+        frames[k].directions[head] = glm::dvec3(0, 1, 0);
+      }
+      const glm::dvec3 normal = glm::normalize(glm::dvec3(1, 0.2, 0));
+      const glm::dvec3 ray_a(0, 0, -1), ray_b = glm::normalize(glm::dvec3(0, 0.05, -1));
+      frames[static_cast<std::size_t>(gap)].planes[head] = {{normal, ray_a, ray_b, length_px}};
+      const double aside = glm::length(glm::cross(glm::normalize(ray_a + ray_b), glm::dvec3(0, 1, 0)));
+      const double error = std::max(Radians(1), std::sqrt(2.0) * 2 / length_px * aside);
+      const double turn = gap * Radians(3);
+      const glm::dvec3 b(0, 1, 0);
+      const glm::dvec3 expected =
+          glm::normalize(b - normal * glm::dot(normal, b) / (1 + error * error / (turn * turn)));
+      const glm::dvec3 found = BridgeGaps(frames, options)[static_cast<std::size_t>(gap)]->directions[head];
+      EXPECT_LT(glm::distance(found, expected), 1e-12) << gap << " " << length_px;
+    }
+  }
+}
+
+// Two planes a degree apart settle the angle across them and leave the rest to the neighbours.
+TEST(BridgeGaps, LetsNearlyParallelPlanesTellWhatTheyCan) {
+  const std::size_t head = Index(Role::kHead);
+  std::vector<FrameMeasurement> frames(3, WholeMeasurement());
+  const glm::dvec3 before = glm::normalize(glm::dvec3(0.1, 1, 0.1));
+  frames[0].directions[head] = frames[2].directions[head] = before;
+  frames[1].directions[head].reset();
+  const auto plane = [](const glm::dvec3& normal) {
+    return StrokePlane{glm::normalize(normal), {0, 0, -1}, glm::normalize(glm::dvec3(0, 0.1, -1)), 60};
+  };
+  frames[1].planes[head] = {plane({1, 0, 0}), plane({1, 0, std::tan(Radians(1))})};
+  const glm::dvec3 found = BridgeGaps(frames)[1]->directions[head];
+  EXPECT_LT(std::abs(found.x), 0.035) << "it was 0.1; the planes say 0, to ε = 3°/√2 against τ = 3°";
+  EXPECT_NEAR(found.z / found.y, before.z / before.y, 0.01);
+  EXPECT_NEAR(glm::length(found), 1, 1e-12);
+}
+
+TEST(BridgeGaps, TakesALimbThatNothingElseTellsOfForUnforeshortened) {
+  const std::size_t head = Index(Role::kHead);
+  std::vector<FrameMeasurement> frames(1, WholeMeasurement());
+  frames[0].directions[head].reset();
+  const glm::dvec3 a = glm::normalize(glm::dvec3(0, -0.05, -1)), b = glm::normalize(glm::dvec3(0, 0.05, -1));
+  frames[0].planes[head] = {{{1, 0, 0}, a, b, 60}};
+  EXPECT_LT(glm::distance(BridgeGaps(frames)[0]->directions[head], {0, 1, 0}), 1e-12);
 }
 
 TEST(BridgeGaps, OneNearNeighbourIsEnoughAndHalfASecondTheDefault) {

@@ -183,6 +183,27 @@ TEST(MeasureFrames, UsesNoStrokeThatIsTooShortAndNoPlanesThatAreTooNear) {
   EXPECT_FALSE(MeasureFrame(cameras, marks, {.smallest_plane_angle = angle + 1e-9}).directions[knee]);
 }
 
+TEST(MeasureFrames, KeepsWhatOnePictureTellsOfALimbOrAnEnd) {
+  const BodyPose pose = ModelPose();
+  TakeMarks marks = ExactMarks({pose}, TwoCameras());
+  const Role end = EffectorMarks()[0].role, limb = StrokeMarks()[0].to;
+  marks[0][0].effectors[0].reset();
+  marks[0][0].strokes[0].reset();
+  const FrameMeasurement found = MeasureFrame(TwoCameras(), marks);
+  const auto& planes = found.planes[Index(limb)];
+  ASSERT_EQ(planes.size(), 1u);
+  EXPECT_NEAR(glm::dot(planes[0].normal_W, LimbOf(pose, StrokeMarks()[0])), 0, 1e-9) << "the limb lies in its plane";
+  const auto& line = found.sight_lines[Index(end)];
+  ASSERT_TRUE(line);
+  EXPECT_LT(glm::distance(NearestOn(*line, pose[end]), pose[end]), 1e-6);
+  EXPECT_LT(glm::distance(NearestOn(*line, pose[end] + 0.1 * line->direction_W), pose[end] + 0.1 * line->direction_W),
+            1e-6);
+  EXPECT_EQ(NearestOn(*line, line->camera_W - line->direction_W), line->camera_W) << "nothing is seen behind a camera";
+  // What was measured whole needs no help.
+  EXPECT_TRUE(found.planes[Index(StrokeMarks()[1].to)].empty());
+  EXPECT_FALSE(found.sight_lines[Index(EffectorMarks()[1].role)]);
+}
+
 TEST(MeasureFrames, TakesWhatIsKnownInsteadOfMarks) {
   const auto cameras = TwoCameras();
   const BodyPose pose = ModelPose();

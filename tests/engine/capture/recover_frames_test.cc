@@ -68,6 +68,62 @@ TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame
   EXPECT_NE(all_marked[1]->state.angles, all_marked[0]->state.angles);
 }
 
+/// Without one end or one limb, as BridgeGaps tells it.
+LimbObservation Lacking(LimbObservation seen, std::optional<Role> end, std::optional<Role> limb) {
+  if (end) {
+    seen.ends[*end] = glm::dvec3(0);
+    seen.lacks_end[Index(*end)] = true;
+  }
+  if (limb) {
+    seen.directions[Index(*limb)] = glm::dvec3(0);
+    seen.lacks_direction[Index(*limb)] = true;
+  }
+  return seen;
+}
+
+TEST(RecoverFrames, MakesASkeletonOfWhatThereIs) {
+  for (const StrokeMark& mark : StrokeMarks()) {
+    const BodyPose pose = ModelPose(), next = ModelPose(0.05);
+    const std::vector<std::optional<LimbObservation>> seen = {
+        Observe(pose), Lacking(Observe(next), std::nullopt, mark.to), Lacking(Observe(next), mark.to, std::nullopt)};
+    const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("damped-least-squares"));
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_TRUE(frames[k]) << RoleName(mark.to);
+      for (Role role : AllRoles()) {
+        EXPECT_LT(glm::distance(frames[k]->pose[role], (k == 0 ? pose : next)[role]), 0.05)
+            << RoleName(role) << " without " << RoleName(mark.to) << " in frame " << k;
+      }
+    }
+  }
+}
+
+TEST(RecoverFrames, CountsNoErrorAtAnEndThatWasNotSeen) {
+  const std::vector<std::optional<LimbObservation>> seen = {
+      Observe(ModelPose()), Lacking(Observe(ModelPose(0.1)), Role::kLeftHand, std::nullopt)};
+  const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  EXPECT_EQ(frames[0]->errors.size(), 4u);
+  EXPECT_EQ(frames[1]->errors.size(), 3u);
+}
+
+TEST(RecoverFrames, BeginsAsAStandingBodyWhereNothingElseIsKnown) {
+  LimbObservation only_a_foot;
+  only_a_foot.lacks_end.fill(true);
+  only_a_foot.lacks_direction.fill(true);
+  LimbObservation nothing = only_a_foot;
+  only_a_foot.ends[Role::kRightFoot] = {0.4, 0, 0.2};
+  only_a_foot.lacks_end[Index(Role::kRightFoot)] = false;
+  const std::vector<std::optional<LimbObservation>> seen = {nothing, only_a_foot, nothing};
+  const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("damped-least-squares"));
+  EXPECT_FALSE(frames[0]) << "nothing tells where the body is";
+  ASSERT_TRUE(frames[1] && frames[2]);
+  const BodyPose standing = ToBodyPose(MakeBodyTree({}), StandingState(MakeBodyTree({})));
+  const glm::dvec3 shift = glm::dvec3(0.4, 0, 0.2) - standing[Role::kRightFoot];
+  for (Role role : AllRoles()) {
+    EXPECT_LT(glm::distance(frames[1]->pose[role], standing[role] + shift), 0.01) << RoleName(role);
+    EXPECT_LT(glm::distance(frames[2]->pose[role], frames[1]->pose[role]), 0.01) << RoleName(role);
+  }
+}
+
 TEST(RecoverFrames, LeavesOutWhatNoBodyFits) {
   LimbObservation broken = Observe(ModelPose());
   broken.directions[Index(Role::kHead)] = glm::dvec3(0);

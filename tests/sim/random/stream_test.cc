@@ -70,5 +70,18 @@ TEST(RandomStream, DrawsEveryIndexEquallyOften) {
   EXPECT_LT(chi_square, 22.46);  // 99.9 % point at six degrees of freedom
 }
 
+TEST(RandomStream, FillsRowsWithTheBitsThatWouldComeOneByOne) {
+  for (const std::size_t before : {0, 1, 2, 3, 4}) {
+    RandomStream one_by_one(kWorld, "fill"), filled(kWorld, "fill");
+    for (std::size_t i = 0; i < before; ++i) EXPECT_EQ(one_by_one.Bits(), filled.Bits());
+    for (const std::size_t count : {0, 1, 3, 4, 11, 384}) {
+      std::vector<std::uint64_t> bits(count);
+      filled.FillBits(bits);
+      for (const std::uint64_t found : bits) ASSERT_EQ(found, one_by_one.Bits());
+    }
+    EXPECT_EQ(one_by_one.Bits(), filled.Bits());
+  }
+}
+
 }  // namespace
 }  // namespace etude

@@ -1,5 +1,7 @@
 #include "sim/sensors/image_files.h"
 
+#include <ImfArray.h>
+#include <ImfRgbaFile.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -98,6 +100,38 @@ TEST_F(ImageFiles, AnExrHoldsOnlyThePicturesThatThereAre) {
   EXPECT_EQ(back->depth.pixels, view.depth.pixels);
   EXPECT_TRUE(back->colour.pixels.empty());
   EXPECT_TRUE(back->labels.pixels.empty());
+}
+
+// Read by OpenEXR's own way for pictures.
+TEST_F(ImageFiles, AnExrHoldsLinearLight) {
+  View view;
+  view.colour = ColourImage(256, 1);
+  for (int code = 0; code < 256; ++code) view.colour.At(code, 0) = {static_cast<std::uint8_t>(code), 0, 255};
+  ASSERT_TRUE(SaveExr(view, At("light.exr")));
+  Imf::RgbaInputFile file(At("light.exr").c_str());
+  Imf::Array2D<Imf::Rgba> pixels(1, 256);
+  file.setFrameBuffer(&pixels[0][0], 1, 256);
+  file.readPixels(0, 0);
+  EXPECT_NEAR(pixels[0][188].r, 0.5029, 3e-4) << "IEC 61966-2-1";
+  EXPECT_NEAR(pixels[0][10].r, 10 / 255.0 / 12.92, 2e-6);
+  EXPECT_EQ(static_cast<float>(pixels[0][10].g), 0);
+  EXPECT_EQ(static_cast<float>(pixels[0][10].b), 1);
+}
+
+TEST_F(ImageFiles, AnExrKeepsNormals) {
+  NormalImage normals(61, 37, glm::vec3(0));
+  RandomStream random({3, "image-files", 0}, "normals");
+  for (glm::vec3& n : normals.pixels) n = glm::vec3(glm::normalize(random.Normal3()));
+  const auto bytes = EncodeExr(SomeView(), normals);
+  ASSERT_TRUE(bytes);
+  Write(At("n.exr"), *bytes);
+  const auto back = LoadExrNormals(At("n.exr"));
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(back->pixels, normals.pixels);
+  EXPECT_EQ(LoadExr(At("n.exr"))->labels.pixels, SomeView().labels.pixels);
+  ASSERT_TRUE(SaveExr(SomeView(), At("none.exr")));
+  EXPECT_TRUE(LoadExrNormals(At("none.exr"))->pixels.empty());
+  EXPECT_FALSE(LoadExrNormals(At("missing.exr")));
 }
 
 TEST_F(ImageFiles, EveryComplaintNamesTheFile) {

@@ -111,6 +111,17 @@ def over_images(given, part, whole):
     return common.mean(shares)
 
 
+def annotator_distance(given):
+    pairs = [(m["first"], m["second"]) for m in given["joints_px"] if m["first"] and m["second"]]
+    return common.mean([math.hypot(a[0] - b[0], a[1] - b[1]) for a, b in pairs]) if pairs else None
+
+
+def annotator_overlap(given):
+    marked = [(m["first"] is not None) + (m["second"] is not None) for m in given["limbs_px"]]
+    either = sum(count > 0 for count in marked)
+    return sum(count == 2 for count in marked) / either if either else None
+
+
 METRICS = {
     "mpjpe_mm": mpjpe,
     "mpjpe_before_ik_mm": lambda g: mpjpe(g, "before_ik"),
@@ -122,7 +133,10 @@ METRICS = {
     "limb_direction_coverage": lambda g: coverage(g["limbs"]),
     "triangulation_error_mm": triangulation_error,
     "triangulation_coverage": lambda g: coverage(g["ends_m"]),
+    "annotator_distance_px": annotator_distance,
+    "annotator_overlap": annotator_overlap,
     "reprojection_rms_px": reprojection,
+    "frames_in_view": lambda g: common.share(g["in_view"]),
     "frames_recovered": lambda g: common.share(g["recovered"]),
     "iou": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f or t),
     "mask_precision": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: f),

@@ -69,6 +69,26 @@ TEST(CaptureTask, ComesCloseToTheTruthWhenEveryStageIsOne) {
   EXPECT_GT(*ValueOf(cells[0], "limb_direction_error_deg"), 1);
 }
 
+TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
+  const std::string methods = "methods:\n- {name: a, calibration: dlt-normalised, oracle: [segmentation]}\n";
+  const auto errors = [&](const std::string& condition) {
+    const auto task = Make("duration_s: 0.1\nannotation_error_px: 0\n" + condition + methods);
+    EXPECT_TRUE(task) << ToString(task.error());
+    const auto cells = RunWorld(**task, kKey, 1);
+    EXPECT_EQ(cells[0].status, Status::kOk) << cells[0].reason;
+    return std::pair(ValueOf(cells[0], "reprojection_rms_px").value_or(99),
+                     ValueOf(cells[0], "triangulation_error_mm").value_or(999));
+  };
+  const auto exact = errors("calibration_noise_px: 0\n");
+  EXPECT_NEAR(exact.first, 0, 1e-9);
+  const auto boards = errors("calibration_target: boards\n");
+  EXPECT_GT(boards.first, 0.02) << "corners are found, not known";
+  EXPECT_LT(boards.first, 0.8);
+  EXPECT_LT(boards.second, exact.second + 15);
+  EXPECT_GT(errors("calibration_target: boards\ncalibration_measure_mm: 20\n").first, boards.first);
+  EXPECT_GT(errors("calibration_noise_px: 0\ncalibration_measure_mm: 20\n").first, 1);
+}
+
 TEST(CaptureTask, FailsWithAReasonWhenTheMarksAreMissing) {
   // Hue alone does not see dark blue trousers on a bluish floor: the feet are never marked.
   const auto task = Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n");
@@ -110,6 +130,8 @@ TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
            Case{"methods: [{name: a, wieghts: fixed}]", "did you mean 'weights'"},
            Case{"methods: [{name: a, solver: damped-least-squares, weights: fixed}]", "has no 'weights'"},
            Case{"camera_heights_m: [1]\nmethods: [{name: a}]", "one for each of the 2 cameras"},
+           Case{"calibration_target: boards\ncalibration_pairs: 9\nmethods: [{name: a}]", "has no 'calibration_pairs'"},
+           Case{"camera_angles_deg: [0]\nmethods: [{name: a}]", "it needs 2 to 8"},
            Case{"duration_s: -1\nmethods: [{name: a}]", "duration_s"},
        }) {
     const auto task = Make(c.yaml);

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/recordings/capture_extras.h"
 #include "bench/metrics/measurement.h"
+#include "bench/recordings/capture_extras.h"
 #include "bench/tasks/base/pose_json.h"
 #include "bench/tasks/capture/capture_task.h"
 #include "engine/document/node.h"
@@ -112,7 +112,8 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
 TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) {
   const auto task = MakeTask("{duration_s: 0.2}");
   const auto world = task->MakeWorld(kExchangeKey, false);
-  const CaptureWorld truth = MakeCaptureWorld({.duration_s = 0.2}, LoadClips({"builtin:boxing"}, {})->clips[0], kExchangeKey);
+  const CaptureWorld truth =
+      MakeCaptureWorld({.duration_s = 0.2}, LoadClips({"builtin:boxing"}, {})->clips[0], kExchangeKey);
   Json answer;
   for (std::size_t k = 0; k < truth.truth.size(); ++k) {
     answer["poses"].push_back(k == 2 ? Json(nullptr) : EncodePose(truth.truth[k]));

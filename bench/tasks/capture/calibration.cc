@@ -1,0 +1,64 @@
+#include "bench/tasks/capture/calibration.h"
+
+#include "bench/tasks/capture/shooting.h"
+#include "engine/boards/find_boards.h"
+#include "sim/rig/calibration_target.h"
+#include "sim/rig/rig.h"
+
+namespace etude {
+namespace {
+
+constexpr double kMetresPerMm = 0.001;
+
+std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& camera, std::size_t index,
+                                 const glm::dvec3& middle, const WorldKey& key) {
+  RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
+  RandomStream tape(key, fmt::format("capture/camera-{}/measured-points", index));
+  const glm::dvec3 low = middle + glm::dvec3(-0.8, 0.1, -0.8), high = middle + glm::dvec3(0.8, 1.9, 0.8);
+  std::vector<PointPair> pairs;
+  for (int i = 0; i < options.calibration_pairs; ++i) {
+    glm::dvec3 point;
+    for (int axis = 0; axis < 3; ++axis) point[axis] = random.Uniform(low[axis], high[axis]);
+    // In turn the back wall, the left wall and the floor of the box.
+    constexpr int kWalls[] = {2, 0, 1};
+    const int wall = kWalls[i % 3];
+    point[wall] = low[wall];
+    const glm::dvec2 click(random.Normal(), random.Normal());
+    const glm::dvec3 measured = point + options.calibration_measure_mm * kMetresPerMm * tape.Normal3();
+    const auto pixel = Project(camera, point);
+    if (pixel) pairs.push_back({measured, *pixel + options.calibration_noise_px * click});
+  }
+  return pairs;
+}
+
+}  // namespace
+
+CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key) {
+  const glm::dvec3 middle = MiddleOnFloor(world.truth);
+  CalibrationPairs pairs;
+  for (const Camera& camera : world.cameras) {
+    pairs.push_back(ClickedBy(options, camera, pairs.size(), middle, key));
+  }
+  return pairs;
+}
+
+CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
+                              Renderer& renderer) {
+  const std::vector<PlacedBoard> target = CalibrationTarget(MiddleOnFloor(world.truth));
+  const std::vector<Surface> surfaces = SurfacesOf(target);
+  RandomStream tape(key, "capture/measured-boards");
+  std::vector<PlacedBoard> measured = target;
+  for (PlacedBoard& board : measured) board.p_WO += options.calibration_measure_mm * kMetresPerMm * tape.Normal3();
+  std::vector<Board> boards;
+  for (const PlacedBoard& placed : target) boards.push_back(placed.board);
+
+  Shooting shooting(world, options.camera, key, renderer);
+  CalibrationPairs pairs;
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    const ColourImage picture = shooting.ShootStage(camera, {Figure{.shape = {}, .surfaces = surfaces}});
+    pairs.push_back(PairsOf(measured, FindBoards(picture, boards)));
+  }
+  return pairs;
+}
+
+}  // namespace etude

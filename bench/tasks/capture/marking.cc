@@ -1,0 +1,108 @@
+#include "bench/tasks/capture/marking.h"
+
+#include "engine/base/unit_vector.h"
+#include "sim/annotator/drawing.h"
+#include "sim/body/shape.h"
+
+namespace etude {
+namespace {
+
+Marks DrawAndRead(const Marks& marks, const AnnotatedPicture& picture) {
+  return ReadMarks(DrawMarks(marks, picture.labels.width, picture.labels.height));
+}
+
+// Where each joint was marked: the mean of the strokes' ends there, or at a tip the disc.
+std::array<std::optional<glm::dvec2>, kRoleCount> JointsOf(const Marks& marks) {
+  std::array<glm::dvec2, kRoleCount> sum{};
+  std::array<int, kRoleCount> count{};
+  const auto add = [&](Role role, const glm::dvec2& pixel) {
+    sum[Index(role)] += pixel;
+    ++count[Index(role)];
+  };
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!marks.strokes[i]) continue;
+    add(StrokeMarks()[i].from, marks.strokes[i]->a);
+    add(StrokeMarks()[i].to, marks.strokes[i]->b);
+  }
+  std::array<std::optional<glm::dvec2>, kRoleCount> joints;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (count[i] > 0) joints[i] = sum[i] / static_cast<double>(count[i]);
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (marks.effectors[i]) joints[Index(EffectorMarks()[i].role)] = marks.effectors[i];
+  }
+  return joints;
+}
+
+std::optional<glm::dvec2> MiddleOf(const std::optional<PixelSegment>& stroke) {
+  if (!stroke) return std::nullopt;
+  return 0.5 * (stroke->a + stroke->b);
+}
+
+}  // namespace
+
+Marks MeanMarks(const Marks& first, const Marks& second) {
+  Marks mean = first;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    const auto& other = second.strokes[i];
+    auto& stroke = mean.strokes[i];
+    if (stroke && other) stroke = PixelSegment{0.5 * (stroke->a + other->a), 0.5 * (stroke->b + other->b)};
+    if (!stroke) stroke = other;
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    const auto& other = second.effectors[i];
+    auto& disc = mean.effectors[i];
+    if (disc && other) disc = 0.5 * (*disc + *other);
+    if (!disc) disc = other;
+  }
+  return mean;
+}
+
+double HeadBelowCrown(const BodyPose& body) {
+  const glm::dvec3 up = UnitOr(body[Role::kHead] - body[Role::kShoulderCentre], {0, 1, 0});
+  double crown = 0, radius = 1;
+  for (const Capsule& capsule : BodyCapsules(body)) {
+    if (capsule.part != Part::kHead) continue;
+    for (const glm::dvec3& end : {capsule.a, capsule.b}) {
+      const double top = glm::dot(end - body[Role::kHead], up) + capsule.radius;
+      if (top > crown) {
+        crown = top;
+        radius = capsule.radius;
+      }
+    }
+  }
+  return crown / radius;
+}
+
+Marking::Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key)
+    : mark_every_(static_cast<std::size_t>(options.mark_every)), annotators_(world.cameras.size()) {
+  const PersonErrors errors{.error_px = options.annotation_error_px};
+  EvidenceOptions eye;
+  eye.head_below_crown = HeadBelowCrown(world.truth.front());
+  for (std::size_t camera = 0; camera < annotators_.size(); ++camera) {
+    for (int annotator = 0; annotator < options.annotators; ++annotator) {
+      annotators_[camera].emplace_back(errors, eye, key, annotator, static_cast<int>(camera));
+    }
+  }
+}
+
+Marks Marking::Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture) {
+  if (frame % mark_every_ != 0) return {};
+  std::vector<Marks> drawn;
+  for (Annotator& annotator : annotators_[camera]) {
+    drawn.push_back(DrawAndRead(annotator.Mark(static_cast<int>(frame), picture), picture));
+  }
+  if (drawn.size() == 1) return drawn[0];
+  Compare(drawn[0], drawn[1]);
+  return MeanMarks(drawn[0], drawn[1]);
+}
+
+void Marking::Compare(const Marks& first, const Marks& second) {
+  const auto a = JointsOf(first), b = JointsOf(second);
+  for (std::size_t i = 0; i < kRoleCount; ++i) joints_.push_back({a[i], b[i]});
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    limbs_.push_back({MiddleOf(first.strokes[i]), MiddleOf(second.strokes[i])});
+  }
+}
+
+}  // namespace etude

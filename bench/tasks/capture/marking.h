@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/metrics/annotation.h"
+#include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/world.h"
+#include "engine/vision/strokes.h"
+#include "sim/annotator/annotator.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+
+/// Everyone who marks one take's pictures, cut out one way. Each draws on pictures of their own, which are read back
+/// (`ReadMarks`). Two markings of the same world throw the same dice, whatever they are shown.
+class Marking {
+ public:
+  /// `key` must outlive this. Of the world only the number of cameras is used, and which point of the head is meant.
+  Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
+
+  /// What methods are told of one picture: of a stroke or disc that both annotators drew, the mean; else the one
+  /// there is. Nothing in frames that nobody is asked to mark. A camera's frames come in order.
+  Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
+
+  /// What two annotators made of each joint and each limb of all pictures marked so far; empty when one marks alone.
+  const std::vector<MarkedTwice>& joints() const { return joints_; }
+  const std::vector<MarkedTwice>& limbs() const { return limbs_; }
+
+ private:
+  void Compare(const Marks& first, const Marks& second);
+
+  std::size_t mark_every_;
+  std::vector<std::vector<Annotator>> annotators_;  // [camera][annotator]
+  std::vector<MarkedTwice> joints_, limbs_;
+};
+
+/// `EvidenceOptions::head_below_crown` of this body: like limb lengths the same in every pose, measured beforehand.
+double HeadBelowCrown(const BodyPose& body);
+
+/// Stroke by stroke and disc by disc the mean of both, or the one there is.
+Marks MeanMarks(const Marks& first, const Marks& second);
+
+}  // namespace etude

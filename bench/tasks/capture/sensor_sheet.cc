@@ -1,0 +1,207 @@
+#include "bench/tasks/capture/sensor_sheet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/tasks/capture/shooting.h"
+
+namespace etude {
+namespace {
+
+/// How an effect is looked at.
+enum class Look {
+  kWhole,     ///< the whole picture
+  kDetail,    ///< a part of it, enlarged: what happens from pixel to pixel
+  kWithTruth  ///< the whole, and where the body truly is
+};
+
+struct ShownEffect {
+  const char* title;
+  double CameraEffects::*strength;
+  std::array<double, 3> strengths;
+  const char* unit;
+  Look look;
+};
+
+std::vector<ShownEffect> ShownEffects() {
+  using E = CameraEffects;
+  return {
+      {"Sync offset (all cameras but the first); true skeleton over it",
+       &E::sync_offset_ms,
+       {20, 60, 150},
+       " ms",
+       Look::kWithTruth},
+      {"Clock drift (all cameras but the first); true skeleton over it",
+       &E::clock_drift_ppm,
+       {5000, 20000, 50000},
+       " ppm",
+       Look::kWithTruth},
+      {"Rolling shutter; true skeleton over it", &E::rolling_shutter_ms, {10, 30, 60}, " ms", Look::kWithTruth},
+      {"Motion blur, share of a frame", &E::motion_blur, {0.25, 0.5, 1}, "", Look::kWhole},
+      {"Radial distortion, of the corner", &E::radial_distortion, {-0.12, -0.05, 0.15}, "", Look::kWhole},
+      {"Tangential distortion, of the corner", &E::tangential_distortion, {0.01, 0.025, 0.05}, "", Look::kWhole},
+      {"Defocus", &E::defocus_px, {0.7, 1.5, 4}, " px", Look::kDetail},
+      {"Vignette, natural = 1", &E::vignette, {0.5, 1, 2.5}, "", Look::kWhole},
+      {"Dust, share of light kept away", &E::dust, {0.15, 0.4, 0.9}, "", Look::kWhole},
+      {"Exposure", &E::exposure_ev, {-1.5, -0.5, 1}, " EV", Look::kWhole},
+      {"Drift of the exposure, at this moment", &E::exposure_drift_ev, {0.2, 0.6, 1.5}, " EV", Look::kWhole},
+      {"Gain: less light, amplified", &E::gain_db, {6, 15, 30}, " dB", Look::kDetail},
+      {"White balance, red against blue", &E::white_balance_ev, {-0.8, 0.4, 1.2}, " EV", Look::kWhole},
+      {"Drift of the white balance, at this moment", &E::white_balance_drift_ev, {0.2, 0.6, 1.5}, " EV", Look::kWhole},
+      {"Bayer mosaic, bilinear demosaicing", &E::bayer, {0, 0.5, 1}, "", Look::kDetail},
+      {"Shot and read noise, usual = 1", &E::noise, {0, 1, 4}, "", Look::kDetail},
+      {"JPEG, 100 − quality", &E::jpeg_loss, {25, 70, 95}, "", Look::kDetail},
+  };
+}
+
+constexpr std::size_t kShownCameras = 2;
+
+Rgb8 ColourOfLabel(std::uint32_t label) {
+  if (label == 0) return {24, 26, 30};
+  if (label == 1) return {60, 64, 72};
+  // Steps of the golden angle keep neighbours apart.
+  const double hue = std::fmod(label * 0.381966, 1.0) * 6;
+  const auto channel = [&](double shift) {
+    const double distance = std::abs(std::fmod(hue + shift, 6.0) - 3) - 1;
+    return static_cast<std::uint8_t>(70 + 170 * std::clamp(distance, 0.0, 1.0));
+  };
+  return {channel(0), channel(4), channel(2)};
+}
+
+ColourImage PictureOfLabels(const LabelImage& labels) {
+  ColourImage picture(labels.width, labels.height);
+  std::ranges::transform(labels.pixels, picture.pixels.begin(), ColourOfLabel);
+  return picture;
+}
+
+/// Near is bright; 2 m white, each doubling of the distance half as bright.
+ColourImage PictureOfDepth(const DepthImage& depth) {
+  ColourImage picture(depth.width, depth.height);
+  std::ranges::transform(depth.pixels, picture.pixels.begin(), [](float metres) {
+    const auto grey = static_cast<std::uint8_t>(255 * std::clamp(2.0f / std::max(metres, 0.01f), 0.0f, 1.0f));
+    return Rgb8{grey, grey, grey};
+  });
+  return picture;
+}
+
+std::vector<SheetMark> PictureOfMarks(const Marks& marks) {
+  std::vector<SheetMark> shown;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (marks.strokes[i]) shown.push_back({marks.strokes[i]->a, marks.strokes[i]->b, StrokeMarks()[i].first_half});
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (marks.effectors[i]) shown.push_back({*marks.effectors[i], *marks.effectors[i], EffectorMarks()[i].colour});
+  }
+  return shown;
+}
+
+std::vector<SheetMark> Skeleton(const BodyPose& pose, const Camera& camera) {
+  std::vector<SheetMark> lines;
+  for (const Bone& bone : AllBones()) {
+    const auto from = Project(camera, pose[bone.parent]), to = Project(camera, pose[bone.child]);
+    if (from && to) lines.push_back({*from, *to, {90, 255, 150}});
+  }
+  return lines;
+}
+
+/// A part of the picture, three times as large; `centre` moves inwards where the part would leave it.
+ColourImage Enlarged(const ColourImage& picture, const glm::dvec2& centre) {
+  constexpr int kTimes = 3, kWidth = 80, kHeight = 60;
+  const int left = std::clamp(static_cast<int>(centre.x) - kWidth / 2, 0, std::max(0, picture.width - kWidth));
+  const int top = std::clamp(static_cast<int>(centre.y) - kHeight / 2, 0, std::max(0, picture.height - kHeight));
+  ColourImage part(kTimes * std::min(kWidth, picture.width), kTimes * std::min(kHeight, picture.height));
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) part.At(x, y) = picture.At(left + x / kTimes, top + y / kTimes);
+  }
+  return part;
+}
+
+/// The frame before and after which the body moves farthest.
+std::size_t LiveliestFrame(const std::vector<BodyPose>& poses) {
+  std::size_t liveliest = 0;
+  double most = -1;
+  for (std::size_t k = 1; k + 1 < poses.size(); ++k) {
+    double way = 0;
+    for (const Role role : AllRoles()) way += glm::length(poses[k + 1][role] - poses[k - 1][role]);
+    if (way > most) liveliest = k;
+    most = std::max(way, most);
+  }
+  return liveliest;
+}
+
+class SheetMaker {
+ public:
+  SheetMaker(const StudioOptions& options, const WorldKey& key, const CaptureWorld& world, Renderer& renderer)
+      : options_(options), key_(key), world_(world), renderer_(renderer), frame_(LiveliestFrame(world.truth)) {
+    world_.cameras.resize(std::min(kShownCameras, world_.cameras.size()));
+  }
+
+  std::size_t frame() const { return frame_; }
+
+  SheetRow AsItIs(const Take& take, std::size_t camera) const {
+    const View view = Shoot(options_.camera, camera);
+    SheetRow row{fmt::format("Camera {}, as the scenario has it", camera + 1), {}};
+    row.pictures = {{"picture", view.colour, {}},
+                    {"labels", PictureOfLabels(view.labels), {}},
+                    {"depth: white = 2 m", PictureOfDepth(view.depth), {}}};
+    // The annotator may not have marked this very frame.
+    const std::vector<Marks>& marks = take.observations.front().marks[camera];
+    const auto step = static_cast<std::size_t>(options_.mark_every);
+    if (frame_ % step == 0)
+      row.pictures.push_back({"the annotator's marks", view.colour, PictureOfMarks(marks[frame_])});
+    return row;
+  }
+
+  SheetRow Of(const ShownEffect& effect) const {
+    SheetRow row{effect.title, {}};
+    for (std::size_t camera = 0; camera < world_.cameras.size(); ++camera) {
+      for (const double strength : effect.strengths) {
+        CameraEffects effects = options_.camera;
+        effects.*effect.strength = strength;
+        ColourImage seen = Shoot(effects, camera).colour;
+        SheetPicture& shown = row.pictures.emplace_back();
+        shown.caption = fmt::format("camera {}: {:g}{}", camera + 1, strength, effect.unit);
+        if (effect.look == Look::kDetail) {
+          const auto head = Project(world_.cameras[camera], world_.truth[frame_][Role::kHead]);
+          shown.picture = Enlarged(seen, head.value_or(glm::dvec2(320, 240)));
+        } else {
+          shown.picture = std::move(seen);
+        }
+        if (effect.look == Look::kWithTruth) shown.marks = Skeleton(world_.truth[frame_], world_.cameras[camera]);
+      }
+    }
+    return row;
+  }
+
+ private:
+  View Shoot(const CameraEffects& effects, std::size_t camera) const {
+    CaptureWorld world = world_;
+    for (std::size_t i = 0; i < world.cameras.size(); ++i) {
+      world.cameras[i].distortion = LensOf(effects, world.cameras[i], i, key_);
+    }
+    return Shooting(world, effects, key_, renderer_).Shoot(camera, frame_, Targets::kAll);
+  }
+
+  const StudioOptions& options_;
+  const WorldKey& key_;
+  CaptureWorld world_;
+  Renderer& renderer_;
+  std::size_t frame_;
+};
+
+}  // namespace
+
+Result<SensorSheet> MakeCaptureSheet(const StudioOptions& options, const WorldKey& key, CaptureStages& stages) {
+  ASSIGN_OR_RETURN(const auto take, stages.GetTake());
+  ASSIGN_OR_RETURN(const auto renderer, stages.GetRenderer());
+  const SheetMaker maker(options, key, stages.world(), *renderer);
+  SensorSheet sheet{fmt::format("{}, trial {}, frame {}", key.scenario, key.trial + 1, maker.frame()), {}};
+  for (std::size_t i = 0; i < std::min(kShownCameras, stages.world().cameras.size()); ++i) {
+    sheet.rows.push_back(maker.AsItIs(*take, i));
+  }
+  for (const ShownEffect& effect : ShownEffects()) sheet.rows.push_back(maker.Of(effect));
+  return sheet;
+}
+
+}  // namespace etude

@@ -1,0 +1,59 @@
+#include "cli/sensor_sheet_command.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "bench/files/files.h"
+#include "bench/run/suite.h"
+#include "cli/clip_reading.h"
+#include "cli/commands.h"
+#include "reports/sensors/sensor_sheet.h"
+
+namespace etude {
+namespace {
+
+Result<void> WriteSheet(const SensorSheetOptions& options) {
+  RunOptions run;
+  run.scenarios = {options.scenario};
+  run.seed = options.seed;
+  run.clips = options.clips;
+  ASSIGN_OR_RETURN(const auto suite, ReadSuite(run));
+  ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(suite));
+  if (scenarios.empty()) return Fail({options.scenario, 0, 0}, "holds no scenario");
+  const PreparedScenario& first = scenarios.front();
+  const auto world = first.task(0).MakeWorld(first.KeyOf(0), /*keeps_motion=*/false);
+  if (const auto why = world->WhySkipped()) return Fail({options.scenario, 0, 0}, "{}", *why);
+  const auto sheet = world->MakeSensorSheet();
+  if (!sheet) return Fail({options.scenario, 0, 0}, "{}", sheet.error().message);
+  ASSIGN_OR_RETURN(const auto png, DrawSensorSheet(*sheet));
+  return WriteFileAtomically(options.output, png);
+}
+
+}  // namespace
+
+int SensorSheetCommand(const SensorSheetOptions& options) {
+  if (!options.output.ends_with(".png")) {
+    return Complain({{options.output, 0, 0}, "is no picture's name; allowed: .png"});
+  }
+  if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+  if (auto written = WriteSheet(options); !written) return Complain(written.error());
+  fmt::print("{}\n", options.output);
+  return kSuccess;
+}
+
+void DefineSensorSheet(CLI::App& sensor, Action& action) {
+  auto options = std::make_shared<SensorSheetOptions>();
+  CLI::App* command = sensor.add_subcommand(
+      "sheet", "A contact sheet of the first world: both cameras, every effect at three strengths");
+  command->add_option("scenario", options->scenario, "A scenario file")->required();
+  command->add_option("-o,--output", options->output, "The picture to write (.png)")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the world (default: the scenario's, else 1)")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53));
+  command->add_option("--clips", options->clips, "Clips instead of the scenario's own");
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  command->callback([=, &action] { action = [=] { return SensorSheetCommand(*options); }; });
+}
+
+}  // namespace etude

@@ -1,0 +1,141 @@
+#include "engine/boards/saddles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace etude {
+namespace {
+
+constexpr int kBorder = 7;         // pixels at the picture's edges in which nothing is looked for
+constexpr int kNeighbourhood = 3;  // a saddle is the strongest within so many pixels
+constexpr double kWeakest = 0.02;  // of the strongest one
+constexpr double kFaintest = 60;   // squared counts per pixel²: below lies the camera's noise
+constexpr int kRefineReach = 5;    // pixels
+constexpr int kRefineSteps = 8;
+constexpr double kRefinedEnough = 0.01;  // pixels
+constexpr double kFarthestMove = 2;      // pixels from where it was found
+
+// Binomial weights 1 4 6 4 1 along one axis.
+GreyImage SmoothAlong(const GreyImage& picture, int dx, int dy) {
+  GreyImage smooth(picture.width, picture.height);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const auto at = [&](int k) {
+        return picture.At(std::clamp(x + k * dx, 0, picture.width - 1), std::clamp(y + k * dy, 0, picture.height - 1));
+      };
+      smooth.At(x, y) = (at(-2) + at(2) + 4 * (at(-1) + at(1)) + 6 * at(0)) / 16;
+    }
+  }
+  return smooth;
+}
+
+GreyImage Smooth(const GreyImage& picture) { return SmoothAlong(SmoothAlong(picture, 1, 0), 0, 1); }
+
+// The second derivatives at a pixel.
+struct Bend {
+  double xx, xy, yy;
+  /// Positive where the surface bends up one way and down the other.
+  double SaddleStrength() const { return xy * xy - xx * yy; }
+};
+
+Bend BendAt(const GreyImage& p, int x, int y) {
+  return {p.At(x + 1, y) - 2.0 * p.At(x, y) + p.At(x - 1, y),
+          0.25 * (p.At(x + 1, y + 1) - p.At(x + 1, y - 1) - p.At(x - 1, y + 1) + p.At(x - 1, y - 1)),
+          p.At(x, y + 1) - 2.0 * p.At(x, y) + p.At(x, y - 1)};
+}
+
+bool IsStrongestAround(const GreyImage& strengths, int x, int y) {
+  const float own = strengths.At(x, y);
+  for (int v = y - kNeighbourhood; v <= y + kNeighbourhood; ++v) {
+    for (int u = x - kNeighbourhood; u <= x + kNeighbourhood; ++u) {
+      const float other = strengths.At(u, v);
+      if (other > own || (other == own && (v < y || (v == y && u < x)))) return false;
+    }
+  }
+  return true;
+}
+
+// The directions in which the surface does not bend: along xx cos² + 2 xy cos sin + yy sin² = 0.
+Saddle Describe(const Bend& bend, double x, double y) {
+  // In the frame of the principal directions: k1 cos² − k2 sin² = 0 with k1 > 0 > −k2.
+  const double mean = 0.5 * (bend.xx + bend.yy), half = std::hypot(0.5 * (bend.xx - bend.yy), bend.xy);
+  const double bright = 0.5 * std::atan2(2 * bend.xy, bend.xx - bend.yy);  // where it bends up most
+  const double open = std::atan(std::sqrt((half + mean) / (half - mean)));
+  const auto along = [](double angle) { return glm::dvec2(std::cos(angle), std::sin(angle)); };
+  return {{x, y}, {along(bright - open), along(bright + open)}, bend.SaddleStrength()};
+}
+
+// The point that is nearest to all edges around it: every gradient g at q asks that g · (p − q) = 0.
+std::optional<glm::dvec2> Refine(const GreyImage& picture, const glm::dvec2& found) {
+  glm::dvec2 pixel = found;
+  for (int step = 0; step < kRefineSteps; ++step) {
+    glm::dmat2 sum(0);
+    glm::dvec2 right(0);
+    const int x0 = static_cast<int>(std::floor(pixel.x)), y0 = static_cast<int>(std::floor(pixel.y));
+    if (x0 < kBorder || y0 < kBorder || x0 >= picture.width - kBorder || y0 >= picture.height - kBorder) return {};
+    for (int y = y0 - kRefineReach; y <= y0 + kRefineReach; ++y) {
+      for (int x = x0 - kRefineReach; x <= x0 + kRefineReach; ++x) {
+        const glm::dvec2 q(x + 0.5, y + 0.5);
+        const glm::dvec2 gradient(0.5 * (picture.At(x + 1, y) - picture.At(x - 1, y)),
+                                  0.5 * (picture.At(x, y + 1) - picture.At(x, y - 1)));
+        const double far = glm::dot(q - pixel, q - pixel) / (kRefineReach * kRefineReach);
+        const glm::dmat2 outer = std::exp(-4 * far) * glm::outerProduct(gradient, gradient);
+        sum += outer;
+        right += outer * q;
+      }
+    }
+    if (!(std::abs(glm::determinant(sum)) > 1e-9)) return {};
+    const glm::dvec2 next = glm::inverse(sum) * right;
+    if (!(glm::distance(next, found) < kFarthestMove)) return {};
+    const double moved = glm::distance(next, pixel);
+    pixel = next;
+    if (moved < kRefinedEnough) break;
+  }
+  return pixel;
+}
+
+}  // namespace
+
+GreyImage ToGrey(const ColourImage& picture) {
+  GreyImage grey(picture.width, picture.height);
+  std::transform(picture.pixels.begin(), picture.pixels.end(), grey.pixels.begin(),
+                 [](const Rgb8& c) { return 0.299f * c.r + 0.587f * c.g + 0.114f * c.b; });
+  return grey;
+}
+
+double BrightnessAt(const GreyImage& picture, const glm::dvec2& pixel) {
+  const double x = std::clamp(pixel.x - 0.5, 0.0, picture.width - 1.001);
+  const double y = std::clamp(pixel.y - 0.5, 0.0, picture.height - 1.001);
+  const int i = static_cast<int>(x), j = static_cast<int>(y);
+  const double s = x - i, t = y - j;
+  return (1 - t) * ((1 - s) * picture.At(i, j) + s * picture.At(i + 1, j)) +
+         t * ((1 - s) * picture.At(i, j + 1) + s * picture.At(i + 1, j + 1));
+}
+
+std::vector<Saddle> FindSaddles(const GreyImage& picture) {
+  std::vector<Saddle> saddles;
+  if (picture.width <= 2 * kBorder || picture.height <= 2 * kBorder) return saddles;
+  const GreyImage smooth = Smooth(picture);
+  GreyImage strengths(picture.width, picture.height);
+  double strongest = 0;
+  for (int y = 1; y < picture.height - 1; ++y) {
+    for (int x = 1; x < picture.width - 1; ++x) {
+      strengths.At(x, y) = static_cast<float>(BendAt(smooth, x, y).SaddleStrength());
+      strongest = std::max<double>(strongest, strengths.At(x, y));
+    }
+  }
+  const double least = std::max(kFaintest, kWeakest * strongest);
+  for (int y = kBorder; y < picture.height - kBorder; ++y) {
+    for (int x = kBorder; x < picture.width - kBorder; ++x) {
+      if (strengths.At(x, y) < least || !IsStrongestAround(strengths, x, y)) continue;
+      const auto pixel = Refine(smooth, {x + 0.5, y + 0.5});
+      if (pixel) saddles.push_back(Describe(BendAt(smooth, x, y), pixel->x, pixel->y));
+    }
+  }
+  std::stable_sort(saddles.begin(), saddles.end(),
+                   [](const Saddle& a, const Saddle& b) { return a.strength > b.strength; });
+  return saddles;
+}
+
+}  // namespace etude

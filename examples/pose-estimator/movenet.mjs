@@ -1,0 +1,95 @@
+// MoveNet Lightning (Google, Apache-2.0), a neural estimator of one person's 17 COCO keypoints, on the CPU without a
+// browser. The weights are those in the npm package @vladmandic/human.
+import fs from 'node:fs';
+import {fileURLToPath} from 'node:url';
+
+import {setWasmPaths} from '@tensorflow/tfjs-backend-wasm';
+import {loadGraphModel} from '@tensorflow/tfjs-converter';
+import * as tf from '@tensorflow/tfjs-core';
+
+const INPUT_SIZE = 192;
+const LEAST_SCORE = 0.2;     // of a keypoint that may say where the person is
+const CROP_MARGIN = 1.4;     // the crop's side over the keypoints' extent: room for head, hands and feet
+const SMALLEST_CROP = 32;    // pixels
+
+const folderOf = (name) => fileURLToPath(new URL(`node_modules/${name}`, import.meta.url));
+
+/** A square of a picture: its top left corner and its side, pixels. */
+const wholeOf = (picture) => {
+  const side = Math.max(picture.width, picture.height);
+  return {u: (picture.width - side) / 2, v: (picture.height - side) / 2, side};
+};
+
+/** INPUT_SIZE × INPUT_SIZE × 3 numbers: every one the mean of the pixels beneath it, black outside the picture. */
+function resample(picture, square) {
+  const values = new Int32Array(INPUT_SIZE * INPUT_SIZE * 3);
+  const step = square.side / INPUT_SIZE, samples = Math.max(2, Math.ceil(step));
+  for (let y = 0; y < INPUT_SIZE; ++y) {
+    for (let x = 0; x < INPUT_SIZE; ++x) {
+      const sum = [0, 0, 0];
+      for (let j = 0; j < samples; ++j) {
+        const v = Math.floor(square.v + (y + (j + 0.5) / samples) * step);
+        if (v < 0 || v >= picture.height) continue;
+        for (let i = 0; i < samples; ++i) {
+          const u = Math.floor(square.u + (x + (i + 0.5) / samples) * step);
+          if (u < 0 || u >= picture.width) continue;
+          const at = 4 * (v * picture.width + u);
+          for (let channel = 0; channel < 3; ++channel) sum[channel] += picture.data[at + channel];
+        }
+      }
+      for (let channel = 0; channel < 3; ++channel) {
+        values[3 * (y * INPUT_SIZE + x) + channel] = Math.round(sum[channel] / (samples * samples));
+      }
+    }
+  }
+  return values;
+}
+
+/** The square around the keypoints that are seen; the whole picture when too few are. */
+function squareAround(keypoints, picture) {
+  const seen = keypoints.filter(([, , score]) => score >= LEAST_SCORE);
+  if (seen.length < 4) return wholeOf(picture);
+  const [us, vs] = [0, 1].map((axis) => seen.map((keypoint) => keypoint[axis]));
+  const low = [Math.min(...us), Math.min(...vs)], high = [Math.max(...us), Math.max(...vs)];
+  const side = Math.max(SMALLEST_CROP, CROP_MARGIN * Math.max(high[0] - low[0], high[1] - low[1]));
+  return {u: (low[0] + high[0] - side) / 2, v: (low[1] + high[1] - side) / 2, side};
+}
+
+export class MoveNet {
+  static async load() {
+    setWasmPaths(`${folderOf('@tensorflow/tfjs-backend-wasm')}/dist/`);
+    await tf.setBackend('wasm');
+    await tf.ready();
+    const base = `${folderOf('@vladmandic/human')}/models/movenet-lightning`;
+    const {modelTopology, weightsManifest} = JSON.parse(fs.readFileSync(`${base}.json`, 'utf8'));
+    const weightData = new Uint8Array(fs.readFileSync(`${base}.bin`)).buffer;
+    const weightSpecs = weightsManifest.flatMap((group) => group.weights);
+    return new MoveNet(await loadGraphModel({load: async () => ({modelTopology, weightSpecs, weightData})}));
+  }
+
+  constructor(model) {
+    this.model = model;
+  }
+
+  /**
+   * The 17 keypoints in COCO's order as [u, v, score]: pixels from the top left corner, 0…1. Found in the whole picture,
+   * then once more in the square around what was found. Pictures are independent of each other.
+   * @param picture {width, height, data}, data four bytes a pixel (RGBA)
+   */
+  estimate(picture) {
+    const rough = this.estimateWithin(picture, wholeOf(picture));
+    return this.estimateWithin(picture, squareAround(rough, picture));
+  }
+
+  estimateWithin(picture, square) {
+    const output = tf.tidy(() => {
+      const input = tf.tensor4d(resample(picture, square), [1, INPUT_SIZE, INPUT_SIZE, 3], 'int32');
+      return this.model.predict(input).dataSync();
+    });
+    const keypoints = [];
+    for (let i = 0; i < output.length; i += 3) {
+      keypoints.push([square.u + square.side * output[i + 1], square.v + square.side * output[i], output[i + 2]]);
+    }
+    return keypoints;
+  }
+}

@@ -1,0 +1,162 @@
+#include "sim/annotator/annotator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr double kUsualErrorPx = 2;  // that probabilities and shares are given for
+
+// The three strokes of a left limb begin at `left`, of the right one at `right`.
+struct Pair {
+  std::size_t left, right;
+};
+constexpr std::array<Pair, 2> kPairs = {{{6, 9}, {0, 3}}};  // arms, legs
+constexpr std::size_t kStrokesOfLimb = 3;
+
+std::optional<glm::dvec2> MiddleOf(const PictureEvidence& seen, std::size_t first) {
+  glm::dvec2 sum(0);
+  int count = 0;
+  for (std::size_t i = first; i < first + kStrokesOfLimb; ++i) {
+    if (!seen.limbs[i]) continue;
+    sum += 0.5 * (seen.limbs[i]->line.a + seen.limbs[i]->line.b);
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / static_cast<double>(count);
+}
+
+double HalfWidthOf(const PictureEvidence& seen, std::size_t first) {
+  double widest = 0;
+  for (std::size_t i = first; i < first + kStrokesOfLimb; ++i) {
+    if (seen.limbs[i]) widest = std::max(widest, seen.limbs[i]->half_width);
+  }
+  return widest;
+}
+
+// 1 when the two limbs lie over each other or only one is seen, 0 when they are two widths apart.
+double Overlap(const PictureEvidence& seen, const Pair& pair) {
+  const auto left = MiddleOf(seen, pair.left), right = MiddleOf(seen, pair.right);
+  if (!left || !right) return 1;
+  const double reach = 4 * std::max(HalfWidthOf(seen, pair.left), HalfWidthOf(seen, pair.right));
+  return std::max(0.0, 1 - glm::distance(*left, *right) / reach);
+}
+
+void Exchange(const Pair& pair, PictureEvidence& seen) {
+  for (std::size_t i = 0; i < kStrokesOfLimb; ++i) {
+    std::swap(seen.limbs[pair.left + i], seen.limbs[pair.right + i]);
+    const Role from = StrokeMarks()[pair.left + i].from, to = StrokeMarks()[pair.left + i].to;
+    if (i == 0) std::swap(seen.joints[Index(from)], seen.joints[Index(Mirrored(from))]);
+    std::swap(seen.joints[Index(to)], seen.joints[Index(Mirrored(to))]);
+  }
+}
+
+/// Where this picture's marks are put, joint by joint.
+class ErringHand {
+ public:
+  ErringHand(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
+             const PictureEvidence& seen)
+      : errors_(errors), bias_(bias), dice_(dice), seen_(seen) {
+    LookAtLimbs();
+  }
+
+  /// By how much a mark misses the joint centre, pixels.
+  glm::dvec2 ErrorAt(Role role) const {
+    const std::size_t i = Index(role);
+    const glm::dvec2 along = along_[i], across(-along.y, along.x);
+    const glm::dvec2 bias = bias_[i].x * along + bias_[i].y * across;
+    const glm::dvec2 shake =
+        std::sqrt(kLastingShare) * dice_.lasting[i] + std::sqrt(kIndependentShare) * dice_.independent[i];
+    return errors_.error_px * RelativeDeviations()[i] * (std::sqrt(kBiasShare) * bias + (1 + unclear_[i]) * shake);
+  }
+
+  bool Overlooks(std::size_t stroke) const {
+    return dice_.miss[stroke] < Strength() * MissProbability(*seen_.limbs[stroke]);
+  }
+
+  /// Between the marked ends, and perhaps too short.
+  PixelSegment Stroke(std::size_t i) const {
+    const PixelSegment& line = seen_.limbs[i]->line;
+    const glm::dvec2 a = line.a + ErrorAt(StrokeMarks()[i].from), b = line.b + ErrorAt(StrokeMarks()[i].to);
+    constexpr double kMostShort = 0.3;  // of the stroke, at each end
+    const glm::dvec2 left_out = glm::min(Strength() * kShortShare * glm::abs(dice_.shortness[i]), kMostShort);
+    return {glm::mix(a, b, left_out.x), glm::mix(b, a, left_out.y)};
+  }
+
+ private:
+  double Strength() const { return errors_.error_px / kUsualErrorPx; }
+
+  // A joint's bias lies along the limb beyond it, else along the one before it; it is as unclear as the less clear one.
+  void LookAtLimbs() {
+    along_.fill({0, 1});
+    for (std::size_t i = kStrokeCount; i-- > 0;) {
+      if (!seen_.limbs[i]) continue;
+      const auto& [line, seen_share, contrast, half_width] = *seen_.limbs[i];
+      const glm::dvec2 limb = line.b - line.a;
+      const double length = glm::length(limb);
+      for (const Role role : {StrokeMarks()[i].from, StrokeMarks()[i].to}) {
+        unclear_[Index(role)] = std::max(unclear_[Index(role)], Unclearness(contrast));
+        if (length > 0) along_[Index(role)] = limb / length;
+      }
+    }
+  }
+
+  const PersonErrors& errors_;
+  const std::array<glm::dvec2, kRoleCount>& bias_;
+  const PictureDice& dice_;
+  const PictureEvidence& seen_;
+  std::array<glm::dvec2, kRoleCount> along_;
+  std::array<double, kRoleCount> unclear_{};
+};
+
+std::size_t StrokeTo(Role role) {
+  std::size_t i = 0;
+  while (StrokeMarks()[i].to != role) ++i;
+  return i;
+}
+
+}  // namespace
+
+Annotator::Annotator(const PersonErrors& errors, const EvidenceOptions& eye, const WorldKey& key, int annotator,
+                     int camera)
+    : errors_(errors), eye_(eye), dice_(key, annotator, camera) {}
+
+void Annotator::Mistake(const PictureDice& dice, PictureEvidence& seen) {
+  const double strength = errors_.error_px / kUsualErrorPx;
+  for (std::size_t i = 0; i < kPairs.size(); ++i) {
+    const double begins = strength * (kSwapProbability + kOverlapSwapProbability * Overlap(seen, kPairs[i]));
+    if (swapped_frames_[i] > 0) {
+      --swapped_frames_[i];
+    } else if (dice.swap_begins[i] < begins) {
+      // Geometric: 1, 2, … frames, kSwapFrames in the mean.
+      swapped_frames_[i] = 1 + static_cast<int>(std::log1p(-dice.swap_lasts[i]) / std::log1p(-1 / kSwapFrames));
+    }
+    if (swapped_frames_[i] > 0) Exchange(kPairs[i], seen);
+  }
+}
+
+Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
+  const PictureDice& dice = dice_.Throw(frame);
+  PictureEvidence seen = SeePicture(picture, eye_);
+  Mistake(dice, seen);
+  const ErringHand hand(errors_, dice_.bias(), dice, seen);
+  Marks marks;
+  std::array<bool, kStrokeCount> overlooked{};
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!seen.limbs[i]) continue;
+    overlooked[i] = hand.Overlooks(i);
+    if (!overlooked[i]) marks.strokes[i] = hand.Stroke(i);
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    const Role role = EffectorMarks()[i].role;
+    const auto& joint = seen.joints[Index(role)];
+    if (joint && !overlooked[StrokeTo(role)]) marks.effectors[i] = *joint + hand.ErrorAt(role);
+  }
+  return marks;
+}
+
+}  // namespace etude

@@ -1,0 +1,281 @@
+#include "sim/annotator/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "sim/annotator/middle_line.h"
+#include "sim/annotator/regions.h"
+
+namespace etude {
+namespace {
+
+/// What the annotator knows of each limb *(ours)*.
+struct Anatomy {
+  double length_per_half_width;  ///< of its bone: how long it is when seen from aside
+  double inset;                  ///< how far its inner joint lies inside the trunk, in half widths of the limb
+};
+constexpr Anatomy kThigh{6, 0.94}, kShank{8, 0}, kFoot{6, 0}, kUpperArm{6.5, 1.04}, kForearm{7, 0}, kHand{5.5, 0};
+constexpr std::array<Anatomy, kStrokeCount> kAnatomy = {
+    kThigh, kShank, kFoot, kThigh, kShank, kFoot, kUpperArm, kForearm, kHand, kUpperArm, kForearm, kHand, {1.0, 0.35}};
+constexpr std::size_t kHeadStroke = kStrokeCount - 1;
+constexpr std::size_t kFewestPixels = 6;     // less is a speck
+constexpr std::size_t kSmallestBorder = 3;   // pixel sides
+constexpr double kSmallestSeenShare = 0.25;  // of a limb whose ends are not both seen
+
+/// The common border of a limb and the part it hangs from.
+struct Border {
+  glm::dvec2 middle{0};
+  double half_breadth = 0;
+  bool limb_covers = false;  ///< the limb stands before the part it hangs from
+};
+
+Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& limb_middle) {
+  Border border;
+  for (const glm::dvec2& p : points) border.middle += p / static_cast<double>(points.size());
+  double xx = 0, xy = 0, yy = 0;
+  for (const glm::dvec2& p : points) {
+    const glm::dvec2 d = p - border.middle;
+    xx += d.x * d.x;
+    xy += d.x * d.y;
+    yy += d.y * d.y;
+  }
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  const glm::dvec2 along(std::cos(angle), std::sin(angle));
+  glm::dvec2 to_limb(-along.y, along.x);
+  if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
+  const double mean_square =
+      (0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy)) / static_cast<double>(points.size());  // along the border
+  double bend = 0, low = 0, high = 0;
+  for (const glm::dvec2& p : points) {
+    const glm::dvec2 d = p - border.middle;
+    const double s = glm::dot(d, along);
+    low = std::min(low, s);
+    high = std::max(high, s);
+    bend += (s * s - mean_square) * glm::dot(d, to_limb);
+  }
+  border.half_breadth = 0.5 * (high - low + 1);
+  border.limb_covers = bend > 0;
+  return border;
+}
+
+class Looker {
+ public:
+  Looker(const Regions& regions, const EvidenceOptions& options) : regions_(regions), options_(options) {
+    for (std::size_t i = 0; i < kStrokeCount; ++i) Look(i);
+  }
+
+  PictureEvidence Tell() {
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      if (limbs_[i]) PutInnerJoint(i);
+    }
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      if (limbs_[i]) PutTip(i);
+    }
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      if (limbs_[i]) evidence_.limbs[i] = LayLine(i);
+    }
+    return evidence_;
+  }
+
+ private:
+  struct Limb {
+    const Region* region;
+    MiddleLine line;              ///< `along` leads outwards
+    std::optional<Border> inner;  ///< with the part it hangs from
+    std::optional<Border> outer;  ///< with the part that hangs from it
+  };
+
+  static bool HasOuterLimb(std::size_t i) { return i != kHeadStroke && i % 3 != 2; }
+
+  void Look(std::size_t i) {
+    const Region& region = regions_[kLimbParts[i].limb];
+    if (region.pixels < static_cast<int>(kFewestPixels)) return;
+    Limb limb{&region, FindMiddleLine(region), BorderOf(i), std::nullopt};
+    if (HasOuterLimb(i)) limb.outer = BorderOf(i + 1);
+    if (!TurnOutwards(i, limb)) return;
+    limbs_[i] = limb;
+  }
+
+  std::optional<Border> BorderOf(std::size_t i) const {
+    const auto& points = regions_.borders[i];
+    if (points.size() < kSmallestBorder) return std::nullopt;
+    return MeasureBorder(points, regions_[kLimbParts[i].limb].middle);
+  }
+
+  // Whether anything tells which end is the outer one.
+  bool TurnOutwards(std::size_t i, Limb& limb) const {
+    glm::dvec2 outwards(0);
+    const Region& inner_part = regions_[kLimbParts[i].inner];
+    const Region& trunk = regions_[Part::kTrunk];
+    if (EndsAt(limb, limb.outer)) {
+      outwards = limb.outer->middle - limb.region->middle;
+    } else if (const auto from_neck = AwayFromNeck(i, limb)) {
+      outwards = *from_neck;
+    } else if (limb.outer && (!limb.inner || RunsAlong(limb))) {
+      outwards = limb.outer->middle - limb.region->middle;
+    } else if (limb.inner && limb.outer) {
+      outwards = limb.outer->middle - limb.inner->middle;
+    } else if (limb.inner) {
+      outwards = limb.region->middle - limb.inner->middle;
+    } else if (inner_part.pixels > 0) {
+      outwards = limb.region->middle - inner_part.middle;
+    } else if (HasOuterLimb(i) && regions_[kLimbParts[i + 1].limb].pixels > 0) {
+      outwards = regions_[kLimbParts[i + 1].limb].middle - limb.region->middle;
+    } else if (trunk.pixels > 0) {
+      outwards = limb.region->middle - trunk.middle;
+    } else {
+      return false;
+    }
+    if (i == kHeadStroke && limb.inner && glm::length(outwards) > 1) {
+      // A skull is too round to have a direction of its own.
+      const double half_width = limb.line.half_width;
+      limb.line = AlongFrom(*limb.region, limb.inner->middle, outwards);
+      limb.line.half_width = half_width;
+      return true;
+    }
+    if (glm::dot(outwards, limb.line.along) < 0) {
+      limb.line.along = -limb.line.along;
+      limb.line = {limb.line.origin, limb.line.along, -limb.line.high, -limb.line.low, limb.line.half_width};
+    }
+    return true;
+  }
+
+  static MiddleLine AlongFrom(const Region& region, const glm::dvec2& from, const glm::dvec2& direction) {
+    MiddleLine line{.origin = from, .along = glm::normalize(direction), .low = 1e9, .high = -1e9};
+    for (const PixelRun& run : region.runs) {
+      for (const double x : {run.x0 + 0.5, run.x1 - 0.5}) {
+        const double s = line.Where({x, run.y + 0.5});
+        line.low = std::min(line.low, s - 0.5);
+        line.high = std::max(line.high, s + 0.5);
+      }
+    }
+    return line;
+  }
+
+  // Whether the picture's edge cuts off the limb's outer end.
+  bool IsCutOff(const Limb& limb) const {
+    if (!limb.region->is_cut) return false;
+    const glm::dvec2 end = limb.line.At(limb.line.high);
+    const double reach = limb.line.half_width + 1;
+    return end.x < reach || end.y < reach || end.x > regions_.width - reach || end.y > regions_.height - reach;
+  }
+
+  // An upper arm's borders may run along it, where it hangs by the flank or the forearm is folded over it: of its ends,
+  // the shoulder is nearer to the neck.
+  std::optional<glm::dvec2> AwayFromNeck(std::size_t i, const Limb& limb) const {
+    const bool is_upper_arm = kLimbParts[i].limb == Part::kLeftUpperArm || kLimbParts[i].limb == Part::kRightUpperArm;
+    const auto& neck_border = regions_.borders[kHeadStroke];
+    if (!is_upper_arm || neck_border.empty() || !limb.line.IsLong()) return std::nullopt;
+    const glm::dvec2 neck = neck_border[neck_border.size() / 2];
+    const double to_low = glm::distance(neck, limb.line.At(limb.line.low));
+    const double to_high = glm::distance(neck, limb.line.At(limb.line.high));
+    if (std::abs(to_low - to_high) < limb.line.half_width) return std::nullopt;
+    return to_low < to_high ? limb.line.along : -limb.line.along;
+  }
+
+  // Whether the border lies across one end of the limb.
+  static bool EndsAt(const Limb& limb, const std::optional<Border>& border) {
+    constexpr double kNearEnd = 0.3, kAcross = 1.5;
+    const double middle = 0.5 * (limb.line.low + limb.line.high);
+    return border && limb.line.IsLong() && border->half_breadth < kAcross * limb.line.half_width &&
+           std::abs(limb.line.Where(border->middle) - middle) > kNearEnd * (limb.line.high - limb.line.low);
+  }
+
+  // Whether the limb touches the part it hangs from with its side, as a hanging arm does the flank.
+  static bool RunsAlong(const Limb& limb) {
+    constexpr double kSide = 1.5;
+    return limb.line.IsLong() && limb.inner->half_breadth > kSide * limb.line.half_width;
+  }
+
+  // The centre of the limb's round outer end, which begins `inset` before the limb ends.
+  static glm::dvec2 RoundEnd(const MiddleLine& line, double inset) {
+    return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
+  }
+
+  // How far a limb's round end is seen to reach beyond its centre, where a thinner limb grows out of it at an angle in
+  // the picture: as far as the ball of radius R goes beside the other limb's strip of half width r.
+  static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
+    if (!next.IsLong()) return limb.half_width;
+    const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
+    const double strip = std::asin(std::min(1.0, next.half_width / limb.half_width));
+    return between >= strip ? limb.half_width : limb.half_width * std::cos(strip - between);
+  }
+
+  void PutInnerJoint(std::size_t i) {
+    const Limb& limb = *limbs_[i];
+    if (!limb.inner) return;
+    const Border& border = *limb.inner;
+    std::optional<glm::dvec2>& joint = evidence_.joints[Index(StrokeMarks()[i].from)];
+    const bool in_trunk = kLimbParts[i].inner == Part::kTrunk;
+    if (border.limb_covers && i != kHeadStroke && !limb.line.IsLong()) {
+      joint = limb.line.At(0.5 * (limb.line.low + limb.line.high));  // seen end on
+    } else if (i == kHeadStroke) {
+      joint = border.middle - kAnatomy[i].inset * border.half_breadth * limb.line.along;
+    } else if (in_trunk && RunsAlong(limb)) {
+      joint = limb.line.At(limb.line.low - kAnatomy[i].inset * limb.line.half_width);
+    } else if (in_trunk) {
+      const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
+      joint = border.middle - kAnatomy[i].inset * limb.line.half_width * outwards;
+    } else if (limbs_[i - 1]) {
+      const MiddleLine& before = limbs_[i - 1]->line;
+      joint = RoundEnd(before, ReachBeyondJoint(before, limb.line));
+    }
+  }
+
+  void PutTip(std::size_t i) {
+    if (HasOuterLimb(i)) return;
+    const Limb& limb = *limbs_[i];
+    if (IsCutOff(limb)) return;
+    std::optional<glm::dvec2>& tip = evidence_.joints[Index(StrokeMarks()[i].to)];
+    tip = i == kHeadStroke ? limb.line.At(limb.line.high - options_.head_below_crown * limb.line.half_width)
+                           : RoundEnd(limb.line, limb.line.half_width);
+  }
+
+  std::optional<LimbEvidence> LayLine(std::size_t i) const {
+    const Limb& limb = *limbs_[i];
+    const auto& inner = evidence_.joints[Index(StrokeMarks()[i].from)];
+    const auto& outer = evidence_.joints[Index(StrokeMarks()[i].to)];
+    LimbEvidence seen;
+    seen.contrast = limb.region->contrast;
+    seen.half_width = limb.line.half_width;
+    const double half_width = LikelyHalfWidth(i);
+    const double whole = half_width * half_width * (2 * kAnatomy[i].length_per_half_width + kPi);
+    seen.seen_share = std::min(1.0, limb.region->pixels / whole);
+    const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
+    if (!(inner && outer) && (seen.seen_share < kSmallestSeenShare || !is_long)) return std::nullopt;
+    // Only a border that this limb has itself tells of its own end: the other limb of the joint may be seen alone.
+    seen.line.a = inner && limb.inner ? *inner : limb.line.At(limb.line.low);
+    seen.line.b = outer && (limb.outer || !HasOuterLimb(i)) ? *outer : limb.line.At(limb.line.high);
+    return seen;
+  }
+
+  // Half of a limb may be hidden along its whole length; its neighbours tell how wide it is at least.
+  double LikelyHalfWidth(std::size_t i) const {
+    constexpr double kThinner = 0.55;  // a foot against its shank, the largest step along a limb
+    double half_width = limbs_[i]->line.half_width;
+    if (HasOuterLimb(i) && limbs_[i + 1]) half_width = std::max(half_width, limbs_[i + 1]->line.half_width);
+    const bool hangs_from_limb = kLimbParts[i].inner != Part::kTrunk;
+    if (hangs_from_limb && limbs_[i - 1]) half_width = std::max(half_width, kThinner * limbs_[i - 1]->line.half_width);
+    return half_width;
+  }
+
+  static glm::dvec2 Unit(const glm::dvec2& v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : glm::dvec2(0, 1);
+  }
+
+  const Regions& regions_;
+  const EvidenceOptions& options_;
+  std::array<std::optional<Limb>, kStrokeCount> limbs_;
+  PictureEvidence evidence_;
+};
+
+}  // namespace
+
+PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options) {
+  const Regions regions = FindRegions(picture.labels, picture.colours, picture.person, options.margin_px);
+  return Looker(regions, options).Tell();
+}
+
+}  // namespace etude

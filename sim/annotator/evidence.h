@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "engine/base/image.h"
+#include "engine/cameras/limb_direction.h"
+#include "engine/motion/body.h"
+#include "engine/vision/strokes.h"
+
+namespace etude {
+
+/// One picture as the annotator is shown it; all three of one size.
+struct AnnotatedPicture {
+  const LabelImage& labels;    ///< which part is seen where: stands for the eye that tells limbs apart
+  const ColourImage& colours;  ///< decides only how clearly a limb stands out
+  const Mask& person;          ///< what the segmenter cut out; the rest is not seen
+};
+
+/// What a picture shows of one limb.
+struct LimbEvidence {
+  PixelSegment line;      ///< from the inner to the outer end, pixels; where an end is hidden, as far as is seen
+  double seen_share = 1;  ///< of the pixels that a limb as wide would have, seen whole and from aside: in (0, 1]
+  double contrast = 0;    ///< `Region::contrast`
+  double half_width = 0;  ///< pixels
+};
+
+struct PictureEvidence {
+  /// By stroke; nothing where too little of the limb is seen to tell where it runs.
+  std::array<std::optional<LimbEvidence>, kStrokeCount> limbs;
+  /// Where joint centres seem to be: where a visible limb touches the part it hangs from, and at the tips.
+  std::array<std::optional<glm::dvec2>, kRoleCount> joints;
+};
+
+struct EvidenceOptions {
+  /// A pixel this close to the extracted person still counts as on it: extraction frays edges by a pixel or two.
+  int margin_px = 3;
+  /// Which point of the head is meant: how far it lies below the crown, in half widths of the head. Files end the head
+  /// at its middle or at its top; like limb lengths, this is agreed on before the take.
+  double head_below_crown = 1.3;
+};
+
+/// What the annotator can know from one picture and from anatomy; nothing else enters. The middle line of each limb is
+/// that of its visible pixels (`FindMiddleLine`). Joint centres, from what anyone knows of bodies:
+/// - limbs end round: a joint lies half a width inside the end of the limb that covers the other one there. Which one
+///   covers shows in their common border, whose ends bend back towards it;
+/// - hips, shoulders and the neck lie inside the trunk: beyond the border, along the limb, by a share of the border's
+///   breadth that is the joint's own *(ours: what the rest pose shows from aside)*;
+/// - a tip lies half a width inside the limb's outer end; the head's point some way below the crown *(ours)*.
+/// A limb that is cut off, by another one or the picture's edge, ends where it is cut off; one of which neither both
+/// ends nor a quarter in a clearly long piece is seen is left out, and so is one that touches nothing known, because
+/// nothing tells which end is which. What these rules cost in exact joint centres: README.md, by joint.
+PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options = {});
+
+}  // namespace etude

@@ -1,0 +1,170 @@
+#include "sim/camera/camera_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/camera/dust.h"
+#include "sim/camera/jpeg.h"
+#include "sim/camera/sensor.h"
+
+namespace etude {
+namespace {
+
+RandomStream Throws(const CameraIdentity& identity, const std::string& purpose) {
+  return {identity.world, identity.name + "/" + purpose};
+}
+
+Shutter MakeShutter(const CameraEffects& effects, double rate_hz, const CameraIdentity& identity) {
+  RandomStream random = Throws(identity, "clock");
+  return {effects, rate_hz, identity.is_reference, random};
+}
+
+AutomaticToning MakeToning(const CameraEffects& effects, const CameraIdentity& identity) {
+  RandomStream exposure = Throws(identity, "exposure"), white_balance = Throws(identity, "white-balance");
+  return {effects, exposure, white_balance};
+}
+
+/// full + share · (demosaiced − full)
+void Mix(const LightImage& demosaiced, float share, LightImage& full) {
+  for (std::size_t i = 0; i < full.pixels.size(); ++i) {
+    const Light& to = demosaiced.pixels[i];
+    Light& from = full.pixels[i];
+    from.r += share * (to.r - from.r);
+    from.g += share * (to.g - from.g);
+    from.b += share * (to.b - from.b);
+  }
+}
+
+template <typename Pixel>
+void CopyRows(const Image<Pixel>& source, const RowRange& rows, Image<Pixel>& out) {
+  std::copy(source.pixels.begin(), source.pixels.end(), &out.At(0, rows.first));
+}
+
+}  // namespace
+
+bool CameraModel::NeedsLight(const Camera& camera) const {
+  const double strengths[] = {effects_.motion_blur, effects_.defocus_px,       effects_.vignette,
+                              effects_.dust,        effects_.exposure_ev,      effects_.exposure_drift_ev,
+                              effects_.bayer,       effects_.white_balance_ev, effects_.white_balance_drift_ev};
+  return !camera.distortion.IsNone() ||
+         std::any_of(std::begin(strengths), std::end(strengths), [](double strength) { return strength != 0; });
+}
+
+CameraModel::CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity)
+    : effects_(effects),
+      rate_hz_(rate_hz),
+      identity_(std::move(identity)),
+      width_(camera.intrinsics.width),
+      height_(camera.intrinsics.height),
+      lens_(camera),
+      needs_light_(NeedsLight(camera)),
+      shutter_(MakeShutter(effects, rate_hz, identity_)),
+      toning_(MakeToning(effects, identity_)),
+      noise_(WebcamNoise(effects.noise, effects.gain_db)) {
+  if (!needs_light_) {
+    if (!noise_.IsNone()) code_noise_.emplace(noise_);
+    return;
+  }
+  light_ = LightImage(width_, height_);
+  if (effects_.defocus_px > 0) defocus_.emplace(effects_.defocus_px);
+  if (effects_.vignette > 0 || effects_.dust > 0) transmission_.emplace(width_, height_, 1.0f);
+  if (effects_.vignette > 0) AddVignette(camera, effects_.vignette, *transmission_);
+  if (effects_.dust > 0) {
+    RandomStream random = Throws(identity_, "dust");
+    AddDust(ThrowSpecks(width_, height_, random), effects_.dust, *transmission_);
+  }
+  if (effects_.bayer > 0) mosaic_ = Mosaic(width_, height_);
+  if (effects_.bayer > 0) demosaiced_ = LightImage(width_, height_);
+}
+
+void CameraModel::AddLight(const Shutter::Band& band, const Scene& scene, const View& middle) {
+  const RowRange rows = lens_.SourceRows(band.rows);
+  const int width = pinhole().intrinsics.width, pixels = width * (rows.end - rows.first);
+  if (!lens_.is_none()) {
+    pinhole_light_.width = width;
+    pinhole_light_.height = rows.end - rows.first;
+    pinhole_light_.pixels.resize(static_cast<std::size_t>(pixels));
+  }
+  Light* out = lens_.is_none() ? &light_.At(0, rows.first) : pinhole_light_.pixels.data();
+  const std::vector<double> times = shutter_.SubframesOf(band);
+  if (times.size() == 1) {
+    DecodeRow(middle.colour.pixels.data(), pixels, out);
+  } else {
+    std::fill_n(out, pixels, Light{});
+    for (const double time : times) {
+      const View view = scene(time, rows, Targets::kColour);
+      AddDecodedRow(view.colour.pixels.data(), pixels, 1.0f / static_cast<float>(times.size()), out);
+    }
+  }
+  if (!lens_.is_none()) lens_.Warp(pinhole_light_, band.rows, light_);
+}
+
+void CameraModel::AddBand(const Shutter::Band& band, const Scene& scene, Targets targets, View& view) {
+  const bool is_blurred = effects_.motion_blur > 0;
+  const RowRange rows = lens_.SourceRows(band.rows);
+  View middle;
+  if (targets != Targets::kColour || !is_blurred) middle = scene(band.time, rows, targets);
+  if (targets != Targets::kColour) lens_.Warp(middle.labels, band.rows, view.labels);
+  if (targets == Targets::kAll) lens_.Warp(middle.depth, band.rows, view.depth);
+  if (needs_light_) {
+    AddLight(band, scene, middle);
+  } else {
+    CopyRows(middle.colour, band.rows, view.colour);
+  }
+}
+
+void CameraModel::DevelopLight(double seconds, RandomStream& random, ColourImage& out) {
+  if (defocus_) defocus_->Apply(light_);
+  const Sensor sensor{transmission_ ? &*transmission_ : nullptr, toning_.At(seconds), noise_};
+  const LightImage* developed = &light_;
+  if (effects_.bayer == 1) {
+    sensor.ReadMosaic(light_, random, mosaic_);
+    Demosaic(mosaic_, demosaiced_);
+    developed = &demosaiced_;
+  } else {
+    sensor.ReadColours(random, light_);
+  }
+  if (effects_.bayer > 0 && effects_.bayer < 1) {
+    RandomStream unused = random;
+    Sensor{}.ReadMosaic(light_, unused, mosaic_);
+    Demosaic(mosaic_, demosaiced_);
+    Mix(demosaiced_, static_cast<float>(effects_.bayer), light_);
+  }
+  EncodeRow(developed->pixels.data(), width_ * height_, out.pixels.data());
+}
+
+View CameraModel::Develop(std::size_t frame, const Scene& scene, Targets targets, const std::string& noise_purpose) {
+  View view;
+  const std::vector<Shutter::Band> bands = shutter_.BandsOf(frame, height_);
+  const bool is_plain = bands.size() == 1 && !needs_light_;
+  if (is_plain) {
+    view = scene(bands.front().time, bands.front().rows, targets);
+  } else {
+    view.colour = ColourImage(width_, height_);
+    if (targets != Targets::kColour) view.labels = LabelImage(width_, height_);
+    if (targets == Targets::kAll) view.depth = DepthImage(width_, height_);
+    for (const Shutter::Band& band : bands) AddBand(band, scene, targets, view);
+  }
+  RandomStream random = Throws(identity_, noise_purpose);
+  if (needs_light_) {
+    DevelopLight(static_cast<double>(frame) / rate_hz_, random, view.colour);
+  } else if (code_noise_) {
+    code_noise_->Apply(random, view.colour);
+  }
+  if (effects_.jpeg_loss > 0) {
+    const int quality = std::max(1, static_cast<int>(std::lround(100 - effects_.jpeg_loss)));
+    DecodeJpeg(EncodeJpeg(view.colour, quality), view.colour);
+  }
+  return view;
+}
+
+View CameraModel::Shoot(std::size_t frame, const Scene& scene, Targets targets) {
+  return Develop(frame, scene, targets, "noise/" + std::to_string(frame));
+}
+
+ColourImage CameraModel::ShootBackground(const Scene& scene) {
+  return Develop(0, scene, Targets::kColour, "background").colour;
+}
+
+}  // namespace etude

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "engine/cameras/camera.h"
+#include "sim/camera/bayer.h"
+#include "sim/camera/camera_effects.h"
+#include "sim/camera/defocus.h"
+#include "sim/camera/exposure.h"
+#include "sim/camera/lens.h"
+#include "sim/camera/sensor_noise.h"
+#include "sim/camera/shutter.h"
+#include "sim/camera/vignette.h"
+#include "sim/random/stream.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// Which camera of a world this is: what its dice are keyed by.
+struct CameraIdentity {
+  WorldKey world;
+  std::string name;          ///< "capture/camera-0": its purposes begin so
+  bool is_reference = true;  ///< its clock is the one that the truth is told by
+};
+
+/// A camera of a world: everything that its pictures have in common. It applies the effects in the order in which light
+/// meets them (README.md). Not thread-safe: it reuses its buffers.
+class CameraModel {
+ public:
+  /// What a faultless pinhole (`pinhole()`) would see in some rows, at a time told in frames of the reference clock:
+  /// a view as high as there are rows.
+  using Scene = std::function<View(double frame, const RowRange& rows, Targets targets)>;
+
+  /// @param camera with its distortion (LensDistortion); `effects` has the rest
+  CameraModel(const Camera& camera, const CameraEffects& effects, double rate_hz, CameraIdentity identity);
+
+  /// The camera that scenes are drawn for: without distortion, with a margin for it.
+  const Camera& pinhole() const { return lens_.pinhole(); }
+  const Shutter& shutter() const { return shutter_; }
+
+  /// The camera's own frame k. Labels and depth, if asked for, are those of the light on each pixel's middle, in the
+  /// middle of the exposure: free of blur, noise and dust.
+  View Shoot(std::size_t frame, const Scene& scene, Targets targets);
+
+  /// The empty stage, at the beginning; with dice of its own.
+  ColourImage ShootBackground(const Scene& scene);
+
+ private:
+  View Develop(std::size_t frame, const Scene& scene, Targets targets, const std::string& noise_purpose);
+  void AddBand(const Shutter::Band& band, const Scene& scene, Targets targets, View& view);
+  void AddLight(const Shutter::Band& band, const Scene& scene, const View& middle);
+  void DevelopLight(double seconds, RandomStream& random, ColourImage& out);
+  bool NeedsLight(const Camera& camera) const;
+
+  const CameraEffects effects_;
+  const double rate_hz_;
+  const CameraIdentity identity_;
+  const int width_, height_;
+  const LensWarp lens_;
+  const bool needs_light_;  ///< else noise on 8-bit pictures is all there is
+  Shutter shutter_;
+  AutomaticToning toning_;
+  SensorNoise noise_;
+  std::optional<CodeNoise> code_noise_;
+  std::optional<Defocus> defocus_;
+  std::optional<Transmission> transmission_;
+  LightImage light_, pinhole_light_;
+  Mosaic mosaic_;
+  LightImage demosaiced_;
+};
+
+}  // namespace etude

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/cameras/camera.h"
+#include "sim/camera/camera_effects.h"
+#include "sim/camera/light.h"
+#include "sim/random/stream.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// The distortion of those strengths in a camera with that inside: k1 = radial / r², where r is the distance of the
+/// picture's farthest corner from the axis at distance 1; tangential |p| = strength / 3r, its direction by one throw.
+Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
+
+/// Pictures of a pinhole become those of a lens. The renderer draws straight lines only: it draws a pinhole's picture
+/// of the same scale with a margin, and each pixel of the lens's picture is looked up there, by `UndistortPixel`.
+class LensWarp {
+ public:
+  /// Every pixel of the camera must come from somewhere: |radial| of a barrel below 0.14 for usual cameras.
+  explicit LensWarp(const Camera& camera);
+
+  /// What to draw: no distortion, and as much more picture as the corners need. The camera itself when it has none.
+  const Camera& pinhole() const { return pinhole_; }
+  bool is_none() const { return sources_.empty(); }
+
+  /// The pinhole's rows that these rows of the camera are made of.
+  RowRange SourceRows(const RowRange& rows) const;
+
+  /// Fills those rows (of a camera with distortion; else labels and depths are copied): light between four pixels,
+  /// labels and depths of the nearest. `source` holds the pinhole's rows SourceRows(rows) and no others. Empty pictures
+  /// stay empty.
+  void Warp(const LightImage& source, const RowRange& rows, LightImage& out) const;
+  void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
+  void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
+
+ private:
+  /// Where a pixel comes from: its upper left neighbour, and how far it is from there.
+  struct Source {
+    std::int32_t x, y;
+    float right, down;
+  };
+  template <typename Pixel>
+  void Nearest(const Image<Pixel>& source, const RowRange& rows, Image<Pixel>& out) const;
+
+  int width_, height_;
+  Camera pinhole_;
+  std::vector<Source> sources_;          ///< empty without distortion
+  std::vector<std::int32_t> nearest_;    ///< likewise: each pixel's place in the pinhole's picture
+  std::vector<RowRange> source_of_row_;  ///< likewise
+};
+
+}  // namespace etude

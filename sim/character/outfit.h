@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sim/render/surface_paint.h"
+
+namespace etude {
+
+/// How a person is built. Joints are the clip's: this is the flesh around them.
+enum class Build { kMedium, kSlim, kStout, kChild, kTall };
+
+/// What one person is made of and wears.
+struct Outfit {
+  Build build = Build::kMedium;
+  SurfacePaint skin, hair, top, bottom, shoes;
+  double sleeve_cm = 24;  ///< along the arm (30 + 25 to the wrist)
+  double leg_cm = 78;     ///< of trousers, along the leg (42 + 42 to the ankle)
+  bool is_skirt = false;  ///< in place of trousers
+  double skirt_cm = 40;   ///< from the hips down
+  bool has_long_hair = false;
+};
+
+}  // namespace etude

@@ -1,0 +1,179 @@
+#include "sim/render/touched_pixels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "sim/render/capsule_batch.h"
+
+namespace etude {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Upright to the world's axes; empty while nothing was added.
+struct Extent {
+  glm::dvec3 low{kInfinity}, high{-kInfinity};
+
+  void Add(const glm::dvec3& point, double radius = 0) {
+    low = glm::min(low, point - radius);
+    high = glm::max(high, point + radius);
+  }
+  bool IsEmpty() const { return !(low.x <= high.x); }
+  Extent GrownBy(double margin) const { return {low - margin, high + margin}; }
+  std::array<glm::dvec3, 8> Corners() const {
+    std::array<glm::dvec3, 8> corners;
+    for (int i = 0; i < 8; ++i) {
+      corners[i] = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    }
+    return corners;
+  }
+};
+
+bool IsSound(const glm::dvec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+// What grows over projected points. One behind the camera may be seen anywhere: then it is the whole picture.
+class SeenRect {
+ public:
+  explicit SeenRect(const Camera& camera) : camera_(camera) {}
+
+  void Add(const Extent& extent) {
+    if (extent.IsEmpty()) return;
+    for (const glm::dvec3& corner : extent.Corners()) Add(corner);
+  }
+  void AddEverything() { low_ = glm::dvec2(-kInfinity), high_ = glm::dvec2(kInfinity); }
+
+  PixelRect Pixels(const RowRange& rows) const {
+    constexpr double kMargin = 2;  // pixels, for what floats round otherwise
+    const auto clamp = [](double value, int low, int high) {
+      return static_cast<int>(std::clamp(std::floor(value), static_cast<double>(low), static_cast<double>(high)));
+    };
+    if (!(low_.x <= high_.x)) return {};
+    const Intrinsics& in = camera_.intrinsics;
+    return {clamp(low_.x - kMargin, 0, in.width), clamp(low_.y - kMargin, rows.first, rows.end),
+            clamp(high_.x + kMargin + 1, 0, in.width), clamp(high_.y + kMargin + 1, rows.first, rows.end)};
+  }
+
+ private:
+  void Add(const glm::dvec3& point) {
+    const glm::dvec3 p = camera_.R_CW * (point - camera_.p_WC);
+    constexpr double kNear = 0.02;
+    if (!(p.z > kNear)) {
+      AddEverything();
+      return;
+    }
+    const Intrinsics& in = camera_.intrinsics;
+    const glm::dvec2 pixel((in.fx * p.x + in.skew * p.y) / p.z + in.cx, in.fy * p.y / p.z + in.cy);
+    low_ = glm::min(low_, pixel);
+    high_ = glm::max(high_, pixel);
+  }
+
+  const Camera& camera_;
+  glm::dvec2 low_{kInfinity}, high_{-kInfinity};
+};
+
+// The shadow of an extent on one plane of the room, cut off at the plane's ends.
+Extent ThrownOnto(const Extent& extent, const glm::dvec3& lamp, int axis, double plane, const Extent& room) {
+  Extent thrown;
+  const double reach = std::abs(lamp[axis] - plane), side = lamp[axis] > plane ? 1 : -1;
+  for (const glm::dvec3& corner : extent.Corners()) {
+    const glm::dvec3 from_lamp = corner - lamp;
+    const double fall = std::max(-side * from_lamp[axis], 0.05);  // as the shaders have it
+    glm::dvec3 point = lamp + from_lamp * (reach / fall);
+    point[axis] = plane;
+    thrown.Add(point);
+  }
+  for (int i = 0; i < 3; ++i) {
+    if (thrown.high[i] < room.low[i] || thrown.low[i] > room.high[i]) return {};
+  }
+  thrown.low = glm::clamp(thrown.low, room.low, room.high);
+  thrown.high = glm::clamp(thrown.high, room.low, room.high);
+  return thrown;
+}
+
+// Every capsule, and every surface as a whole.
+std::vector<Extent> ExtentsOf(const std::vector<Capsule>& shape) {
+  std::vector<Extent> extents;
+  for (const Capsule& capsule : shape) {
+    if (!IsSound(capsule.a) || !IsSound(capsule.b) || !(capsule.radius > 0)) continue;
+    Extent& extent = extents.emplace_back();
+    extent.Add(capsule.a, 1.02 * capsule.radius);
+    extent.Add(capsule.b, 1.02 * capsule.radius);
+  }
+  return extents;
+}
+
+std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
+  std::vector<Extent> extents;
+  for (const Surface& surface : surfaces) {
+    Extent& extent = extents.emplace_back();
+    for (const glm::dvec3& position : surface.positions) {
+      if (IsSound(position)) extent.Add(position);
+    }
+    if (extent.IsEmpty()) extents.pop_back();
+  }
+  return extents;
+}
+
+void Append(std::vector<Extent>& all, const std::vector<Extent>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
+PixelRect Union(const PixelRect& a, const PixelRect& b) {
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
+}
+
+// Two rectangles become one where that has hardly more pixels.
+void Merge(std::vector<PixelRect>& rects) {
+  std::erase_if(rects, [](const PixelRect& rect) { return rect.IsEmpty(); });
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    for (std::size_t k = i + 1; k < rects.size(); ++k) {
+      const PixelRect both = Union(rects[i], rects[k]);
+      if (Area(both) > 1.1 * (Area(rects[i]) + Area(rects[k]))) continue;
+      rects[i] = both;
+      rects.erase(rects.begin() + static_cast<std::ptrdiff_t>(k));
+      i = static_cast<std::size_t>(-1);  // a larger one may take in others: from the beginning
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
+                                     const RowRange& rows) {
+  std::vector<PixelRect> rects;
+  for (const Figure& figure : figures) {
+    std::vector<Extent> bodies = ExtentsOf(figure.shape);
+    Append(bodies, ExtentsOf(figure.surfaces));
+    std::vector<Extent> casters = bodies;
+    if (room.interior != nullptr) Append(casters, ExtentsOf(figure.shadow));
+
+    SeenRect body(camera), on_floor(camera), on_wall(camera);
+    for (const Extent& extent : bodies) body.Add(extent);
+    if (!room.casts_shadows) casters.clear();
+    for (const Extent& extent : casters) {
+      if (const Interior* interior = room.interior) {
+        // What lies between a body and its shadow on the walls lies between them in the picture, too: one rectangle.
+        const Extent walls{interior->low, interior->high};
+        const glm::dvec3& lamp = interior->lights.key;
+        body.Add(extent.GrownBy(kContactReach));
+        for (int axis = 0; axis < 3; ++axis) {
+          body.Add(ThrownOnto(extent, lamp, axis, walls.low[axis], walls));
+          if (axis != 1) body.Add(ThrownOnto(extent, lamp, axis, walls.high[axis], walls));
+        }
+        continue;
+      }
+      const Extent open{{-kInfinity, 0, kWallZ}, glm::dvec3(kInfinity)};
+      on_floor.Add(ThrownOnto(extent, kLamp, 1, 0, open));
+      on_wall.Add(ThrownOnto(extent, kLamp, 2, kWallZ, open));
+    }
+    for (const SeenRect* seen : {&body, &on_floor, &on_wall}) rects.push_back(seen->Pixels(rows));
+  }
+  Merge(rects);
+  return rects;
+}
+
+}  // namespace etude

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/boards/board.h"
+#include "engine/boards/find_boards.h"
+#include "engine/cameras/dlt.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// A board in the world W: its top left corner and its axes, as one sees it from its front.
+struct PlacedBoard {
+  Board board;
+  glm::dvec3 p_WO{0};           ///< the top left corner
+  glm::dvec3 right_W{1, 0, 0};  ///< unit
+  glm::dvec3 down_W{0, -1, 0};  ///< unit, at a right angle to `right_W`
+
+  glm::dvec3 At(const glm::dvec2& place) const { return p_WO + place.x * right_W + place.y * down_W; }
+};
+
+/// A cube of 1.2 m on a stand, with a board on each of its four sides and on its top: every camera about it sees two
+/// sides or more, which are "different planes" (paper B, section 2.2). No two boards share a code.
+std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
+
+/// What the renderer draws of them.
+std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards);
+
+/// The corners that were seen, each with its place in the world.
+std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
+
+}  // namespace etude

@@ -1,0 +1,67 @@
+#include "sim/stage/stage.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/angles.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+// Where the performer is at any moment, with some air.
+FreeFloor FloorOf(std::span<const BodyPose> poses) {
+  constexpr double kAir = 0.3, kInfinity = std::numeric_limits<double>::infinity();
+  FreeFloor free{glm::dvec2(kInfinity), glm::dvec2(-kInfinity)};
+  for (const BodyPose& pose : poses) {
+    for (const glm::dvec3& joint : pose.joints) {
+      free.low = glm::min(free.low, glm::dvec2(joint.x, joint.z) - kAir);
+      free.high = glm::max(free.high, glm::dvec2(joint.x, joint.z) + kAir);
+    }
+  }
+  return poses.empty() ? FreeFloor{glm::dvec2(-0.5), glm::dvec2(0.5)} : free;
+}
+
+}  // namespace
+
+double ColourShare(double scene) {
+  // Hue segmentation bears much: these steps make its IoU fall about evenly (README.md).
+  constexpr std::array kSteps = {0.0, 0.57, 0.67, 0.77, 1.0};
+  const double step = std::clamp(scene, 0.0, 1.0) * (kSteps.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(step), kSteps.size() - 2);
+  return std::lerp(kSteps[below], kSteps[below + 1], step - static_cast<double>(below));
+}
+
+Stage::Stage(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras) {
+  if (!(options.scene > 0)) return;
+  const double share = ColourShare(options.scene);
+  const FreeFloor free = FloorOf(poses);
+  furnished_ = Furnish(options.seed, options.scene, share, free, cameras);
+  movers_.emplace(options.seed, options.scene, share, *furnished_, free);
+  performer_.emplace(MakeOutfit(options.seed, "performer", options.wardrobe, share));
+  RandomStream random({options.seed, "stage", 0}, "flicker");
+  flicker_ = options.scene * random.Uniform(0.01, 0.05);
+  flicker_phase_ = random.Uniform();
+}
+
+Figure Stage::PerformerAt(const BodyPose& pose, const PartColours& studio) const {
+  return performer_ ? performer_->At(pose) : Figure{BodyCapsules(pose), studio};
+}
+
+std::vector<Figure> Stage::MoversAt(double seconds) const {
+  return movers_ ? movers_->At(seconds) : std::vector<Figure>{};
+}
+
+std::optional<BodyPose> Stage::BystanderAt(double seconds) const {
+  return movers_ ? movers_->BystanderAt(seconds) : std::nullopt;
+}
+
+double Stage::FlickerAt(double seconds) const {
+  // A mains a little off 50 Hz, so that 30 pictures a second show a slow beat.
+  constexpr double kLampHz = 2 * 50.02;
+  return 1 + flicker_ * std::sin(2 * kPi * (kLampHz * seconds + flicker_phase_));
+}
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/cameras/camera.h"
+#include "sim/character/dressed_person.h"
+#include "sim/render/renderer.h"
+#include "sim/stage/furnish.h"
+#include "sim/stage/movers.h"
+#include "sim/stage/wardrobe.h"
+
+namespace etude {
+
+/// What one stage is made of.
+struct StageOptions {
+  std::uint64_t seed = 1;  ///< of every dice: nothing that they decide depends on `scene`
+  /// 0 = the studio: an empty, bluish room and a performer of capsules in warm colours; 1 = a furnished room with
+  /// people and things that move, in whose colours the performer is dressed, too (README.md has the table).
+  double scene = 0;
+  Wardrobe wardrobe = Wardrobe::kStudio;
+};
+
+/// The room around a performer: what stands in it, what moves in it, how the performer is dressed, how it is lit. At
+/// scene 0 there is nothing of this.
+class Stage {
+ public:
+  Stage() = default;
+  /// For a performer who moves like `poses` before `cameras`: furniture leaves that floor free.
+  Stage(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
+
+  /// Null: the studio. Lives as long as this.
+  const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
+  /// The dressed performer; at scene 0 the capsules in `studio` colours.
+  Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
+  /// What moves in the room, `seconds` after the take's start (less than 0: before).
+  std::vector<Figure> MoversAt(double seconds) const;
+  /// The second person, as far as it is there.
+  std::optional<BodyPose> BystanderAt(double seconds) const;
+  /// By what the lamps' mains multiplies the light of a picture taken at that moment: 100 Hz, sampled by the camera.
+  double FlickerAt(double seconds) const;
+
+  /// When the background picture was taken: before the take, with everything that moves elsewhere.
+  static constexpr double kBackgroundSeconds = -6.3;
+
+ private:
+  std::optional<FurnishedRoom> furnished_;
+  std::optional<Movers> movers_;
+  std::optional<DressedPerson> performer_;
+  double flicker_ = 0, flicker_phase_ = 0;
+};
+
+/// How far from the studio's colours to everyday ones they are at this `scene`.
+double ColourShare(double scene);
+
+}  // namespace etude

@@ -1,0 +1,117 @@
+#include "bench/tasks/capture/marking.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/choreography/stance.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+namespace {
+
+// A world of one standing frame, seen by one camera.
+CaptureWorld StandingWorld() {
+  CaptureWorld world;
+  world.truth = {StandingPose()};
+  world.cameras = {LookAt({}, {1.2, 1.3, 3.6}, {0, 0.9, 0})};
+  return world;
+}
+
+class MarkingTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto renderer = Renderer::Create();
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    view_ = (*renderer)->Render({}, {{BodyCapsules(world_.truth[0]), PerformerColours()}}, world_.cameras[0],
+                                Targets::kAll);
+    person_ = Mask(view_.labels.width, view_.labels.height, 1);
+  }
+  AnnotatedPicture picture() const { return {view_.labels, view_.colour, person_}; }
+  Marking MarkingBy(int annotators, double error_px, int trial = 0) const {
+    StudioOptions options;
+    options.annotators = annotators;
+    options.annotation_error_px = error_px;
+    return Marking(options, world_, {.suite_seed = 3, .scenario = "marking", .trial = trial});
+  }
+
+  const CaptureWorld world_ = StandingWorld();
+  View view_;
+  Mask person_;
+};
+
+TEST(MeanMarks, IsTheMeanOfBothOrTheOneThereIs) {
+  Marks a, b;
+  a.strokes[0] = PixelSegment{{0, 0}, {10, 0}};
+  b.strokes[0] = PixelSegment{{2, 4}, {14, 8}};
+  a.strokes[1] = PixelSegment{{1, 1}, {2, 2}};
+  b.effectors[3] = glm::dvec2(5, 6);
+  a.effectors[4] = glm::dvec2(1, 1);
+  b.effectors[4] = glm::dvec2(3, 5);
+  const Marks mean = MeanMarks(a, b);
+  EXPECT_EQ(mean.strokes[0]->a, glm::dvec2(1, 2));
+  EXPECT_EQ(mean.strokes[0]->b, glm::dvec2(12, 4));
+  EXPECT_EQ(mean.strokes[1]->b, glm::dvec2(2, 2));
+  EXPECT_FALSE(mean.strokes[2]);
+  EXPECT_EQ(mean.effectors[3], glm::dvec2(5, 6));
+  EXPECT_EQ(mean.effectors[4], glm::dvec2(2, 3));
+  EXPECT_FALSE(mean.effectors[0]);
+}
+
+TEST_F(MarkingTest, TwoPerfectAnnotatorsAgreeAndOneHasNobodyToAgreeWith) {
+  Marking two = MarkingBy(2, 0), one = MarkingBy(1, 0);
+  const Marks of_two = two.Mark(0, 0, picture()), of_one = one.Mark(0, 0, picture());
+  EXPECT_EQ(AnnotatorDistancePx(two.joints()), 0);
+  EXPECT_EQ(AnnotatorOverlap(two.limbs()), 1);
+  EXPECT_FALSE(AnnotatorDistancePx(one.joints()));
+  EXPECT_FALSE(AnnotatorOverlap(one.limbs()));
+  for (std::size_t i = 0; i < kEffectorCount; ++i) EXPECT_EQ(of_two.effectors[i], of_one.effectors[i]) << i;
+}
+
+// The difference of two people's marks has twice the variance of one's; a mean over joints of a Rayleigh variable is
+// √(π/2) of its deviation.
+TEST_F(MarkingTest, TwoAnnotatorsDifferAsTwoIndependentHandsDo) {
+  double px = 0;
+  constexpr int kTrials = 40;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Marking two = MarkingBy(2, 1, trial);
+    (void)two.Mark(0, 0, picture());
+    px += *AnnotatorDistancePx(two.joints()) / kTrials;
+  }
+  EXPECT_NEAR(px, std::sqrt(2.0) * std::sqrt(kPi / 2), 0.35);
+}
+
+TEST_F(MarkingTest, TheFirstOfTwoMarksAsTheOnlyOneDoes) {
+  Marking one = MarkingBy(1, 2), two = MarkingBy(2, 2);
+  const Marks alone = one.Mark(0, 0, picture());
+  (void)two.Mark(0, 0, picture());
+  int compared = 0;
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    if (!alone.effectors[i]) continue;
+    EXPECT_EQ(two.joints()[Index(EffectorMarks()[i].role)].first, alone.effectors[i]);
+    ++compared;
+  }
+  EXPECT_GE(compared, 4);
+}
+
+TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
+  StudioOptions options;
+  options.mark_every = 3;
+  Marking marking(options, world_, {.suite_seed = 3, .scenario = "marking", .trial = 0});
+  for (std::size_t frame = 0; frame < 7; ++frame) {
+    const Marks marks = marking.Mark(0, frame, picture());
+    EXPECT_EQ(marks.effectors[0].has_value(), frame % 3 == 0) << frame;
+  }
+}
+
+TEST(HeadBelowCrown, FollowsFromTheShapeWhateverThePose) {
+  BodyPose pose = StandingPose();
+  const double standing = HeadBelowCrown(pose);
+  EXPECT_GT(standing, 0.9);
+  EXPECT_LT(standing, 1.6);
+  const glm::dvec3 neck = pose[Role::kShoulderCentre];
+  const glm::dvec3 head = pose[Role::kHead] - neck;
+  pose[Role::kHead] = neck + glm::dvec3(head.y, -head.x, head.z);  // nodded aside by 90°
+  EXPECT_NEAR(HeadBelowCrown(pose), standing, 1e-9);
+}
+
+}  // namespace
+}  // namespace etude

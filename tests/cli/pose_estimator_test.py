@@ -1,0 +1,71 @@
+"""examples/pose-estimator measures: on keypoints made here, its figures are known beforehand. (No estimator is run.)"""
+import json
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy as np
+from etude_case import EtudeCase
+
+COMPARE = Path(__file__).parents[2] / "examples" / "pose-estimator" / "compare.py"
+SCENARIO = """scenario: pictures
+question: How hard are the pictures?
+task: capture
+clips: ['builtin:boxing']
+duration_s: 0.1
+trials: 1
+methods: [{name: a}]
+"""
+LIMBS = ["left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist", "left_hip",
+         "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle"]  # COCO's numbers 5…16
+
+
+def projection(path):
+    """3 × 4, from the calibration file: OpenCV's pixels have their centres at whole numbers, ours at halves."""
+    text = path.read_text()
+    numbers = {name: [float(x) for x in re.search(rf"\n{name}:.*?data: \[(.*?)\]", text, re.S).group(1).split(",")]
+               for name in ("camera_matrix", "R", "T")}
+    inside = np.array(numbers["camera_matrix"]).reshape(3, 3) + np.array([[0, 0, 0.5], [0, 0, 0.5], [0, 0, 0]])
+    return inside @ np.column_stack([np.array(numbers["R"]).reshape(3, 3), numbers["T"]])
+
+
+class PoseEstimator(EtudeCase):
+    def setUp(self):
+        super().setUp()
+        self.data = self.folder / "data"
+        exported = self.etude("export", self.write("pictures.yaml", SCENARIO), "-o", self.data)
+        self.assertEqual(exported.returncode, 0, exported.stderr)
+        self.truth = self.data / "truth" / "pictures" / "all" / "000"
+        joints = json.loads((self.data / "inputs" / "pictures" / "all" / "setting.json").read_text())["joints"]
+        self.poses = np.array(json.loads((self.truth / "truth.json").read_text())["poses"]).reshape(-1, len(joints), 3)
+        self.limbs = [joints.index(name) for name in LIMBS]
+
+    def compare(self, shift, score):
+        """The line of figures for keypoints `shift` pixels to the right of the truth."""
+        keypoints = {}
+        for picture in (self.data / "inputs" / "pictures" / "all" / "000").glob("camera-*-0*.png"):
+            camera, frame = picture.stem.rsplit("-", 1)
+            points = np.column_stack([self.poses[int(frame)][self.limbs], np.ones(12)])
+            u, v, w = projection(self.truth / f"{camera}.yaml") @ points.T
+            found = [[0, 0, 0]] * 5 + [[x + shift, y, score] for x, y in zip(u / w, v / w)]
+            keypoints[picture.name] = found
+        (self.truth / "keypoints.json").write_text(json.dumps(keypoints))
+        told = subprocess.run([sys.executable, COMPARE, "--export", self.data], capture_output=True, text=True)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        return [cell.strip() for cell in told.stdout.splitlines()[-1].strip("|").split("|")]
+
+    def test_the_truth_has_no_error(self):
+        self.assertEqual(self.compare(0, 0.9), ["all", "6", "100 %", "0.90", "0.0", "0.0", "100 %"])
+
+    def test_an_error_is_told_in_per_cent_of_the_bodys_height(self):
+        # The body is about 1.5 m from head to ankle; 3.8 m away at f = 600 that is 240 pixels.
+        _, _, people, score, median, high, near = self.compare(24, 0.2)
+        self.assertEqual((people, score, near), ("0 %", "0.20", "0 %"))
+        self.assertAlmostEqual(float(median), 10, delta=1.5)
+        self.assertGreaterEqual(float(high), float(median))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,120 @@
+#include "engine/cameras/pose2sim_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace etude {
+namespace {
+
+NamedCamera Crooked() {
+  Camera camera = LookAt({.width = 1088, .height = 1920, .fx = 1681.25, .fy = 1680, .cx = 533, .cy = 948.5},
+                         {-2.5, 1.7, 3.1}, {0.1, 0.9, 0.2});
+  camera.distortion = {.k1 = -0.11, .k2 = 0.02, .p1 = 0.0011, .p2 = -0.0007};
+  return {"cam_01", camera};
+}
+
+NamedCamera Plain() { return {"plain", LookAt({}, {0, 1, 4}, {0, 1, 0})}; }
+
+void ExpectAlike(const Camera& a, const Camera& b) {
+  EXPECT_EQ(a.intrinsics.width, b.intrinsics.width);
+  EXPECT_EQ(a.intrinsics.height, b.intrinsics.height);
+  EXPECT_EQ(a.distortion, b.distortion);
+  for (const glm::dvec3 point : {glm::dvec3(0.3, 1.5, -0.2), glm::dvec3(-0.4, 0.1, 0.4), glm::dvec3(0, 1, 0)}) {
+    const auto in_a = Project(a, point), in_b = Project(b, point);
+    ASSERT_TRUE(in_a && in_b);
+    EXPECT_LT(glm::length(*in_a - *in_b), 1e-9);
+  }
+}
+
+TEST(Pose2SimFile, GivesItsCamerasBack) {
+  const std::vector<NamedCamera> cameras{Crooked(), Plain()};
+  const auto back = ReadPose2SimCalibration(WritePose2SimCalibration(cameras));
+  ASSERT_TRUE(back) << ToString(back.error());
+  ASSERT_EQ(back->size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ((*back)[i].name, cameras[i].name);
+    ExpectAlike((*back)[i].camera, cameras[i].camera);
+  }
+}
+
+TEST(Pose2SimFile, KeepsAThirdRadialCoefficientWhereThereIsOne) {
+  NamedCamera camera = Plain();
+  camera.camera.distortion = {.k1 = 0.1, .k3 = 0.03};
+  const auto back = ReadPose2SimCalibration(WritePose2SimCalibration(std::vector{camera}));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->front().camera.distortion, camera.camera.distortion);
+}
+
+/// The numbers behind a key, each found anew by reading doubles.
+std::vector<double> NumbersBehind(const std::string& text, const std::string& key) {
+  std::string list = text.substr(text.find("\n" + key + " = ") + key.size() + 4);
+  list = list.substr(0, list.find('\n'));
+  for (char& c : list) c = c == '[' || c == ']' || c == ',' ? ' ' : c;
+  std::vector<double> numbers;
+  for (const char* at = list.c_str();;) {
+    char* end = nullptr;
+    const double number = std::strtod(at, &end);
+    if (end == at) return numbers;
+    numbers.push_back(number);
+    at = end;
+  }
+}
+
+// What Pose2Sim does with the file, written down from OpenCV's documentation: cv::Rodrigues, K (R X + T), and its own
+// axes: a point that it triangulates as (x, y, z), Z up, it writes as (y, z, x), Y up.
+TEST(Pose2SimFile, ProjectsAsPose2SimWould) {
+  const NamedCamera named = Crooked();
+  const std::string text = WritePose2SimCalibration(std::vector{named});
+  const auto K = NumbersBehind(text, "matrix"), r = NumbersBehind(text, "rotation"),
+             t = NumbersBehind(text, "translation");
+  ASSERT_EQ(K.size(), 9u);
+  ASSERT_EQ(r.size(), 3u);
+  ASSERT_EQ(t.size(), 3u);
+  const double angle = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+  const glm::dvec3 axis(r[0] / angle, r[1] / angle, r[2] / angle);
+  const glm::dvec3 ours(0.4, 1.6, -0.3);
+  const glm::dvec3 theirs(ours.z, ours.x, ours.y);  // Z up; (y, z, x) of it is ours again
+  const glm::dvec3 turned = std::cos(angle) * theirs + std::sin(angle) * glm::cross(axis, theirs) +
+                            (1 - std::cos(angle)) * glm::dot(axis, theirs) * axis;
+  const glm::dvec3 seen = turned + glm::dvec3(t[0], t[1], t[2]);
+  Camera pinhole = named.camera;
+  pinhole.distortion = {};
+  const glm::dvec2 pixel = *Project(pinhole, ours);
+  EXPECT_NEAR(K[0] * seen.x / seen.z + K[2], pixel.x - 0.5, 1e-9);
+  EXPECT_NEAR(K[4] * seen.y / seen.z + K[5], pixel.y - 0.5, 1e-9);
+  EXPECT_EQ(NumbersBehind(text, "distortions"), (std::vector<double>{-0.11, 0.02, 0.0011, -0.0007}));
+}
+
+TEST(Pose2SimFile, WritesWhatTomlReadersTakeForRealNumbers) {
+  const std::string text = WritePose2SimCalibration(std::vector{Plain()});
+  EXPECT_TRUE(
+      text.starts_with("[plain]\nname = \"plain\"\nsize = [ 640.0, 480.0]\nmatrix = [ [ 600.0, 0.0, 319.5], "
+                       "[ 0.0, 600.0, 239.5], [ 0.0, 0.0, 1.0]]\ndistortions = [ 0.0, 0.0, 0.0, 0.0]\n"))
+      << text;
+  EXPECT_NE(text.find("fisheye = false\n\n[metadata]\n"), std::string::npos);
+}
+
+std::string Broken(const std::string& from, const std::string& to) {
+  std::string text = WritePose2SimCalibration(std::vector{Crooked()});
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  const auto read = ReadPose2SimCalibration(text);
+  EXPECT_FALSE(read) << to;
+  return read ? "" : ToString(read.error());
+}
+
+TEST(Pose2SimFile, SaysWhatIsWrong) {
+  EXPECT_NE(Broken("rotation", "rotatoin").find("camera cam_01 has no rotation"), std::string::npos);
+  EXPECT_NE(Broken("1681.25", "-1681.25").find("focal lengths"), std::string::npos);
+  EXPECT_NE(Broken("1681.25", "abc").find("no list of numbers"), std::string::npos);
+  EXPECT_NE(Broken("fisheye = false", "fisheye = true").find("fisheye"), std::string::npos);
+  EXPECT_NE(Broken("1088.0, 1920.0", "1088.0").find("size has 1 numbers"), std::string::npos);
+  EXPECT_NE(Broken("1088.0", "nan").find("pixels"), std::string::npos);
+  EXPECT_FALSE(ReadPose2SimCalibration(""));
+  EXPECT_FALSE(ReadPose2SimCalibration("[a]\nmatrix"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,173 @@
+#include "sim/stage/stage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/choreography/move.h"
+#include "sim/choreography/stance.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+const std::vector<double> kScenes = {0.05, 0.25, 0.5, 0.75, 1.0};
+
+std::vector<Camera> Cameras() {
+  return {LookAt({}, {-2.4, 1.0, 2.9}, {0, 0.95, 0}), LookAt({}, {2.4, 2.2, 2.9}, {0, 0.95, 0})};
+}
+
+Stage MakeStage(std::uint64_t seed, double scene) {
+  const std::vector<BodyPose> poses = {StandingPose()};
+  return Stage({.seed = seed, .scene = scene}, poses, Cameras());
+}
+
+bool SamePlace(const FurnitureBox& a, const FurnitureBox& b) {
+  return a.centre == b.centre && a.half_size == b.half_size && a.heading == b.heading;
+}
+
+bool SamePlace(const WallPicture& a, const WallPicture& b) {
+  return a.wall == b.wall && a.centre == b.centre && a.half_size == b.half_size;
+}
+
+template <typename Thing>
+std::size_t CountMissing(const std::vector<Thing>& fewer, const std::vector<Thing>& more) {
+  return static_cast<std::size_t>(std::ranges::count_if(fewer, [&](const Thing& thing) {
+    return std::ranges::none_of(more, [&](const Thing& other) { return SamePlace(thing, other); });
+  }));
+}
+
+TEST(Stage, IsTheStudioAtZero) {
+  const Stage stage = MakeStage(1, 0);
+  EXPECT_EQ(stage.interior(), nullptr);
+  EXPECT_TRUE(stage.MoversAt(1.0).empty());
+  EXPECT_EQ(stage.FlickerAt(0.3), 1);
+  const PartColours colours = PerformerColours();
+  const Figure figure = stage.PerformerAt(StandingPose(), colours);
+  EXPECT_EQ(figure.shape.size(), BodyCapsules(StandingPose()).size());
+  EXPECT_EQ(figure.colours, colours);
+  EXPECT_TRUE(figure.surfaces.empty());
+}
+
+TEST(Stage, WhatIsThereStaysThereAsTheSceneGrows) {
+  std::size_t least = 0, most = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    for (std::size_t i = 0; i + 1 < kScenes.size(); ++i) {
+      const Stage fewer = MakeStage(seed, kScenes[i]), more = MakeStage(seed, kScenes[i + 1]);
+      EXPECT_EQ(CountMissing(fewer.interior()->furniture, more.interior()->furniture), 0u) << seed;
+      EXPECT_EQ(CountMissing(fewer.interior()->pictures, more.interior()->pictures), 0u) << seed;
+      EXPECT_LE(fewer.MoversAt(2).size(), more.MoversAt(2).size());
+      EXPECT_EQ(fewer.interior()->low, more.interior()->low);
+      EXPECT_EQ(fewer.interior()->high, more.interior()->high);
+    }
+    least += MakeStage(seed, kScenes.front()).interior()->furniture.size();
+    most += MakeStage(seed, 1).interior()->furniture.size();
+    EXPECT_LE(MakeStage(seed, 1).interior()->furniture.size(), kMostFurnitureBoxes);
+    EXPECT_LE(MakeStage(seed, 1).interior()->pictures.size(), kMostWallPictures);
+  }
+  EXPECT_EQ(least, 0u);
+  EXPECT_GT(most, 12u * 20);
+  // The control: another seed furnishes otherwise.
+  EXPECT_GT(CountMissing(MakeStage(1, 1).interior()->furniture, MakeStage(2, 1).interior()->furniture), 10u);
+}
+
+TEST(Stage, DiceDoNotDependOnTheScene) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Stage some = MakeStage(seed, 0.9), all = MakeStage(seed, 1);
+    // Shapes, patterns and cuts are the same; only strengths, and so colours, differ.
+    ASSERT_EQ(some.interior()->wall.pattern, all.interior()->wall.pattern);
+    ASSERT_EQ(some.interior()->floor.size, all.interior()->floor.size);
+    const auto a = some.BystanderAt(1.5), b = all.BystanderAt(1.5);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    const Outfit one = MakeOutfit(seed, "performer", Wardrobe::kStudio, 0.2);
+    const Outfit other = MakeOutfit(seed, "performer", Wardrobe::kStudio, 0.9);
+    EXPECT_EQ(one.build, other.build);
+    EXPECT_EQ(one.sleeve_cm, other.sleeve_cm);
+    EXPECT_EQ(one.skirt_cm, other.skirt_cm);
+    EXPECT_EQ(one.top.pattern, other.top.pattern);
+    EXPECT_EQ(one.top.patch, other.top.patch);
+    EXPECT_NE(one.top.first, other.top.first);
+  }
+}
+
+TEST(Stage, ColoursLeaveTheStudioByDegrees) {
+  const auto distance = [](const Rgb8& a, const Rgb8& b) {
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+  };
+  double nearly = 0, fully = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Rgb8 studio = MakeOutfit(seed, "performer", Wardrobe::kStudio, 0).top.first;
+    EXPECT_LT(distance(studio, {230, 92, 66}), 4);
+    nearly += distance(studio, MakeOutfit(seed, "performer", Wardrobe::kStudio, 0.02).top.first);
+    fully += distance(studio, MakeOutfit(seed, "performer", Wardrobe::kStudio, 1).top.first);
+  }
+  EXPECT_LT(nearly, fully / 8);
+}
+
+TEST(Stage, FurnitureLeavesThePerformersFloorFree) {
+  std::size_t checked = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Stage stage = MakeStage(seed, 1);
+    for (const FurnitureBox& box : stage.interior()->furniture) {
+      const double reach = std::max(box.half_size.x, box.half_size.z);
+      for (const glm::dvec3& joint : StandingPose().joints) {
+        EXPECT_GT(std::max(std::abs(box.centre.x - joint.x), std::abs(box.centre.z - joint.z)), reach) << seed;
+        ++checked;
+      }
+    }
+  }
+  EXPECT_GT(checked, 1000u);
+}
+
+class RenderedStage : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto shared = SharedRenderer();
+    ASSERT_TRUE(shared) << ToString(shared.error());
+    renderer_ = *shared;
+  }
+  Renderer* renderer_ = nullptr;
+};
+
+TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
+  std::array<std::ptrdiff_t, 3> seen{};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Stage stage = MakeStage(seed, 1);
+    for (const Camera& camera : Cameras()) {
+      const View view = renderer_->Render({.interior = stage.interior()}, stage.MoversAt(0.7), camera, Targets::kAll);
+      EXPECT_EQ(std::ranges::count_if(view.labels.pixels, IsPerformer), 0);
+      for (const Part part : {Part::kFurniture, Part::kClutter, Part::kBystander}) {
+        seen[static_cast<std::size_t>(part) - 16] +=
+            std::ranges::count(view.labels.pixels, static_cast<std::uint32_t>(part));
+      }
+    }
+  }
+  for (const std::ptrdiff_t pixels : seen) EXPECT_GT(pixels, 2000);
+}
+
+TEST_F(RenderedStage, JointsLieInTheDressedBody) {
+  const Camera camera = LookAt({}, {-0.8, 1.3, 4.2}, {0, 0.95, 0});
+  int joints = 0, inside = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const DressedPerson person(MakeOutfit(seed, "performer", Wardrobe::kStudio, 1));
+    for (const char* name : {"boxing", "stretch", "jump", "side_kick"}) {
+      const auto move = LoadBuiltinMove(name);
+      ASSERT_TRUE(move);
+      const BodyPose pose = move->motion.poses[(seed * 7) % move->motion.poses.size()];
+      const Figure figure = person.At(ToOrigin(pose).Apply(pose));
+      const View view = renderer_->Render({}, {figure}, camera, Targets::kAll);
+      for (const glm::dvec3& joint : ToOrigin(pose).Apply(pose).joints) {
+        const auto pixel = Project(MatrixOf(camera), joint);
+        ASSERT_TRUE(pixel);
+        ++joints;
+        inside += IsPerformer(view.labels.At(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
+      }
+    }
+  }
+  EXPECT_EQ(joints, 800);
+  EXPECT_GE(inside, 0.99 * joints);
+}
+
+}  // namespace
+}  // namespace etude
