@@ -8,6 +8,7 @@
 
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 
 namespace etude {
@@ -27,6 +28,15 @@ Result<FuzzySystem> FuzzySystemOf(const Condition& condition, const SourceTexts&
   });
 }
 
+/// The text of the sensor file that a condition names; "" when it names none, or a preset.
+Result<std::string> SensorTextOf(const Condition& condition, const SourceTexts& texts) {
+  const Node* named = condition.node.Find(kSensorKey);
+  if (named == nullptr || named->kind != Node::Kind::kScalar || !IsSensorFile(named->scalar)) return std::string();
+  const auto text = texts.find(named->scalar);
+  if (text == texts.end()) return Fail(named->place, "the text of '{}' is missing", named->scalar);
+  return text->second;
+}
+
 /// One task per condition. The task reads its own keys from the condition's mapping; what neither it nor
 /// the scenario knows is refused here.
 Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, const ClipLibrary& clips,
@@ -40,7 +50,8 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, c
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
     ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(condition, texts));
-    TaskInput input{fields, built_in, clips, std::move(fuzzy)};
+    ASSIGN_OR_RETURN(auto sensor_text, SensorTextOf(condition, texts));
+    TaskInput input{fields, built_in, clips, std::move(fuzzy), std::move(sensor_text)};
     ASSIGN_OR_RETURN(auto task, FindTaskKind(scenario.task)->make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));

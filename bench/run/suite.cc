@@ -8,6 +8,7 @@
 #include "bench/files/files.h"
 #include "bench/run/manifest.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 
@@ -35,13 +36,16 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Likewise of the fuzzy systems that its conditions name. What is no text is refused when the tasks are made.
-Result<void> KeepFuzzySystems(const Scenario& scenario, SourceTexts& texts) {
+/// Likewise of the fuzzy systems and sensor files that its conditions name. What is no text is refused when the tasks
+/// are made.
+Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
-    const Node* named = condition.node.Find(kFuzzyKey);
-    if (named == nullptr || named->kind != Node::Kind::kScalar || !IsFuzzyFile(named->scalar)) continue;
-    if (auto kept = KeepText(named->scalar, texts); !kept) {
-      return Fail(named->place, "{}", ToString(kept.error()));
+    for (const auto& [key, is_file] : {std::pair{kFuzzyKey, &IsFuzzyFile}, std::pair{kSensorKey, &IsSensorFile}}) {
+      const Node* named = condition.node.Find(key);
+      if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
+      if (auto kept = KeepText(named->scalar, texts); !kept) {
+        return Fail(named->place, "{}", ToString(kept.error()));
+      }
     }
   }
   return {};
@@ -112,7 +116,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       const bool replaced = !options.clips.empty() && uses_clips;
       const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
       RETURN_IF_ERROR(KeepText(joint_map, suite.sources));
-      RETURN_IF_ERROR(KeepFuzzySystems(scenario, suite.sources));
+      RETURN_IF_ERROR(KeepNamedFiles(scenario, suite.sources));
       suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
                                  replaced ? options.clips : scenario.clips, joint_map, digest.Hex()});
     }

@@ -2,9 +2,77 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "engine/base/names.h"
+#include "engine/formats/number_rows.h"
+
 namespace etude {
+namespace {
+
+std::string HeadingOf(Role role, int axis) { return fmt::format("{}_{}_m", RoleName(role), "xyz"[axis]); }
+
+std::vector<std::string> SplitHeadings(std::string_view line) {
+  std::vector<std::string> parts(1);
+  for (const char c : line) {
+    if (c == ',' || c == ';') {
+      parts.emplace_back();
+    } else if (c != ' ' && c != '"') {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// The middle one of the steps between times.
+std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
+  std::vector<double> steps;
+  for (std::size_t t = 1; t < table.RowCount(); ++t) {
+    const double step = table.Row(t)[time_column] - table.Row(t - 1)[time_column];
+    if (!std::isnan(step)) steps.push_back(step);
+  }
+  if (steps.empty()) return std::nullopt;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle > 0 ? std::optional(1 / *middle) : std::nullopt;
+}
+
+using JointColumns = std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount>;
+
+/// Where each joint's coordinates and the time stand.
+struct Columns {
+  JointColumns joints;
+  std::optional<std::size_t> time;
+};
+
+Result<Columns> FindColumns(const NumberRows& table, const std::string& file) {
+  const std::vector<std::string> headings = SplitHeadings(table.heading);
+  if (headings.size() != table.columns) {
+    return Fail({file, 1}, "{} headings over {} columns", table.heading.empty() ? 0 : headings.size(), table.columns);
+  }
+  std::vector<std::string> known = {"frame", "time_s"};
+  for (const Role role : AllRoles()) {
+    for (int axis = 0; axis < 3; ++axis) known.push_back(HeadingOf(role, axis));
+  }
+  Columns columns;
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    const auto found = std::ranges::find(known, headings[i]);
+    if (found == known.end()) return Fail({file, 1}, "{}", UnknownName("heading", headings[i], known));
+    const auto number = static_cast<std::size_t>(found - known.begin());
+    if (number == 1) columns.time = i;
+    if (number >= 2) columns.joints[(number - 2) / 3][(number - 2) % 3] = i;
+  }
+  for (const Role role : AllRoles()) {
+    const auto& [x, y, z] = columns.joints[Index(role)];
+    if (x.has_value() == y.has_value() && y.has_value() == z.has_value()) continue;
+    return Fail({file, 1}, "'{}' has not all of its three coordinates", RoleName(role));
+  }
+  return columns;
+}
+
+}  // namespace
 
 std::string WriteJointCsv(const BodyMotion& motion) {
   std::string text = "frame,time_s";
@@ -19,6 +87,24 @@ std::string WriteJointCsv(const BodyMotion& motion) {
     text += '\n';
   }
   return text;
+}
+
+Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
+  ASSIGN_OR_RETURN(const Columns columns, FindColumns(table, file));
+  JointCsv csv;
+  if (columns.time) csv.rate_hz = RateOf(table, *columns.time);
+  csv.frames.resize(table.RowCount());
+  for (std::size_t t = 0; t < csv.frames.size(); ++t) {
+    const auto row = table.Row(t);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const auto& [x, y, z] = columns.joints[j];
+      if (!x) continue;
+      const glm::dvec3 place(row[*x], row[*y], row[*z]);
+      if (!std::isnan(place.x + place.y + place.z)) csv.frames[t][j] = place;
+    }
+  }
+  return csv;
 }
 
 }  // namespace etude

@@ -193,21 +193,24 @@ double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::
                    SphereEntry(capsule.b, capsule.radius, origin, direction)});
 }
 
-bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
+JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
   const glm::dvec3 line = pose[role] - eye;
   const double distance = glm::length(line);
-  if (distance == 0) return false;
+  JointSight sight{.skin = distance, .other = kInfinity};
+  if (distance == 0) return sight;
   const glm::dvec3 direction = line / distance;
   const auto [first, second] = OwnPartsOf(role);
-  double own = distance, other = kInfinity;
   for (const Capsule& capsule : body) {
     const double hit = HitDistance(capsule, eye, direction);
-    double& nearest = capsule.part == first || capsule.part == second ? own : other;
+    double& nearest = capsule.part == first || capsule.part == second ? sight.skin : sight.other;
     nearest = std::min(nearest, hit);
   }
-  // Parts that touch (a hand on the hip) hide nothing: the other must stand clearly before the skin.
-  constexpr double kClearance = 0.02;
-  return other < own - kClearance;
+  return sight;
+}
+
+bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
+  const JointSight sight = SightOf(body, pose, role, eye);
+  return sight.other < sight.skin - kHidingClearance;
 }
 
 }  // namespace etude

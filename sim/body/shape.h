@@ -54,8 +54,19 @@ std::vector<Capsule> BodyCapsules(const BodyPose& pose);
 /// starts inside the capsule meets it at 0.
 double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction);
 
-/// Whether some part other than those ending in `role` stands between `eye` and the joint: clearly
-/// (2 cm) before the skin that the eye would see there. `body` is `BodyCapsules(pose)`.
+/// What a ray from an eye to a joint meets, as distances from the eye; infinity where it meets nothing.
+struct JointSight {
+  double skin;   ///< the joint's own skin: of the parts that end in it, or the joint itself
+  double other;  ///< the nearest of the other parts
+};
+/// `body` is `BodyCapsules(pose)`.
+JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
+
+/// What touches hides nothing (a hand on the hip): what hides a joint stands clearly before its skin, metres.
+constexpr double kHidingClearance = 0.02;
+
+/// Whether a part other than those ending in `role` stands between `eye` and the joint: clearly before the skin that
+/// the eye would see there. `body` is `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
 
 }  // namespace etude

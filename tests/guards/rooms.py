@@ -47,8 +47,9 @@ MAY_INCLUDE = {
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
     "sim/rig": "engine/base engine/boards engine/cameras engine/motion sim/random sim/render",
-    "sim/sensors":
-        "engine/base engine/cameras engine/motion engine/recognition sim/body sim/random sim/render",
+    "sim/sensors": "engine/base engine/cameras sim/render",
+    "sim/skeleton_sensor":
+        "engine/base engine/cameras engine/document engine/motion engine/recognition sim/body sim/random",
     "sim/stage":
         "engine/base engine/cameras engine/motion sim/character sim/choreography sim/random sim/render",
     # bench/
@@ -77,6 +78,8 @@ MAY_INCLUDE = {
         "bench/statistics bench/tasks bench/tasks/base",
     "bench/scenario":
         "engine/base engine/document bench/files bench/keys bench/metrics bench/model bench/tasks bench/tasks/base",
+    "bench/sensor_fit":
+        "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "sim/random bench/metrics bench/model",
     "bench/tasks":
         "engine/base bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik "
@@ -89,8 +92,8 @@ MAY_INCLUDE = {
         "engine/vision sim/annotator sim/body sim/camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
-        "engine/base engine/formats engine/motion engine/recognition sim/performer sim/sensors bench/clips bench/keys "
-        "bench/metrics bench/tasks/base",
+        "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "
+        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base",
     "bench/tasks/ik":
         "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
         "bench/tasks/base",

@@ -77,7 +77,8 @@ struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
+  FuzzySystem fuzzy = {};        ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
+  std::string sensor_text = {};  ///< of the file that its key `sensor` names (sensor_key.h)
 };
 
 /// A kind of question that can be asked: one entry per folder of bench/tasks.

@@ -6,11 +6,13 @@
 #include <map>
 
 #include "bench/tasks/base/read_methods.h"
+#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/run.h"
 #include "bench/tasks/detection/score.h"
 #include "bench/tasks/detection/world.h"
+#include "sim/skeleton_sensor/sensor_file.h"
 
 namespace etude {
 namespace {
@@ -122,8 +124,20 @@ class DetectionTask final : public Task {
   std::vector<TrialClip> clips_;
 };
 
+/// The sensor that the condition names, v2 when it names none.
+Result<SkeletonSensorOptions> SensorOf(const TaskInput& input) {
+  const Node* named = input.condition.node().Find(kSensorKey);
+  if (named == nullptr) return SensorV2();
+  if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
+    return Fail(named->place, "'{}' must be v1, v2 or a sensor file, found {}", kSensorKey, Describe(*named));
+  }
+  if (const auto preset = FindSensorPreset(named->scalar)) return *preset;
+  return ReadSensorFile(input.sensor_text, named->scalar);
+}
+
 Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   DetectionOptions options;
+  ASSIGN_OR_RETURN(options.sensor, SensorOf(input));
   DetectionConditionFields().Read(input.condition, options);
   DetectionMethod start;
   start.recogniser = options.recogniser;

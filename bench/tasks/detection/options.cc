@@ -1,5 +1,7 @@
 #include "bench/tasks/detection/options.h"
 
+#include "bench/tasks/base/sensor_key.h"
+
 namespace etude {
 namespace {
 
@@ -25,6 +27,18 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),
+       Key{{kSensorKey, TextKind("`v1`, `v2`, a sensor file"), "v2",
+            "The skeleton sensor: Kinect v1 as published, v2 as recorded, or one of `etude sensor fit`."},
+           [](Fields& condition, Options&) { condition.Raw(kSensorKey); }},
+       Key::Number("distance_m", &Options::distance_m, {1, 8}, "From the sensor to the performer, on the floor.")
+           .WhenAbsent("(2.5 to 3, thrown in each trial)"),
+       Key::Number("sensor_height_m", &Options::sensor_height_m, {0.1, 3}, "Of the sensor above the floor."),
+       Key::Name("occluder", &Options::occluder,
+                 {{"none", OccluderKind::kNone},
+                  {"table", OccluderKind::kTable},
+                  {"chair", OccluderKind::kChair},
+                  {"person", OccluderKind::kPerson}},
+                 "What stands between the sensor and the performer."),
        Key::Number(
            "threshold", [](auto& o) -> auto& { return o.recogniser.threshold; }, kThresholds,
            "The weighted share of a key pose's angles that must be met; for all methods."),

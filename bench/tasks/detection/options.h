@@ -1,13 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bench/keys/field_table.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/key_pose.h"
 #include "sim/performer/session.h"
+#include "sim/skeleton_sensor/options.h"
 
 namespace etude {
+
+/// What stands between sensor and performer (`MakeOccluders`).
+enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
 /// One condition of a detection scenario: who dances, and how well the sensor sees it.
 ///
@@ -15,11 +20,17 @@ namespace etude {
 ///     fault_share: 0.5 # of them are wrong
 ///     skill: 1         # 1 = careful learner, 0 = sloppy
 ///     noise: 1         # times every error of the sensor
+///     sensor: v2       # which sensor: v1, v2 or a sensor file
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
+///     occluder: none   # what stands between the two: table, chair, person
 struct DetectionOptions {
   SessionOptions session;
   double noise = 1;
+  SkeletonSensorOptions sensor = SensorV2();  ///< strength aside; the task opens what the condition names
   double turn_deg = 0;
+  std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
+  double sensor_height_m = 1;
+  OccluderKind occluder = OccluderKind::kNone;
   KeyPoseOptions recogniser;  ///< what methods begin with
 };
 

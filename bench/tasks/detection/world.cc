@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "bench/metrics/detection.h"
+#include "bench/tasks/detection/occluders.h"
 #include "engine/base/angles.h"
 #include "engine/base/named.h"
-#include "sim/sensors/skeleton_sensor.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
 namespace {
@@ -54,10 +55,14 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
 
   // The distance at which Kinect's makers ask players to stand, roughly.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
-  const Camera sensor = SkeletonSensorAt(place_dice.Uniform(kNearest, kFarthest), Radians(options.turn_deg));
-  SkeletonSensorOptions errors;
+  SkeletonSensorOptions errors = options.sensor;
   errors.strength = options.noise;
-  world.stream = SenseSkeleton(world.session.motion, sensor, errors, key);
+  const double thrown = place_dice.Uniform(kNearest, kFarthest);
+  const SensorPlace place{.distance = options.distance_m.value_or(thrown),
+                          .turn = Radians(options.turn_deg),
+                          .height = options.sensor_height_m};
+  const Occluders occluders = MakeOccluders(options.occluder, place, world.session.motion.poses.size());
+  world.stream = SenseSkeleton(world.session.motion, SkeletonSensorAt(place, errors.view), occluders, errors, key);
   return world;
 }
 

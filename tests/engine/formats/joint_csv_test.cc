@@ -37,5 +37,36 @@ TEST(JointCsv, GivesEveryNumberBackToTheLastBit) {
   }
 }
 
+TEST(JointCsv, ReadsBackWhatItWrote) {
+  BodyMotion motion{.rate_hz = 60, .poses = std::vector<BodyPose>(3)};
+  for (std::size_t i = 0; i < kRoleCount; ++i) motion.poses[1].joints[i] = glm::dvec3(1.0 / 3, -0.1, 1e-9) * (i + 1.0);
+  const auto read = ReadJointCsv(WriteJointCsv(motion), "m.csv");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_NEAR(*read->rate_hz, 60, 1e-9);
+  ASSERT_EQ(read->frames.size(), 3u);
+  for (std::size_t i = 0; i < kRoleCount; ++i) EXPECT_EQ(read->frames[1][i], motion.poses[1].joints[i]);
+}
+
+TEST(JointCsv, TakesFewerJointsInAnyOrderAndMissingPlaces) {
+  const auto read = ReadJointCsv("head_z_m,head_x_m,head_y_m\n3,1,2\n,1,2\nnan,1,2\n", "m.csv");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_FALSE(read->rate_hz);
+  EXPECT_EQ(read->frames[0][Index(Role::kHead)], glm::dvec3(1, 2, 3));
+  EXPECT_FALSE(read->frames[1][Index(Role::kHead)]);
+  EXPECT_FALSE(read->frames[2][Index(Role::kHead)]);
+  EXPECT_FALSE(read->frames[0][Index(Role::kSpine)]);
+}
+
+TEST(JointCsv, RefusesUnknownHeadingsHalfJointsAndRaggedRows) {
+  const auto complaint = [](const char* text) {
+    const auto read = ReadJointCsv(text, "m.csv");
+    return read ? std::string("(read)") : ToString(read.error());
+  };
+  EXPECT_NE(complaint("hed_x_m,head_y_m,head_z_m\n1,2,3\n").find("head_x_m"), std::string::npos);
+  EXPECT_EQ(complaint("head_x_m,head_y_m\n1,2\n"), "m.csv:1: 'head' has not all of its three coordinates");
+  EXPECT_EQ(complaint("head_x_m,head_y_m,head_z_m\n1,2,3\n1,2\n"), "m.csv:3: 2 values; the rows before have 3");
+  EXPECT_EQ(complaint("1,2,3\n"), "m.csv:1: 0 headings over 3 columns");
+}
+
 }  // namespace
 }  // namespace etude

@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "engine/motion/body.h"
-#include "sim/sensors/skeleton_sensor.h"
+#include "sim/skeleton_sensor/joint_errors.h"
+#include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
-
-/// Which joints of one frame are hidden behind flesh.
-using HiddenJoints = std::array<bool, kRoleCount>;
 
 /// What the sensor makes of a joint that is not plainly seen.
 struct Guess {
@@ -19,26 +17,20 @@ struct Guess {
 };
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
-/// The sum of both continuous errors, per frame and joint: the wander that never stops
-/// (Ornstein–Uhlenbeck and white), and the error that depends on place and speed.
-std::vector<std::array<glm::dvec3, kRoleCount>> ContinuousErrors(const BodyMotion& truth,
-                                                                 const SkeletonSensorOptions& options,
-                                                                 const WorldKey& world);
-
 /// The guesses for hidden joints, limb by limb, in episodes.
 std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::vector<HiddenJoints>& hidden,
                                            const SkeletonSensorOptions& options, const WorldKey& world);
 
 /// Rare single-frame errors of single joints, zero where there is none.
-std::vector<std::array<glm::dvec3, kRoleCount>> Outliers(std::size_t frames, const SkeletonSensorOptions& options,
-                                                         const WorldKey& world);
+JointErrors Outliers(std::size_t frames, const SkeletonSensorOptions& options, const WorldKey& world);
 
 /// Which frames show arms, or legs, exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;
 };
-std::vector<Swap> Swaps(std::size_t frames, double rate_hz, const SkeletonSensorOptions& options,
+/// `turns`: per frame, how far the body is turned away from the sensor, radians.
+std::vector<Swap> Swaps(const std::vector<double>& turns, double rate_hz, const SkeletonSensorOptions& options,
                         const WorldKey& world);
 
 /// Which frames the whole body is lost in.

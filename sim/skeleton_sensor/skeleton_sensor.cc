@@ -1,25 +1,18 @@
-#include "sim/sensors/skeleton_sensor.h"
+#include "sim/skeleton_sensor/skeleton_sensor.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "sim/body/shape.h"
-#include "sim/sensors/skeleton_errors.h"
+#include "engine/base/angles.h"
+#include "sim/skeleton_sensor/episodes.h"
+#include "sim/skeleton_sensor/joint_errors.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
-
-std::vector<HiddenJoints> FindHidden(const BodyMotion& truth, const glm::dvec3& eye) {
-  std::vector<HiddenJoints> hidden(truth.poses.size());
-  for (std::size_t t = 0; t < truth.poses.size(); ++t) {
-    const std::vector<Capsule> flesh = BodyCapsules(truth.poses[t]);
-    for (Role role : AllRoles()) hidden[t][Index(role)] = IsHidden(flesh, truth.poses[t], role, eye);
-  }
-  return hidden;
-}
 
 bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::dvec3& point) {
   const std::optional<glm::dvec2> pixel = Project(matrix, point);
@@ -27,27 +20,46 @@ bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::d
          pixel->y < camera.intrinsics.height;
 }
 
+/// How far the body is turned away from the sensor, per frame.
+std::vector<double> TurnsFrom(const glm::dvec3& eye, const BodyMotion& truth) {
+  std::vector<double> turns;
+  turns.reserve(truth.poses.size());
+  for (const BodyPose& pose : truth.poses) {
+    const glm::dvec3 to_eye = eye - pose[kHipCentre];
+    turns.push_back(AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z}));
+  }
+  return turns;
+}
+
 void Exchange(SensedFrame& frame, std::initializer_list<Role> left_joints) {
   for (Role role : left_joints) std::swap(frame[role], frame[Mirrored(role)]);
 }
 
-}  // namespace
-
-Camera SkeletonSensorAt(double distance, double turn) {
-  constexpr double kHeight = 1.0;
-  const Intrinsics depth_camera{.width = 640, .height = 480, .fx = 580, .fy = 580, .cx = 320, .cy = 240, .skew = 0};
-  const glm::dvec3 eye(distance * std::sin(turn), kHeight, distance * std::cos(turn));
-  return LookAt(depth_camera, eye, {0, kHeight, 0});
+/// Every frame is told `lag` frames late; until then the first one is.
+void Delay(std::vector<SensedFrame>& frames, std::size_t lag) {
+  lag = std::min(lag, frames.size());
+  if (lag == 0) return;
+  const SensedFrame first = frames.front();
+  std::move_backward(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(lag), frames.end());
+  std::fill_n(frames.begin(), lag, first);
 }
 
-SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const SkeletonSensorOptions& options,
-                             const WorldKey& world) {
+}  // namespace
+
+Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view) {
+  constexpr double kLooksAtHeight = 1.0;
+  const glm::dvec3 eye(place.distance * std::sin(place.turn), place.height, place.distance * std::cos(place.turn));
+  return LookAt(view, eye, {0, kLooksAtHeight, 0});
+}
+
+SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,
+                             const SkeletonSensorOptions& options, const WorldKey& world) {
   const std::size_t count = truth.poses.size();
-  const auto hidden = FindHidden(truth, sensor.p_WC);
-  const auto errors = ContinuousErrors(truth, options, world);
+  const auto hidden = FindHidden(truth, occluders, sensor.p_WC);
+  const auto errors = ContinuousErrors(truth, sensor, options, world);
   const auto guesses = OcclusionGuesses(truth, hidden, options, world);
   const auto outliers = Outliers(count, options, world);
-  const auto swaps = Swaps(count, truth.rate_hz, options, world);
+  const auto swaps = Swaps(TurnsFrom(sensor.p_WC, truth), truth.rate_hz, options, world);
   const auto dropouts = Dropouts(count, options, world);
   const ProjectionMatrix view = MatrixOf(sensor);
 
@@ -71,6 +83,7 @@ SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, cons
     if (swaps[t].legs) Exchange(frame, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot});
     stream.frames.push_back(frame);
   }
+  Delay(stream.frames, static_cast<std::size_t>(options.Lag()));
   return stream;
 }
 

@@ -1,80 +1,12 @@
-#include "sim/sensors/skeleton_errors.h"
+#include "sim/skeleton_sensor/episodes.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "engine/base/angles.h"
 
 namespace etude {
 namespace {
 
 using enum Role;
-
-const JointErrorSizes& SizesOf(Role role, const SkeletonSensorOptions& options) {
-  switch (role) {
-    case kLeftElbow:
-    case kRightElbow:
-    case kLeftKnee:
-    case kRightKnee:
-      return options.middle;
-    case kLeftWrist:
-    case kRightWrist:
-    case kLeftHand:
-    case kRightHand:
-    case kLeftAnkle:
-    case kRightAnkle:
-    case kLeftFoot:
-    case kRightFoot:
-      return options.ends;
-    default:
-      return options.torso;
-  }
-}
-
-/// A random vector field, smooth in space and time: each axis is close to a standard normal variable,
-/// with correlation exp(−r²/2ℓ²) over distance and exp(−t²/2τ²) over time. (A sum of random waves.)
-class SmoothField {
- public:
-  SmoothField(RandomStream& random, double length_m, double time_s) {
-    for (Wave& wave : waves_) {
-      wave.direction = random.Normal3() * std::sqrt(2.0 / kWaves);
-      wave.per_metre = random.Normal3() / length_m;
-      wave.per_second = random.Normal() / time_s;
-      wave.phase = random.Uniform(0, 2 * kPi);
-    }
-  }
-
-  glm::dvec3 At(const glm::dvec3& place, double time_s) const {
-    glm::dvec3 sum(0);
-    for (const Wave& wave : waves_) {
-      sum += wave.direction * std::cos(glm::dot(wave.per_metre, place) + wave.per_second * time_s + wave.phase);
-    }
-    return sum;
-  }
-
- private:
-  static constexpr int kWaves = 12;
-  struct Wave {
-    glm::dvec3 direction, per_metre;
-    double per_second, phase;
-  };
-  std::array<Wave, kWaves> waves_;
-};
-
-/// Metres per second over the neighbouring frames.
-double SpeedAt(const BodyMotion& motion, std::size_t frame, std::size_t joint) {
-  const std::size_t before = frame >= 2 ? frame - 2 : 0;
-  const std::size_t after = std::min(frame + 2, motion.poses.size() - 1);
-  if (after == before) return 0;
-  const double seconds = static_cast<double>(after - before) / motion.rate_hz;
-  return glm::distance(motion.poses[after].joints[joint], motion.poses[before].joints[joint]) / seconds;
-}
-
-double BodySpeedAt(const BodyMotion& motion, std::size_t frame) {
-  double sum = 0;
-  for (std::size_t j = 0; j < kRoleCount; ++j) sum += SpeedAt(motion, frame, j);
-  return sum / kRoleCount;
-}
 
 /// A limb from its anchor outwards: an error of the guess grows along it.
 struct Limb {
@@ -99,46 +31,6 @@ struct Episode {
 };
 
 }  // namespace
-
-std::vector<std::array<glm::dvec3, kRoleCount>> ContinuousErrors(const BodyMotion& truth,
-                                                                 const SkeletonSensorOptions& options,
-                                                                 const WorldKey& world) {
-  RandomStream wander_dice(world, "skeleton/wander");
-  RandomStream place_dice(world, "skeleton/place-error");
-  RandomStream speed_dice(world, "skeleton/speed-error");
-  const SmoothField by_place(place_dice, options.correlation_length_m, 1e9);
-  const SmoothField by_speed(speed_dice, options.correlation_length_m, options.correlation_time_s);
-
-  const double memory = std::exp(-1.0 / (truth.rate_hz * options.correlation_time_s));
-  const double renewal = std::sqrt(1.0 - memory * memory);
-  // Of the moving error's variance, this share is there at any speed, the rest grows with speed (ours).
-  constexpr double kPlaceShare = 0.6;
-  constexpr double kFullSpeed = 0.5;  // m/s at which the rest is reached
-  constexpr double kSpeedCap = 1.6;   // times kFullSpeed: no further growth
-
-  std::vector<std::array<glm::dvec3, kRoleCount>> errors(truth.poses.size());
-  std::array<glm::dvec3, kRoleCount> wander;
-  for (glm::dvec3& start : wander) start = wander_dice.Normal3();
-  for (std::size_t t = 0; t < truth.poses.size(); ++t) {
-    const double seconds = static_cast<double>(t) / truth.rate_hz;
-    const double body_speed = BodySpeedAt(truth, t);
-    for (Role role : AllRoles()) {
-      const std::size_t j = Index(role);
-      const JointErrorSizes& sizes = SizesOf(role, options);
-      wander[j] = memory * wander[j] + renewal * wander_dice.Normal3();
-      const glm::dvec3 white = wander_dice.Normal3();
-
-      // A joint that rests on a moving body is not seen as well as one that rests on a resting body.
-      const double speed = std::min(0.5 * (SpeedAt(truth, t, j) + body_speed) / kFullSpeed, kSpeedCap);
-      const double per_axis = sizes.moving / std::sqrt(3.0);
-      const glm::dvec3& place = truth.poses[t].joints[j];
-      const glm::dvec3 moving = per_axis * (std::sqrt(kPlaceShare) * by_place.At(place, 0) +
-                                            std::sqrt(1 - kPlaceShare) * speed * by_speed.At(place, seconds));
-      errors[t][j] = options.strength * (sizes.still * wander[j] + sizes.white * white + moving);
-    }
-  }
-  return errors;
-}
 
 std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::vector<HiddenJoints>& hidden,
                                            const SkeletonSensorOptions& options, const WorldKey& world) {
@@ -185,11 +77,10 @@ std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::v
   return guesses;
 }
 
-std::vector<std::array<glm::dvec3, kRoleCount>> Outliers(std::size_t frames, const SkeletonSensorOptions& options,
-                                                         const WorldKey& world) {
+JointErrors Outliers(std::size_t frames, const SkeletonSensorOptions& options, const WorldKey& world) {
   RandomStream dice(world, "skeleton/outliers");
   const double chance = std::min(1.0, options.outlier_chance * options.strength);
-  std::vector<std::array<glm::dvec3, kRoleCount>> outliers(frames);
+  JointErrors outliers(frames);
   for (auto& frame : outliers) {
     for (glm::dvec3& outlier : frame) {
       const bool strikes = dice.Chance(chance);
@@ -200,15 +91,17 @@ std::vector<std::array<glm::dvec3, kRoleCount>> Outliers(std::size_t frames, con
   return outliers;
 }
 
-std::vector<Swap> Swaps(std::size_t frames, double rate_hz, const SkeletonSensorOptions& options,
+std::vector<Swap> Swaps(const std::vector<double>& turns, double rate_hz, const SkeletonSensorOptions& options,
                         const WorldKey& world) {
   RandomStream dice(world, "skeleton/swaps");
-  const double chance = std::min(1.0, options.swaps_per_minute * options.strength / (60.0 * rate_hz));
+  const double usual = options.swaps_per_minute * options.strength / (60.0 * rate_hz);
   const int length = static_cast<int>(rate_hz / 3.0);
-  std::vector<Swap> swaps(frames);
+  std::vector<Swap> swaps(turns.size());
   int left = 0;
   Swap current;
-  for (Swap& swap : swaps) {
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    Swap& swap = swaps[t];
+    const double chance = std::min(1.0, options.swaps_when_facing ? usual : usual * (1 - std::cos(turns[t])));
     const bool starts = dice.Chance(chance), arms = dice.Chance(0.5);
     if (left == 0 && starts) {
       left = length;

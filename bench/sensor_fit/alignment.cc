@@ -1,0 +1,248 @@
+#include "bench/sensor_fit/alignment.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+/// A joint that both systems saw in one frame.
+struct Pair {
+  std::size_t joint;
+  glm::dvec3 sensed;
+  Carrier carrier;
+};
+
+std::optional<Carrier> Between(const std::optional<Carrier>& a, const std::optional<Carrier>& b, double share) {
+  if (share == 0) return a;
+  if (!a || !b) return std::nullopt;
+  return Carrier{glm::mix(a->position, b->position, share), glm::slerp(a->rotation, b->rotation, share)};
+}
+
+/// The twin's carriers at a time of its own; empty outside.
+std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin, double time_s) {
+  const double frame = time_s * twin.rate_hz;
+  if (frame < 0 || frame > static_cast<double>(twin.frames.size()) - 1) return {};
+  const auto before = static_cast<std::size_t>(frame);
+  const std::size_t after = std::min(before + 1, twin.frames.size() - 1);
+  std::array<std::optional<Carrier>, kRoleCount> carriers;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    carriers[j] = Between(twin.frames[before][j], twin.frames[after][j], frame - static_cast<double>(before));
+  }
+  return carriers;
+}
+
+/// All pairs in every `stride`-th frame.
+std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
+  std::vector<Pair> pairs;
+  for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
+    const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + shift_s);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      if (recording.frames[t][j] && carriers[j]) pairs.push_back({j, *recording.frames[t][j], *carriers[j]});
+    }
+  }
+  return pairs;
+}
+
+/// The rotation and translation that bring `from` closest to `to` (Kabsch 1976).
+void FitRigid(const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to, TwinAlignment& alignment) {
+  glm::dvec3 mean_from(0), mean_to(0);
+  const auto count = static_cast<double>(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    mean_from += from[i] / count;
+    mean_to += to[i] / count;
+  }
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const glm::dvec3 a = to[i] - mean_to, b = from[i] - mean_from;
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) sum(r, c) += a[r] * b[c];
+    }
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
+  mirror(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const Eigen::Matrix3d rotation = svd.matrixU() * mirror * svd.matrixV().transpose();
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) alignment.R_ST[c][r] = rotation(r, c);
+  }
+  alignment.p_ST = mean_to - alignment.R_ST * mean_from;
+}
+
+/// The mean place of each joint in its carrier.
+void FitOffsets(const std::vector<Pair>& pairs, TwinAlignment& alignment) {
+  std::array<glm::dvec3, kRoleCount> sums{};
+  std::array<double, kRoleCount> counts{};
+  const glm::dmat3 R_TS = glm::transpose(alignment.R_ST);
+  for (const Pair& pair : pairs) {
+    const glm::dvec3 in_twin = R_TS * (pair.sensed - alignment.p_ST);
+    sums[pair.joint] += glm::conjugate(pair.carrier.rotation) * (in_twin - pair.carrier.position);
+    ++counts[pair.joint];
+  }
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    alignment.offsets[j] = counts[j] > 0 ? std::optional(sums[j] / counts[j]) : std::nullopt;
+  }
+}
+
+double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& alignment) {
+  double sum = 0;
+  for (const Pair& pair : pairs) {
+    const glm::dvec3 off = pair.sensed - *alignment.JointAt(pair.carrier, AllRoles()[pair.joint]);
+    sum += glm::dot(off, off);
+  }
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+/// By turns until what is left changes no more; `alignment` holds where to begin.
+void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& alignment) {
+  constexpr double kSettled = 1e-6;  // metres
+  std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());
+  alignment.rms_m = 1e300;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const glm::dvec3 offset = alignment.offsets[pairs[i].joint].value_or(glm::dvec3(0));
+      from[i] = pairs[i].carrier.position + pairs[i].carrier.rotation * offset;
+      to[i] = pairs[i].sensed;
+    }
+    FitRigid(from, to, alignment);
+    FitOffsets(pairs, alignment);
+    const double left = RootMeanSquare(pairs, alignment), gain = alignment.rms_m - left;
+    alignment.rms_m = left;
+    if (std::abs(gain) < kSettled) return;
+  }
+}
+
+/// The mean speed of the arms' joints at one frame, where they are seen in both neighbours.
+std::vector<std::optional<double>> Speeds(const JointRecording& recording) {
+  std::vector<std::optional<double>> speeds(recording.frames.size());
+  for (std::size_t t = 1; t < speeds.size(); ++t) {
+    double sum = 0, count = 0;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const auto &a = recording.frames[t - 1][j], &b = recording.frames[t][j];
+      if (!a || !b) continue;
+      sum += std::min(glm::distance(*a, *b) * recording.rate_hz, 3.0);  // a jump counts no more than a fast move
+      ++count;
+    }
+    if (count > 0) speeds[t] = sum / count;
+  }
+  return speeds;
+}
+
+/// The twin's carriers as a recording at `rate_hz`, for speeds.
+JointRecording AtRate(const TwinMotion& twin, double rate_hz) {
+  JointRecording recording{.rate_hz = rate_hz, .frames = {}, .sensor_at = {}};
+  const auto frames = static_cast<std::size_t>(twin.DurationSeconds() * rate_hz);
+  for (std::size_t t = 0; t < frames; ++t) {
+    const auto carriers = CarriersAt(twin, static_cast<double>(t) / rate_hz);
+    RolePlaces& places = recording.frames.emplace_back();
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      if (carriers[j]) places[j] = carriers[j]->position;
+    }
+  }
+  return recording;
+}
+
+/// Pearson's correlation of a[t] and b[t + lag]; nothing with less than a second of both.
+std::optional<double> CorrelationAt(const std::vector<std::optional<double>>& a,
+                                    const std::vector<std::optional<double>>& b, long lag, double rate_hz) {
+  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+  for (long t = std::max(0L, -lag); t < static_cast<long>(a.size()) && t + lag < static_cast<long>(b.size()); ++t) {
+    const auto &x = a[static_cast<std::size_t>(t)], &y = b[static_cast<std::size_t>(t + lag)];
+    if (!x || !y) continue;
+    ++n;
+    sa += *x;
+    sb += *y;
+    saa += *x * *x;
+    sbb += *y * *y;
+    sab += *x * *y;
+  }
+  const double va = saa - sa * sa / n, vb = sbb - sb * sb / n;
+  if (n < rate_hz || va <= 0 || vb <= 0) return std::nullopt;
+  return (sab - sa * sb / n) / std::sqrt(va * vb);
+}
+
+/// The shift at which both move at the same times; at least half of the shorter one overlaps.
+double ShiftBySpeeds(const JointRecording& recording, const TwinMotion& twin) {
+  const auto a = Speeds(recording), b = Speeds(AtRate(twin, recording.rate_hz));
+  const long na = static_cast<long>(a.size()), nb = static_cast<long>(b.size()), least = std::min(na, nb) / 2;
+  double best = -2;
+  long best_lag = 0;
+  for (long lag = least - na; lag <= nb - least; ++lag) {
+    const auto correlation = CorrelationAt(a, b, lag, recording.rate_hz);
+    if (correlation && *correlation > best) {
+      best = *correlation;
+      best_lag = lag;
+    }
+  }
+  return static_cast<double>(best_lag) / recording.rate_hz;
+}
+
+bool IsEnough(const std::vector<Pair>& pairs, const JointRecording& recording, std::size_t stride) {
+  std::array<bool, kRoleCount> seen{};
+  for (const Pair& pair : pairs) seen[pair.joint] = true;
+  const auto joints = std::count(seen.begin(), seen.end(), true);
+  return joints >= 3 && static_cast<double>(pairs.size() * stride) >= recording.rate_hz * static_cast<double>(joints);
+}
+
+constexpr int kTurnsOfSearch = 8, kTurnsAtEnd = 200;
+
+/// The best of the shifts from `centre - reach` to `centre + reach`.
+std::optional<TwinAlignment> BestShift(const JointRecording& recording, const TwinMotion& twin,
+                                       const TwinAlignment& start, double reach_s, double step_s) {
+  constexpr std::size_t kFramesOfSearch = 150;
+  const std::size_t stride = std::max<std::size_t>(1, recording.frames.size() / kFramesOfSearch);
+  std::optional<TwinAlignment> best;
+  const long steps = std::lround(reach_s / step_s);
+  for (long i = -steps; i <= steps; ++i) {
+    TwinAlignment tried = start;
+    tried.shift_s = start.shift_s + static_cast<double>(i) * step_s;
+    const auto pairs = PairsAt(recording, twin, tried.shift_s, stride);
+    if (!IsEnough(pairs, recording, stride)) continue;
+    Settle(pairs, kTurnsOfSearch, tried);
+    if (!best || tried.rms_m < best->rms_m) best = tried;
+  }
+  return best;
+}
+
+std::optional<TwinMatch> Finish(const JointRecording& recording, const TwinMotion& twin, TwinAlignment alignment) {
+  const auto pairs = PairsAt(recording, twin, alignment.shift_s, 1);
+  if (!IsEnough(pairs, recording, 1)) return std::nullopt;
+  Settle(pairs, kTurnsAtEnd, alignment);
+  TwinMatch match{.alignment = alignment, .truth = {}};
+  for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+    const auto carriers = CarriersAt(twin, static_cast<double>(t) / recording.rate_hz + alignment.shift_s);
+    RolePlaces& places = match.truth.emplace_back();
+    for (const Role role : AllRoles()) places[Index(role)] = alignment.JointAt(carriers[Index(role)], role);
+  }
+  return match;
+}
+
+}  // namespace
+
+std::optional<glm::dvec3> TwinAlignment::JointAt(const std::optional<Carrier>& carrier, Role role) const {
+  const auto& offset = offsets[Index(role)];
+  if (!carrier || !offset) return std::nullopt;
+  return R_ST * (carrier->position + carrier->rotation * *offset) + p_ST;
+}
+
+std::optional<TwinMatch> AlignTwin(const JointRecording& recording, const TwinMotion& twin) {
+  if (recording.frames.empty() || twin.frames.empty()) return std::nullopt;
+  TwinAlignment start;
+  start.shift_s = ShiftBySpeeds(recording, twin);
+  const double frame_s = 1 / recording.rate_hz;
+  const auto coarse = BestShift(recording, twin, start, 6 * frame_s, frame_s);
+  if (!coarse) return std::nullopt;
+  return RealignTwin(recording, twin, *coarse, 1.5 * frame_s);
+}
+
+std::optional<TwinMatch> RealignTwin(const JointRecording& recording, const TwinMotion& twin,
+                                     const TwinAlignment& start, double most_shift_s) {
+  const double frame_s = 1 / recording.rate_hz;
+  const auto near = BestShift(recording, twin, start, most_shift_s, 0.5 * frame_s);
+  if (!near) return std::nullopt;
+  const auto fine = BestShift(recording, twin, *near, 0.4 * frame_s, 0.1 * frame_s);
+  return Finish(recording, twin, fine.value_or(*near));
+}
+
+}  // namespace etude

@@ -1,0 +1,170 @@
+#include "bench/sensor_fit/recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/number_rows.h"
+#include "engine/formats/rigid_targets.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// Which target carries each role's joint: a target near the joint, on one of the bones that end in it.
+using T = BodyTarget;
+constexpr std::array<BodyTarget, kRoleCount> kTargetOfRole = {
+    T::kHips,       T::kChest,        T::kChest,        T::kHead,        // trunk and head
+    T::kLeftArm,    T::kLeftForearm,  T::kLeftForearm,  T::kLeftHand,    // left arm
+    T::kRightArm,   T::kRightForearm, T::kRightForearm, T::kRightHand,   // right arm
+    T::kLeftThigh,  T::kLeftTibia,    T::kLeftTibia,    T::kLeftFoot,    // left leg
+    T::kRightThigh, T::kRightTibia,   T::kRightTibia,   T::kRightFoot};  // right leg
+
+/// Joint files have a line of headings.
+bool IsJointCsv(std::string_view text) {
+  return text.substr(0, text.find('\n')).find("_x_m") != std::string_view::npos;
+}
+
+TwinMotion TwinOfTargets(const std::vector<TargetFrame>& targets) {
+  TwinMotion twin;
+  twin.frames.resize(targets.size());
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const auto& target = targets[t][static_cast<std::size_t>(kTargetOfRole[j])];
+      if (target) twin.frames[t][j] = Carrier{target->position, target->rotation};
+    }
+  }
+  return twin;
+}
+
+/// How a body without orientations is turned: its trunk, and each limb as the trunk would have to swing to follow it.
+class BoneFrames {
+ public:
+  explicit BoneFrames(const RolePlaces& places) : places_(places) {
+    if (const auto across = Between(kRightHip, kLeftHip), up = Between(kHipCentre, kShoulderCentre); across && up) {
+      const glm::dvec3 y = glm::normalize(*up);
+      const glm::dvec3 off = *across - glm::dot(*across, y) * y;
+      if (glm::length(off) > 1e-6) {
+        const glm::dvec3 x = glm::normalize(off);
+        trunk_ = glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y)));
+      }
+    }
+  }
+
+  std::optional<Carrier> Of(Role role) const {
+    const auto& place = places_[Index(role)];
+    if (!place || !trunk_) return std::nullopt;
+    const auto parent = ParentOf(role);
+    const Region region = RegionOf(role);
+    if (!parent || region == Region::kTrunk) return Carrier{*place, *trunk_};
+    const auto bone = Between(*parent, role);
+    if (!bone) return std::nullopt;
+    // Where the limb points most of the time, seen from the trunk: the swing has no answer opposite to it.
+    const double side = RoleName(role).starts_with("left") ? 1 : -1;
+    const glm::dvec3 usual =
+        glm::normalize(region == Region::kArm ? glm::dvec3(side, -0.4, 0.5) : glm::dvec3(0, -1, 0.2));
+    return Carrier{*place, Swing(*trunk_ * usual, glm::normalize(*bone)) * *trunk_};
+  }
+
+ private:
+  enum class Region { kTrunk, kArm, kLeg };
+
+  static Region RegionOf(Role role) {
+    if (role <= kLeftShoulder || role == kRightShoulder || role == kLeftHip || role == kRightHip) {
+      return Region::kTrunk;
+    }
+    return role < kLeftHip ? Region::kArm : Region::kLeg;
+  }
+
+  static glm::dquat Swing(const glm::dvec3& from, const glm::dvec3& to) {
+    const double cosine = glm::dot(from, to);
+    if (cosine < -0.999999) return {1, 0, 0, 0};
+    return glm::normalize(glm::dquat(1 + cosine, glm::cross(from, to)));
+  }
+
+  std::optional<glm::dvec3> Between(Role from, Role to) const {
+    const auto &a = places_[Index(from)], &b = places_[Index(to)];
+    if (!a || !b || *a == *b) return std::nullopt;
+    return *b - *a;
+  }
+
+  const RolePlaces& places_;
+  std::optional<glm::dquat> trunk_;
+};
+
+TwinMotion TwinOfJoints(const JointCsv& csv) {
+  TwinMotion twin;
+  for (const RolePlaces& places : csv.frames) {
+    const BoneFrames bones(places);
+    auto& frame = twin.frames.emplace_back();
+    for (const Role role : AllRoles()) frame[Index(role)] = bones.Of(role);
+  }
+  return twin;
+}
+
+/// The usual rate at which so many frames last `seconds` most nearly.
+double UsualRate(std::size_t frames, double seconds) {
+  double best = 60, best_error = 1e300;
+  for (const double rate : {30.0, 50.0, 60.0, 100.0, 120.0, 200.0, 240.0}) {
+    const double error = std::abs(std::log(static_cast<double>(frames) / rate / seconds));
+    if (error < best_error) {
+      best = rate;
+      best_error = error;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<JointRecording> ReadJointRecording(std::string_view text, const std::string& file,
+                                          std::optional<double> rate_hz) {
+  JointRecording recording;
+  if (IsJointCsv(text)) {
+    ASSIGN_OR_RETURN(auto csv, ReadJointCsv(text, file));
+    recording.frames = std::move(csv.frames);
+    recording.rate_hz = rate_hz.value_or(csv.rate_hz.value_or(kJudgedRateHz));
+  } else {
+    ASSIGN_OR_RETURN(const auto frames, ReadKinectV2Text(text, file));
+    for (const KinectV2Frame& frame : frames) recording.frames.push_back(PlacesOf(frame));
+    recording.rate_hz = rate_hz.value_or(kJudgedRateHz);
+    recording.sensor_at = glm::dvec3(0);
+  }
+  return recording;
+}
+
+Result<TwinMotion> ReadTwinMotion(std::string_view text, const std::string& file, std::optional<double> rate_hz,
+                                  double seconds) {
+  if (IsJointCsv(text)) {
+    ASSIGN_OR_RETURN(const auto csv, ReadJointCsv(text, file));
+    TwinMotion twin = TwinOfJoints(csv);
+    twin.rate_hz = rate_hz ? *rate_hz : csv.rate_hz ? *csv.rate_hz : UsualRate(twin.frames.size(), seconds);
+    return twin;
+  }
+  ASSIGN_OR_RETURN(const auto targets, ReadRigidTargets(text, file));
+  TwinMotion twin = TwinOfTargets(targets);
+  twin.rate_hz = rate_hz.value_or(UsualRate(twin.frames.size(), seconds));
+  return twin;
+}
+
+JointRecording Part(const JointRecording& recording, std::size_t begin, std::size_t end) {
+  JointRecording part{.rate_hz = recording.rate_hz, .frames = {}, .sensor_at = recording.sensor_at};
+  for (std::size_t t = begin; t < std::min(end, recording.frames.size()); ++t) {
+    part.frames.push_back(recording.frames[t]);
+  }
+  return part;
+}
+
+JointRecording RecordingOf(const SkeletonStream& stream, const glm::dvec3& sensor_at) {
+  JointRecording recording{.rate_hz = stream.rate_hz, .frames = {}, .sensor_at = sensor_at};
+  for (const SensedFrame& frame : stream.frames) {
+    RolePlaces& places = recording.frames.emplace_back();
+    for (const Role role : AllRoles()) {
+      if (frame[role].state != TrackingState::kNotTracked) places[Index(role)] = frame[role].position;
+    }
+  }
+  return recording;
+}
+
+}  // namespace etude

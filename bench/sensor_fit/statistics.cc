@@ -1,0 +1,258 @@
+#include "bench/sensor_fit/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// The errors of one joint where both systems saw it, and the frames.
+struct ErrorSeries {
+  std::vector<glm::dvec3> errors;
+  std::vector<std::size_t> frames;
+
+  glm::dvec3 Mean() const {
+    glm::dvec3 sum(0);
+    for (const glm::dvec3& error : errors) sum += error;
+    return errors.empty() ? sum : sum / static_cast<double>(errors.size());
+  }
+};
+
+std::optional<glm::dvec3> ErrorAt(const JointRecording& recording, const TwinMatch& match, std::size_t t,
+                                  std::size_t j) {
+  const auto &sensed = recording.frames[t][j], &truth = match.truth[t][j];
+  if (!sensed || !truth) return std::nullopt;
+  return *sensed - *truth;
+}
+
+ErrorSeries ErrorsOf(const JointRecording& recording, const TwinMatch& match, Role role) {
+  ErrorSeries series;
+  for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+    if (const auto error = ErrorAt(recording, match, t, Index(role))) {
+      series.errors.push_back(*error);
+      series.frames.push_back(t);
+    }
+  }
+  return series;
+}
+
+/// Whether the twin's joint is at rest around a frame.
+bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, double rate_hz) {
+  constexpr std::size_t kReach = 5;
+  constexpr double kResting = 0.1;  // m/s
+  for (std::size_t t = frame - std::min(frame, kReach); t < std::min(frame + kReach, match.truth.size() - 1); ++t) {
+    const auto &a = match.truth[t][joint], &b = match.truth[t + 1][joint];
+    if (a && b && glm::distance(*a, *b) * rate_hz > kResting) return false;
+  }
+  return true;
+}
+
+double MiddleOf(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The deviation of the distance of two joints over its mean, percent.
+std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
+  std::vector<double> lengths;
+  for (const RolePlaces& places : recording.frames) {
+    if (places[Index(a)] && places[Index(b)]) lengths.push_back(glm::distance(*places[Index(a)], *places[Index(b)]));
+  }
+  if (lengths.size() < 2) return std::nullopt;
+  const auto count = static_cast<double>(lengths.size());
+  const double mean = std::accumulate(lengths.begin(), lengths.end(), 0.0) / count;
+  double squares = 0;
+  for (const double length : lengths) squares += (length - mean) * (length - mean);
+  return mean > 0 ? std::optional(100 * std::sqrt(squares / count) / mean) : std::nullopt;
+}
+
+/// |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.
+std::optional<double> SecondDifference(const JointRecording& recording, std::size_t t, std::size_t j) {
+  if (t == 0 || t + 1 >= recording.frames.size()) return std::nullopt;
+  const auto &before = recording.frames[t - 1][j], &here = recording.frames[t][j], &after = recording.frames[t + 1][j];
+  if (!before || !here || !after) return std::nullopt;
+  return glm::length(*before - 2.0 * *here + *after);
+}
+
+struct MeanOf {
+  double sum = 0, count = 0;
+  void Add(double value) {
+    sum += value;
+    ++count;
+  }
+  void Add(const std::optional<double>& value) {
+    if (value) Add(*value);
+  }
+  std::optional<double> Value() const { return count > 0 ? std::optional(sum / count) : std::nullopt; }
+  std::optional<double> Root(double scale) const {
+    return count > 0 ? std::optional(scale * std::sqrt(sum / count)) : std::nullopt;
+  }
+};
+
+void MeasureErrors(const JointRecording& recording, const TwinMatch& match, SensorStatistics& result) {
+  std::array<MeanOf, kJointGroupCount> squares;
+  MeanOf planted, shoulders_and_hips;
+  for (const Role role : AllRoles()) {
+    const ErrorSeries series = ErrorsOf(recording, match, role);
+    const JointGroup group = GroupOf(role);
+    for (std::size_t i = 0; i < series.errors.size(); ++i) {
+      const double square = glm::dot(series.errors[i], series.errors[i]);
+      squares[Index(group)].Add(square);
+      if (group == JointGroup::kShoulders || group == JointGroup::kHips) shoulders_and_hips.Add(square);
+      if (group != JointGroup::kFeet) continue;
+      if (IsPlanted(match, series.frames[i], Index(role), recording.rate_hz)) planted.Add(square);
+    }
+  }
+  for (std::size_t g = 0; g < kJointGroupCount; ++g) result.error_mm[g] = squares[g].Root(1000);
+  result.shoulders_and_hips_mm = shoulders_and_hips.Root(1000);
+  result.planted_feet_mm = planted.Root(1000);
+}
+
+void MeasureDepth(const JointRecording& recording, const TwinMatch& match, SensorStatistics& result) {
+  std::array<MeanOf, kJointGroupCount> along_squares, across_squares;
+  if (!recording.sensor_at) return;
+  for (const Role role : AllRoles()) {
+    const ErrorSeries series = ErrorsOf(recording, match, role);
+    const glm::dvec3 mean = series.Mean();
+    const std::size_t group = Index(GroupOf(role));
+    for (std::size_t i = 0; i < series.errors.size(); ++i) {
+      const glm::dvec3 from = *match.truth[series.frames[i]][Index(role)] - *recording.sensor_at;
+      if (from == glm::dvec3(0)) continue;
+      const glm::dvec3 error = series.errors[i] - mean;
+      const double along = glm::dot(error, glm::normalize(from));
+      along_squares[group].Add(along * along);
+      across_squares[group].Add(0.5 * (glm::dot(error, error) - along * along));
+    }
+  }
+  for (std::size_t g = 0; g < kJointGroupCount; ++g) {
+    const auto along = along_squares[g].Root(1), across = across_squares[g].Root(1);
+    if (along && *across > 0) result.depth_ratio[g] = *along / *across;
+  }
+}
+
+void MeasureCorrelations(const JointRecording& recording, const TwinMatch& match, SensorStatistics& result) {
+  struct Sums {
+    double both = 0, first = 0, second = 0;
+  };
+  std::array<Sums, kBoneKindCount> all_sums{};
+  for (const Bone& bone : AllBones()) {
+    ErrorSeries parent, child;  // frames in which both were seen
+    for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+      const auto a = ErrorAt(recording, match, t, Index(bone.parent));
+      const auto b = ErrorAt(recording, match, t, Index(bone.child));
+      if (!a || !b) continue;
+      parent.errors.push_back(*a);
+      child.errors.push_back(*b);
+    }
+    const glm::dvec3 mean_parent = parent.Mean(), mean_child = child.Mean();
+    Sums& sums = all_sums[Index(BoneKindOf(bone.child))];
+    for (std::size_t i = 0; i < parent.errors.size(); ++i) {
+      const glm::dvec3 a = parent.errors[i] - mean_parent, b = child.errors[i] - mean_child;
+      sums.both += glm::dot(a, b);
+      sums.first += glm::dot(a, a);
+      sums.second += glm::dot(b, b);
+    }
+  }
+  for (std::size_t b = 0; b < kBoneKindCount; ++b) {
+    const Sums& sums = all_sums[b];
+    if (sums.first > 0 && sums.second > 0) result.correlation[b] = sums.both / std::sqrt(sums.first * sums.second);
+  }
+}
+
+void MeasureQuiet(const JointRecording& recording, SensorStatistics& result) {
+  MeanOf white;
+  constexpr std::size_t kReach = 5, kFewest = 20;
+  constexpr double kQuiet = 0.005;
+  // The middle length of a vector of three independent normal values with variance 6 each (1, −2, 1).
+  const double middle_length = 1.5381722544550522 * std::sqrt(6.0);
+  for (const Role role : AllRoles()) {
+    if (GroupOf(role) != JointGroup::kTorso) continue;
+    const std::size_t j = Index(role);
+    std::vector<double> lengths;
+    for (std::size_t t = kReach; t + kReach < recording.frames.size(); ++t) {
+      const auto &before = recording.frames[t - kReach][j], &after = recording.frames[t + kReach][j];
+      if (!before || !after || glm::distance(*before, *after) > kQuiet) continue;
+      if (const auto difference = SecondDifference(recording, t, j)) lengths.push_back(*difference);
+    }
+    if (lengths.size() >= kFewest) white.Add(1000 * MiddleOf(lengths) / middle_length);
+  }
+  result.quiet_white_mm = white.Value();
+}
+
+void MeasureBones(const JointRecording& recording, SensorStatistics& result) {
+  MeanOf arms, legs, hands;
+  for (const Bone& bone : AllBones()) {
+    const auto variation = Variation(recording, bone.parent, bone.child);
+    const BoneKind kind = BoneKindOf(bone.child);
+    if (kind == BoneKind::kUpperArm || kind == BoneKind::kForearm) arms.Add(variation);
+    if (kind == BoneKind::kThigh || kind == BoneKind::kShank) legs.Add(variation);
+    if (kind == BoneKind::kHand) hands.Add(variation);
+  }
+  result.arm_bones_percent = arms.Value();
+  result.leg_bones_percent = legs.Value();
+  result.hand_bones_percent = hands.Value();
+  result.shoulder_width_percent = Variation(recording, kLeftShoulder, kRightShoulder);
+}
+
+void MeasureJumps(const JointRecording& recording, SensorStatistics& result) {
+  std::vector<double> jumps;
+  for (const Role role : {kLeftHand, kRightHand}) {
+    for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+      if (const auto difference = SecondDifference(recording, t, Index(role))) jumps.push_back(*difference);
+    }
+  }
+  if (jumps.empty()) return;
+  const auto at = jumps.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(jumps.size() - 1) * 0.99);
+  std::nth_element(jumps.begin(), at, jumps.end());
+  result.hand_jump_cm = 100 * *at;
+}
+
+/// Every value of some statistics, in one order.
+std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
+  std::vector<std::optional<double>*> values = {
+      &s.shoulders_and_hips_mm, &s.planted_feet_mm,        &s.quiet_white_mm,     &s.arm_bones_percent,
+      &s.leg_bones_percent,     &s.shoulder_width_percent, &s.hand_bones_percent, &s.hand_jump_cm};
+  for (auto& value : s.error_mm) values.push_back(&value);
+  for (auto& value : s.depth_ratio) values.push_back(&value);
+  for (auto& value : s.correlation) values.push_back(&value);
+  return values;
+}
+
+}  // namespace
+
+SensorStatistics StatisticsOf(const JointRecording& recording, const TwinMatch* match) {
+  SensorStatistics result;
+  if (match != nullptr) {
+    MeasureErrors(recording, *match, result);
+    MeasureDepth(recording, *match, result);
+    MeasureCorrelations(recording, *match, result);
+  }
+  MeasureQuiet(recording, result);
+  MeasureBones(recording, result);
+  MeasureJumps(recording, result);
+  return result;
+}
+
+SensorStatisticsSummary Summarise(const std::vector<SensorStatistics>& recordings) {
+  SensorStatisticsSummary summary;
+  const auto means = ValuesOf(summary.mean), deviations = ValuesOf(summary.deviation);
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    MeanOf mean, square;
+    for (SensorStatistics recording : recordings) {
+      const auto value = *ValuesOf(recording)[i];
+      mean.Add(value);
+      if (value) square.Add(*value * *value);
+    }
+    *means[i] = mean.Value();
+    if (mean.count < 2) continue;
+    const double variance = (square.sum - mean.sum * mean.sum / mean.count) / (mean.count - 1);
+    *deviations[i] = std::sqrt(std::max(0.0, variance));
+  }
+  return summary;
+}
+
+}  // namespace etude

@@ -1,0 +1,50 @@
+#include "engine/formats/kinect_text.h"
+
+#include <cmath>
+
+#include "engine/formats/number_rows.h"
+
+namespace etude {
+namespace {
+
+/// The number of each role's joint in the SDK's JointType, in the order of the roles.
+constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  20, 3,                   // trunk and head
+                                                              4,  5,  6,  7,  8,  9,  10, 11,  // arms
+                                                              12, 13, 14, 15, 16, 17, 18, 19};
+constexpr std::size_t kPlaceColumns = 3 * kKinectV2JointCount;
+constexpr std::size_t kPoseColumns = 7 * kKinectV2JointCount;
+constexpr double kFarthest = 20;  // metres: a Kinect sees 4.5
+
+}  // namespace
+
+Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file));
+  if (table.columns != kPlaceColumns && table.columns != kPoseColumns) {
+    return Fail({file}, "{} values in a row; a Kinect v2 recording has {} (x y z) or {} (x y z and a quaternion)",
+                table.columns, kPlaceColumns, kPoseColumns);
+  }
+  const std::size_t stride = table.columns / kKinectV2JointCount;
+  std::vector<KinectV2Frame> frames(table.RowCount());
+  for (std::size_t t = 0; t < frames.size(); ++t) {
+    const auto row = table.Row(t);
+    for (std::size_t j = 0; j < kKinectV2JointCount; ++j) {
+      const glm::dvec3 place(row[stride * j], row[stride * j + 1], row[stride * j + 2]);
+      if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0)) continue;
+      if (glm::length(place) > kFarthest) {
+        return Fail({file, table.lines[t]},
+                    "joint {} is {:.1f} away; allowed: places in metres, at most {} m from the sensor", j,
+                    glm::length(place), kFarthest);
+      }
+      frames[t][j] = place;
+    }
+  }
+  return frames;
+}
+
+RolePlaces PlacesOf(const KinectV2Frame& frame) {
+  RolePlaces places;
+  for (std::size_t i = 0; i < kRoleCount; ++i) places[i] = frame[kJointOfRole[i]];
+  return places;
+}
+
+}  // namespace etude

@@ -1,0 +1,95 @@
+#include "engine/formats/number_rows.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "engine/base/names.h"
+
+namespace etude {
+namespace {
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLargestCell = 1e9;
+
+bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool IsComma(char c) { return c == ',' || c == ';'; }
+
+std::string_view Trimmed(std::string_view text) {
+  while (!text.empty() && IsRowBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && IsRowBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The words of one line; commas may leave some empty, blanks never do.
+std::vector<std::string_view> WordsOf(std::string_view line) {
+  std::vector<std::string_view> words;
+  const bool by_comma = line.find_first_of(",;") != std::string_view::npos;
+  std::size_t start = 0;
+  for (std::size_t i = 0; i <= line.size(); ++i) {
+    if (i < line.size() && !(by_comma ? IsComma(line[i]) : IsRowBlank(line[i]))) continue;
+    const std::string_view word = Trimmed(line.substr(start, i - start));
+    if (by_comma || !word.empty()) words.push_back(word);
+    start = i + 1;
+  }
+  if (by_comma && !words.empty() && words.back().empty()) words.pop_back();  // "1,2,3,"
+  return words;
+}
+
+bool MeansMissing(std::string_view word) {
+  constexpr std::string_view kNan = "nan";
+  if (word.empty()) return true;
+  const auto same = [](char a, char b) { return (a | 0x20) == b; };
+  return std::ranges::equal(word, kNan, same) || (word[0] == '-' && std::ranges::equal(word.substr(1), kNan, same));
+}
+
+std::optional<double> NumberOf(std::string_view word) {
+  if (MeansMissing(word)) return kMissing;
+  if (word.front() == '+') word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('#') || line.starts_with("//"); }
+
+}  // namespace
+
+Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file) {
+  if (text.size() > kLargestNumberText) {
+    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  NumberRows table;
+  for (int line_number = 1; !text.empty(); ++line_number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = Trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (IsRemark(line)) continue;
+    const std::vector<std::string_view> words = WordsOf(line);
+    if (table.columns == 0 && table.heading.empty() && !NumberOf(words.front())) {
+      table.heading = line;
+      continue;
+    }
+    if (table.columns == 0) table.columns = words.size();
+    if (words.size() != table.columns) {
+      return Fail({file, line_number}, "{} values; the rows before have {}", words.size(), table.columns);
+    }
+    table.lines.push_back(line_number);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const auto value = NumberOf(words[i]);
+      if (!value || std::abs(*value) > kLargestCell) {
+        return Fail({file, line_number}, "value {}: {}; allowed: a number, or nan for a missing one", i + 1,
+                    Quote(words[i]));
+      }
+      table.values.push_back(*value);
+    }
+  }
+  if (table.columns == 0) return Fail({file}, "no rows of numbers");
+  return table;
+}
+
+}  // namespace etude

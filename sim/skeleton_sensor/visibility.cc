@@ -1,0 +1,41 @@
+#include "sim/skeleton_sensor/visibility.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "sim/body/shape.h"
+
+namespace etude {
+namespace {
+
+/// How far from `eye` the ray to `joint` meets furniture or the second person.
+double NearestOccluder(const std::vector<Box>& furniture, const std::vector<Capsule>& bystander,
+                       const glm::dvec3& joint, const glm::dvec3& eye) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const double distance = glm::distance(joint, eye);
+  if (distance == 0) return nearest;
+  const glm::dvec3 direction = (joint - eye) / distance;
+  for (const Box& box : furniture) nearest = std::min(nearest, HitDistance(box, eye, direction));
+  for (const Capsule& capsule : bystander) nearest = std::min(nearest, HitDistance(capsule, eye, direction));
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<HiddenJoints> FindHidden(const BodyMotion& truth, const Occluders& occluders, const glm::dvec3& eye) {
+  std::vector<HiddenJoints> hidden(truth.poses.size());
+  std::vector<Capsule> bystander;
+  for (std::size_t t = 0; t < truth.poses.size(); ++t) {
+    const BodyPose& pose = truth.poses[t];
+    const std::vector<Capsule> flesh = BodyCapsules(pose);
+    if (t < occluders.bystander.size()) bystander = BodyCapsules(occluders.bystander[t]);
+    for (const Role role : AllRoles()) {
+      const JointSight sight = SightOf(flesh, pose, role, eye);
+      const double other = std::min(sight.other, NearestOccluder(occluders.furniture, bystander, pose[role], eye));
+      hidden[t][Index(role)] = other < sight.skin - kHidingClearance;
+    }
+  }
+  return hidden;
+}
+
+}  // namespace etude

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/motion/body.h"
+#include "sim/body/box.h"
+
+namespace etude {
+
+/// Which joints of one frame are hidden.
+using HiddenJoints = std::array<bool, kRoleCount>;
+
+/// What may stand between a sensor and the body, beside the body itself.
+struct Occluders {
+  std::vector<Box> furniture;
+  std::vector<BodyPose> bystander;  ///< a second person: a pose per frame (the last one stays), none = nobody
+};
+
+/// Which joints `eye` does not see, per frame: the ray to the joint meets another part of the body, furniture or the
+/// second person clearly (2 cm) before the joint's own skin. The flesh is what the renderer draws (sim/body).
+std::vector<HiddenJoints> FindHidden(const BodyMotion& truth, const Occluders& occluders, const glm::dvec3& eye);
+
+}  // namespace etude

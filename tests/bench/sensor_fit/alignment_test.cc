@@ -1,0 +1,76 @@
+#include "bench/sensor_fit/alignment.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bench/sensor_fit/small_recording.h"
+
+namespace etude {
+namespace {
+
+TEST(AlignTwin, FindsShiftRotationAndOffsetsOfAPerfectRecording) {
+  const TwinMotion twin = DancingTwin(9);
+  const MadeUp made;
+  const auto match = AlignTwin(PerfectRecording(twin, 7, made), twin);
+  ASSERT_TRUE(match);
+  EXPECT_NEAR(match->alignment.shift_s, made.shift_s, 1e-6);
+  EXPECT_LT(match->alignment.rms_m, 1e-4);
+  const glm::dmat3 expected = glm::mat3_cast(made.rotation);
+  for (int c = 0; c < 3; ++c) EXPECT_LT(glm::length(match->alignment.R_ST[c] - expected[c]), 2e-3);
+  // The truth it gives is the recording itself.
+  const JointRecording recording = PerfectRecording(twin, 7, made);
+  double worst = 0;
+  for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      worst = std::max(worst, glm::distance(*recording.frames[t][j], *match->truth[t][j]));
+    }
+  }
+  EXPECT_LT(worst, 1e-3);
+}
+
+TEST(AlignTwin, LeavesWhatTheSensorErrs) {
+  const TwinMotion twin = DancingTwin(9);
+  JointRecording recording = PerfectRecording(twin, 7, {});
+  RandomStream dice({.suite_seed = 1, .scenario = "align", .trial = 0}, "noise");
+  double squares = 0, count = 0;
+  for (RolePlaces& places : recording.frames) {
+    for (auto& place : places) {
+      const glm::dvec3 error = 0.02 * dice.Normal3();
+      *place += error;
+      squares += glm::dot(error, error);
+      ++count;
+    }
+  }
+  const auto match = AlignTwin(recording, twin);
+  ASSERT_TRUE(match);
+  EXPECT_NEAR(match->alignment.rms_m, std::sqrt(squares / count), 0.0005);
+}
+
+TEST(AlignTwin, TakesJointsThatAreMissingNowAndThenOrAlways) {
+  const TwinMotion twin = DancingTwin(9);
+  JointRecording recording = PerfectRecording(twin, 7, {});
+  for (std::size_t t = 0; t < recording.frames.size(); ++t) {
+    recording.frames[t][Index(Role::kHead)].reset();
+    if (t % 3 == 0) recording.frames[t][Index(Role::kLeftHand)].reset();
+    if (t > 50 && t < 70) recording.frames[t] = {};
+  }
+  const auto match = AlignTwin(recording, twin);
+  ASSERT_TRUE(match);
+  EXPECT_LT(match->alignment.rms_m, 1e-4);
+  EXPECT_FALSE(match->alignment.offsets[Index(Role::kHead)]);
+  EXPECT_FALSE(match->truth[10][Index(Role::kHead)]);
+}
+
+TEST(AlignTwin, SaysNothingOfRecordingsThatShareTooLittle) {
+  const TwinMotion twin = DancingTwin(9);
+  JointRecording few = PerfectRecording(twin, 7, {});
+  for (RolePlaces& places : few.frames) {
+    for (std::size_t j = 2; j < kRoleCount; ++j) places[j].reset();
+  }
+  EXPECT_FALSE(AlignTwin(few, twin));
+  EXPECT_FALSE(AlignTwin(Part(PerfectRecording(twin, 7, {}), 0, 20), twin));
+  EXPECT_FALSE(AlignTwin({}, twin));
+  EXPECT_FALSE(AlignTwin(PerfectRecording(twin, 7, {}), {}));
+}
+
+}  // namespace
+}  // namespace etude

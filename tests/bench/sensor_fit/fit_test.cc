@@ -1,0 +1,86 @@
+#include "bench/sensor_fit/fit.h"
+
+#include <gtest/gtest.h>
+
+#include "bench/sensor_fit/table.h"
+#include "sim/skeleton_sensor/sensor_file.h"
+#include "tests/bench/sensor_fit/small_recording.h"
+
+// A sensor is recovered from what it was seen to do: recordings are simulated with a sensor that the fit does not know.
+
+namespace etude {
+namespace {
+
+/// A sensor unlike both presets.
+SkeletonSensorOptions Unknown() {
+  SkeletonSensorOptions sensor = SensorV2();
+  sensor[JointGroup::kTorso].size = 0.015;
+  sensor[JointGroup::kElbows].size = 0.06;
+  sensor[JointGroup::kKnees].size = 0.05;
+  sensor[JointGroup::kKnees].depth_ratio = 2.2;
+  sensor.correlation.fill(0.2);
+  sensor.correlation[Index(BoneKind::kForearm)] = -0.3;
+  return sensor;
+}
+
+/// One recording by that sensor, of a dance before it.
+std::optional<RealRecording> Recorded(const SkeletonSensorOptions& sensor, const TwinMotion& twin) {
+  // Facing the sensor, as a Kinect's own space has it: Z away from it.
+  MadeUp made{.rotation = glm::angleAxis(3.14159265358979, glm::dvec3(0, 1, 0)), .translation = {0, -1, 2.9}};
+  auto perfect = MakeRealRecording(PerfectRecording(twin, 7, made), twin);
+  if (!perfect) return std::nullopt;
+  const JointRecording sensed = Simulate(*perfect, sensor, {.suite_seed = 5, .scenario = "unknown-sensor", .trial = 0});
+  return MakeRealRecording(sensed, twin);
+}
+
+constexpr WorldKey kOtherDice{.suite_seed = 9, .scenario = "held-out", .trial = 0};
+
+TEST(FitSensor, GivesASensorWhoseRecordingsHaveTheRealOnesStatistics) {
+  const auto real = Recorded(Unknown(), DancingTwin(9));
+  ASSERT_TRUE(real);
+  const SensorFitOptions options{.start = SensorV2(), .worlds = 10, .steps = 6, .progress = {}};
+  const SkeletonSensorOptions fitted = FitSensor(*real, options);
+  const SensorStatistics measured = StatisticsOf(*real);
+  const auto agreement = [&](const SkeletonSensorOptions& sensor) {
+    return AgreementOf(measured, SimulatedStatistics(*real, sensor, 12, kOtherDice).mean);
+  };
+  const Agreement after = agreement(fitted), before = agreement(options.start);
+  EXPECT_EQ(after.compared, before.compared);
+  EXPECT_GE(after.within, after.compared * 8 / 10);
+  EXPECT_LE(before.within, after.within - 5);  // the control: without the fit it does not
+}
+
+TEST(FitSensor, IsTheSameEveryTime) {
+  const auto real = Recorded(Unknown(), DancingTwin(9));
+  ASSERT_TRUE(real);
+  const SensorFitOptions options{.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}};
+  EXPECT_EQ(WriteSensorFile(FitSensor(*real, options), "v2"), WriteSensorFile(FitSensor(*real, options), "v2"));
+}
+
+TEST(FitSensor, KeepsWhatTheRecordingDoesNotShow) {
+  auto real = Recorded(Unknown(), DancingTwin(9));
+  ASSERT_TRUE(real);
+  for (RolePlaces& places : real->recording.frames) {
+    places[Index(Role::kLeftKnee)].reset();
+    places[Index(Role::kRightKnee)].reset();
+  }
+  auto kneeless = MakeRealRecording(real->recording, real->twin);
+  ASSERT_TRUE(kneeless);
+  const SkeletonSensorOptions fitted =
+      FitSensor(*kneeless, {.start = SensorV2(), .worlds = 3, .steps = 2, .progress = {}});
+  EXPECT_EQ(fitted[JointGroup::kKnees].size, SensorV2()[JointGroup::kKnees].size);
+  EXPECT_EQ(fitted.correlation[Index(BoneKind::kShank)], SensorV2().correlation[Index(BoneKind::kShank)]);
+  EXPECT_NE(fitted[JointGroup::kTorso].size, SensorV2()[JointGroup::kTorso].size);
+}
+
+TEST(Simulate, AtStrengthZeroSaysTheTwinItself) {
+  const auto real = Recorded(Unknown(), DancingTwin(9, 0.2, {"clap"}));
+  ASSERT_TRUE(real);
+  SkeletonSensorOptions perfect = SensorV2();
+  perfect.strength = 0;
+  const SensorStatistics statistics = SimulatedStatistics(*real, perfect, 1, kOtherDice).mean;
+  for (const auto& error : statistics.error_mm) EXPECT_LT(*error, 2);
+}
+
+}  // namespace
+}  // namespace etude

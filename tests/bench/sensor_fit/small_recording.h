@@ -1,0 +1,61 @@
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "bench/sensor_fit/simulated.h"
+#include "sim/choreography/move.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+
+/// How a sensor's space lies to an optical system's, for recordings made up by tests.
+struct MadeUp {
+  glm::dquat rotation = glm::normalize(glm::dquat(0.3, 0.5, -0.7, 0.2));
+  glm::dvec3 translation{0.4, -0.3, 2.9};
+  double shift_s = 0.35;  ///< the recording's time 0 is this time of the twin
+};
+
+/// A dance seen by an optical system at 60 Hz: the joints' carriers turn with time, each in its own way.
+inline TwinMotion DancingTwin(double seconds, double tempo = 1,
+                              std::initializer_list<const char*> moves = {"boxing", "side_kick", "clap"}) {
+  BodyMotion motion;
+  for (const char* name : moves) {
+    const Move move = *LoadBuiltinMove(name);
+    motion.poses.insert(motion.poses.end(), move.motion.poses.begin(), move.motion.poses.end());
+  }
+  TwinMotion twin{.rate_hz = 60, .frames = {}};
+  for (double t = 0; t < seconds; t += 1.0 / 60) {
+    const double frame = std::fmod(tempo * t * motion.rate_hz, static_cast<double>(motion.poses.size() - 1));
+    const auto before = static_cast<std::size_t>(frame);
+    auto& carriers = twin.frames.emplace_back();
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const glm::dvec3 place = glm::mix(motion.poses[before].joints[j], motion.poses[before + 1].joints[j],
+                                        frame - static_cast<double>(before));
+      const double angle = 0.8 * std::sin(t + static_cast<double>(j));
+      carriers[j] = Carrier{place, glm::angleAxis(angle, glm::normalize(glm::dvec3(1, 2, static_cast<double>(j) - 9)))};
+    }
+  }
+  return twin;
+}
+
+/// Where each joint sits in its carrier.
+inline glm::dvec3 OffsetOf(std::size_t joint) {
+  const auto j = static_cast<double>(joint);
+  return {0.02 * std::sin(j), 0.03 * std::cos(2 * j), 0.01 * std::sin(3 * j)};
+}
+
+/// What a perfect sensor at 30 Hz says of it, in its own space.
+inline JointRecording PerfectRecording(const TwinMotion& twin, double seconds, const MadeUp& made) {
+  JointRecording recording{.rate_hz = 30, .frames = {}, .sensor_at = glm::dvec3(0)};
+  for (double t = 0; t < seconds; t += 1.0 / 30) {
+    const auto frame = static_cast<std::size_t>(std::lround((t + made.shift_s) * twin.rate_hz));
+    RolePlaces& places = recording.frames.emplace_back();
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const Carrier& carrier = *twin.frames[frame][j];
+      places[j] = made.rotation * (carrier.position + carrier.rotation * OffsetOf(j)) + made.translation;
+    }
+  }
+  return recording;
+}
+
+}  // namespace etude

@@ -1,0 +1,81 @@
+#include "engine/formats/kinect_text.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace etude {
+namespace {
+
+/// A row in which joint j is at (j + 1, 0.5, 2), with or without quaternions.
+std::string Row(int frame, bool with_quaternions, const char* separator = " ") {
+  std::ostringstream row;
+  for (int j = 0; j < 25; ++j) {
+    row << (j > 0 ? separator : "") << 0.1 * (j + 1) + frame << separator << 0.5 << separator << 2;
+    if (with_quaternions) row << separator << 0 << separator << 0 << separator << 0 << separator << 1;
+  }
+  return row.str();
+}
+
+std::string ComplaintOf(const std::string& text) {
+  const auto read = ReadKinectV2Text(text, "k.txt");
+  return read ? std::string("(read)") : ToString(read.error());
+}
+
+TEST(KinectText, ReadsPlacesWithAndWithoutOrientationsAndWithAnySeparator) {
+  for (const bool quaternions : {true, false}) {
+    for (const char* separator : {" ", "\t", ",", "; "}) {
+      const auto read =
+          ReadKinectV2Text(Row(0, quaternions, separator) + "\r\n\n" + Row(1, quaternions, separator), "k.txt");
+      ASSERT_TRUE(read) << ToString(read.error());
+      ASSERT_EQ(read->size(), 2u);
+      EXPECT_EQ((*read)[1][24], glm::dvec3(3.5, 0.5, 2));
+    }
+  }
+}
+
+TEST(KinectText, GivesTheTwentyRolesOfAKinectV1) {
+  const auto read = ReadKinectV2Text(Row(0, true), "k.txt");
+  ASSERT_TRUE(read);
+  const RolePlaces places = PlacesOf((*read)[0]);
+  // By the numbers of the SDK's JointType.
+  const std::pair<Role, int> expected[] = {{Role::kHipCentre, 0},       {Role::kSpine, 1},     {Role::kHead, 3},
+                                           {Role::kShoulderCentre, 20}, {Role::kLeftHand, 7},  {Role::kRightElbow, 9},
+                                           {Role::kLeftHip, 12},        {Role::kLeftFoot, 15}, {Role::kRightKnee, 17},
+                                           {Role::kRightFoot, 19}};
+  for (const auto& [role, joint] : expected) EXPECT_NEAR(places[Index(role)]->x, 0.1 * (joint + 1), 1e-12);
+}
+
+TEST(KinectText, TakesZerosAndNanForMissingJoints) {
+  std::string row = Row(0, false);
+  row.replace(0, row.find(" 0.2 "), "0 0 0");
+  const std::size_t second = row.find("0.2 ");
+  row.replace(second, 3, "nan");
+  const auto read = ReadKinectV2Text(row, "k.txt");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_FALSE((*read)[0][0]);
+  EXPECT_FALSE((*read)[0][1]);
+  EXPECT_TRUE((*read)[0][2]);
+}
+
+TEST(KinectText, NamesTheLineOfWhatItRefuses) {
+  const std::string good = Row(0, true);
+  EXPECT_EQ(ComplaintOf(good), "(read)");
+  EXPECT_TRUE(ComplaintOf(good + "\n\n# remark\n" + good + " 5\n").starts_with("k.txt:4: 176 values"))
+      << ComplaintOf(good + "\n\n# remark\n" + good + " 5\n");
+  EXPECT_TRUE(ComplaintOf(good + "\n" + Row(0, true).replace(0, 3, "0,1")).starts_with("k.txt:2: "));
+  EXPECT_TRUE(ComplaintOf(good + "\nx" + good.substr(1)).starts_with("k.txt:2: value 1: "));
+  EXPECT_TRUE(ComplaintOf(good + "\ninf" + good.substr(3)).starts_with("k.txt:2: value 1: "));
+  EXPECT_TRUE(ComplaintOf(Row(0, true) + "\n" + Row(4000, true)).starts_with("k.txt:2: joint 0 is 4000"));
+  EXPECT_NE(ComplaintOf("1 2 3\n").find("3 values in a row; a Kinect v2 recording has 75"), std::string::npos);
+  EXPECT_EQ(ComplaintOf(""), "k.txt: no rows of numbers");
+  EXPECT_EQ(ComplaintOf("# only remarks\n"), "k.txt: no rows of numbers");
+}
+
+TEST(KinectText, RefusesTextsThatAreTooLongBeforeReadingThem) {
+  const std::string huge((std::size_t{64} << 20) + 1, '1');
+  EXPECT_NE(ComplaintOf(huge).find("allowed: at most 67108864"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace etude

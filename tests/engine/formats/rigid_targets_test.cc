@@ -1,0 +1,42 @@
+#include "engine/formats/rigid_targets.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace etude {
+namespace {
+
+/// A row in which target i is at (i, 2, 3) × `unit`, turned by `w`.
+std::string TargetRow(double unit, double w = 1) {
+  std::ostringstream row;
+  for (int i = 0; i < 17; ++i) {
+    row << (i > 0 ? " " : "") << unit * i << ' ' << unit * 2 << ' ' << unit * 3 << " 0 0 0 " << w;
+  }
+  return row.str();
+}
+
+TEST(RigidTargets, ReadsMillimetresAndMetres) {
+  for (const double unit : {1000.0, 1.0}) {
+    const auto read = ReadRigidTargets(TargetRow(unit) + "\n" + TargetRow(unit), "v.txt");
+    ASSERT_TRUE(read) << ToString(read.error());
+    ASSERT_EQ(read->size(), 2u);
+    const auto& head = (*read)[1][static_cast<std::size_t>(BodyTarget::kHead)];
+    ASSERT_TRUE(head);
+    EXPECT_NEAR(glm::distance(head->position, glm::dvec3(14, 2, 3)), 0, 1e-9);
+    EXPECT_EQ(head->rotation, glm::dquat(1, 0, 0, 0));
+  }
+}
+
+TEST(RigidTargets, TakesQuaternionsOfLengthZeroForUnseenTargetsAndRefusesOddOnes) {
+  const auto unseen = ReadRigidTargets(TargetRow(1, 0), "v.txt");
+  ASSERT_TRUE(unseen);
+  EXPECT_FALSE((*unseen)[0][3]);
+  const auto odd = ReadRigidTargets(TargetRow(1) + "\n" + TargetRow(1, 2), "v.txt");
+  ASSERT_FALSE(odd);
+  EXPECT_EQ(ToString(odd.error()), "v.txt:2: target 0: a quaternion of length 2; allowed: 1");
+  EXPECT_FALSE(ReadRigidTargets("1 2 3\n", "v.txt"));
+}
+
+}  // namespace
+}  // namespace etude
