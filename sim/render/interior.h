@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A box that stands in the room all the time, turned about the vertical; its pixels are kFurniture. As sim/body/box.h
+/// A box that stands in the room all the time, turned about the vertical; its pixels are kFurniture. As sim/body/cuboid.h
 /// has it.
 struct FurnitureBox {
   glm::dvec3 centre{0};     ///< metres

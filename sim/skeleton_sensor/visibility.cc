@@ -9,13 +9,13 @@ namespace etude {
 namespace {
 
 /// How far from `eye` the ray to `joint` meets furniture or the second person.
-double NearestOccluder(const std::vector<Box>& furniture, const std::vector<Capsule>& bystander,
+double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<Capsule>& bystander,
                        const glm::dvec3& joint, const glm::dvec3& eye) {
   double nearest = std::numeric_limits<double>::infinity();
   const double distance = glm::distance(joint, eye);
   if (distance == 0) return nearest;
   const glm::dvec3 direction = (joint - eye) / distance;
-  for (const Box& box : furniture) nearest = std::min(nearest, HitDistance(box, eye, direction));
+  for (const Cuboid& box : furniture) nearest = std::min(nearest, HitDistance(box, eye, direction));
   for (const Capsule& capsule : bystander) nearest = std::min(nearest, HitDistance(capsule, eye, direction));
   return nearest;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/motion/body.h"
-#include "sim/body/box.h"
+#include "sim/body/cuboid.h"
 
 namespace etude {
 
@@ -14,7 +14,7 @@ using HiddenJoints = std::array<bool, kRoleCount>;
 
 /// What may stand between a sensor and the body, beside the body itself.
 struct Occluders {
-  std::vector<Box> furniture;
+  std::vector<Cuboid> furniture;
   std::vector<BodyPose> bystander;  ///< a second person: a pose per frame (the last one stays), none = nobody
 };
 

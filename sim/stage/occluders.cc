@@ -2,8 +2,8 @@
 
 namespace etude {
 
-std::vector<Box> BoxesOf(const Interior& interior) {
-  std::vector<Box> boxes;
+std::vector<Cuboid> BoxesOf(const Interior& interior) {
+  std::vector<Cuboid> boxes;
   for (const FurnitureBox& piece : interior.furniture) boxes.push_back({piece.centre, piece.half_size, piece.heading});
   return boxes;
 }

@@ -51,7 +51,7 @@ MAY_INCLUDE = {
     "sim/skeleton_sensor":
         "engine/base engine/cameras engine/document engine/motion engine/recognition sim/body sim/random",
     "sim/stage":
-        "engine/base engine/cameras engine/motion sim/character sim/choreography sim/random sim/render",
+        "engine/base engine/cameras engine/motion sim/body sim/character sim/choreography sim/random sim/render",
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":

@@ -10,7 +10,7 @@ namespace etude {
 namespace {
 
 /// A box whose middle lies `ahead` metres from the performer towards the sensor and `aside` across, facing the sensor.
-Box BoxBefore(const SensorPlace& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
+Cuboid BoxBefore(const SensorPlace& sensor, double ahead, double aside, double height, const glm::dvec3& half_size) {
   const double sine = std::sin(sensor.turn), cosine = std::cos(sensor.turn);
   return {.centre = {ahead * sine + aside * cosine, height, ahead * cosine - aside * sine},
           .half_size = half_size,
@@ -20,7 +20,7 @@ Box BoxBefore(const SensorPlace& sensor, double ahead, double aside, double heig
 std::vector<BodyPose> Bystander(const SensorPlace& sensor, std::size_t frames) {
   const auto sway = LoadBuiltinMove("sway");
   assert(sway);  // built in
-  const Box place = BoxBefore(sensor, 1.2, 0.35, 0, glm::dvec3(1));
+  const Cuboid place = BoxBefore(sensor, 1.2, 0.35, 0, glm::dvec3(1));
   const FloorMove move{.yaw = sensor.turn + Radians(90), .x = place.centre.x, .z = place.centre.z};
   std::vector<BodyPose> poses;
   for (std::size_t t = 0; t < frames; ++t) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/body/box.h"
+#include "sim/body/cuboid.h"
 #include "sim/render/renderer.h"
 #include "tests/sim/render/dancer.h"
 #include "tests/sim/render/ray_caster.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto kFurnitureLabel = static_cast<std::uint32_t>(Part::kFurniture);
 
-Box AsBox(const FurnitureBox& box) { return {box.centre, box.half_size, box.heading}; }
+Cuboid AsBox(const FurnitureBox& box) { return {box.centre, box.half_size, box.heading}; }
 
 // A table before the dancer's legs, a cupboard behind, a shelf at the side, each turned otherwise.
 Interior Furnished() {
@@ -84,9 +84,8 @@ class InteriorCaster {
   bool IsInShadow(const glm::dvec3& point) const {
     const glm::dvec3 to_lamp = room_.lights.key - point;
     const double distance = glm::length(to_lamp);
-    return std::ranges::any_of(shape_, [&](const Capsule& capsule) {
-      return HitDistance(capsule, point, to_lamp / distance) < distance;
-    });
+    return std::ranges::any_of(
+        shape_, [&](const Capsule& capsule) { return HitDistance(capsule, point, to_lamp / distance) < distance; });
   }
 
   const Camera& camera_;

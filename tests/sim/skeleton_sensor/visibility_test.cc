@@ -48,7 +48,7 @@ const std::map<Role, std::set<Part>>& OwnParts() {
   return own;
 }
 
-Surface SurfaceOf(const Box& box) {
+Surface SurfaceOf(const Cuboid& box) {
   Surface surface;
   const glm::dvec3 x(std::cos(box.heading), 0, -std::sin(box.heading)), y(0, 1, 0),
       z(std::sin(box.heading), 0, std::cos(box.heading));
@@ -102,7 +102,8 @@ void CompareWithPictures(Renderer& renderer, const BodyPose& pose, const Occlude
   const std::vector<Capsule> body = BodyCapsules(pose);
   std::vector<Figure> all = {{.shape = body}};
   for (const BodyPose& other : occluders.bystander) all.push_back({.shape = BodyCapsules(other)});
-  for (const Box& box : occluders.furniture) all.push_back({.shape = {}, .colours = {}, .surfaces = {SurfaceOf(box)}});
+  for (const Cuboid& box : occluders.furniture)
+    all.push_back({.shape = {}, .colours = {}, .surfaces = {SurfaceOf(box)}});
   for (const Role role : AllRoles()) {
     const Camera camera = LookAtJoint(eye, pose[role]);
     std::vector<Capsule> own;
@@ -118,7 +119,7 @@ void CompareWithPictures(Renderer& renderer, const BodyPose& pose, const Occlude
   }
 }
 
-Box Table(RandomStream& dice) {
+Cuboid Table(RandomStream& dice) {
   return {.centre = {dice.Uniform(-0.4, 0.4), dice.Uniform(0.4, 0.9), dice.Uniform(0.8, 1.4)},
           .half_size = {0.5, 0.1, 0.25},
           .heading = dice.Uniform(-1, 1)};

@@ -149,7 +149,7 @@ TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
 
 TEST_F(RenderedStage, OccludersAreTheFurnitureThatIsDrawn) {
   const Stage stage = MakeStage(5, 1);
-  const std::vector<Box> boxes = BoxesOf(*stage.interior());
+  const std::vector<Cuboid> boxes = BoxesOf(*stage.interior());
   const Camera camera = Cameras().front();
   const View view = renderer_->Render({.interior = stage.interior()}, {}, camera, Targets::kAll);
   const Intrinsics& in = camera.intrinsics;
@@ -160,7 +160,7 @@ TEST_F(RenderedStage, OccludersAreTheFurnitureThatIsDrawn) {
       const glm::dvec3 along =
           glm::transpose(camera.R_CW) * glm::dvec3((x + 0.5 - in.cx) / in.fx, (y + 0.5 - in.cy) / in.fy, 1);
       double nearest = 1e9;
-      for (const Box& box : boxes) {
+      for (const Cuboid& box : boxes) {
         nearest = std::min(nearest, HitDistance(box, camera.p_WC, glm::normalize(along)) / glm::length(along));
       }
       ++checked;

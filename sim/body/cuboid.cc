@@ -1,4 +1,4 @@
-#include "sim/body/box.h"
+#include "sim/body/cuboid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
 
 }  // namespace
 
-double HitDistance(const Box& box, const glm::dvec3& origin, const glm::dvec3& direction) {
+double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3& direction) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double sine = std::sin(box.heading), cosine = std::cos(box.heading);
   const glm::dvec3 from = Turned(origin - box.centre, sine, cosine), along = Turned(direction, sine, cosine);

@@ -1,4 +1,4 @@
-#include "sim/body/box.h"
+#include "sim/body/cuboid.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-TEST(BoxHitDistance, MeetsItsFacesWhereGeometrySays) {
-  const Box box{{0, 1, 0}, {1, 1, 0.5}, 0};
+TEST(CuboidHitDistance, MeetsItsFacesWhereGeometrySays) {
+  const Cuboid box{{0, 1, 0}, {1, 1, 0.5}, 0};
   EXPECT_DOUBLE_EQ(HitDistance(box, {0, 1, 5}, {0, 0, -1}), 4.5);
   EXPECT_DOUBLE_EQ(HitDistance(box, {5, 1, 0}, {-1, 0, 0}), 4);
   EXPECT_DOUBLE_EQ(HitDistance(box, {0, 7, 0}, {0, -1, 0}), 5);
@@ -20,16 +20,16 @@ TEST(BoxHitDistance, MeetsItsFacesWhereGeometrySays) {
   EXPECT_EQ(HitDistance(box, {0.5, 1, 0.2}, {0, 0, 1}), 0) << "inside";
 }
 
-TEST(BoxHitDistance, TurnsItsOwnZTowardsItsHeading) {
-  const Box long_box{{0, 0, 0}, {0.1, 1, 2}, Radians(90)};  // its long side lies along +X now
+TEST(CuboidHitDistance, TurnsItsOwnZTowardsItsHeading) {
+  const Cuboid long_box{{0, 0, 0}, {0.1, 1, 2}, Radians(90)};  // its long side lies along +X now
   EXPECT_NEAR(HitDistance(long_box, {5, 0, 0}, {-1, 0, 0}), 3, 1e-12);
   EXPECT_NEAR(HitDistance(long_box, {0, 0, 5}, {0, 0, -1}), 4.9, 1e-12);
-  const Box oblique{{0, 0, 0}, {0.1, 1, 2}, Radians(30)};
+  const Cuboid oblique{{0, 0, 0}, {0.1, 1, 2}, Radians(30)};
   const glm::dvec3 along(std::sin(Radians(30)), 0, std::cos(Radians(30)));
   EXPECT_NEAR(HitDistance(oblique, 5.0 * along, -along), 3, 1e-12);
 }
 
-bool IsInBox(const Box& box, const glm::dvec3& point) {
+bool IsInBox(const Cuboid& box, const glm::dvec3& point) {
   const glm::dvec3 x(std::cos(box.heading), 0, -std::sin(box.heading)),
       z(std::sin(box.heading), 0, std::cos(box.heading));
   const glm::dvec3 from = point - box.centre;
@@ -38,12 +38,12 @@ bool IsInBox(const Box& box, const glm::dvec3& point) {
 }
 
 /// The second implementation: small steps until the point lies inside.
-TEST(BoxHitDistance, AgreesWithSteppingAlongTheRay) {
+TEST(CuboidHitDistance, AgreesWithSteppingAlongTheRay) {
   constexpr double kStep = 1e-3;
   RandomStream random({}, "rays");
   int hits = 0, misses = 0;
   for (int i = 0; i < 500; ++i) {
-    const Box box{random.Normal3(), glm::dvec3(0.2) + glm::abs(random.Normal3()), random.Uniform(-kPi, kPi)};
+    const Cuboid box{random.Normal3(), glm::dvec3(0.2) + glm::abs(random.Normal3()), random.Uniform(-kPi, kPi)};
     const glm::dvec3 origin = 3.0 * random.Normal3();
     const glm::dvec3 direction = glm::normalize(random.Normal3() + 0.5 * (box.centre - origin));
     double stepped = 0;
