@@ -168,8 +168,10 @@ class SheetMaker {
     // The annotator may not have marked this very frame.
     const std::vector<Marks>& marks = take.observations.front().marks[camera];
     const auto step = static_cast<std::size_t>(options_.mark_every);
-    if (frame_ % step == 0)
-      row.pictures.push_back({"the annotator's marks", view.colour, PictureOfMarks(marks[frame_])});
+    if (frame_ % step == 0) {
+      const SheetPicture marked{"the annotator's marks", view.colour, PictureOfMarks(marks[frame_])};
+      row.pictures.push_back(Cut(marked, PlaceOf(Role::kHipCentre, camera), kPersonPart));
+    }
     return row;
   }
 
@@ -184,7 +186,7 @@ class SheetMaker {
         if (effect.look == Look::kWithTruth) shown.marks = Skeleton(world_.truth[frame_], world_.cameras[camera]);
         if (effect.look == Look::kDetail) shown = Cut(shown, PlaceOf(Role::kHead, camera), kHeadPart);
         if (effect.look == Look::kPerson || effect.look == Look::kWithTruth) {
-          shown = Cut(shown, PlaceOf(Role::kSpine, camera), kPersonPart);
+          shown = Cut(shown, PlaceOf(Role::kHipCentre, camera), kPersonPart);
         }
         row.pictures.push_back(std::move(shown));
       }
