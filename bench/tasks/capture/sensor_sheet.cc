@@ -12,8 +12,9 @@ namespace {
 /// How an effect is looked at.
 enum class Look {
   kWhole,     ///< the whole picture
-  kDetail,    ///< a part of it, enlarged: what happens from pixel to pixel
-  kWithTruth  ///< the whole, and where the body truly is
+  kDetail,    ///< the head, enlarged: what happens from pixel to pixel
+  kPerson,    ///< the part about the person
+  kWithTruth  ///< likewise, and where the body truly is
 };
 
 struct ShownEffect {
@@ -38,7 +39,7 @@ std::vector<ShownEffect> ShownEffects() {
        " ppm",
        Look::kWithTruth},
       {"Rolling shutter; true skeleton over it", &E::rolling_shutter_ms, {10, 30, 60}, " ms", Look::kWithTruth},
-      {"Motion blur, share of a frame", &E::motion_blur, {0.25, 0.5, 1}, "", Look::kWhole},
+      {"Motion blur, share of a frame", &E::motion_blur, {0.25, 0.5, 1}, "", Look::kPerson},
       {"Radial distortion, of the corner", &E::radial_distortion, {-0.12, -0.05, 0.15}, "", Look::kWhole},
       {"Tangential distortion, of the corner", &E::tangential_distortion, {0.01, 0.025, 0.05}, "", Look::kWhole},
       {"Defocus", &E::defocus_px, {0.7, 1.5, 4}, " px", Look::kDetail},
@@ -75,11 +76,18 @@ ColourImage PictureOfLabels(const LabelImage& labels) {
   return picture;
 }
 
-/// Near is bright; 2 m white, each doubling of the distance half as bright.
+/// The nearest is white, the farthest black, even steps of 1 / depth between.
 ColourImage PictureOfDepth(const DepthImage& depth) {
+  float least = 0, most = 0;
+  for (const float metres : depth.pixels) {
+    if (!std::isfinite(metres)) continue;
+    most = std::max(most, 1 / metres);
+    least = least == 0 ? 1 / metres : std::min(least, 1 / metres);
+  }
   ColourImage picture(depth.width, depth.height);
-  std::ranges::transform(depth.pixels, picture.pixels.begin(), [](float metres) {
-    const auto grey = static_cast<std::uint8_t>(255 * std::clamp(2.0f / std::max(metres, 0.01f), 0.0f, 1.0f));
+  std::ranges::transform(depth.pixels, picture.pixels.begin(), [&](float metres) {
+    const float share = most > least ? (1 / metres - least) / (most - least) : 0;
+    const auto grey = static_cast<std::uint8_t>(255 * std::clamp(share, 0.0f, 1.0f));
     return Rgb8{grey, grey, grey};
   });
   return picture;
@@ -105,16 +113,28 @@ std::vector<SheetMark> Skeleton(const BodyPose& pose, const Camera& camera) {
   return lines;
 }
 
-/// A part of the picture, three times as large; `centre` moves inwards where the part would leave it.
-ColourImage Enlarged(const ColourImage& picture, const glm::dvec2& centre) {
-  constexpr int kTimes = 3, kWidth = 80, kHeight = 60;
-  const int left = std::clamp(static_cast<int>(centre.x) - kWidth / 2, 0, std::max(0, picture.width - kWidth));
-  const int top = std::clamp(static_cast<int>(centre.y) - kHeight / 2, 0, std::max(0, picture.height - kHeight));
-  ColourImage part(kTimes * std::min(kWidth, picture.width), kTimes * std::min(kHeight, picture.height));
-  for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x) part.At(x, y) = picture.At(left + x / kTimes, top + y / kTimes);
+/// A part of a picture of this size about a place, moved inwards where it would leave the picture; each pixel so many
+/// times as large.
+struct Cutting {
+  int width, height, times;
+};
+constexpr Cutting kHeadPart{80, 60, 3}, kPersonPart{320, 240, 1};
+
+SheetPicture Cut(const SheetPicture& whole, const glm::dvec2& centre, const Cutting& part) {
+  const ColourImage& from = whole.picture;
+  const int width = std::min(part.width, from.width), height = std::min(part.height, from.height);
+  const int left = std::clamp(static_cast<int>(centre.x) - width / 2, 0, from.width - width);
+  const int top = std::clamp(static_cast<int>(centre.y) - height / 2, 0, from.height - height);
+  SheetPicture cut{whole.caption, ColourImage(part.times * width, part.times * height), whole.marks};
+  for (int y = 0; y < cut.picture.height; ++y) {
+    for (int x = 0; x < cut.picture.width; ++x) {
+      cut.picture.At(x, y) = from.At(left + x / part.times, top + y / part.times);
+    }
   }
-  return part;
+  for (SheetMark& mark : cut.marks) {
+    for (glm::dvec2* end : {&mark.a, &mark.b}) *end = static_cast<double>(part.times) * (*end - glm::dvec2(left, top));
+  }
+  return cut;
 }
 
 /// The frame before and after which the body moves farthest.
@@ -144,12 +164,14 @@ class SheetMaker {
     SheetRow row{fmt::format("Camera {}, as the scenario has it", camera + 1), {}};
     row.pictures = {{"picture", view.colour, {}},
                     {"labels", PictureOfLabels(view.labels), {}},
-                    {"depth: white = 2 m", PictureOfDepth(view.depth), {}}};
+                    {"depth: white is nearest", PictureOfDepth(view.depth), {}}};
     // The annotator may not have marked this very frame.
     const std::vector<Marks>& marks = take.observations.front().marks[camera];
     const auto step = static_cast<std::size_t>(options_.mark_every);
-    if (frame_ % step == 0)
-      row.pictures.push_back({"the annotator's marks", view.colour, PictureOfMarks(marks[frame_])});
+    if (frame_ % step == 0) {
+      const SheetPicture marked{"the annotator's marks", view.colour, PictureOfMarks(marks[frame_])};
+      row.pictures.push_back(Cut(marked, PlaceOf(Role::kHipCentre, camera), kPersonPart));
+    }
     return row;
   }
 
@@ -160,21 +182,24 @@ class SheetMaker {
         CameraEffects effects = options_.camera;
         effects.*effect.strength = strength;
         ColourImage seen = Shoot(effects, camera).colour;
-        SheetPicture& shown = row.pictures.emplace_back();
-        shown.caption = fmt::format("camera {}: {:g}{}", camera + 1, strength, effect.unit);
-        if (effect.look == Look::kDetail) {
-          const auto head = Project(world_.cameras[camera], world_.truth[frame_][Role::kHead]);
-          shown.picture = Enlarged(seen, head.value_or(glm::dvec2(320, 240)));
-        } else {
-          shown.picture = std::move(seen);
-        }
+        SheetPicture shown{fmt::format("camera {}: {:g}{}", camera + 1, strength, effect.unit), std::move(seen), {}};
         if (effect.look == Look::kWithTruth) shown.marks = Skeleton(world_.truth[frame_], world_.cameras[camera]);
+        if (effect.look == Look::kDetail) shown = Cut(shown, PlaceOf(Role::kHead, camera), kHeadPart);
+        if (effect.look == Look::kPerson || effect.look == Look::kWithTruth) {
+          shown = Cut(shown, PlaceOf(Role::kHipCentre, camera), kPersonPart);
+        }
+        row.pictures.push_back(std::move(shown));
       }
     }
     return row;
   }
 
  private:
+  glm::dvec2 PlaceOf(Role role, std::size_t camera) const {
+    const Intrinsics& in = world_.cameras[camera].intrinsics;
+    return Project(world_.cameras[camera], world_.truth[frame_][role]).value_or(glm::dvec2(in.cx, in.cy));
+  }
+
   View Shoot(const CameraEffects& effects, std::size_t camera) const {
     CaptureWorld world = world_;
     for (std::size_t i = 0; i < world.cameras.size(); ++i) {
