@@ -92,7 +92,7 @@ TEST_F(DetectionExchange, TeachesWhatBuiltInRecognisersAreTaught) {
 
 TEST_F(DetectionExchange, JudgesABuiltInMethodsVerdictAsTheMethodItself) {
   int alarms = 0, missed = 0;
-  for (int trial = 0; trial < 4; ++trial) {
+  for (int trial = 0; trial < 16; ++trial) {
     const auto world = task_->MakeWorld(World(trial), true);
     for (std::size_t m = 0; m < 4; ++m) {
       SCOPED_TRACE(testing::Message() << "trial " << trial << ", method " << m);
