@@ -43,6 +43,7 @@ MAY_INCLUDE = {
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
+    "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
