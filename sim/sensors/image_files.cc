@@ -120,7 +120,7 @@ class ByteStream : public Imf::OStream {
 };
 
 // Throws what OpenEXR throws.
-void WriteExr(const View& view, const NormalImage& normals, Imf::OStream& out) {
+void WriteExr(const View& view, const NormalImage& normals, std::span<const DepthChannel> measured, Imf::OStream& out) {
   const int width = std::max({view.colour.width, view.depth.width, view.labels.width});
   const int height = std::max({view.colour.height, view.depth.height, view.labels.height});
   Imf::Header header(width, height);
@@ -147,6 +147,9 @@ void WriteExr(const View& view, const NormalImage& normals, Imf::OStream& out) {
   for (int i = 0; i < 3 && !normals.pixels.empty(); ++i) {
     add(kNormalChannels[i], Imf::FLOAT, &normals.pixels.front()[i], sizeof(glm::vec3));
   }
+  for (const DepthChannel& channel : measured) {
+    add(channel.name.c_str(), Imf::FLOAT, channel.depth.pixels.data(), sizeof(float));
+  }
 
   Imf::OutputFile file(out, header, 0);
   file.setFrameBuffer(channels);
@@ -167,6 +170,20 @@ NormalImage ReadExrNormals(const std::string& path) {
   file.setFrameBuffer(channels);
   file.readPixels(window.min.y, window.max.y);
   return normals;
+}
+
+// Throws what OpenEXR throws.
+DepthImage ReadExrDepth(const std::string& path, const std::string& channel) {
+  Imf::Header::setMaxImageSize(kLargestPicture, kLargestPicture);
+  Imf::InputFile file(path.c_str(), 0);
+  if (!file.header().channels().findChannel(channel)) return {};
+  const Imath::Box2i window = file.header().dataWindow();
+  DepthImage depth(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
+  Imf::FrameBuffer channels;
+  channels.insert(channel, SliceOf(Imf::FLOAT, depth.pixels.data(), window, sizeof(float)));
+  file.setFrameBuffer(channels);
+  file.readPixels(window.min.y, window.max.y);
+  return depth;
 }
 
 // Throws what OpenEXR throws, for instance on more than kLargestPicture pixels a side.
@@ -229,10 +246,10 @@ Result<Mask> LoadMaskPng(const std::string& path) {
   return mask;
 }
 
-Result<std::string> EncodeExr(const View& view, const NormalImage& normals) {
+Result<std::string> EncodeExr(const View& view, const NormalImage& normals, std::span<const DepthChannel> measured) {
   try {
     ByteStream stream;
-    WriteExr(view, normals, stream);
+    WriteExr(view, normals, measured, stream);
     return stream.TakeBytes();
   } catch (const std::exception& error) {
     return Fail({}, "cannot be written as OpenEXR: {}", error.what());
@@ -248,6 +265,14 @@ Result<void> SaveExr(const View& view, const std::string& path) {
 Result<NormalImage> LoadExrNormals(const std::string& path) {
   try {
     return ReadExrNormals(path);
+  } catch (const std::exception& error) {
+    return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
+  }
+}
+
+Result<DepthImage> LoadExrDepth(const std::string& path, const std::string& channel) {
+  try {
+    return ReadExrDepth(path, channel);
   } catch (const std::exception& error) {
     return Fail({path}, "cannot be read as OpenEXR: {}", error.what());
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "engine/base/image.h"
@@ -26,15 +27,25 @@ Result<ColourImage> LoadColourPng(const std::string& path);
 /// Reads any PNG as a mask: 1 where the grey value is at least 128.
 Result<Mask> LoadMaskPng(const std::string& path);
 
+/// A depth image by its channel's name.
+struct DepthChannel {
+  std::string name;
+  DepthImage depth;
+};
+
 /// The bytes of an OpenEXR file (ZIP, lossless) with the channels R, G, B (half, linear light: 1 is the brightest that
 /// an 8-bit picture can show), Z (float, metres along the viewing axis), label (uint) and N.X, N.Y, N.Z (float, normals
-/// in the world). Empty pictures are left out; the others have one size. The same for the same pictures.
-Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {});
+/// in the world), and further depth images (float) under names of their own. Empty pictures are left out; the others
+/// have one size. The same for the same pictures.
+Result<std::string> EncodeExr(const View& view, const NormalImage& normals = {},
+                              std::span<const DepthChannel> measured = {});
 Result<void> SaveExr(const View& view, const std::string& path);
 /// Reads what SaveExr writes, bit for bit; pictures whose channels the file lacks stay empty. Light beyond what 8 bits
 /// can show is cut off.
 Result<View> LoadExr(const std::string& path);
 /// The normals of such a file; empty when it has none.
 Result<NormalImage> LoadExrNormals(const std::string& path);
+/// A depth channel of such a file, bit for bit; empty when it has none of that name.
+Result<DepthImage> LoadExrDepth(const std::string& path, const std::string& channel);
 
 }  // namespace etude

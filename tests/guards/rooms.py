@@ -43,6 +43,7 @@ MAY_INCLUDE = {
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
     "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
+    "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
@@ -89,7 +90,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
-        "engine/vision sim/annotator sim/body sim/camera sim/random sim/render sim/rig sim/sensors "
+        "engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "

@@ -13,6 +13,7 @@
 #include "engine/formats/trc.h"
 #include "engine/motion/from_body.h"
 #include "engine/vision/strokes.h"
+#include "sim/depth_camera/depth_camera.h"
 #include "sim/sensors/image_files.h"
 
 namespace etude {
@@ -64,6 +65,22 @@ std::string PictureName(std::size_t camera, std::optional<std::size_t> frame, co
   if (!frame) return fmt::format("camera-{}-background.{}", camera + 1, extension);
   return fmt::format("camera-{}-{:04}.{}", camera + 1, *frame, extension);
 }
+
+/// What depth cameras would have measured in this one's place.
+class DepthCameras {
+ public:
+  DepthCameras(const WorldKey& key, std::size_t camera)
+      : v1_(key, fmt::format("capture/camera-{}/depth-v1", camera)),
+        v2_(key, fmt::format("capture/camera-{}/depth-v2", camera)) {}
+
+  std::array<DepthChannel, 2> Measure(const DepthImage& truth, const Camera& camera) {
+    return {{{"Z_measured.v1", MeasureDepth(truth, camera, KinectV1Depth(), v1_)},
+             {"Z_measured.v2", MeasureDepth(truth, camera, KinectV2Depth(), v2_)}}};
+  }
+
+ private:
+  RandomStream v1_, v2_;
+};
 
 /// A take's pictures are held in memory.
 Result<void> CheckSize(const CaptureWorld& world) {
@@ -156,9 +173,11 @@ Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& k
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     truth.files.push_back({fmt::format("camera-{}.yaml", camera + 1), WriteOpenCvCamera(world.cameras[camera])});
     rig.push_back({fmt::format("cam_{:02}", camera + 1), world.cameras[camera]});
+    DepthCameras depth_cameras(key, camera);
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const View view = shooting.Shoot(camera, frame, Targets::kAll);
-      ASSIGN_OR_RETURN(auto bytes, EncodeExr(view, NormalsOf(view.depth, world.cameras[camera])));
+      const auto measured = depth_cameras.Measure(view.depth, world.cameras[camera]);
+      ASSIGN_OR_RETURN(auto bytes, EncodeExr(view, NormalsOf(view.depth, world.cameras[camera]), measured));
       truth.files.push_back({PictureName(camera, frame, "exr"), std::move(bytes)});
     }
   }

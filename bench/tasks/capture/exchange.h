@@ -45,7 +45,8 @@ constexpr std::size_t kMostPictures = 1200;
 /// other programs), `camera-1.yaml`… (OpenCV's calibration file), `calibration.toml` (all of them as Pose2Sim's), and
 /// per frame `camera-1-0000.exr`: `label`, `Z` (depth along the viewing axis, metres), `N.X`, `N.Y`, `N.Z` (normals in
 /// the world), and `R`, `G`, `B`, linear light as a camera would see it that has this one's lens and clock, and no
-/// other faults.
+/// other faults. Further `Z_measured.v1` and `.v2`: what the first and the second Kinect's depth camera would measure
+/// in its place (sim/depth_camera); infinity where nothing.
 ///
 ///     {"poses": [[sixty numbers], …], "labels": {"background": 0, "shadow": 1, "trunk": 2, …}}
 Result<Payload> MakeCaptureTruth(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);

@@ -134,6 +134,21 @@ TEST_F(ImageFiles, AnExrKeepsNormals) {
   EXPECT_FALSE(LoadExrNormals(At("missing.exr")));
 }
 
+TEST_F(ImageFiles, AnExrKeepsFurtherDepthsBesideTheTrueOnes) {
+  const View view = SomeView();
+  DepthImage first(61, 37, 1.25f), second(61, 37, 2.5f);
+  first.At(7, 3) = std::numeric_limits<float>::infinity();
+  const std::vector<DepthChannel> measured{{"Z_measured.v1", first}, {"Z_measured.v2", second}};
+  const auto bytes = EncodeExr(view, {}, measured);
+  ASSERT_TRUE(bytes);
+  Write(At("d.exr"), *bytes);
+  EXPECT_EQ(LoadExrDepth(At("d.exr"), "Z_measured.v1")->pixels, first.pixels);
+  EXPECT_EQ(LoadExrDepth(At("d.exr"), "Z_measured.v2")->pixels, second.pixels);
+  EXPECT_EQ(LoadExrDepth(At("d.exr"), "Z")->pixels, view.depth.pixels);
+  EXPECT_TRUE(LoadExrDepth(At("d.exr"), "Z_measured")->pixels.empty()) << "none of that very name";
+  EXPECT_FALSE(LoadExrDepth(At("missing.exr"), "Z"));
+}
+
 TEST_F(ImageFiles, EveryComplaintNamesTheFile) {
   const std::string missing = At("missing/picture");
   EXPECT_THAT(ToString(LoadColourPng(missing).error()), HasSubstr(missing));

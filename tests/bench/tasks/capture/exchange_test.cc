@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/measurement.h"
@@ -62,7 +65,8 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   ASSERT_EQ(json["frames"], 3);
   ASSERT_EQ(json["cameras"].size(), 2u);
   EXPECT_EQ(json["cameras"][0]["calibration"].size(), 24u);
-  EXPECT_EQ(problem->files.size(), 2u * (1 + 3) + 2u * SegmenterNames().size()) << "pictures, and marks as COCO keypoints";
+  EXPECT_EQ(problem->files.size(), 2u * (1 + 3) + 2u * SegmenterNames().size())
+      << "pictures, and marks as COCO keypoints";
   EXPECT_TRUE(Find(*problem, json["cameras"][1]["background"].get<std::string>())->bytes.starts_with("\x89PNG"));
   EXPECT_EQ(json["cameras"][1]["pictures"][2], "camera-2-0002.png");
 
@@ -107,6 +111,47 @@ TEST(CaptureExchange, TheTruthIsAPerfectAnswerAndItsFilesTellTheSame) {
   EXPECT_THAT(Find(*truth, "camera-2.yaml")->bytes, HasSubstr("!!opencv-matrix"));
   EXPECT_EQ((*truth->json)["labels"]["trunk"], 2);
   EXPECT_TRUE(Find(*truth, "camera-1-0002.exr")->bytes.starts_with("\x76\x2f\x31\x01")) << "OpenEXR's magic number";
+}
+
+TEST(CaptureExchange, TheTruthHoldsWhatDepthCamerasWouldMeasureInTheCamerasPlace) {
+  const auto truth = MakeTask("{duration_s: 0.1, camera_distance_m: 2.5}")->MakeWorld(kExchangeKey, true)->MakeTruth();
+  ASSERT_TRUE(truth) << ToString(truth.error());
+  const std::string path =
+      (std::filesystem::temp_directory_path() / fmt::format("etude-depth-{}.exr", getpid())).string();
+  const auto depth = [&](const char* file, const char* channel) {
+    std::ofstream(path, std::ios::binary) << Find(*truth, file)->bytes;
+    return *LoadExrDepth(path, channel);
+  };
+  const DepthImage z = depth("camera-1-0001.exr", "Z");
+  struct Case {
+    const char* channel;
+    double near, far, most_error_share;
+  };
+  for (const Case& c : {Case{"Z_measured.v1", 0.8, 4.0, 0.0135}, Case{"Z_measured.v2", 0.5, 4.5, 0.003}}) {
+    const DepthImage measured = depth("camera-1-0001.exr", c.channel);
+    ASSERT_EQ(measured.pixels.size(), z.pixels.size());
+    int seen = 0, alike = 0;
+    for (std::size_t i = 0; i < z.pixels.size(); ++i) {
+      if (std::isinf(measured.pixels[i])) continue;
+      ++seen;
+      ASSERT_GE(measured.pixels[i], c.near);
+      ASSERT_LE(measured.pixels[i], c.far);
+      alike += std::abs(measured.pixels[i] - z.pixels[i]) < 3 * c.most_error_share * z.pixels[i];
+    }
+    EXPECT_GT(seen, static_cast<int>(z.pixels.size()) / 4) << c.channel;
+    EXPECT_LT(seen, static_cast<int>(z.pixels.size())) << "some is out of range, unlit or at a slant";
+    EXPECT_GT(alike, 0.97 * seen) << c.channel << ": but for edges";
+    const DepthImage next_z = depth("camera-1-0002.exr", "Z"), next = depth("camera-1-0002.exr", c.channel);
+    int still = 0, thrown_anew = 0;
+    for (std::size_t i = 0; i < z.pixels.size(); ++i) {
+      if (z.pixels[i] != next_z.pixels[i] || std::isinf(measured.pixels[i]) || std::isinf(next.pixels[i])) continue;
+      ++still;
+      thrown_anew += measured.pixels[i] != next.pixels[i];
+    }
+    EXPECT_GT(thrown_anew, 0.4 * still) << "each frame has its own dice, where nothing moves too";
+    EXPECT_GT(still, 10000);
+  }
+  std::filesystem::remove(path);
 }
 
 TEST(CaptureExchange, AFrameWithoutAPoseShowsTheLastOneAndCountsAsNotRecovered) {

@@ -1,0 +1,134 @@
+#include "sim/depth_camera/depth_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "sim/depth_camera/depth_edges.h"
+#include "sim/depth_camera/projector_shadow.h"
+#include "sim/sensors/normals.h"
+
+namespace etude {
+namespace {
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+// Where LateralDeviationPx is taken at most: measured up to here.
+constexpr double kMeasuredAngle = 80 * std::numbers::pi / 180;
+
+/// From the normal of the surface that each pixel shows to its line of sight, radians; 0 where it has none of its own.
+Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
+  const NormalImage normals = NormalsOf(depth, camera);
+  const Intrinsics& in = camera.intrinsics;
+  const glm::dmat3 R_WC = glm::transpose(camera.R_CW);
+  Image<double> angles(depth.width, depth.height, 0);
+  for (int y = 0; y < depth.height; ++y) {
+    for (int x = 0; x < depth.width; ++x) {
+      const glm::dvec3 normal(normals.At(x, y));
+      const auto pixel = UndistortPixel(camera, {x + 0.5, y + 0.5});
+      if (!pixel || normal == glm::dvec3(0)) continue;
+      const double down = (pixel->y - in.cy) / in.fy, across = (pixel->x - in.cx - in.skew * down) / in.fx;
+      const glm::dvec3 ray = glm::normalize(R_WC * glm::dvec3(across, down, 1));
+      angles.At(x, y) = std::acos(std::clamp(std::abs(glm::dot(normal, ray)), 0.0, 1.0));
+    }
+  }
+  return angles;
+}
+
+/// One picture on its way through the sensor.
+class Exposure {
+ public:
+  Exposure(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options)
+      : options_(options),
+        angles_(AnglesOfSight(truth, camera)),
+        echo_(truth),
+        pixels_per_sensor_pixel_(camera.intrinsics.fx / options.focal_px) {
+    const Mask unlit = ProjectorShadow(truth, camera, options.shadows * options.baseline_m);
+    const double largest_angle = kRightAngle - options.grazing * (kRightAngle - options.largest_angle);
+    for (std::size_t i = 0; i < echo_.pixels.size(); ++i) {
+      if (unlit.pixels[i] || angles_.pixels[i] > largest_angle) echo_.pixels[i] = kNotMeasured;
+    }
+  }
+
+  float Measure(int x, int y, const std::array<double, 3>& normals) const {
+    const double z = Rounded(WithNoise(Displaced(x, y, normals[0], normals[1]), normals[2]));
+    const bool is_near = z<options_.range * options_.near_m, is_far = options_.range * z> options_.far_m;
+    return z > 0 && !is_near && !is_far ? static_cast<float>(z) : kNotMeasured;
+  }
+
+ private:
+  // Edges shift, surfaces do not: their pixels' noise is the axial one.
+  double Displaced(int x, int y, double right, double down) const {
+    const double own = echo_.At(x, y);
+    const double angle = std::min(angles_.At(x, y), kMeasuredAngle);
+    const double sigma = options_.lateral_noise * LateralDeviationPx(angle) * pixels_per_sensor_pixel_;
+    const int column = x + static_cast<int>(std::lround(sigma * right));
+    const int row = y + static_cast<int>(std::lround(sigma * down));
+    if (!echo_.Contains(column, row)) return own;
+    const double other = echo_.At(column, row);
+    return IsDepthEdge(own, other) ? other : own;
+  }
+
+  // Disparities in steps of s, depth in those of s z² / (f b); a rounded value's variance is a twelfth of the step's
+  // square. The published law was measured behind the steps.
+  double WithNoise(double z, double normal) const {
+    if (std::isinf(z)) return z;
+    const double step = HasSteps() ? Step() * z * z / Focus() : 0;
+    const double law = DepthDeviation(options_.law, z);
+    return z + options_.axial_noise * std::sqrt(std::max(0.0, law * law - step * step / 12)) * normal;
+  }
+
+  double Rounded(double z) const {
+    if (!HasSteps() || std::isinf(z) || z <= 0) return z;
+    return Focus() / (std::round(Focus() / z / Step()) * Step());
+  }
+
+  bool HasSteps() const { return Focus() > 0 && Step() > 0; }
+  double Focus() const { return options_.focal_px * options_.baseline_m; }
+  double Step() const { return options_.steps * options_.disparity_step_px; }
+
+  const DepthCameraOptions& options_;
+  const Image<double> angles_;
+  DepthImage echo_;  ///< the truth, where light comes back at all
+  const double pixels_per_sensor_pixel_;
+};
+
+}  // namespace
+
+DepthCameraOptions KinectV1Depth(bool near_mode) {
+  DepthCameraOptions options;
+  if (near_mode) {
+    options.near_m = 0.4;
+    options.far_m = 3.0;
+  }
+  return options;
+}
+
+DepthCameraOptions KinectV2Depth() {
+  return {.law = DepthLaw::kTimeOfFlight, .focal_px = 365, .baseline_m = 0, .near_m = 0.5, .far_m = 4.5};
+}
+
+DepthCameraOptions WithStrength(DepthCameraOptions options, double strength) {
+  options.axial_noise = options.lateral_noise = options.steps = strength;
+  options.shadows = options.range = options.grazing = strength;
+  return options;
+}
+
+double LateralDeviationPx(double angle) { return 0.8 + 0.035 * angle / (kRightAngle - angle); }
+
+DepthImage MeasureDepth(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options,
+                        RandomStream& random) {
+  assert(options.grazing >= 0 && options.grazing <= 1 && options.range >= 0);
+  const Exposure exposure(truth, camera, options);
+  DepthImage measured(truth.width, truth.height);
+  for (int y = 0; y < truth.height; ++y) {
+    for (int x = 0; x < truth.width; ++x) {
+      const std::array<double, 3> normals{random.Normal(), random.Normal(), random.Normal()};
+      measured.At(x, y) = exposure.Measure(x, y, normals);
+    }
+  }
+  return measured;
+}
+
+}  // namespace etude

@@ -1,0 +1,218 @@
+#include "sim/depth_camera/depth_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <set>
+#include <vector>
+
+namespace etude {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr double kFocus = 580, kBaseline = 0.075;
+
+Camera ACamera() {
+  return LookAt({.width = kWidth, .height = kHeight, .fx = kFocus, .fy = kFocus, .cx = 160, .cy = 120}, {0, 1, 3},
+                {0, 1, 0});
+}
+
+DepthImage Flat(double z) { return DepthImage(kWidth, kHeight, static_cast<float>(z)); }
+
+/// Near from column 200 on, far before.
+DepthImage StepEdge(double near, double far) {
+  DepthImage depth = Flat(far);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 200; x < kWidth; ++x) depth.At(x, y) = static_cast<float>(near);
+  }
+  return depth;
+}
+
+/// A wall turned by `angle` about the vertical through the picture's middle, where its depth is `z`.
+DepthImage TurnedWall(double z, double angle) {
+  DepthImage depth(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      depth.At(x, y) = static_cast<float>(z / (1 - std::tan(angle) * (x + 0.5 - 160) / kFocus));
+    }
+  }
+  return depth;
+}
+
+/// Of a kind, with a single fault of strength 1.
+DepthCameraOptions Only(const DepthCameraOptions& kind, double DepthCameraOptions::*fault) {
+  DepthCameraOptions options = WithStrength(kind, 0);
+  options.*fault = 1;
+  return options;
+}
+
+DepthImage Measure(const DepthImage& truth, const DepthCameraOptions& options, int trial = 0) {
+  RandomStream random({7, "depth-camera", trial}, "pixels");
+  return MeasureDepth(truth, ACamera(), options, random);
+}
+
+bool SameBytes(const DepthImage& a, const DepthImage& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
+}
+
+double DeviationFrom(double z, const DepthImage& measured) {
+  double squares = 0;
+  for (const float metres : measured.pixels) squares += (metres - z) * (metres - z);
+  return std::sqrt(squares / static_cast<double>(measured.pixels.size()));
+}
+
+struct Line {
+  double constant, slope;
+};
+
+Line Regress(const std::vector<double>& x, const std::vector<double>& y) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  const double n = static_cast<double>(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) sx += x[i], sy += y[i], sxx += x[i] * x[i], sxy += x[i] * y[i];
+  const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+  return {(sy - slope * sx) / n, slope};
+}
+
+/// Deviations of flat walls against (z − 0.4)².
+Line AxialLaw(const DepthCameraOptions& options) {
+  std::vector<double> squares, deviations;
+  for (double z = 1; z < 3.8; z += 0.2) {
+    squares.push_back((z - 0.4) * (z - 0.4));
+    deviations.push_back(DeviationFrom(z, Measure(Flat(z), options)));
+  }
+  return Regress(squares, deviations);
+}
+
+TEST(DepthCamera, WithoutStrengthGivesTheTruthByteForByte) {
+  DepthImage truth = TurnedWall(3, 1.2);
+  truth.At(5, 5) = kNotMeasured;
+  truth.At(100, 100) = 0.11f;
+  truth.At(101, 100) = 17.3f;
+  for (const DepthCameraOptions& kind : {KinectV1Depth(), KinectV1Depth(true), KinectV2Depth()}) {
+    EXPECT_TRUE(SameBytes(Measure(truth, WithStrength(kind, 0)), truth));
+    EXPECT_FALSE(SameBytes(Measure(truth, WithStrength(kind, 0.01)), truth)) << "a hundredth is seen";
+  }
+}
+
+TEST(DepthCamera, AxialNoiseOfStructuredLightGrowsAsPublished) {
+  const Line noise_alone = AxialLaw(Only(KinectV1Depth(), &DepthCameraOptions::axial_noise));
+  EXPECT_NEAR(noise_alone.constant, 0.0012, 4e-5);
+  EXPECT_NEAR(noise_alone.slope, 0.0019, 2e-5);
+  const Line whole = AxialLaw(KinectV1Depth());
+  EXPECT_NEAR(whole.constant, 0.0012, 1.2e-4) << "the steps' share is not added twice";
+  EXPECT_NEAR(whole.slope, 0.0019, 4e-5);
+  DepthCameraOptions twice = Only(KinectV1Depth(), &DepthCameraOptions::axial_noise);
+  twice.axial_noise = 2;
+  EXPECT_NEAR(AxialLaw(twice).slope, 0.0038, 4e-5) << "a strength multiplies";
+}
+
+TEST(DepthCamera, AxialNoiseOfTimeOfFlightGrowsAsPublished) {
+  for (const double z : {0.8, 1.5, 2.5, 3.5, 4.4}) {
+    const double law = 0.001 * (1.5 - 0.5 * z + 0.3 * z * z);
+    EXPECT_NEAR(DeviationFrom(z, Measure(Flat(z), KinectV2Depth())) / law, 1, 0.01) << z;
+    EXPECT_GT(std::abs(DeviationFrom(z, Measure(Flat(z), KinectV1Depth())) / law - 1), 0.05) << "not the other law";
+  }
+}
+
+TEST(DepthCamera, StepsAreEighthsOfADisparity) {
+  DepthImage truth = Flat(1);
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) truth.pixels[i] = 1 + 2.5f * i / truth.pixels.size();
+  const DepthImage measured = Measure(truth, Only(KinectV1Depth(), &DepthCameraOptions::steps));
+  const std::set<float> distinct(measured.pixels.begin(), measured.pixels.end());
+  ASSERT_GT(distinct.size(), 200u);
+  for (auto it = distinct.begin(), next = std::next(it); next != distinct.end(); ++it, ++next) {
+    const double z = std::sqrt(static_cast<double>(*it) * *next);
+    ASSERT_NEAR((*next - *it) / (z * z / (8 * kFocus * kBaseline)), 1, 1e-4) << z;
+  }
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const double z = truth.pixels[i];
+    ASSERT_LE(std::abs(measured.pixels[i] - z), 0.51 * z * z / (8 * kFocus * kBaseline)) << "the nearest step";
+  }
+}
+
+TEST(DepthCamera, MeasuresWithinItsRangeOnly) {
+  struct Case {
+    DepthCameraOptions kind;
+    double near, far;
+  };
+  for (const auto& [kind, near, far] :
+       {Case{KinectV1Depth(), 0.8, 4.0}, Case{KinectV1Depth(true), 0.4, 3.0}, Case{KinectV2Depth(), 0.5, 4.5}}) {
+    DepthCameraOptions options = Only(kind, &DepthCameraOptions::range);
+    for (const double z : {near + 0.001, (near + far) / 2, far - 0.001}) {
+      EXPECT_TRUE(SameBytes(Measure(Flat(z), options), Flat(z))) << z;
+    }
+    for (const double z : {near - 0.001, far + 0.001, 20.0}) {
+      EXPECT_TRUE(SameBytes(Measure(Flat(z), options), Flat(kNotMeasured))) << z;
+    }
+    options.range = 0.5;
+    for (const double z : {near / 2 + 0.001, 2 * far - 0.001})
+      EXPECT_TRUE(SameBytes(Measure(Flat(z), options), Flat(z)));
+  }
+}
+
+TEST(DepthCamera, WhatIsSeenAtASlantIsLost) {
+  const DepthCameraOptions options = Only(KinectV1Depth(), &DepthCameraOptions::grazing);
+  // A ray's angle to the wall's normal is the wall's turn less or more the ray's own angle to the axis.
+  const auto lost_at = [&](double degrees, double strength) {
+    DepthCameraOptions weaker = options;
+    weaker.grazing = strength;
+    const double turn = degrees * std::numbers::pi / 180;
+    return std::isinf(Measure(TurnedWall(2, turn), weaker).At(160, 120));
+  };
+  EXPECT_FALSE(lost_at(0, 1));
+  EXPECT_FALSE(lost_at(79, 1));
+  EXPECT_TRUE(lost_at(81, 1));
+  EXPECT_FALSE(lost_at(84, 0.5));
+  EXPECT_TRUE(lost_at(86, 0.5)) << "half of the way to a right angle";
+  EXPECT_FALSE(lost_at(86, 0));
+}
+
+/// Of pixels whose middle is so far on the far side of a step edge, the share that shows what is near.
+double ShareOfNear(const DepthCameraOptions& options, int pixels_away) {
+  int shown = 0, all = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    const DepthImage measured = Measure(StepEdge(1.5, 3), options, trial);
+    for (int y = 10; y < kHeight - 10; ++y, ++all) shown += measured.At(199 - pixels_away, y) < 2;
+  }
+  return static_cast<double>(shown) / all;
+}
+
+TEST(DepthCamera, EdgesAreAsUnsteadyAsPublished) {
+  const DepthCameraOptions options = Only(KinectV1Depth(), &DepthCameraOptions::lateral_noise);
+  for (const int away : {0, 1, 2}) {
+    const double angle = std::atan((160 - (199.5 - away)) / kFocus);
+    const double sigma = 0.8 + 0.035 * std::abs(angle) / (std::numbers::pi / 2 - std::abs(angle));
+    const double share = 0.5 * std::erfc((away + 0.5) / sigma / std::numbers::sqrt2);
+    EXPECT_NEAR(ShareOfNear(options, away), share, 4 * std::sqrt(share * (1 - share) / 1760)) << away;
+    DepthCameraOptions twice = options;
+    twice.lateral_noise = 2;
+    EXPECT_GT(ShareOfNear(twice, away), share + 4 * std::sqrt(share * (1 - share) / 1760)) << "the test would see it";
+  }
+  EXPECT_NEAR(LateralDeviationPx(0), 0.8, 1e-12);
+  EXPECT_NEAR(LateralDeviationPx(std::numbers::pi / 4), 0.835, 1e-12);
+  EXPECT_TRUE(SameBytes(Measure(TurnedWall(2, 0.9), options), TurnedWall(2, 0.9))) << "no edge, no shift";
+}
+
+TEST(DepthCamera, StrengthsDoNotChangeTheDice) {
+  const auto next = [](const DepthCameraOptions& options, const DepthImage& truth) {
+    RandomStream random({7, "depth-camera", 0}, "pixels");
+    MeasureDepth(truth, ACamera(), options, random);
+    return random.Bits();
+  };
+  const std::uint64_t expected = next(KinectV1Depth(), Flat(2));
+  EXPECT_EQ(next(WithStrength(KinectV1Depth(), 0), Flat(2)), expected);
+  EXPECT_EQ(next(KinectV2Depth(), StepEdge(1, 3)), expected);
+  EXPECT_EQ(next(KinectV1Depth(), Flat(kNotMeasured)), expected);
+  EXPECT_NE(next(KinectV1Depth(), DepthImage(kWidth, kHeight - 1, 2)), expected) << "fewer pixels, fewer throws";
+  // Half of the noise is half of each pixel's error.
+  DepthCameraOptions half = Only(KinectV1Depth(), &DepthCameraOptions::axial_noise), whole = half;
+  half.axial_noise = 0.5;
+  const DepthImage a = Measure(Flat(2), half), b = Measure(Flat(2), whole);
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) ASSERT_NEAR(2 * (a.pixels[i] - 2), b.pixels[i] - 2, 1e-6);
+}
+
+}  // namespace
+}  // namespace etude
