@@ -81,7 +81,8 @@ std::string VerdictBadges(const MethodFinding& finding) {
   if (finding.beyond.on_these_only) {
     return here + fmt::format(" <span class=\"badge none\">no verdict for {}</span>", others);
   }
-  return here + " " + badge(finding.beyond.verdict, fmt::format("{} for {}", VerdictWords(finding.beyond.verdict), others));
+  return here + " " +
+         badge(finding.beyond.verdict, fmt::format("{} for {}", VerdictWords(finding.beyond.verdict), others));
 }
 
 }  // namespace etude

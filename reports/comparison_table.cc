@@ -83,7 +83,8 @@ std::string Legend(const ScenarioSummary& scenario) {
       "rank-biserial "
       "correlation, −1 to +1, + is better. Better or worse: p ≤ 0.05, an interval on one side of zero, and a "
       "difference that matters. No difference: the interval within what matters. Where one method alone failed, p "
-      "counts that world as its loss, and the verdict must hold with and without. For {}: the mean over {} of their own mean "
+      "counts that world as its loss, and the verdict must hold with and without. For {}: the mean over {} of their "
+      "own mean "
       "differences decides, however many worlds each gave; with fewer than 6 there is no such verdict.",
       Plural(scenario.family, "comparison"), OtherUnits(scenario.unit), TheseUnits(scenario.unit));
 }
@@ -171,18 +172,19 @@ std::string ComparisonTableMarkdown(const ScenarioSummary& scenario) {
   if (count == 0) return "";
   std::string text = fmt::format(
       "\n<details><summary>Every comparison ({})</summary>\n\n"
-      "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | on {} | for {} | mind |\n"
+      "| metric | methods | condition | pairs | difference (95 % interval) | p (Holm) | effect | on {} | for {} | mind "
+      "|\n"
       "|---|---|---|---|---|---|---|---|---|---|\n",
       count, TheseUnits(scenario.unit), OtherUnits(scenario.unit));
   std::size_t rows = 0;
   ForEachComparison(scenario, [&](const ConditionSummary& condition, const Comparison& c, Against against) {
     if (++rows > kMostTableRows) return;
     const Line line = LineOf(condition, c, scenario.unit);
-    text += fmt::format("| {} | {}{} | {} | {} | {} ({}) | {} | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
-                        EscapeMarkdown(line.methods), against == Against::kRival ? " (strongest other)" : "",
-                        EscapeMarkdown(line.condition), line.pairs, line.difference, line.interval,
-                        EscapeMarkdown(line.p), line.effect, VerdictName(c.verdict), line.beyond,
-                        EscapeMarkdown(line.notes));
+    text +=
+        fmt::format("| {} | {}{} | {} | {} | {} ({}) | {} | {} | {} | {} | {} |\n", EscapeMarkdown(line.metric),
+                    EscapeMarkdown(line.methods), against == Against::kRival ? " (strongest other)" : "",
+                    EscapeMarkdown(line.condition), line.pairs, line.difference, line.interval, EscapeMarkdown(line.p),
+                    line.effect, VerdictName(c.verdict), line.beyond, EscapeMarkdown(line.notes));
   });
   const std::string rest = LeftOutWords(rows, kMostTableRows, "comparisons", kAllComparisons);
   if (!rest.empty()) text += fmt::format("\n{}\n", EscapeMarkdown(rest));

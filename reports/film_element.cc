@@ -2,17 +2,16 @@
 
 #include <fmt/core.h>
 
-#include <span>
 #include <string_view>
 
+#include "engine/base/base64.h"
 #include "reports/words/escape.h"
 
 namespace etude {
 namespace {
 
 std::string DataUri(std::string_view type, const std::string& bytes) {
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-  return fmt::format("data:{};base64,{}", type, Base64(std::span(data, bytes.size())));
+  return fmt::format("data:{};base64,{}", type, Base64(bytes));
 }
 
 }  // namespace
@@ -20,6 +19,12 @@ std::string DataUri(std::string_view type, const std::string& bytes) {
 std::string ImageElement(const Picture& picture) {
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", picture.width, picture.height,
                      EscapeMarkup(picture.caption), DataUri("image/png", picture.png));
+}
+
+std::string StillElement(const Still& still) {
+  return fmt::format(
+      "<figure><img alt=\"{0}\" src=\"data:image/jpeg;base64,{1}\"><figcaption>{0}</figcaption></figure>",
+      EscapeMarkup(still.caption), still.jpeg_base64);
 }
 
 std::string FilmElement(const Film& film, bool plays_at_once) {

@@ -17,7 +17,8 @@ namespace {
 constexpr std::string_view kAllNumbers = "the CSV file in report/tables";
 constexpr std::string_view kSigns =
     "First sign: against the method’s baseline; second: against the strongest other method. ▲ better, ▼ worse, = no "
-    "difference that matters, ? undecided, · not compared; in brackets on these worlds only, not for other clips, people "
+    "difference that matters, ? undecided, · not compared; in brackets on these worlds only, not for other clips, "
+    "people "
     "or libraries. Medians; means of shares, scores and penalised costs.";
 
 struct OverviewCell {

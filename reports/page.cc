@@ -54,7 +54,8 @@ std::string Contents(const RunData& run, const std::vector<ScenarioFindings>& fi
   return html +
          "</ol><p class=\"quiet legend\">The method that each question is about, against its baseline and against the "
          "strongest other method: ▲ better, ▼ worse, = no difference that matters, ? undecided, ± it depends on the "
-         "condition. In brackets: on these worlds only, not for other clips, people or libraries like theirs.</p></nav>";
+         "condition. In brackets: on these worlds only, not for other clips, people or libraries like "
+         "theirs.</p></nav>";
 }
 
 constexpr std::string_view kHowToRead = R"(<section class="how"><h2>How to read this</h2>

@@ -142,6 +142,7 @@ std::string Strip(const ScenarioSummary& scenario, const Media& media) {
     html += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", ImageElement(picture),
                         EscapeMarkup(picture.caption));
   }
+  for (const Still& still : media.stills) html += StillElement(still);
   return html + "</div>";
 }
 

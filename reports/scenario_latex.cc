@@ -59,9 +59,10 @@ Group EndedOk(const ScenarioSummary& scenario, const ConditionSummary& condition
   Begin(group, "cells that ended ok");
   for (const MethodSummary& method : condition.methods) {
     if (method.attempted == 0) continue;
-    group.latex += fmt::format(
-        "{} & {} & {} & & & & & \\\\\n", EscapeLatex(MethodLabel(scenario, method.method)), FormatCount(method.attempted),
-        WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
+    group.latex +=
+        fmt::format("{} & {} & {} & & & & & \\\\\n", EscapeLatex(MethodLabel(scenario, method.method)),
+                    FormatCount(method.attempted),
+                    WithInterval(FormatShare(method.ok, method.attempted), method.ok_low, method.ok_high, share));
     ++group.rows;
   }
   return group;
@@ -118,7 +119,8 @@ std::string Caption(const ScenarioSummary& scenario, const ConditionSummary& con
   return fmt::format(
       "{}{} Medians (of shares means) with their 95 % intervals; n: cells that have the value, of those attempted. "
       "Difference: method − baseline in the same world, its median (of shares and penalised costs its mean) with its "
-      "95 % interval; a second row compares with the strongest other method. The last columns hold the verdict on {} and "
+      "95 % interval; a second row compares with the strongest other method. The last columns hold the verdict on {} "
+      "and "
       "the one for {} (--: none, with fewer than 6 of them). p is Holm-corrected over this scenario’s {}: ",
       title, label.empty() ? "" : fmt::format(" ({})", label), TheseUnits(scenario.unit), OtherUnits(scenario.unit),
       Plural(scenario.family, "comparison"));

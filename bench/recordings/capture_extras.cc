@@ -34,8 +34,13 @@ Json ToJson(const CaptureExtras::View& view) {
                {"mask_height", view.masks.empty() ? 0 : view.masks[0].height},
                {"masks", std::move(masks)}};
   const Distortion& d = view.truth.distortion;
+  if (!view.still_jpeg_base64.empty()) json["still"] = view.still_jpeg_base64;
   if (!d.IsNone()) json["distortion"] = {d.k1, d.k2, d.p1, d.p2, d.k3};
   return json;
+}
+
+bool IsBase64(std::string_view text) {
+  return text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=") == text.npos;
 }
 
 Result<CaptureExtras::View> ToView(const Json& json) {
@@ -48,6 +53,10 @@ Result<CaptureExtras::View> ToView(const Json& json) {
   if (json.contains("distortion")) {
     const Json& d = json.at("distortion");
     view.truth.distortion = {d.at(0), d.at(1), d.at(2), d.at(3), d.at(4)};
+  }
+  if (json.contains("still")) {
+    view.still_jpeg_base64 = json.at("still");
+    if (!IsBase64(view.still_jpeg_base64)) return Fail({}, "a capture recording whose 'still' is no base64");
   }
   const int width = json.at("mask_width"), height = json.at("mask_height");
   for (const Json& text : json.at("masks")) {

@@ -29,12 +29,14 @@ namespace etude {
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
 ///                   "distortion": [k1, k2, p1, p2, k3],        only of a lens that has one (OpenCV's)
 ///                   "mask_width": 320, "mask_height": 240,
-///                   "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
+///                   "still": "/9j/4AAQ…",                      the picture of frame n / 2: JPEG in base64; may be
+///                   absent "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
 struct CaptureExtras {
   struct View {
-    Camera truth;             ///< the camera that took the pictures
-    std::vector<Mask> masks;  ///< the person as found, one per frame, at half the pictures' size
+    Camera truth;                        ///< the camera that took the pictures
+    std::vector<Mask> masks;             ///< the person as found, one per frame, at half the pictures' size
+    std::string still_jpeg_base64 = {};  ///< the middle frame's picture as it was taken; may be empty
   };
 
   std::uint64_t texture_seed = 1;

@@ -129,6 +129,17 @@ std::string CapturePanel::CameraName(std::size_t camera) const {
   return camera == 0 ? "First camera" : "Second camera";
 }
 
+std::vector<Still> CapturePanel::Stills() const {
+  std::vector<Still> stills;
+  for (std::size_t camera = 0; camera < Cameras(); ++camera) {
+    const std::string& still = extras_.views[camera].still_jpeg_base64;
+    if (still.empty()) continue;
+    stills.push_back({still, fmt::format("{}, as it was taken, {:.1f} s", CameraName(camera),
+                                         static_cast<double>(Frames() / 2) / RateHz())});
+  }
+  return stills;
+}
+
 std::string CapturePanel::Title() const { return clip_.empty() ? method_ : fmt::format("{} on {}", method_, clip_); }
 
 std::string CapturePanel::ErrorWords(int frame) const {

@@ -7,6 +7,7 @@
 #include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/cast.h"
+#include "reports/films/media.h"
 #include "sim/camera/lens.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
@@ -27,6 +28,8 @@ class CapturePanel {
   std::string CameraName(std::size_t camera) const;
   /// "adaptive on clap"
   std::string Title() const;
+  /// What each camera really took in the middle of the motion.
+  std::vector<Still> Stills() const;
   /// "adaptive · joints 43 mm off in this frame, 51 mm on the whole"
   std::string ErrorWords(int frame) const;
 

@@ -66,6 +66,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& la
   if (capture_cell) {
     if (auto made = CapturePanel::Make(run, *capture_cell)) {
       media.strip = DrawStrip(*made, **renderer);
+      media.stills = made->Stills();
       media.strip_scenario = capture_cell->scenario->name;
       if (auto saved = SaveStripPictures(*made, **renderer, paths.pictures); !saved) Note(why, ToString(saved.error()));
       capture = std::move(*made);

@@ -16,6 +16,12 @@ struct Picture {
   std::string caption;
 };
 
+/// A picture as a camera of the run took it, with its caption.
+struct Still {
+  std::string jpeg_base64;  ///< nothing but letters of that alphabet
+  std::string caption;
+};
+
 /// A film as the page shows it.
 struct Film {
   std::string file;     ///< its name in the run's folder `video`
@@ -34,7 +40,8 @@ struct ScenarioFilm {
 struct Media {
   Film film;  ///< of the run: coach and cameras; empty for tasks without either, and where a scenario's film shows all
   std::vector<Picture> strip;  ///< moments of the capture: stereo pictures, mask, recovered skeleton
-  std::string strip_scenario;  ///< whose card shows the strip
+  std::vector<Still> stills;   ///< the same capture's middle frame as its cameras took it
+  std::string strip_scenario;  ///< whose card shows the strip and the stills
   std::vector<ScenarioFilm>
       scenario_films;  ///< methods side by side: inverse kinematics settling, transitions from clip to clip
 };

@@ -23,6 +23,4 @@ std::string EscapeLatex(std::string_view text);
 /// A field of a CSV file (RFC 4180), quoted when it must be.
 std::string EscapeCsv(std::string_view text);
 
-std::string Base64(std::span<const unsigned char> bytes);
-
 }  // namespace etude

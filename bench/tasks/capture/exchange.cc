@@ -91,13 +91,13 @@ Result<void> CheckSize(const CaptureWorld& world) {
 }
 
 Json PartNumbers() {
-  constexpr std::array kNames = {"background",   "shadow",     "trunk",           "head",          "left_upper_arm",
-                                 "left_forearm", "left_hand",  "right_upper_arm", "right_forearm", "right_hand",
-                                 "left_thigh",   "left_shank", "left_foot",       "right_thigh",   "right_shank",
-                                 "right_foot",   "furniture",  "clutter",         "bystander"};
-  static_assert(kNames.size() == static_cast<std::size_t>(Part::kBystander) + 1);
+  constexpr std::array kPartNames = {"background",   "shadow",     "trunk",           "head",          "left_upper_arm",
+                                     "left_forearm", "left_hand",  "right_upper_arm", "right_forearm", "right_hand",
+                                     "left_thigh",   "left_shank", "left_foot",       "right_thigh",   "right_shank",
+                                     "right_foot",   "furniture",  "clutter",         "bystander"};
+  static_assert(kPartNames.size() == static_cast<std::size_t>(Part::kBystander) + 1);
   Json numbers = Json::object();
-  for (std::size_t part = 0; part < kNames.size(); ++part) numbers[kNames[part]] = part;
+  for (std::size_t part = 0; part < kPartNames.size(); ++part) numbers[kPartNames[part]] = part;
   return numbers;
 }
 

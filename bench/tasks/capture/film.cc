@@ -99,6 +99,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const Crew::Picture picture = crew.Shoot(camera, frame);
       show(camera, frame, picture.colour);
+      if (wants_masks && frame == world.truth.size() / 2) take.stills.push_back(picture.colour);
       for (std::size_t i = 0; i < sources.size(); ++i) {
         Observation& observation = take.observations[i];
         const Mask person = crew.CutOut(picture, camera, sources[i]);

@@ -35,6 +35,7 @@ struct Observation {
 
 struct Take {
   std::string pictures_digest;
+  std::vector<ColourImage> stills;        ///< of each camera the picture of the middle frame; only with the masks
   std::vector<Observation> observations;  ///< one per source asked for, in that order
 };
 

@@ -1,8 +1,10 @@
 #include "bench/tasks/capture/recording.h"
 
 #include "bench/recordings/capture_extras.h"
+#include "engine/base/base64.h"
 #include "engine/formats/bvh.h"
 #include "engine/motion/from_body.h"
+#include "sim/camera/jpeg.h"
 
 namespace etude {
 namespace {
@@ -21,13 +23,15 @@ CaptureExtras DescribeStage(const CaptureWorld& world) {
 
 }  // namespace
 
-Recording MakeRecording(const CaptureWorld& world, const Observation& observation,
+Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
                         const std::vector<RecoveredFrame>& frames, const std::string& name) {
   Track truth{"truth", {kJudgedRateHz, world.truth}}, recovered{"recovered", {kJudgedRateHz, {}}};
   for (const RecoveredFrame& frame : frames) recovered.motion.poses.push_back(frame.pose);
   CaptureExtras extras = DescribeStage(world);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    extras.views.push_back({world.cameras[i], observation.masks[i]});
+    constexpr int kStillQuality = 85;
+    const std::string still = EncodeJpeg(take.stills[i], kStillQuality);
+    extras.views.push_back({world.cameras[i], observation.masks[i], Base64(still)});
   }
   extras.bvh = WriteBvh(ToClip(world.lengths, frames, kJudgedRateHz, name));
   return {{std::move(truth), std::move(recovered)}, WriteCaptureExtras(extras)};

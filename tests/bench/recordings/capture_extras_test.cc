@@ -31,6 +31,7 @@ CaptureExtras Sample() {
     extras.views.push_back({LookAt(in, {x, 1.4, 3}, {0, 1, 0}), {Pattern(32, 24, 1), Pattern(32, 24, 2)}});
   }
   extras.views[1].truth.distortion = {.k1 = -0.2, .k2 = 0.03, .p1 = 0.001, .p2 = -0.002, .k3 = 0.01};
+  extras.views[0].still_jpeg_base64 = "/9j/4A+b";
   extras.bvh = "HIERARCHY\n";
   return extras;
 }
@@ -50,6 +51,7 @@ TEST(CaptureExtras, SurviveWritingAndReading) {
     EXPECT_EQ(read->views[i].truth.p_WC, written.views[i].truth.p_WC);
     EXPECT_EQ(read->views[i].truth.intrinsics.fy, 601.5);
     EXPECT_EQ(read->views[i].truth.distortion, written.views[i].truth.distortion);
+    EXPECT_EQ(read->views[i].still_jpeg_base64, written.views[i].still_jpeg_base64);
     ASSERT_EQ(read->views[i].masks.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(read->views[i].masks[k].pixels, written.views[i].masks[k].pixels);
   }
@@ -62,6 +64,9 @@ TEST(CaptureExtras, RefuseWhatIsNotOne) {
   const auto newer = ReadCaptureExtras(R"({"format": "etude-capture", "version": 2})");
   ASSERT_FALSE(newer);
   EXPECT_THAT(newer.error().message, HasSubstr("version 2"));
+  CaptureExtras hostile = Sample();
+  hostile.views[0].still_jpeg_base64 = "x\"><script>";  // it goes into a page
+  EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(hostile)));
   CaptureExtras torn = Sample();
   torn.views[1].masks.pop_back();
   EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(torn)));

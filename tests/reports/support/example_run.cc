@@ -276,7 +276,7 @@ Recording CaptureRecording(std::vector<double>& errors) {
   CaptureExtras extras;
   extras.texture_seed = 7;
   for (const double x : {-1.1, 1.1}) {
-    extras.views.push_back({LookAt(Intrinsics{}, {x, 1.3, 3.6}, {0, 0.95, 0}), {}});
+    extras.views.push_back({LookAt(Intrinsics{}, {x, 1.3, 3.6}, {0, 0.95, 0}), {}, "/9j/4AAQ"});
   }
   for (int frame = 0; frame < kFrames; ++frame) {
     const double t = frame / 30.0;

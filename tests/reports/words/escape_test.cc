@@ -7,22 +7,6 @@
 namespace etude {
 namespace {
 
-std::string EncodedText(std::string_view text) {
-  const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
-  return Base64(std::span(bytes, text.size()));
-}
-
-// RFC 4648, section 10.
-TEST(Base64, GivesThePublishedVectors) {
-  EXPECT_EQ(EncodedText(""), "");
-  EXPECT_EQ(EncodedText("f"), "Zg==");
-  EXPECT_EQ(EncodedText("fo"), "Zm8=");
-  EXPECT_EQ(EncodedText("foo"), "Zm9v");
-  EXPECT_EQ(EncodedText("foob"), "Zm9vYg==");
-  EXPECT_EQ(EncodedText("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(EncodedText("\xff\xef\xfe"), "/+/+");
-}
-
 TEST(Markup, LeavesNoCharacterThatCouldOpenAnything) {
   EXPECT_EQ(EscapeMarkup("</script><b a=\"1\" c='2'>&"), "&lt;/script&gt;&lt;b a=&quot;1&quot; c=&#39;2&#39;&gt;&amp;");
   EXPECT_EQ(EscapeMarkup("größer → 5 °, 𝄞"), "größer → 5 °, 𝄞");

@@ -137,6 +137,8 @@ TEST(CaptureTask, RecordsWhatAVideoAndABvhFileNeed) {
   ASSERT_TRUE(extras) << ToString(extras.error());
   ASSERT_EQ(extras->views.size(), 2u);
   EXPECT_EQ(extras->views[0].masks.size(), 3u);
+  EXPECT_THAT(extras->views[0].still_jpeg_base64, testing::StartsWith("/9j/")) << "a JPEG begins with FF D8 FF";
+  EXPECT_NE(extras->views[0].still_jpeg_base64, extras->views[1].still_jpeg_base64);
   const auto clip = ReadBvh(extras->bvh, "a.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_EQ(clip->frames.size(), 3u);

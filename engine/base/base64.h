@@ -1,0 +1,13 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace etude {
+
+/// RFC 4648, with padding.
+std::string Base64(std::span<const unsigned char> bytes);
+std::string Base64(std::string_view bytes);
+
+}  // namespace etude
