@@ -213,8 +213,9 @@ TEST(DepthCamera, EdgesShiftInBothDirectionsByPixelsOfTheSensor) {
   const double share = 0.5 * std::erfc(0.5 / (0.8 * 580 / 365) / std::numbers::sqrt2);
   const double both = share * share;
   EXPECT_NEAR(static_cast<double>(above) / pixels, share, 4 * std::sqrt(share * (1 - share) / pixels));
-  EXPECT_NEAR(static_cast<double>(beside) / pixels, share, 4 * std::sqrt(share * (1 - share) / pixels);
-  EXPECT_NEAR(static_cast<double>(diagonal) / trials, both, 4 * std::sqrt(both * (1 - both) / trials)) << "a throw for each direction";
+  EXPECT_NEAR(static_cast<double>(beside) / pixels, share, 4 * std::sqrt(share * (1 - share) / pixels));
+  EXPECT_NEAR(static_cast<double>(diagonal) / trials, both, 4 * std::sqrt(both * (1 - both) / trials))
+      << "a throw for each direction";
 }
 
 TEST(DepthCamera, StrengthsDoNotChangeTheDice) {
