@@ -202,7 +202,7 @@ TEST(DepthCamera, EdgesShiftInBothDirectionsByPixelsOfTheSensor) {
     for (int x = 160; x < kWidth; ++x) corner.At(x, y) = 1.5f;
   }
   const DepthCameraOptions options = Only(KinectV2Depth(), &DepthCameraOptions::lateral_noise);
-  const int trials = 200, pixels = 100 * trials;
+  const int trials = 60, pixels = 100 * trials;
   int above = 0, beside = 0, diagonal = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const DepthImage measured = Measure(corner, options, trial);
