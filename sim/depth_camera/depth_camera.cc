@@ -53,7 +53,8 @@ class Exposure {
 
   float Measure(int x, int y, const std::array<double, 3>& normals) const {
     const double z = Rounded(WithNoise(Displaced(x, y, normals[0], normals[1]), normals[2]));
-    const bool is_near = z<options_.range * options_.near_m, is_far = options_.range * z> options_.far_m;
+    const bool is_near = z < options_.range * options_.near_m;
+    const bool is_far = z * options_.range > options_.far_m;
     return z > 0 && !is_near && !is_far ? static_cast<float>(z) : kNotMeasured;
   }
 

@@ -196,6 +196,28 @@ TEST(DepthCamera, EdgesAreAsUnsteadyAsPublished) {
   EXPECT_TRUE(SameBytes(Measure(TurnedWall(2, 0.9), options), TurnedWall(2, 0.9))) << "no edge, no shift";
 }
 
+TEST(DepthCamera, EdgesShiftInBothDirectionsByPixelsOfTheSensor) {
+  DepthImage corner = Flat(3);
+  for (int y = 120; y < kHeight; ++y) {
+    for (int x = 160; x < kWidth; ++x) corner.At(x, y) = 1.5f;
+  }
+  const DepthCameraOptions options = Only(KinectV2Depth(), &DepthCameraOptions::lateral_noise);
+  const int trials = 60, pixels = 100 * trials;
+  int above = 0, beside = 0, diagonal = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const DepthImage measured = Measure(corner, options, trial);
+    for (int i = 0; i < 100; ++i) above += measured.At(200 + i, 119) < 2, beside += measured.At(159, 130 + i) < 2;
+    diagonal += measured.At(159, 119) < 2;
+  }
+  // The picture's focal length is 580, the sensor's 365.
+  const double share = 0.5 * std::erfc(0.5 / (0.8 * 580 / 365) / std::numbers::sqrt2);
+  const double both = share * share;
+  EXPECT_NEAR(static_cast<double>(above) / pixels, share, 4 * std::sqrt(share * (1 - share) / pixels));
+  EXPECT_NEAR(static_cast<double>(beside) / pixels, share, 4 * std::sqrt(share * (1 - share) / pixels));
+  EXPECT_NEAR(static_cast<double>(diagonal) / trials, both, 4 * std::sqrt(both * (1 - both) / trials))
+      << "a throw for each direction";
+}
+
 TEST(DepthCamera, StrengthsDoNotChangeTheDice) {
   const auto next = [](const DepthCameraOptions& options, const DepthImage& truth) {
     RandomStream random({7, "depth-camera", 0}, "pixels");
