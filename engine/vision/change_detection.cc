@@ -1,8 +1,10 @@
 #include "engine/vision/change_detection.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/base/named.h"
 #include "engine/vision/components.h"
@@ -21,7 +23,7 @@ class HueComparison {
   bool Differ(Chroma a, Chroma b) const {
     const double dot = Dot4(a, b);
     // Thresholds are below a right angle, so their cosine is positive and may be squared.
-    return dot <= 0 || dot * dot < cosine2_ * Dot4(a, a) * Dot4(b, b);
+    return (dot <= 0) | (dot * dot < cosine2_ * Dot4(a, a) * Dot4(b, b));
   }
 
  private:
@@ -30,8 +32,43 @@ class HueComparison {
 
 // The paper's formula leaves grey without a hue; as everywhere here it is then 0, that of pure red.
 Chroma ChromaOrRed(Rgb8 colour) {
-  const Chroma chroma(colour);
-  return chroma.IsGrey() ? Chroma(Rgb8{255, 0, 0}) : chroma;
+  constexpr int kRed = Chroma(Rgb8{255, 0, 0}).x;
+  Chroma chroma(colour);
+  chroma.x = chroma.IsGrey() ? kRed : chroma.x;
+  return chroma;
+}
+
+// Some pixels' chromas, coordinate by coordinate: loops over them become vector instructions.
+struct Chromas {
+  static constexpr std::size_t kMost = 512;
+
+  void Fill(const Rgb8* pixels, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const Chroma chroma = ChromaOrRed(pixels[i]);
+      x[i] = chroma.x;
+      y[i] = chroma.y;
+    }
+  }
+  Chroma At(std::size_t i) const {
+    Chroma chroma(Rgb8{});
+    chroma.x = x[i];
+    chroma.y = y[i];
+    return chroma;
+  }
+
+  std::array<int, kMost> x, y;
+};
+
+void CompareHues(const ColourImage& background, const ColourImage& picture, double threshold, Mask& mask) {
+  const HueComparison hues(threshold);
+  Chromas before, now;
+  for (std::size_t first = 0; first < mask.pixels.size(); first += Chromas::kMost) {
+    const std::size_t count = std::min(Chromas::kMost, mask.pixels.size() - first);
+    before.Fill(&background.pixels[first], count);
+    now.Fill(&picture.pixels[first], count);
+    std::uint8_t* out = &mask.pixels[first];
+    for (std::size_t i = 0; i < count; ++i) out[i] = hues.Differ(before.At(i), now.At(i));
+  }
 }
 
 class GatedComparison {
@@ -78,10 +115,7 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
   assert(options.hue_threshold >= 0 && options.hue_threshold < kPi / 2);
   Mask mask(picture.width, picture.height);
   if (segmenter == Segmenter::kHue) {
-    const HueComparison hues(options.hue_threshold);
-    for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-      mask.pixels[i] = hues.Differ(ChromaOrRed(background.pixels[i]), ChromaOrRed(picture.pixels[i]));
-    }
+    CompareHues(background, picture, options.hue_threshold, mask);
   } else {
     const GatedComparison tones(options);
     for (std::size_t i = 0; i < mask.pixels.size(); ++i) {

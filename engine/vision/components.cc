@@ -1,7 +1,9 @@
 #include "engine/vision/components.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -15,13 +17,27 @@ struct RunsOfMask {
   std::vector<bool> set;  // of each run
 };
 
+// Most of a mask is long runs: eight equal pixels at a time are passed over.
+int EndOfRun(const std::uint8_t* row, int x, int width) {
+  constexpr int kBlock = sizeof(std::uint64_t);
+  const std::uint8_t value = row[x];
+  const std::uint64_t equal = value * std::uint64_t{0x0101010101010101};
+  for (std::uint64_t block = 0; x + kBlock <= width; x += kBlock) {
+    std::memcpy(&block, row + x, kBlock);
+    if (block != equal) break;
+  }
+  while (x < width && (row[x] != 0) == (value != 0)) ++x;
+  return x;
+}
+
 RunsOfMask FindRuns(const Mask& mask) {
   RunsOfMask found;
   for (int y = 0; y < mask.height; ++y) {
+    const std::uint8_t* row = mask.pixels.data() + static_cast<std::ptrdiff_t>(y) * mask.width;
     for (int x = 0; x < mask.width;) {
-      const bool set = mask.At(x, y) != 0;
+      const bool set = row[x] != 0;
       const int begin = x;
-      while (x < mask.width && (mask.At(x, y) != 0) == set) ++x;
+      x = EndOfRun(row, x, mask.width);
       found.runs.push_back({y, begin, x, 0});
       found.set.push_back(set);
     }

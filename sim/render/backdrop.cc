@@ -36,7 +36,8 @@ void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets ta
   const std::size_t count = static_cast<std::size_t>(width) * height;
 
   static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
-  RoundToBytes(&room.colours[3 * first], 3 * count, static_cast<float>(brightness), &view.colour.pixels.front().r);
+  RoundToBytes(&room.colours[3 * first], 3 * count, static_cast<float>(brightness),
+               reinterpret_cast<std::uint8_t*>(view.colour.pixels.data()));
   if (targets != Targets::kColour) std::copy_n(&room.labels[first], count, view.labels.pixels.begin());
   if (targets == Targets::kAll) std::copy_n(&room.depths[first], count, view.depth.pixels.begin());
 }
