@@ -23,7 +23,7 @@ constexpr const char* kBridgeExamples =
 }  // namespace
 
 void DefineBridge(CLI::App& app, Action& action) {
-  auto options = std::make_shared<BridgeOptions>();
+  auto options = std::make_shared<BridgeCommandOptions>();
   CLI::App* command =
       app.add_subcommand("bridge", "Find the frames at which one clip can lead into another, and tag them");
   command->add_option("clips", options->clips, "The clips of one library");

@@ -18,7 +18,7 @@ BridgeTags TagsOf(const BridgeLibrary& loaded) {
 }
 
 /// The file's own rules, so that its clips are tagged as they were.
-BridgeOptions OptionsOf(const BridgeTags& tags, BridgeOptions options) {
+BridgeCommandOptions OptionsOf(const BridgeTags& tags, BridgeCommandOptions options) {
   options.threshold = tags.threshold;
   options.within_class = tags.within_class;
   options.min_clips = tags.min_clips;
@@ -30,7 +30,7 @@ BridgeOptions OptionsOf(const BridgeTags& tags, BridgeOptions options) {
   return options;
 }
 
-int CheckTags(const BridgeOptions& options) {
+int CheckTags(const BridgeCommandOptions& options) {
   if (options.clips.empty() && !options.fuzzy.empty()) {
     return Complain({{"--fuzzy", 0, 0}, "is for tagging clips again; name those that the file should fit"});
   }
@@ -70,7 +70,7 @@ Result<void> WriteTags(const BridgeLibrary& loaded, const std::string& path) {
 
 }  // namespace
 
-int BridgeCommand(const BridgeOptions& options) {
+int BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.check.empty()) return CheckTags(options);
   if (options.clips.empty()) return Complain({{}, "etude bridge needs clips, or --check a tags file"});
   if (!options.output.empty()) {

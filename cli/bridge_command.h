@@ -7,7 +7,7 @@
 
 namespace etude {
 
-struct BridgeOptions {
+struct BridgeCommandOptions {
   std::vector<std::string> clips;
   std::vector<std::string> to;  ///< corrective clips; none = the coach's own among `clips`
   std::string output;           ///< a tags file, "" = only the summary
@@ -20,6 +20,6 @@ struct BridgeOptions {
 };
 /// `etude bridge`: bridge frames of clips, as a tags file and a summary; or, with `check`, whether a tags file is one
 /// and fits its clips. Exit 2 when it does not.
-int BridgeCommand(const BridgeOptions& options);
+int BridgeCommand(const BridgeCommandOptions& options);
 
 }  // namespace etude

@@ -53,7 +53,7 @@ std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
 
 }  // namespace
 
-Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options) {
+Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options) {
   BridgeLibrary loaded;
   ASSIGN_OR_RETURN(auto system, LoadFuzzySystem(options.fuzzy));
   loaded.system = std::move(system);

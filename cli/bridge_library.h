@@ -7,6 +7,6 @@
 namespace etude {
 
 /// Opens and tags the clips of `options`, those of `to` among them.
-Result<BridgeLibrary> LoadBridgeLibrary(const BridgeOptions& options);
+Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options);
 
 }  // namespace etude

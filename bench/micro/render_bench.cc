@@ -79,7 +79,7 @@ void Staged(benchmark::State& state) {
   }
   const BodyPose pose = StandingPose();
   const std::vector<Camera> cameras = {LookAt(kVga, {-2.4, 1.0, 2.9}, {0, 0.95, 0})};
-  const Stage stage({.seed = 3, .scene = 0.01 * static_cast<double>(state.range(0))}, {&pose, 1}, cameras);
+  const StagedRoom stage({.seed = 3, .scene = 0.01 * static_cast<double>(state.range(0))}, {&pose, 1}, cameras);
   double seconds = 0;
   const auto draw = [&] {
     std::vector<Figure> figures = stage.MoversAt(seconds);

@@ -71,11 +71,11 @@ Box CropAround(const BodyMotion& motion, const Camera& camera) {
   return {corner.x, corner.y, share * size.x, share * size.y};
 }
 
-Stage StageOf(const CaptureExtras& extras, const BodyMotion& truth) {
+StagedRoom StageOf(const CaptureExtras& extras, const BodyMotion& truth) {
   std::vector<Camera> cameras;
   for (const CaptureExtras::View& view : extras.views) cameras.push_back(view.truth);
   const Wardrobe wardrobe = extras.wears_everyday ? Wardrobe::kEveryday : Wardrobe::kStudio;
-  return Stage({.seed = extras.stage_seed, .scene = extras.scene, .wardrobe = wardrobe}, truth.poses, cameras);
+  return StagedRoom({.seed = extras.stage_seed, .scene = extras.scene, .wardrobe = wardrobe}, truth.poses, cameras);
 }
 
 }  // namespace

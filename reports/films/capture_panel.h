@@ -43,7 +43,7 @@ class CapturePanel {
  private:
   BodyMotion truth_, recovered_;
   CaptureExtras extras_;
-  Stage stage_;
+  StagedRoom stage_;
   std::vector<LensWarp> lenses_;   ///< one per camera
   std::vector<Box> crops_;         ///< one per camera, pixels of its pictures
   std::vector<double> errors_mm_;  ///< one per frame; empty when the run kept no such curve

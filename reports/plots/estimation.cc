@@ -32,7 +32,7 @@ std::string Attributes(int trial) { return fmt::format(" data-t=\"{}\"", trial);
 
 class Plot {
  public:
-  Plot(const ScenarioSummary& scenario, const Judged& judged, const PairedWorlds& pairs)
+  Plot(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs)
       : scenario_(scenario),
         judged_(judged),
         c_(*judged.comparison),
@@ -80,8 +80,9 @@ class Plot {
     const std::string band = fmt::format("<rect class=\"band\" x=\"{}\" y=\"{:.1f}\" width=\"{}\" height=\"{:.1f}\"/>",
                                          kPanelLeft, high, kPanelRight - kPanelLeft, std::max(1.0, low - high));
     return BeginPanel(kHeight, fmt::format("paired differences, {} minus {}", c_.method, c_.baseline)) + band +
-           UprightGrid(axis) + fmt::format("<path class=\"zero\" d=\"M{} {:.1f}H{}\"/>", kPanelLeft, axis.At(0), kPanelRight) +
-           dots + Interval(axis, kAggregateX, c_.difference, c_.ci_low, c_.ci_high) + Units(axis) +
+           UprightGrid(axis) +
+           fmt::format("<path class=\"zero\" d=\"M{} {:.1f}H{}\"/>", kPanelLeft, axis.At(0), kPanelRight) + dots +
+           Interval(axis, kAggregateX, c_.difference, c_.ci_low, c_.ci_high) + Units(axis) +
            PanelText(kWorldsX, kBottom + 18, "each world", "middle") +
            PanelText(kAggregateX, kBottom + 18, words_.by_mean ? "their mean" : "their median", "middle") +
            (ShowsUnits() ? PanelText(kUnitsX, kBottom + 18, UnitsWords(), "middle") : "") + "</svg>";
@@ -149,8 +150,8 @@ class Plot {
     for (const auto& [unit, sum] : sums) {
       const double mean = sum.first / sum.second;
       dots += MarkUse(cast_.method, unit, kUnitsX - 22 + aside[i], places[i], "",
-                      fmt::format("{}: mean {}{} over {}", pairs_.units[unit], FormatNumber(mean), words_.difference_suffix,
-                                  Plural(sum.second, "world")));
+                      fmt::format("{}: mean {}{} over {}", pairs_.units[unit], FormatNumber(mean),
+                                  words_.difference_suffix, Plural(sum.second, "world")));
       ++i;
     }
     return dots + interval;
@@ -159,12 +160,12 @@ class Plot {
   const ScenarioSummary& scenario_;
   const Judged& judged_;
   const Comparison& c_;
-  const PairedWorlds& pairs_;
+  const PairedDots& pairs_;
   MetricWords words_;
   Cast cast_;
 };
 
-std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const PairedWorlds& pairs) {
+std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs) {
   const Comparison& c = *judged.comparison;
   const MetricWords words = WordsFor(c.metric);
   const MetricInfo* info = FindMetric(c.metric);
@@ -176,10 +177,10 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
   if (!condition.empty()) text += ", " + condition;
   text += fmt::format(": {}{}{}{}", words.plain_label, unit.empty() ? "" : ", " + unit, direction.empty() ? "" : "; ",
                       direction);
-  text += fmt::format(". Each dot a world, {}",
-                      pairs.units.empty()                           ? "coloured by method"
-                      : scenario.unit == SamplingUnit::kClipPair ? "coloured by the clip left"
-                                                                     : "coloured by what it was drawn from");
+  text += fmt::format(". Each dot a world, {}", pairs.units.empty() ? "coloured by method"
+                                                : scenario.unit == SamplingUnit::kClipPair
+                                                    ? "coloured by the clip left"
+                                                    : "coloured by what it was drawn from");
   if (pairs.worlds.size() < pairs.total) {
     text += fmt::format(" ({} of {} drawn, at equal steps)", FormatCount(static_cast<long long>(pairs.worlds.size())),
                         FormatCount(static_cast<long long>(pairs.total)));
@@ -195,7 +196,7 @@ std::string Caption(const ScenarioSummary& scenario, const Judged& judged, const
 
 }  // namespace
 
-std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedWorlds& pairs) {
+std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs) {
   if (pairs.worlds.empty()) return "";
   const Comparison& c = *judged.comparison;
   const Plot plot(scenario, judged, pairs);
@@ -207,7 +208,7 @@ std::string EstimationHtml(const ScenarioSummary& scenario, const Judged& judged
       UnitLegendHtml(pairs));
 }
 
-std::string UnitLegendHtml(const PairedWorlds& pairs) {
+std::string UnitLegendHtml(const PairedDots& pairs) {
   if (pairs.units.empty()) return "";
   std::string html = "<p class=\"quiet legend units\">";
   for (std::size_t i = 0; i < std::min(kMostNamed, pairs.units.size()); ++i) {

@@ -27,7 +27,7 @@ std::vector<std::string> UnitNames(const std::map<int, Found>& found) {
 
 }  // namespace
 
-PairedWorlds PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
+PairedDots PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario, const Judged& judged) {
   const Comparison& c = *judged.comparison;
   const double scale = WordsFor(c.metric).scale;
   std::map<int, Found> found;
@@ -42,7 +42,7 @@ PairedWorlds PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario,
   }
   std::erase_if(found, [](const auto& entry) { return !entry.second.baseline || !entry.second.method; });
 
-  PairedWorlds pairs;
+  PairedDots pairs;
   pairs.total = found.size();
   pairs.units = UnitNames(found);
   const std::size_t stride = StrideFor(found.size(), kMostWorlds);
@@ -54,8 +54,8 @@ PairedWorlds PairedWorldsOf(const RunData& run, const ScenarioSummary& scenario,
     pair.baseline = *world.baseline;
     pair.method = *world.method;
     if (world.row->units.empty()) continue;
-    pair.unit = static_cast<std::size_t>(std::ranges::lower_bound(pairs.units, world.row->units.front()) -
-                                         pairs.units.begin());
+    pair.unit =
+        static_cast<std::size_t>(std::ranges::lower_bound(pairs.units, world.row->units.front()) - pairs.units.begin());
   }
   return pairs;
 }

@@ -35,7 +35,7 @@ double ColourShare(double scene) {
   return std::lerp(kSteps[below], kSteps[below + 1], step - static_cast<double>(below));
 }
 
-Stage::Stage(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras) {
+StagedRoom::StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras) {
   if (!(options.scene > 0)) return;
   const double share = ColourShare(options.scene);
   const FreeFloor free = FloorOf(poses);
@@ -47,19 +47,19 @@ Stage::Stage(const StageOptions& options, std::span<const BodyPose> poses, std::
   flicker_phase_ = random.Uniform();
 }
 
-Figure Stage::PerformerAt(const BodyPose& pose, const PartColours& studio) const {
+Figure StagedRoom::PerformerAt(const BodyPose& pose, const PartColours& studio) const {
   return performer_ ? performer_->At(pose) : Figure{BodyCapsules(pose), studio};
 }
 
-std::vector<Figure> Stage::MoversAt(double seconds) const {
+std::vector<Figure> StagedRoom::MoversAt(double seconds) const {
   return movers_ ? movers_->At(seconds) : std::vector<Figure>{};
 }
 
-std::optional<BodyPose> Stage::BystanderAt(double seconds) const {
+std::optional<BodyPose> StagedRoom::BystanderAt(double seconds) const {
   return movers_ ? movers_->BystanderAt(seconds) : std::nullopt;
 }
 
-double Stage::FlickerAt(double seconds) const {
+double StagedRoom::FlickerAt(double seconds) const {
   // A mains a little off 50 Hz, so that 30 pictures a second show a slow beat.
   constexpr double kLampHz = 2 * 50.02;
   return 1 + flicker_ * std::sin(2 * kPi * (kLampHz * seconds + flicker_phase_));

@@ -25,11 +25,11 @@ struct StageOptions {
 
 /// The room around a performer: what stands in it, what moves in it, how the performer is dressed, how it is lit. At
 /// scene 0 there is nothing of this.
-class Stage {
+class StagedRoom {
  public:
-  Stage() = default;
+  StagedRoom() = default;
   /// For a performer who moves like `poses` before `cameras`: furniture leaves that floor free.
-  Stage(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
+  StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras);
 
   /// Null: the studio. Lives as long as this.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }

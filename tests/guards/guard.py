@@ -4,7 +4,8 @@
     guard.py RULE ROOT              complains about every file of ROOT that breaks RULE; exit code 1
     guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
 
-Rules: imports, rooms (rooms.py), doors, determinism, pages (files that .md files mention). Prints how many files it
+Rules: imports, rooms (rooms.py), doors, determinism, types (two of one name, which the linker would take for one), pages
+(files that .md files mention). Prints how many files it
 checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
 """
 import fnmatch
@@ -224,12 +225,36 @@ def check_pages(relative, path):
                 yield number, f"mentions {name}, which does not exist"
 
 
+class Types:
+    """Two types of one name in headers: their members would be mixed up by the linker, without a word."""
+
+    DEFINITION = re.compile(r"(?:class|struct) ([A-Z]\w*) *(?:final )?(?:: .*)?\{")
+
+    def __init__(self, root):
+        self.places = {}
+        for layer in LAYERS:
+            for path in (root / layer).rglob("*.h"):
+                for _, name in self.definitions(path):
+                    self.places.setdefault(name, set()).add(path)
+
+    def definitions(self, path):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            if found := self.DEFINITION.match(line):
+                yield number, found.group(1)
+
+    def __call__(self, relative, path):
+        for number, name in self.definitions(path) if path.suffix == ".h" else ():
+            if others := sorted(str(place) for place in self.places[name] - {path}):
+                yield number, f"{name} is a type in {', '.join(others)}, too"
+
+
 RULES = {"imports": check_imports, "doors": check_doors, "determinism": check_determinism, "pages": check_pages}
 
 
 def main():
     root = pathlib.Path(sys.argv[2])
-    rule = Rooms(root) if sys.argv[1] == "rooms" else RULES[sys.argv[1]]
+    of_the_tree = {"rooms": Rooms, "types": Types}
+    rule = of_the_tree[sys.argv[1]](root) if sys.argv[1] in of_the_tree else RULES[sys.argv[1]]
     must_flag = sys.argv[3:] == ["--must-flag"]
     checked, flagged = 0, set()
     for layer in FOLDERS if rule is check_pages else LAYERS:

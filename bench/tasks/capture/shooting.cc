@@ -87,7 +87,7 @@ ColourImage Shooting::ShootStage(std::size_t camera, const std::vector<Figure>& 
   return model.ShootBackground([&](double, const RowRange& rows, Targets wanted) {
     Room room = world_.room;
     room.interior = world_.stage.interior();
-    std::vector<Figure> figures = world_.stage.MoversAt(Stage::kBackgroundSeconds);
+    std::vector<Figure> figures = world_.stage.MoversAt(StagedRoom::kBackgroundSeconds);
     figures.insert(figures.end(), props.begin(), props.end());
     return renderer_.RenderRows(room, figures, model.pinhole(), wanted, rows);
   });

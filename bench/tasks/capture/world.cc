@@ -99,7 +99,7 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   }
   world.in_view = FramesInView(world.cameras, world.truth);
   world.stage_options = StageOptionsOf(options, key);
-  world.stage = Stage(world.stage_options, world.truth, world.cameras);
+  world.stage = StagedRoom(world.stage_options, world.truth, world.cameras);
   return world;
 }
 

@@ -24,7 +24,7 @@ struct CaptureWorld {
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
   Room room;                       ///< its brightness is that of the background pictures; of the studio alone
   StageOptions stage_options;      ///< what `stage` was made of
-  Stage stage;                     ///< the room and people that `scene` adds
+  StagedRoom stage;                ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< of each frame
 };
 

@@ -19,10 +19,10 @@ Judged JudgedIn(const ScenarioSummary& scenario, std::size_t index) {
   return {&scenario.conditions[0].comparisons[index], &scenario.conditions[0]};
 }
 
-TEST(PairedWorlds, AreThoseInWhichBothHaveAValue) {
+TEST(PairedDots, AreThoseInWhichBothHaveAValue) {
   const RunData run = UnitRun();
   const ScenarioSummary& capture = run.scenarios[3];  // ccd-fixed fails in trial 0
-  const PairedWorlds pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 0));
+  const PairedDots pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 0));
   ASSERT_EQ(pairs.worlds.size(), 11u);
   EXPECT_EQ(pairs.worlds.front().trial, 1);
   EXPECT_EQ(pairs.units, (std::vector<std::string>{"clip-0", "clip-1", "clip-2", "clip-3"}));
@@ -32,7 +32,7 @@ TEST(PairedWorlds, AreThoseInWhichBothHaveAValue) {
   }
 }
 
-TEST(PairedWorlds, AreThinnedAndCounted) {
+TEST(PairedDots, AreThinnedAndCounted) {
   RunData run = UnitRun();
   const ScenarioSummary& detection = run.scenarios[1];
   std::vector<Row> more;
@@ -43,14 +43,14 @@ TEST(PairedWorlds, AreThinnedAndCounted) {
     }
   }
   run.rows.insert(run.rows.end(), more.begin(), more.end());
-  const PairedWorlds pairs = PairedWorldsOf(run, detection, JudgedIn(detection, 0));
+  const PairedDots pairs = PairedWorldsOf(run, detection, JudgedIn(detection, 0));
   EXPECT_EQ(pairs.total, 1200u);
   EXPECT_EQ(pairs.worlds.size(), 400u);
   EXPECT_THAT(EstimationHtml(detection, JudgedIn(detection, 0), pairs),
               HasSubstr("(400 of 1,200 drawn, at equal steps)"));
 }
 
-TEST(PairedWorlds, OfARivalThatHalvesChoseAreNone) {
+TEST(PairedDots, OfARivalThatHalvesChoseAreNone) {
   RunData run = UnitRun();
   run.scenarios[3].conditions[0].comparisons[0].baseline = "before-ik or ccd-adaptive";
   EXPECT_TRUE(PairedWorldsOf(run, run.scenarios[3], JudgedIn(run.scenarios[3], 0)).worlds.empty());
@@ -60,7 +60,7 @@ TEST(PairedWorlds, OfARivalThatHalvesChoseAreNone) {
 TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
   const RunData run = UnitRun();
   const ScenarioSummary& capture = run.scenarios[3];
-  const PairedWorlds pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 2));
+  const PairedDots pairs = PairedWorldsOf(run, capture, JudgedIn(capture, 2));
   const std::string html = EstimationHtml(capture, JudgedIn(capture, 2), pairs);
   EXPECT_EQ(CountOf(html, "data-t=\"5\""), 3);
   EXPECT_EQ(CountOf(html, " data-t="), static_cast<int>(3 * pairs.worlds.size()));
@@ -75,7 +75,7 @@ TEST(Estimation, DrawsEveryWorldTwiceAndItsDifferenceOnce) {
 TEST(Estimation, ColoursByMethodWhereWorldsAreUnits) {
   const RunData run = UnitRun();
   const ScenarioSummary& ik = run.scenarios[2];
-  const PairedWorlds pairs = PairedWorldsOf(run, ik, JudgedIn(ik, 0));
+  const PairedDots pairs = PairedWorldsOf(run, ik, JudgedIn(ik, 0));
   EXPECT_TRUE(pairs.units.empty());
   EXPECT_EQ(UnitLegendHtml(pairs), "");
   const std::string html = EstimationHtml(ik, JudgedIn(ik, 0), pairs);

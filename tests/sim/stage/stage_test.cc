@@ -19,9 +19,9 @@ std::vector<Camera> Cameras() {
   return {LookAt({}, {-2.4, 1.0, 2.9}, {0, 0.95, 0}), LookAt({}, {2.4, 2.2, 2.9}, {0, 0.95, 0})};
 }
 
-Stage MakeStage(std::uint64_t seed, double scene) {
+StagedRoom MakeStage(std::uint64_t seed, double scene) {
   const std::vector<BodyPose> poses = {StandingPose()};
-  return Stage({.seed = seed, .scene = scene}, poses, Cameras());
+  return StagedRoom({.seed = seed, .scene = scene}, poses, Cameras());
 }
 
 bool SamePlace(const FurnitureBox& a, const FurnitureBox& b) {
@@ -39,8 +39,8 @@ std::size_t CountMissing(const std::vector<Thing>& fewer, const std::vector<Thin
   }));
 }
 
-TEST(Stage, IsTheStudioAtZero) {
-  const Stage stage = MakeStage(1, 0);
+TEST(StagedRoom, IsTheStudioAtZero) {
+  const StagedRoom stage = MakeStage(1, 0);
   EXPECT_EQ(stage.interior(), nullptr);
   EXPECT_TRUE(stage.MoversAt(1.0).empty());
   EXPECT_EQ(stage.FlickerAt(0.3), 1);
@@ -51,11 +51,11 @@ TEST(Stage, IsTheStudioAtZero) {
   EXPECT_TRUE(figure.surfaces.empty());
 }
 
-TEST(Stage, WhatIsThereStaysThereAsTheSceneGrows) {
+TEST(StagedRoom, WhatIsThereStaysThereAsTheSceneGrows) {
   std::size_t least = 0, most = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     for (std::size_t i = 0; i + 1 < kScenes.size(); ++i) {
-      const Stage fewer = MakeStage(seed, kScenes[i]), more = MakeStage(seed, kScenes[i + 1]);
+      const StagedRoom fewer = MakeStage(seed, kScenes[i]), more = MakeStage(seed, kScenes[i + 1]);
       EXPECT_EQ(CountMissing(fewer.interior()->furniture, more.interior()->furniture), 0u) << seed;
       EXPECT_EQ(CountMissing(fewer.interior()->pictures, more.interior()->pictures), 0u) << seed;
       EXPECT_LE(fewer.MoversAt(2).size(), more.MoversAt(2).size());
@@ -73,9 +73,9 @@ TEST(Stage, WhatIsThereStaysThereAsTheSceneGrows) {
   EXPECT_GT(CountMissing(MakeStage(1, 1).interior()->furniture, MakeStage(2, 1).interior()->furniture), 10u);
 }
 
-TEST(Stage, DiceDoNotDependOnTheScene) {
+TEST(StagedRoom, DiceDoNotDependOnTheScene) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const Stage some = MakeStage(seed, 0.9), all = MakeStage(seed, 1);
+    const StagedRoom some = MakeStage(seed, 0.9), all = MakeStage(seed, 1);
     // Shapes, patterns and cuts are the same; only strengths, and so colours, differ.
     ASSERT_EQ(some.interior()->wall.pattern, all.interior()->wall.pattern);
     ASSERT_EQ(some.interior()->floor.size, all.interior()->floor.size);
@@ -92,7 +92,7 @@ TEST(Stage, DiceDoNotDependOnTheScene) {
   }
 }
 
-TEST(Stage, ColoursLeaveTheStudioByDegrees) {
+TEST(StagedRoom, ColoursLeaveTheStudioByDegrees) {
   const auto distance = [](const Rgb8& a, const Rgb8& b) {
     return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
   };
@@ -106,10 +106,10 @@ TEST(Stage, ColoursLeaveTheStudioByDegrees) {
   EXPECT_LT(nearly, fully / 8);
 }
 
-TEST(Stage, FurnitureLeavesThePerformersFloorFree) {
+TEST(StagedRoom, FurnitureLeavesThePerformersFloorFree) {
   std::size_t checked = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Stage stage = MakeStage(seed, 1);
+    const StagedRoom stage = MakeStage(seed, 1);
     for (const FurnitureBox& box : stage.interior()->furniture) {
       const double reach = std::max(box.half_size.x, box.half_size.z);
       for (const glm::dvec3& joint : StandingPose().joints) {
@@ -134,7 +134,7 @@ class RenderedStage : public testing::Test {
 TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
   std::array<std::ptrdiff_t, 3> seen{};
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Stage stage = MakeStage(seed, 1);
+    const StagedRoom stage = MakeStage(seed, 1);
     for (const Camera& camera : Cameras()) {
       const View view = renderer_->Render({.interior = stage.interior()}, stage.MoversAt(0.7), camera, Targets::kAll);
       EXPECT_EQ(std::ranges::count_if(view.labels.pixels, IsPerformer), 0);
@@ -148,7 +148,7 @@ TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
 }
 
 TEST_F(RenderedStage, OccludersAreTheFurnitureThatIsDrawn) {
-  const Stage stage = MakeStage(5, 1);
+  const StagedRoom stage = MakeStage(5, 1);
   const std::vector<Cuboid> boxes = BoxesOf(*stage.interior());
   const Camera camera = Cameras().front();
   const View view = renderer_->Render({.interior = stage.interior()}, {}, camera, Targets::kAll);

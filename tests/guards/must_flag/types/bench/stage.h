@@ -1,0 +1,5 @@
+#pragma once
+
+struct Stage {
+  double wait_s = 0;
+};

@@ -1,0 +1,5 @@
+#pragma once
+
+class Stage {
+  int seed_ = 0;
+};
