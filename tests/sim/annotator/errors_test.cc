@@ -34,7 +34,7 @@ TEST(Unclearness, IsOneWithoutContrastAndHalfAtTwentyCounts) {
 }
 
 TEST(MissProbability, GrowsAsALimbIsHiddenAndAsItFadesIntoWhatIsBehind) {
-  const LimbEvidence clear{.seen_share = 1, .contrast = 200};
+  const LimbEvidence clear{.line = {}, .seen_share = 1, .contrast = 200};
   LimbEvidence hidden = clear, pale = clear;
   hidden.seen_share = 0.3;
   pale.contrast = 5;

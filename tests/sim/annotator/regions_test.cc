@@ -40,7 +40,8 @@ TEST(FindRegions, FindsTheCommonBorderOfNeighboursInTheBody) {
   ASSERT_EQ(knee.size(), 10u);
   for (std::size_t i = 0; i < knee.size(); ++i) EXPECT_EQ(knee[i], glm::dvec2(5.5 + static_cast<double>(i), 6));
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
-    if (i != StrokeTo(Role::kLeftAnkle)) EXPECT_TRUE(regions.borders[i].empty());
+    if (i == StrokeTo(Role::kLeftAnkle)) continue;
+    EXPECT_TRUE(regions.borders[i].empty());
   }
 }
 
