@@ -146,6 +146,10 @@ std::vector<SeenCorner> FindBoards(const ColourImage& picture, std::span<const B
   const auto order = [](const SeenCorner& s) { return std::tuple(s.board, s.corner.row, s.corner.column); };
   std::stable_sort(seen.begin(), seen.end(),
                    [&](const SeenCorner& a, const SeenCorner& b) { return order(a) < order(b); });
+  // Of two grids on one board, the one around the stronger corner was found first.
+  const auto [first, last] =
+      std::ranges::unique(seen, [&](const SeenCorner& a, const SeenCorner& b) { return order(a) == order(b); });
+  seen.erase(first, last);
   return seen;
 }
 
