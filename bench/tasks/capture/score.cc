@@ -117,8 +117,8 @@ PoseErrors JudgePoses(const CaptureWorld& world, const std::vector<BodyPose>& po
   return ComparePoses(InView(world, poses), InView(world, world.truth));
 }
 
-/// From the end effectors to where they were seen, mean over the frames in which they were.
-double MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
+/// From the end effectors to where they were seen, mean over the frames in which they were; nothing if in none.
+std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
   constexpr double kCmPerMetre = 100;
   double of_frames = 0;
   int count = 0;
@@ -129,6 +129,7 @@ double MeanEffectorErrorCm(const std::vector<RecoveredFrame>& frames) {
     of_frames += of_effectors / static_cast<double>(frame.errors.size());
     ++count;
   }
+  if (count == 0) return std::nullopt;
   return of_frames / count;
 }
 
@@ -145,7 +146,8 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
   cell.digests.emplace_back("pose", pose_digest.Hex());
   const PoseErrors before = JudgePoses(world, fixed);
   ReportJointErrors(JudgePoses(world, poses), &before, cell);
-  cell.Measure("position_error_cm", MeanEffectorErrorCm(InView(world, frames)));
+  cell.MeasureOr("position_error_cm", MeanEffectorErrorCm(InView(world, frames)),
+                 "no end effector was seen in any frame in view");
 }
 
 /// Tells how many frames are in view, and how many of these have a skeleton; whether any has.
