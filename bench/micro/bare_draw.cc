@@ -6,10 +6,85 @@
 #include "sim/render/gl_context.h"
 #include "sim/render/kept_rooms.h"
 #include "sim/render/pixel_geometry.h"
+#include "sim/render/shader_pieces.h"
 #include "sim/render/shaders.h"
 #include "sim/render/vertex_stream.h"
 
 namespace etude {
+namespace {
+
+// Copies the kept room into the picture.
+constexpr const char* kBackdrop = R"glsl(
+uniform sampler2D kept_room;
+uniform sampler2D kept_extra;
+uniform float brightness;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+
+void main() {
+  colour = vec4(texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).rgb * brightness, 1.0);
+  label = uint(texelFetch(kept_extra, ivec2(gl_FragCoord.xy), 0).a);
+}
+)glsl";
+
+// A capsule's box thrown from the lamp onto the floor or the wall, and the shadow there.
+constexpr const char* kShadowPlace = R"glsl(
+uniform vec3 eye;
+uniform vec3 lamp;
+uniform float wall_z;
+uniform bool onto_wall;
+
+void main() {
+  vec3 lamp_E = lamp - eye;
+  vec3 from_lamp = BoxCorner() - lamp_E;
+  float drop = onto_wall ? lamp.z - wall_z : lamp.y;
+  // A corner level with the lamp would throw its shadow to infinity: far is enough.
+  float fall = max(onto_wall ? -from_lamp.z : -from_lamp.y, 0.05);
+  Place(lamp_E + from_lamp * (drop / fall));
+}
+)glsl";
+
+constexpr const char* kSegmentDistance = R"glsl(
+// The squared distance between the segments p1-q1 and p2-q2 (Ericson 2005, section 5.1.9).
+float SquaredDistance(vec3 p1, vec3 q1, vec3 p2, vec3 q2) {
+  vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
+  float a = dot(d1, d1), e = dot(d2, d2), f = dot(d2, r), c = dot(d1, r), b = dot(d1, d2);
+  float denominator = a * e - b * b;
+  float s = denominator > 1e-12 ? clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
+  float t = e > 0.0 ? clamp((b * s + f) / e, 0.0, 1.0) : 0.0;
+  s = clamp((b * t - c) / a, 0.0, 1.0);
+  vec3 gap = p1 + s * d1 - p2 - t * d2;
+  return dot(gap, gap);
+}
+)glsl";
+
+constexpr const char* kShadow = R"glsl(
+uniform bool onto_wall;
+
+flat in vec4 capsule_start;
+flat in vec4 capsule_end;
+
+layout(location = 0) out vec4 colour;
+layout(location = 1) out uint label;
+
+void main() {
+  vec3 ray = PixelRay();
+  RoomHit hit = MeetRoom(ray);
+  if (hit.is_wall != onto_wall || hit.depth == kInfinity) discard;
+  vec3 point = hit.depth * ray, lamp_E = lamp - eye;
+  float gap = sqrt(SquaredDistance(point, lamp_E, capsule_start.xyz, capsule_end.xyz));
+  float inside = 1.0 - gap / capsule_start.w;
+  if (inside <= 0.0) discard;
+
+  // Softer the farther the shadow falls.
+  float softness = clamp(0.2 * distance(point, capsule_start.xyz), 0.15, 0.6);
+  colour = RoomInShadow(hit, point, inside, softness);
+  label = 1u;
+}
+)glsl";
+
+}  // namespace
 
 struct BareDraw::State {
   State(std::unique_ptr<GlContext> made, const Room& of, const Camera& by)
@@ -65,9 +140,11 @@ Result<std::unique_ptr<BareDraw>> BareDraw::Create(const Room& room, const Camer
   ASSIGN_OR_RETURN(auto context, GlContext::Create());
   const std::vector<std::string> inputs{"start_and_radius", "end_and_label", "paint_in", "front_in"};
   ASSIGN_OR_RETURN(const auto studio, context->LinkProgram(FullScreenVertexShader(), RoomFragmentShader()));
-  ASSIGN_OR_RETURN(const auto backdrop, context->LinkProgram(FullScreenVertexShader(), BackdropFragmentShader()));
-  ASSIGN_OR_RETURN(const auto shadow,
-                   context->LinkProgram(CapsuleShadowVertexShader(), CapsuleShadowFragmentShader(), inputs));
+  ASSIGN_OR_RETURN(const auto backdrop, context->LinkProgram(FullScreenVertexShader(), AssembleShader({kBackdrop})));
+  ASSIGN_OR_RETURN(
+      const auto shadow,
+      context->LinkProgram(AssembleShader({kCapsuleBox, kShadowPlace}),
+                           AssembleShader({kRoomGeometry, kShadowLight, kSegmentDistance, kShadow}), inputs));
   ASSIGN_OR_RETURN(const auto body, context->LinkProgram(CapsuleVertexShader(), CapsuleFragmentShader(true), inputs));
   auto state = std::make_unique<State>(std::move(context), room, camera);
   const GlFunctions& gl = state->gl;
@@ -98,12 +175,13 @@ void BareDraw::Draw(const std::vector<Figure>& figures) {
   State& s = *state_;
   const GlFunctions& gl = s.gl;
   s.capsules.Upload(MakeInstances(figures, s.camera.p_WC));
-  gl.DepthFunc(GL_ALWAYS);
+  constexpr GLfloat kFarthest[] = {1};
+  gl.ClearBufferfv(GL_DEPTH, 0, kFarthest);
+  gl.Disable(GL_DEPTH_TEST);
   s.Use(s.backdrop);
   gl.BindVertexArray(s.vertices);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 
-  gl.Disable(GL_DEPTH_TEST);
   gl.Enable(GL_CULL_FACE);
   gl.Enablei(GL_BLEND, 0);
   s.Use(s.shadow);
@@ -114,7 +192,6 @@ void BareDraw::Draw(const std::vector<Figure>& figures) {
   gl.Disablei(GL_BLEND, 0);
 
   gl.Enable(GL_DEPTH_TEST);
-  gl.DepthFunc(GL_LESS);
   s.Use(s.body);
   SetLights(gl, s.body, LightsOf(s.room));
   s.capsules.Draw();

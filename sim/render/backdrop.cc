@@ -14,8 +14,10 @@ void Shape(int width, int height, bool wanted, Image<Pixel>& image) {
   }
 }
 
-// A level of an 8-bit channel. Added to 2²³, a float has no room for fractions: its last bits are the rounded number.
+}  // namespace
+
 void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes) {
+  // Added to 2²³, a float has no room for fractions: its last bits are the rounded number.
   constexpr float kWhole = 8388608;
   for (std::size_t i = 0; i < count; ++i) {
     const float level = std::min(std::max(light[i] * brightness, 0.0f), 1.0f) * 255.0f;
@@ -23,8 +25,6 @@ void RoundToBytes(const float* light, std::size_t count, float brightness, std::
     bytes[i] = static_cast<std::uint8_t>(static_cast<int>(whole));
   }
 }
-
-}  // namespace
 
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view) {
@@ -40,6 +40,14 @@ void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets ta
                reinterpret_cast<std::uint8_t*>(view.colour.pixels.data()));
   if (targets != Targets::kColour) std::copy_n(&room.labels[first], count, view.labels.pixels.begin());
   if (targets == Targets::kAll) std::copy_n(&room.depths[first], count, view.depth.pixels.begin());
+}
+
+void FillBackdrop(const KeptRoom& room, double brightness, const PixelRect& rect, ColourImage& picture) {
+  for (int y = rect.top; y < rect.bottom; ++y) {
+    const std::size_t first = static_cast<std::size_t>(picture.width) * y + rect.left;
+    RoundToBytes(&room.colours[3 * first], 3 * static_cast<std::size_t>(rect.Width()), static_cast<float>(brightness),
+                 reinterpret_cast<std::uint8_t*>(&picture.At(rect.left, y)));
+  }
 }
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/render/kept_rooms.h"
+#include "sim/render/touched_pixels.h"
 
 namespace etude {
 
@@ -8,5 +9,11 @@ namespace etude {
 /// (round to nearest even). Pictures of another size are made anew.
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
+
+/// The same of a rectangle of a whole picture, its colours only.
+void FillBackdrop(const KeptRoom& room, double brightness, const PixelRect& rect, ColourImage& picture);
+
+/// The levels of `count` numbers times the brightness, as GL rounds them.
+void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes);
 
 }  // namespace etude

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace etude {
 namespace {
@@ -47,10 +46,9 @@ bool IsFinite(const glm::dvec3& point) {
   return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
 
-void AddInstances(const std::vector<Capsule>& shape, const Figure& figure, const glm::dvec3& eye,
-                  std::vector<CapsuleInstance>& instances) {
-  const Face face = PlaceFace(shape);
-  for (const Capsule& capsule : shape) {
+void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<CapsuleInstance>& instances) {
+  const Face face = PlaceFace(figure.shape);
+  for (const Capsule& capsule : figure.shape) {
     if (!IsFinite(capsule.a) || !IsFinite(capsule.b) || !(capsule.radius > 0)) continue;
     const Rgb8 paint = figure.colours[static_cast<std::size_t>(capsule.part)];
     const auto label = static_cast<std::uint32_t>(figure.seen_as.value_or(capsule.part));
@@ -67,23 +65,8 @@ void AddInstances(const std::vector<Capsule>& shape, const Figure& figure, const
 
 std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, const glm::dvec3& eye) {
   std::vector<CapsuleInstance> instances;
-  for (const Figure& figure : figures) AddInstances(figure.shape, figure, eye, instances);
+  for (const Figure& figure : figures) AddInstances(figure, eye, instances);
   return instances;
-}
-
-std::vector<CapsuleInstance> MakeCasters(const std::vector<Figure>& figures, const glm::dvec3& eye) {
-  std::vector<CapsuleInstance> casters = MakeInstances(figures, eye);
-  for (const Figure& figure : figures) AddInstances(figure.shadow, figure, eye, casters);
-  return casters;
-}
-
-std::vector<CapsuleInstance> NearFloor(const std::vector<CapsuleInstance>& casters, const glm::dvec3& eye) {
-  std::vector<CapsuleInstance> near;
-  std::ranges::copy_if(casters, std::back_inserter(near), [&](const CapsuleInstance& caster) {
-    const double lowest = std::min(caster.start_and_radius.y, caster.end_and_label.y) + eye.y;
-    return lowest - caster.start_and_radius.w < kContactReach;
-  });
-  return near;
 }
 
 }  // namespace etude

@@ -16,16 +16,7 @@ struct CapsuleInstance {
   glm::vec3 front;             ///< unit; where the face looks
 };
 
-/// How far around a body its contact with the floor darkens, metres.
-constexpr double kContactReach = 0.12;
-
 /// All capsules of all figures. Capsules that are not finite, or not thicker than nothing, are left out.
 std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, const glm::dvec3& eye);
-
-/// What throws shadows in a furnished room: the capsules of shapes and of `Figure::shadow`.
-std::vector<CapsuleInstance> MakeCasters(const std::vector<Figure>& figures, const glm::dvec3& eye);
-
-/// Those of the casters that stand on the floor or nearly do.
-std::vector<CapsuleInstance> NearFloor(const std::vector<CapsuleInstance>& casters, const glm::dvec3& eye);
 
 }  // namespace etude

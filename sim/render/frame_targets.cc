@@ -4,6 +4,14 @@
 #include <cassert>
 
 namespace etude {
+namespace {
+
+constexpr std::uint8_t kUndrawnAlpha = 255, kUndrawnLabel = 255;
+static_assert(static_cast<int>(Part::kBystander) < kUndrawnLabel);
+
+Rgb8 Darkest(const Rgb8& a, const Rgb8& b) { return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)}; }
+
+}  // namespace
 
 FrameTargets::~FrameTargets() { Release(); }
 
@@ -38,6 +46,23 @@ void FrameTargets::Begin(int width, int height) {
   gl_.Viewport(0, 0, width, height);
 }
 
+void FrameTargets::Clear(const std::vector<PixelRect>& rects) {
+  constexpr GLfloat kNothing[] = {1, 1, 1, 1}, kNoDepth[] = {0, 0, 0, 0}, kFarthest[] = {1};
+  constexpr GLuint kNoLabel[] = {kUndrawnLabel, 0, 0, 0};
+  gl_.Enable(GL_SCISSOR_TEST);
+  PixelRect all = rects.front();
+  for (const PixelRect& rect : rects) {
+    all = {std::min(all.left, rect.left), std::min(all.top, rect.top), std::max(all.right, rect.right),
+           std::max(all.bottom, rect.bottom)};
+    gl_.Scissor(rect.left, rect.top, rect.Width(), rect.Height());
+    gl_.ClearBufferfv(GL_COLOR, 0, kNothing);
+    gl_.ClearBufferuiv(GL_COLOR, 1, kNoLabel);
+    gl_.ClearBufferfv(GL_COLOR, 2, kNoDepth);
+    gl_.ClearBufferfv(GL_DEPTH, 0, kFarthest);
+  }
+  gl_.Scissor(all.left, all.top, all.Width(), all.Height());
+}
+
 void FrameTargets::WriteOnly(bool colour, bool labels, bool depth) {
   const bool writes[] = {colour, labels, depth};
   for (GLuint i = 0; i < 3; ++i) {
@@ -56,15 +81,20 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   const std::uint8_t* source = bytes_.data();
   for (int y = rect.top; y < rect.bottom; ++y) {
     Rgb8* row = &view.colour.At(rect.left, y - top_row);
-    for (int x = 0; x < width; ++x, source += 4) row[x] = {source[0], source[1], source[2]};
+    for (int x = 0; x < width; ++x, source += 4) {
+      if (source[3] == kUndrawnAlpha) continue;
+      const Rgb8 drawn{source[0], source[1], source[2]};
+      row[x] = source[3] == 0 ? drawn : Darkest(drawn, row[x]);
+    }
   }
   if (targets == Targets::kColour) return;
 
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED_INTEGER, GL_UNSIGNED_BYTE, bytes_.data());
   for (int y = 0; y < rect.Height(); ++y) {
-    std::copy_n(&bytes_[static_cast<std::size_t>(y) * width], width,
-                &view.labels.At(rect.left, rect.top + y - top_row));
+    const std::uint8_t* labels = &bytes_[static_cast<std::size_t>(y) * width];
+    std::uint32_t* row = &view.labels.At(rect.left, rect.top + y - top_row);
+    for (int x = 0; x < width; ++x) row[x] = labels[x] == kUndrawnLabel ? row[x] : labels[x];
   }
   if (targets == Targets::kColourAndLabels) return;
 
@@ -72,8 +102,9 @@ void FrameTargets::Read(const PixelRect& rect, int top_row, Targets targets, Vie
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl_.ReadPixels(rect.left, rect.top, width, rect.Height(), GL_RED, GL_FLOAT, depths_.data());
   for (int y = 0; y < rect.Height(); ++y) {
-    std::copy_n(&depths_[static_cast<std::size_t>(y) * width], width,
-                &view.depth.At(rect.left, rect.top + y - top_row));
+    const float* depths = &depths_[static_cast<std::size_t>(y) * width];
+    float* row = &view.depth.At(rect.left, rect.top + y - top_row);
+    for (int x = 0; x < width; ++x) row[x] = depths[x] == 0 ? row[x] : depths[x];
   }
 }
 

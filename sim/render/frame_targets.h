@@ -9,7 +9,9 @@
 namespace etude {
 
 /// The framebuffer that pictures are drawn into: colour, labels, linear depth, and a depth buffer for
-/// hidden surfaces. It grows to the largest picture asked for; smaller ones use its corner.
+/// hidden surfaces. It grows to the largest picture asked for; smaller ones use its corner. Only what is drawn on top
+/// of the empty room is here: bodies are drawn with an alpha of 0; shadows with 0.5, and the darkest counts; pixels that
+/// nobody drew are not read.
 class FrameTargets {
  public:
   explicit FrameTargets(const GlFunctions& gl) : gl_(gl) {}
@@ -19,9 +21,12 @@ class FrameTargets {
 
   /// Makes drawing go into the top left `width` × `height` pixels.
   void Begin(int width, int height);
+  /// Makes rectangles, one at least, of the attachments that WriteOnly names ready to be drawn: nobody has drawn there,
+  /// nothing is hidden. Drawing is then confined to about them.
+  void Clear(const std::vector<PixelRect>& rects);
   /// Which of the attachments the next draws write. By masks: other attachments would make Mesa finish what is drawn.
   void WriteOnly(bool colour, bool labels, bool depth);
-  /// Copies a rectangle of what was drawn out of GL into the pictures of `view`, which have their size already and
+  /// Copies what was drawn in a rectangle out of GL into the pictures of `view`, which have their size already and
   /// begin with `top_row`.
   void Read(const PixelRect& rect, int top_row, Targets targets, View& view);
 

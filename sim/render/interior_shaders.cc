@@ -187,100 +187,11 @@ void main() {
 }
 )glsl";
 
-// A pyramid's stump from around the capsule, away from the lamp, to behind all walls: the room that may lie in the
-// capsule's shadow. Its pixels are asked one by one.
-constexpr const char* kInteriorShadowPlace = R"glsl(
-in vec4 start_and_radius;  // in E
-in vec4 end_and_label;
-in vec4 paint_in;
-in vec3 front_in;
-
-uniform mat3 image_of_direction;
-uniform vec2 image_size;
-uniform vec3 eye;
-uniform vec3 lamp;
-uniform vec3 room_low;   // in the world
-uniform vec3 room_high;
-
-flat out vec4 capsule_start;
-flat out vec4 capsule_end;
-
-void main() {
-  vec3 lamp_E = lamp - eye;
-  vec3 start = start_and_radius.xyz - lamp_E, end = end_and_label.xyz - lamp_E;
-  vec3 middle = 0.5 * (start + end);
-  vec3 forward = normalize(middle);
-  vec3 span = end - start, flat_span = span - dot(span, forward) * forward;
-  vec3 along = length(flat_span) > 1e-4 ? normalize(flat_span)
-                                        : normalize(cross(forward, abs(forward.y) < 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
-  vec3 across = cross(forward, along);
-  float near_start = dot(start, forward), near_end = dot(end, forward);
-  float radius = 1.1 * start_and_radius.w;
-  float slope_start = radius / max(near_start - radius, 0.05), slope_end = radius / max(near_end - radius, 0.05);
-  float x_start = dot(start, along) / near_start, x_end = dot(end, along) / near_end;
-  // `along` points from start to end, so do the slopes.
-  vec2 low = vec2(min(x_start - slope_start, x_end - slope_end), -max(slope_start, slope_end));
-  vec2 high = vec2(max(x_start + slope_start, x_end + slope_end), max(slope_start, slope_end));
-
-  // How far until all rays have left the room: behind every wall that all of them meet, the nearest one.
-  float way_out = 1e3;
-  for (int axis = 0; axis < 3; ++axis) {
-    vec2 to_planes = vec2(room_low[axis], room_high[axis]) - lamp[axis];
-    vec4 slants = forward[axis] + vec4(low.x, high.x, low.x, high.x) * along[axis] +
-                  vec4(low.y, low.y, high.y, high.y) * across[axis];
-    float least = min(min(slants.x, slants.y), min(slants.z, slants.w));
-    float most = max(max(slants.x, slants.y), max(slants.z, slants.w));
-    if (most < 0.0) way_out = min(way_out, to_planes.x / most);
-    if (least > 0.0) way_out = min(way_out, to_planes.y / least);
-  }
-
-  int bit = 1 << gl_VertexID;
-  bool is_far = (0x31e3 & bit) != 0;
-  vec2 slope = vec2((0x287a & bit) != 0 ? high.x : low.x, (0x02af & bit) != 0 ? high.y : low.y);
-  float reach = is_far ? 1.01 * way_out : max(min(near_start, near_end) - radius, 0.05);
-  vec3 corner = lamp_E + reach * (forward + slope.x * along + slope.y * across);
-  vec3 image = image_of_direction * corner;
-  gl_Position = vec4(2.0 * image.xy / image_size - image.z, 0.0, image.z);
-  capsule_start = start_and_radius;
-  capsule_end = end_and_label;
-}
-)glsl";
-
-constexpr const char* kInteriorShadowPaint = R"glsl(
-uniform sampler2D kept_room;
-uniform sampler2D kept_extra;
-uniform float brightness;
-
-flat in vec4 capsule_start;
-flat in vec4 capsule_end;
-
-layout(location = 0) out vec4 colour;
-layout(location = 1) out uint label;
-
-void main() {
-  vec4 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0);
-  if (room.a == kInfinity) discard;
-  vec3 ray = PixelRay(), point = room.a * ray, lamp_E = lamp - eye;
-  float gap = sqrt(SquaredDistance(point, lamp_E, capsule_start.xyz, capsule_end.xyz));
-  float inside = 1.0 - gap / capsule_start.w;
-  if (inside <= 0.0) discard;
-  vec4 extra = texelFetch(kept_extra, ivec2(gl_FragCoord.xy), 0);
-  float softness = clamp(0.2 * distance(point, capsule_start.xyz), 0.15, 0.6);
-  vec3 left_over = 1.0 - smoothstep(0.0, softness, inside) * extra.rgb;
-  colour = vec4(room.rgb * brightness * left_over, 1.0);
-  label = extra.a > 0.0 ? uint(extra.a) : 1u;
-}
-)glsl";
-
 }  // namespace
 
 std::string InteriorFragmentShader() {
   return AssembleShader(
       {kRoomGeometry, kStudioPaint, kPaintPatterns, kRoomPatterns, kPainted, kInteriorGeometry, kInteriorPaint});
-}
-std::string InteriorShadowVertexShader() { return AssembleShader({kInteriorShadowPlace}); }
-std::string InteriorShadowFragmentShader() {
-  return AssembleShader({kRoomGeometry, kSegmentDistance, kInteriorShadowPaint});
 }
 
 }  // namespace etude

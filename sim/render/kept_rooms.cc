@@ -10,8 +10,8 @@
 namespace etude {
 namespace {
 
-// Two stereo cameras, each plain and smooth: about 15 MB apiece at 640 × 480, 60 MB when smooth.
-constexpr std::size_t kMostKept = 4;
+// The largest rig: about 25 MB apiece at 640 × 480, 100 MB when smooth.
+constexpr std::size_t kMostKept = 8;
 
 bool SameView(const Camera& a, const Camera& b) {
   const Intrinsics &i = a.intrinsics, &j = b.intrinsics;
@@ -77,6 +77,8 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, attachments[i], GL_TEXTURE_2D, texture, 0);
   }
   gl_.DrawBuffers(2, attachments);
+  for (GLuint i = 0; i < 2; ++i)
+    gl_.ColorMaski(i, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);  // the last picture's are still on
 
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_DEPTH_TEST);
@@ -100,13 +102,16 @@ KeptRoom KeptRooms::Draw(const Room& room, const Camera& camera) {
     std::copy_n(&four[4 * i], 3, &kept.colours[3 * i]);
     kept.depths[i] = four[4 * i + 3];
   }
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
+  gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, four.data());
+  kept.lamp_shares.resize(3 * pixels);
   kept.labels.resize(pixels);
-  if (room.interior != nullptr) {
-    gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-    gl_.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, four.data());
-    for (std::size_t i = 0; i < pixels; ++i) kept.labels[i] = static_cast<std::uint8_t>(four[4 * i + 3]);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::copy_n(&four[4 * i], 3, &kept.lamp_shares[3 * i]);
+    kept.labels[i] = static_cast<std::uint8_t>(four[4 * i + 3]);
   }
   gl_.DeleteFramebuffers(1, &framebuffer);
+  kept.lamp = SeeFromLamp(kept.depths, camera, LightsOf(room).key);
   return kept;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/render/gl_context.h"
+#include "sim/render/lamp_view.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -15,8 +16,10 @@ struct KeptRoom {
   GLuint room = 0;                   ///< RGB colour, A depth
   GLuint extra = 0;                  ///< RGB the lamp's share of the light, A label
   std::vector<float> colours;        ///< RGB, three per pixel
+  std::vector<float> lamp_shares;    ///< likewise: of the light, how much is the lamp's
   std::vector<float> depths;         ///< metres
   std::vector<std::uint8_t> labels;  ///< one per pixel
+  LampView lamp;
 };
 
 /// Pictures of the empty room, one per camera, because cameras stand still while people move. The few last used are

@@ -7,6 +7,7 @@
 #include "sim/render/averaged.h"
 #include "sim/render/backdrop.h"
 #include "sim/render/capsule_batch.h"
+#include "sim/render/capsule_shadows.h"
 #include "sim/render/frame_targets.h"
 #include "sim/render/kept_rooms.h"
 #include "sim/render/pixel_geometry.h"
@@ -24,21 +25,14 @@ constexpr float kFarthest = 200;
 // A box as one triangle strip.
 constexpr GLsizei kStripLength = 14;
 
-// What draws one kind of body, and its shadow.
-struct BodyPrograms {
-  GLuint body = 0;
-  GLuint shadow = 0;
-};
-
 struct Programs {
   GLuint studio = 0;
   GLuint interior = 0;
-  GLuint backdrop = 0;
-  GLuint interior_shadow = 0;
-  GLuint contact = 0;
-  GLuint face = 0;  // capsules with one
-  BodyPrograms capsules;
-  BodyPrograms surfaces;
+  GLuint capsule = 0;
+  GLuint face = 0;     // capsules with one
+  GLuint surface = 0;  // in plain colours
+  GLuint painted = 0;
+  GLuint surface_shadow = 0;
 };
 
 Result<Programs> LinkAll(const GlContext& context) {
@@ -52,14 +46,11 @@ Result<Programs> LinkAll(const GlContext& context) {
   } wanted[] = {
       {programs.studio, FullScreenVertexShader(), RoomFragmentShader(), {}},
       {programs.interior, FullScreenVertexShader(), InteriorFragmentShader(), {}},
-      {programs.backdrop, FullScreenVertexShader(), BackdropFragmentShader(), {}},
-      {programs.interior_shadow, InteriorShadowVertexShader(), InteriorShadowFragmentShader(), capsule},
-      {programs.contact, ContactVertexShader(), ContactFragmentShader(), capsule},
-      {programs.capsules.body, CapsuleVertexShader(), CapsuleFragmentShader(false), capsule},
+      {programs.capsule, CapsuleVertexShader(), CapsuleFragmentShader(false), capsule},
       {programs.face, CapsuleVertexShader(), CapsuleFragmentShader(true), capsule},
-      {programs.capsules.shadow, CapsuleShadowVertexShader(), CapsuleShadowFragmentShader(), capsule},
-      {programs.surfaces.body, SurfaceVertexShader(), SurfaceFragmentShader(), corner},
-      {programs.surfaces.shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
+      {programs.surface, SurfaceVertexShader(), SurfaceFragmentShader(false), corner},
+      {programs.painted, SurfaceVertexShader(), SurfaceFragmentShader(true), corner},
+      {programs.surface_shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
   };
   for (const auto& want : wanted) {
     ASSIGN_OR_RETURN(const auto program, context.LinkProgram(want.vertex, want.fragment, want.attributes));
@@ -94,11 +85,12 @@ VertexStream CornerStream(const GlFunctions& gl) {
            {4, offsetof(SurfaceCorner, rest_and_paint)}}};
 }
 
-// The empty room with smooth edges, and the last large picture: only what figures touch of it is current.
+// The empty room with smooth edges, and the last large picture: the same room but for what figures touched.
 struct SmoothRoom {
   std::uint64_t room = 0;  // KeptRoom::serial
   double brightness = 0;
   View large;
+  std::vector<PixelRect> touched;
   ColourImage small;
 };
 
@@ -118,18 +110,13 @@ struct Renderer::State {
         empty_vertices(MakeVertexArray(gl)),
         capsules(CapsuleStream(gl)),
         faces(CapsuleStream(gl)),
-        casters(CapsuleStream(gl)),
-        contacts(CapsuleStream(gl)),
         surfaces(CornerStream(gl)),
+        painted(CornerStream(gl)),
         targets(gl),
         rooms(gl, linked.studio, linked.interior, empty_vertices) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     gl.CullFace(GL_FRONT);  // box faces turned away are in sight even from inside the box
     gl.BlendEquation(GL_MIN);
-    for (const GLuint program : {linked.backdrop, linked.interior_shadow, linked.contact}) {
-      gl.UseProgram(program);
-      gl.Uniform1i(gl.GetUniformLocation(program, "kept_extra"), 1);
-    }
   }
 
   // One picture's wishes.
@@ -152,86 +139,24 @@ struct Renderer::State {
 
   void Begin(const KeptRoom& room, const Camera& camera) {
     targets.Begin(camera.intrinsics.width, camera.intrinsics.height);
-    gl.ActiveTexture(GL_TEXTURE1);
-    gl.BindTexture(GL_TEXTURE_2D, room.extra);
-    gl.ActiveTexture(GL_TEXTURE0);
     gl.BindTexture(GL_TEXTURE_2D, room.room);
   }
 
-  // The empty room again, with its depths, so that bodies can stand behind what stands there.
-  void DrawBackdrop(const Shot& shot) {
-    Use(programs.backdrop, shot);
-    targets.WriteOnly(true, shot.labels, shot.depth);
-    gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_ALWAYS);
-    gl.Enable(GL_SCISSOR_TEST);
-    gl.BindVertexArray(empty_vertices);
-    for (const PixelRect& rect : shot.rects) {
-      gl.Scissor(rect.left, rect.top, rect.Width(), rect.Height());
-      gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    }
-    gl.DepthFunc(GL_LESS);
-    gl.Disable(GL_DEPTH_TEST);
-    PixelRect all = shot.rects.front();
-    for (const PixelRect& rect : shot.rects) {
-      all = {std::min(all.left, rect.left), std::min(all.top, rect.top), std::max(all.right, rect.right),
-             std::max(all.bottom, rect.bottom)};
-    }
-    gl.Scissor(all.left, all.top, all.Width(), all.Height());
-  }
-
-  void ThrowShadows(GLuint program, const VertexStream& stream, const Shot& shot) {
+  // In the studio. Each triangle darkens on its own; where shadows overlap the darkest counts, not their product.
+  void DrawShadowsOfSurfaces(const Shot& shot) {
+    const GLuint program = programs.surface_shadow;
     Use(program, shot);
     SetPixelGeometry(gl, program, shot.camera, shot.room);
-    for (const int onto_wall : {0, 1}) {
-      gl.Uniform1i(gl.GetUniformLocation(program, "onto_wall"), onto_wall);
-      stream.Draw();
-    }
-  }
-
-  void DrawStudioShadows(const Shot& shot) {
-    // Thrown flat, a box's near and far faces cover the same pixels: one layer is enough.
-    gl.Enable(GL_CULL_FACE);
-    for (const VertexStream* stream : {&capsules, &faces}) {
-      if (!stream->IsEmpty()) ThrowShadows(programs.capsules.shadow, *stream, shot);
-    }
-    gl.Disable(GL_CULL_FACE);
-    if (!surfaces.IsEmpty()) {
-      for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
-      ThrowShadows(programs.surfaces.shadow, surfaces, shot);
-      for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Disable(plane);
-    }
-  }
-
-  void DrawInteriorShadows(const Shot& shot) {
-    gl.Enable(GL_CULL_FACE);
-    if (!casters.IsEmpty()) {
-      const GLuint program = programs.interior_shadow;
-      Use(program, shot);
-      SetPixelGeometry(gl, program, shot.camera, shot.room);
-      SetPoint(gl, program, "room_low", shot.room.interior->low);
-      SetPoint(gl, program, "room_high", shot.room.interior->high);
-      casters.Draw();
-    }
-    if (!contacts.IsEmpty()) {
-      targets.WriteOnly(true, false, false);
-      Use(programs.contact, shot);
-      SetPixelGeometry(gl, programs.contact, shot.camera, shot.room);
-      SetNumber(programs.contact, "reach", kContactReach);
-      contacts.Draw();
-    }
-    gl.Disable(GL_CULL_FACE);
-  }
-
-  // Each body darkens on its own; where shadows overlap the darkest counts, not their product.
-  void DrawShadows(const Shot& shot) {
     targets.WriteOnly(true, shot.labels, false);
     gl.Enablei(GL_BLEND, 0);
-    if (shot.room.interior != nullptr) {
-      DrawInteriorShadows(shot);
-    } else {
-      DrawStudioShadows(shot);
+    for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
+    for (const int onto_wall : {0, 1}) {
+      gl.Uniform1i(gl.GetUniformLocation(program, "onto_wall"), onto_wall);
+      for (const VertexStream* stream : {&surfaces, &painted}) {
+        if (!stream->IsEmpty()) stream->Draw();
+      }
     }
+    for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Disable(plane);
     gl.Disablei(GL_BLEND, 0);
   }
 
@@ -250,7 +175,7 @@ struct Renderer::State {
     gl.Enable(GL_DEPTH_TEST);
     if (!capsules.IsEmpty()) {
       gl.Enable(GL_CULL_FACE);
-      DrawBodies(programs.capsules.body, capsules, shot, {});
+      DrawBodies(programs.capsule, capsules, shot, {});
       gl.Disable(GL_CULL_FACE);
     }
     if (!faces.IsEmpty()) {
@@ -258,15 +183,14 @@ struct Renderer::State {
       DrawBodies(programs.face, faces, shot, {});
       gl.Disable(GL_CULL_FACE);
     }
-    if (!surfaces.IsEmpty()) {
-      if (all_closed) gl.Enable(GL_CULL_FACE);
-      DrawBodies(programs.surfaces.body, surfaces, shot, paints);
-      gl.Disable(GL_CULL_FACE);
-    }
+    if (all_closed) gl.Enable(GL_CULL_FACE);
+    if (!surfaces.IsEmpty()) DrawBodies(programs.surface, surfaces, shot, {});
+    if (!painted.IsEmpty()) DrawBodies(programs.painted, painted, shot, paints);
+    gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_DEPTH_TEST);
   }
 
-  void Upload(const Room& room, const std::vector<Figure>& figures, const glm::dvec3& eye) {
+  void Upload(const std::vector<Figure>& figures, const glm::dvec3& eye) {
     std::vector<CapsuleInstance> plain = MakeInstances(figures, eye), with_face;
     const auto first_face =
         std::ranges::stable_partition(plain, [](const CapsuleInstance& instance) { return instance.paint.a == 0; });
@@ -276,22 +200,21 @@ struct Renderer::State {
     faces.Upload(with_face);
     all_closed = AllClosed(figures);
     MakeCorners(figures, eye, corners);
-    surfaces.Upload(corners);
-    if (room.interior == nullptr || !room.casts_shadows) return;
-    const std::vector<CapsuleInstance> all = MakeCasters(figures, eye);
-    casters.Upload(all);
-    contacts.Upload(NearFloor(all, eye));
+    surfaces.Upload(corners.plain);
+    painted.Upload(corners.painted);
   }
 
-  // `rects` of the picture, into `view`, whose pictures begin with `top_row`.
+  // Bodies, and what shadows they throw in the studio: `rects` of the picture, on top of `view`, which begins with
+  // `top_row`.
   void DrawTouched(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                    Targets asked, const std::vector<PixelRect>& rects, int top_row, View& view) {
     if (rects.empty()) return;
     Begin(kept, camera);
-    Upload(room, figures, camera.p_WC);
+    Upload(figures, camera.p_WC);
     const Shot shot{room, camera, rects, asked != Targets::kColour, asked == Targets::kAll};
-    DrawBackdrop(shot);
-    if (room.casts_shadows) DrawShadows(shot);
+    targets.WriteOnly(true, shot.labels, shot.depth);
+    targets.Clear(rects);
+    if (room.casts_shadows && room.interior == nullptr) DrawShadowsOfSurfaces(shot);
     DrawBodies(shot, PaintsOf(figures));
     for (const PixelRect& rect : rects) targets.Read(rect, top_row, asked, view);
   }
@@ -300,9 +223,9 @@ struct Renderer::State {
   const GlFunctions& gl;
   Programs programs;
   GLuint empty_vertices;
-  VertexStream capsules, faces, casters, contacts, surfaces;
-  bool all_closed = false;             // of `surfaces`: no backs are in sight
-  std::vector<SurfaceCorner> corners;  // reused
+  VertexStream capsules, faces, surfaces, painted;
+  bool all_closed = false;  // of surfaces: no backs are in sight
+  SurfaceCorners corners;   // reused
   FrameTargets targets;
   KeptRooms rooms;
   SmoothRoom smooth;
@@ -345,6 +268,7 @@ View Renderer::RenderRows(const Room& room, const std::vector<Figure>& figures, 
   const KeptRoom& kept = state_->rooms.FindOrDraw(room, camera);
   View view;
   FillBackdrop(kept, width, room.brightness, targets, rows, view);
+  if (room.casts_shadows) ThrowCapsuleShadows(kept, room, figures, targets, rows, view);
   state_->DrawTouched(kept, room, figures, camera, targets, TouchedPixels(room, figures, camera, rows), rows.first,
                       view);
   return view;
@@ -364,16 +288,20 @@ ColourImage Renderer::RenderSmooth(const Room& room, const std::vector<Figure>& 
     FillBackdrop(kept, width, room.brightness, Targets::kColour, rows, smooth.large);
     smooth.small = ColourImage(camera.intrinsics.width, camera.intrinsics.height);
     AverageFours(smooth.large.colour, {0, 0, width, height}, smooth.small);
+    smooth.touched.clear();
     smooth.room = kept.serial;
     smooth.brightness = room.brightness;
   }
-  ColourImage picture = smooth.small;
-  std::vector<PixelRect> rects = TouchedPixels(room, figures, large, rows);
-  for (PixelRect& rect : rects) {
-    rect = {rect.left & ~1, rect.top & ~1, (rect.right + 1) & ~1, (rect.bottom + 1) & ~1};
+  for (const PixelRect& rect : smooth.touched) FillBackdrop(kept, room.brightness, rect, smooth.large.colour);
+  smooth.touched.clear();
+  if (room.casts_shadows) {
+    smooth.touched = ThrowCapsuleShadows(kept, room, figures, Targets::kColour, rows, smooth.large);
   }
+  const std::vector<PixelRect> rects = TouchedPixels(room, figures, large, rows);
   state.DrawTouched(kept, room, figures, large, Targets::kColour, rects, 0, smooth.large);
-  for (const PixelRect& rect : rects) AverageFours(smooth.large.colour, rect, picture);
+  smooth.touched.insert(smooth.touched.end(), rects.begin(), rects.end());
+  ColourImage picture = smooth.small;
+  for (const PixelRect& rect : smooth.touched) AverageFours(smooth.large.colour, rect, picture);
   return picture;
 }
 

@@ -33,29 +33,9 @@ void main() {
 }
 )glsl";
 
-constexpr const char* kBackdrop = R"glsl(
-uniform sampler2D kept_room;
-uniform sampler2D kept_extra;
-uniform float brightness;
-uniform float farthest;
-
-layout(location = 0) out vec4 colour;
-layout(location = 1) out uint label;
-layout(location = 2) out float depth;
-
-void main() {
-  vec4 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0);
-  colour = vec4(room.rgb * brightness, 1.0);
-  label = uint(texelFetch(kept_extra, ivec2(gl_FragCoord.xy), 0).a);
-  depth = room.a;
-  gl_FragDepth = room.a / farthest;
-}
-)glsl";
-
 }  // namespace
 
 std::string FullScreenVertexShader() { return AssembleShader({kFullScreen}); }
 std::string RoomFragmentShader() { return AssembleShader({kRoomGeometry, kStudioPaint, kRoomPaint}); }
-std::string BackdropFragmentShader() { return AssembleShader({kBackdrop}); }
 
 }  // namespace etude

@@ -43,7 +43,7 @@ uniform vec3 fill_colour;
 uniform vec3 window;  // in the world
 uniform vec3 window_colour;
 
-// `point` in E, `normal` unit.
+// `point` in E, `normal` unit. An alpha of 0 says that the pixel was drawn (FrameTargets).
 vec4 LitPaint(vec3 skin, vec3 normal, vec3 point, vec3 ray) {
   vec3 to_lamp = normalize(lamp - eye - point);
   float facing = max(-dot(normal, normalize(ray)), 0.0);
@@ -55,7 +55,17 @@ vec4 LitPaint(vec3 skin, vec3 normal, vec3 point, vec3 ray) {
   vec3 to_window = window - eye - point;
   float square = dot(to_window, to_window);
   light += max(dot(normal, to_window), 0.0) * inversesqrt(square) * 6.0 / (3.0 + square) * window_colour;
-  return vec4((skin * light + 0.12 * rim * sky) * brightness, 1.0);
+  return vec4((skin * light + 0.12 * rim * sky) * brightness, 0.0);
+}
+)glsl";
+
+const char* const kRoomInFront = R"glsl(
+uniform sampler2D kept_room;
+uniform float farthest;
+
+// Whether what stands in the room hides that depth.
+bool IsBehindRoom(float depth) {
+  return texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).a / farthest <= depth / farthest;
 }
 )glsl";
 
@@ -63,27 +73,51 @@ const char* const kShadowLight = R"glsl(
 uniform sampler2D kept_room;
 uniform float brightness;
 
-// `point` of the room in E; `inside` = how deep the light's way runs inside the body: 0 at its skin, 1 through its
+// The alpha of 0.5 says that it is a shadow (FrameTargets). `point` of the room in E; `inside` = how deep the light's way runs inside the body: 0 at its skin, 1 through its
 // middle; `softness` = from where on the shadow is full. The outermost edge is where the label ends.
 vec4 RoomInShadow(RoomHit hit, vec3 point, float inside, float softness) {
   vec2 light = RoomLight(eye + point, RoomNormal(hit.is_wall));
   float left_over = 1.0 - smoothstep(0.0, softness, inside) * light.y / (light.x + light.y);
   vec3 room = texelFetch(kept_room, ivec2(gl_FragCoord.xy), 0).rgb;
-  return vec4(room * (brightness * left_over), 1.0);
+  return vec4(room * (brightness * left_over), 0.5);
 }
 )glsl";
 
-const char* const kSegmentDistance = R"glsl(
-// The squared distance between the segments p1-q1 and p2-q2 (Ericson 2005, section 5.1.9).
-float SquaredDistance(vec3 p1, vec3 q1, vec3 p2, vec3 q2) {
-  vec3 d1 = q1 - p1, d2 = q2 - p2, r = p1 - p2;
-  float a = dot(d1, d1), e = dot(d2, d2), f = dot(d2, r), c = dot(d1, r), b = dot(d1, d2);
-  float denominator = a * e - b * b;
-  float s = denominator > 1e-12 ? clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.0;
-  float t = e > 0.0 ? clamp((b * s + f) / e, 0.0, 1.0) : 0.0;
-  s = clamp((b * t - c) / a, 0.0, 1.0);
-  vec3 gap = p1 + s * d1 - p2 - t * d2;
-  return dot(gap, gap);
+const char* const kCapsuleBox = R"glsl(
+in vec4 start_and_radius;  // in E
+in vec4 end_and_label;
+in vec4 paint_in;          // rgb; a = 1 for a head with a face
+in vec3 front_in;          // where the face looks
+
+uniform mat3 image_of_direction;  // E -> (u w, v w, w)
+uniform vec2 image_size;
+
+flat out vec4 capsule_start;
+flat out vec4 capsule_end;
+flat out vec4 paint;
+flat out vec3 front;
+
+vec3 BoxCorner() {
+  vec3 start = start_and_radius.xyz, end = end_and_label.xyz;
+  float radius = 1.01 * start_and_radius.w;
+  float span = distance(start, end);
+  vec3 along = span > 0.0 ? (end - start) / span : vec3(0.0, 1.0, 0.0);
+  vec3 across = normalize(cross(along, abs(along.y) < 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
+  vec3 third = cross(along, across);
+  int bit = 1 << gl_VertexID;
+  vec3 side = vec3((0x287a & bit) != 0, (0x02af & bit) != 0, (0x31e3 & bit) != 0) * 2.0 - 1.0;
+  return 0.5 * (start + end) + along * side.x * (0.5 * span + radius) + (across * side.y + third * side.z) * radius;
+}
+
+void Place(vec3 point) {
+  vec3 image = image_of_direction * point;
+  // Row 0 of the framebuffer is the picture's top row, so nothing needs to be flipped. Depth is
+  // written per pixel; z = 0 keeps near boxes from being cut.
+  gl_Position = vec4(2.0 * image.xy / image_size - image.z, 0.0, image.z);
+  capsule_start = start_and_radius;
+  capsule_end = end_and_label;
+  paint = paint_in;
+  front = front_in;
 }
 )glsl";
 

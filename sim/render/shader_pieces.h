@@ -11,11 +11,14 @@ namespace etude {
 extern const char* const kRoomGeometry;
 /// `vec4 LitPaint(paint, normal, point, ray)`: how the lamp and the room's light show on people. After kRoomGeometry.
 extern const char* const kBodyLight;
+/// `bool IsBehindRoom(depth)`: whether the empty room hides that depth of the pixel; with the uniform `farthest`.
+extern const char* const kRoomInFront;
 /// `vec4 RoomInShadow(hit, point, inside, softness)`: a pixel of the room that a body darkens. After kRoomGeometry.
 extern const char* const kShadowLight;
 
-/// `float SquaredDistance(p1, q1, p2, q2)` of two segments.
-extern const char* const kSegmentDistance;
+/// A vertex shader's `vec3 BoxCorner()`, one of the 14 of the strip that is a box around a capsule, and `void
+/// Place(point)`. One instance per capsule (CapsuleInstance).
+extern const char* const kCapsuleBox;
 /// `vec3 StudioPaint(place, is_wall, blur)`: the studio's tiles and spots.
 extern const char* const kStudioPaint;
 /// `vec3 Painted(index, place, blur)`: the patterns of surface_paint.h, made of these: what they share, those of rooms

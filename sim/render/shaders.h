@@ -15,26 +15,15 @@ std::string FullScreenVertexShader();
 std::string RoomFragmentShader();
 /// The same of a furnished room. Both also write RGB = the share of the lamp in the light, A = the label.
 std::string InteriorFragmentShader();
-/// A capsule's shadow in a furnished room, on whatever stands there.
-std::string InteriorShadowVertexShader();
-std::string InteriorShadowFragmentShader();
-/// Where a capsule nearly touches the floor or furniture.
-std::string ContactVertexShader();
-std::string ContactFragmentShader();
-/// Copies the kept room into the picture.
-std::string BackdropFragmentShader();
 
 /// A box around each capsule, drawn only to find the pixels worth asking.
 std::string CapsuleVertexShader();
 /// With hair, eyes and a smile, or without, which is faster.
 std::string CapsuleFragmentShader(bool with_face);
-/// The same box, thrown from the lamp onto the floor or the wall.
-std::string CapsuleShadowVertexShader();
-std::string CapsuleShadowFragmentShader();
 
-/// The triangles of surfaces.
+/// The triangles of surfaces: in paints, or in plain colours, which is faster.
 std::string SurfaceVertexShader();
-std::string SurfaceFragmentShader();
+std::string SurfaceFragmentShader(bool is_painted);
 /// The same triangles, thrown from the lamp onto the floor or the wall.
 std::string SurfaceShadowVertexShader();
 std::string SurfaceShadowFragmentShader();

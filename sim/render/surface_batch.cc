@@ -38,20 +38,19 @@ void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, 
 
 }  // namespace
 
-void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, std::vector<SurfaceCorner>& corners) {
-  corners.clear();
+void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceCorners& corners) {
+  corners.plain.clear();
+  corners.painted.clear();
   int paints = 0;
   for (const Figure& figure : figures) {
     for (const Surface& surface : figure.surfaces) {
-      AddCorners(surface, figure.seen_as, surface.paint ? paints++ : -1, eye, corners);
+      if (surface.paint) {
+        AddCorners(surface, figure.seen_as, paints++, eye, corners.painted);
+      } else {
+        AddCorners(surface, figure.seen_as, -1, eye, corners.plain);
+      }
     }
   }
-}
-
-std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye) {
-  std::vector<SurfaceCorner> corners;
-  MakeCorners(figures, eye, corners);
-  return corners;
 }
 
 std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures) {

@@ -16,11 +16,15 @@ struct SurfaceCorner {
   glm::vec4 rest_and_paint;   ///< the place on the body at rest; A = the paint's number, or −1
 };
 
-/// All triangles of all figures, three corners each. Triangles with a corner or normal that is not finite, or
-/// that lies beyond any scene, are left out. Paints are numbered in the order of PaintsOf.
-std::vector<SurfaceCorner> MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye);
-/// The same into `corners`, whose memory is used again.
-void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, std::vector<SurfaceCorner>& corners);
+/// Three corners for each triangle.
+struct SurfaceCorners {
+  std::vector<SurfaceCorner> plain;    ///< of surfaces in one colour
+  std::vector<SurfaceCorner> painted;  ///< of those with a paint
+};
+
+/// All triangles of all figures. Triangles with a corner or normal that is not finite, or that lies beyond any scene,
+/// are left out. Paints are numbered in the order of PaintsOf. The memory of `corners` is used again.
+void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceCorners& corners);
 
 /// The paints of all surfaces, in the order of their numbers.
 std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures);

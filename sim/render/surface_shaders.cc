@@ -60,9 +60,6 @@ void main() {
 )glsl";
 
 constexpr const char* kSurface = R"glsl(
-uniform float farthest;
-uniform float pixel_angle;
-
 in vec3 normal;
 in vec3 rest;
 flat in vec4 paint;
@@ -72,14 +69,25 @@ layout(location = 0) out vec4 colour;
 layout(location = 1) out uint label;
 layout(location = 2) out float depth;
 
+)glsl";
+
+constexpr const char* kPlainSkin = R"glsl(
+vec3 SkinPaint() { return paint.rgb; }
+)glsl";
+
+constexpr const char* kPaintedSkin = R"glsl(
+uniform float pixel_angle;
+vec3 SkinPaint() { return Painted(pattern, rest, depth * pixel_angle); }
+)glsl";
+
+constexpr const char* kSurfaceMain = R"glsl(
 void main() {
   vec3 ray = PixelRay();
   depth = 1.0 / gl_FragCoord.w;
-  if (!(depth < farthest)) discard;
+  if (!(depth < farthest) || IsBehindRoom(depth)) discard;
   // Open surfaces show their back too. Upside down as the picture is drawn, GL takes backs for fronts.
   vec3 outward = gl_FrontFacing ? -normal : normal;
-  vec3 skin = pattern < 0 ? paint.rgb : Painted(pattern, rest, depth * pixel_angle);
-  colour = LitPaint(skin, outward / max(length(normal), 1e-6), depth * ray, ray);
+  colour = LitPaint(SkinPaint(), outward / max(length(normal), 1e-6), depth * ray, ray);
   label = uint(paint.a);
   gl_FragDepth = depth / farthest;
 }
@@ -111,8 +119,10 @@ void main() {
 }  // namespace
 
 std::string SurfaceVertexShader() { return AssembleShader({kCorner, kPlace}); }
-std::string SurfaceFragmentShader() {
-  return AssembleShader({kRoomGeometry, kBodyLight, kPaintPatterns, kNoRoomPatterns, kPainted, kSurface});
+std::string SurfaceFragmentShader(bool is_painted) {
+  if (!is_painted) return AssembleShader({kRoomGeometry, kBodyLight, kRoomInFront, kSurface, kPlainSkin, kSurfaceMain});
+  return AssembleShader({kRoomGeometry, kBodyLight, kRoomInFront, kPaintPatterns, kNoRoomPatterns, kPainted, kSurface,
+                         kPaintedSkin, kSurfaceMain});
 }
 std::string SurfaceShadowVertexShader() { return AssembleShader({kCorner, kShadowPlace}); }
 std::string SurfaceShadowFragmentShader() { return AssembleShader({kRoomGeometry, kShadowLight, kShadow}); }

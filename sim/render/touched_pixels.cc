@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/render/capsule_batch.h"
-
 namespace etude {
 namespace {
 
@@ -21,7 +19,6 @@ struct Extent {
     high = glm::max(high, point + radius);
   }
   bool IsEmpty() const { return !(low.x <= high.x); }
-  Extent GrownBy(double margin) const { return {low - margin, high + margin}; }
   std::array<glm::dvec3, 8> Corners() const {
     std::array<glm::dvec3, 8> corners;
     for (int i = 0; i < 8; ++i) {
@@ -116,10 +113,6 @@ std::vector<Extent> ExtentsOf(const std::vector<Surface>& surfaces) {
   return extents;
 }
 
-void Append(std::vector<Extent>& all, const std::vector<Extent>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-}
-
 int Area(const PixelRect& rect) { return rect.Width() * rect.Height(); }
 PixelRect Union(const PixelRect& a, const PixelRect& b) {
   return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
@@ -146,26 +139,11 @@ std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>
                                      const RowRange& rows) {
   std::vector<PixelRect> rects;
   for (const Figure& figure : figures) {
-    std::vector<Extent> bodies = ExtentsOf(figure.shape);
-    Append(bodies, ExtentsOf(figure.surfaces));
-    std::vector<Extent> casters = bodies;
-    if (room.interior != nullptr) Append(casters, ExtentsOf(figure.shadow));
-
     SeenRect body(camera), on_floor(camera), on_wall(camera);
-    for (const Extent& extent : bodies) body.Add(extent);
-    if (!room.casts_shadows) casters.clear();
-    for (const Extent& extent : casters) {
-      if (const Interior* interior = room.interior) {
-        // What lies between a body and its shadow on the walls lies between them in the picture, too: one rectangle.
-        const Extent walls{interior->low, interior->high};
-        const glm::dvec3& lamp = interior->lights.key;
-        body.Add(extent.GrownBy(kContactReach));
-        for (int axis = 0; axis < 3; ++axis) {
-          body.Add(ThrownOnto(extent, lamp, axis, walls.low[axis], walls));
-          if (axis != 1) body.Add(ThrownOnto(extent, lamp, axis, walls.high[axis], walls));
-        }
-        continue;
-      }
+    for (const Extent& extent : ExtentsOf(figure.shape)) body.Add(extent);
+    for (const Extent& extent : ExtentsOf(figure.surfaces)) {
+      body.Add(extent);
+      if (!room.casts_shadows || room.interior != nullptr) continue;
       const Extent open{{-kInfinity, 0, kWallZ}, glm::dvec3(kInfinity)};
       on_floor.Add(ThrownOnto(extent, kLamp, 1, 0, open));
       on_wall.Add(ThrownOnto(extent, kLamp, 2, kWallZ, open));

@@ -14,8 +14,8 @@ struct PixelRect {
   bool IsEmpty() const { return right <= left || bottom <= top; }
 };
 
-/// Rectangles of the picture outside which it shows the empty room: around every figure and, if it throws one, its
-/// shadow. They may overlap. All within `rows` of the picture.
+/// Rectangles of the picture outside which GL draws nothing: around every figure and, in the studio, the shadow of its
+/// surfaces. They may overlap. All within `rows` of the picture.
 std::vector<PixelRect> TouchedPixels(const Room& room, const std::vector<Figure>& figures, const Camera& camera,
                                      const RowRange& rows);
 

@@ -186,6 +186,21 @@ TEST_F(RenderedInterior, DrawsTheSameRowsAloneAsInAWholePicture) {
   }
 }
 
+TEST_F(RenderedInterior, IsTheSameAfterAPictureOfColoursOnly) {
+  const std::vector<Figure> dancer{{Dancer(), PerformerColours()}};
+  const Interior interior = Furnished();
+  const Room room{.interior = &interior};
+  const Camera camera = TestCameras().front();
+  const auto first = Renderer::Create(), second = Renderer::Create();
+  ASSERT_TRUE(first && second);
+  // The room is drawn when it is first asked for, with whatever masks the last picture left.
+  (*second)->Render({}, dancer, camera, Targets::kColour);
+  const View direct = (*first)->Render(room, dancer, camera, Targets::kColourAndLabels);
+  const View after = (*second)->Render(room, dancer, camera, Targets::kColourAndLabels);
+  EXPECT_EQ(direct.labels.pixels, after.labels.pixels);
+  EXPECT_EQ(direct.colour.pixels, after.colour.pixels);
+}
+
 TEST_F(RenderedInterior, LabelsAFigureAsOneThingWhenToldSo) {
   const Interior room = Furnished();
   Figure bystander{Dancer(), PerformerColours()};

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/render/kept_rooms.h"
+#include "sim/render/renderer.h"
+#include "sim/render/touched_pixels.h"
+
+namespace etude {
+
+/// Draws the shadows that the capsules of figures throw on the empty room: how deep the light's way from the lamp to a
+/// pixel runs inside a capsule says how much of the lamp's light is left, softer the farther the shadow falls; where
+/// shadows overlap the deepest counts. In interiors what stands close to the floor also takes the light that comes from
+/// all sides. `view` shows those rows of the empty room; shadows of the lamp are labelled kShadow, but furniture keeps
+/// its label. Returns the rectangles outside which nothing has changed; they do not overlap.
+std::vector<PixelRect> ThrowCapsuleShadows(const KeptRoom& kept, const Room& room, const std::vector<Figure>& figures,
+                                           Targets targets, const RowRange& rows, View& view);
+
+}  // namespace etude
