@@ -90,18 +90,23 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Method = CaptureMethod;
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
-    FieldTable<Method> made{{Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
-                                       "How the person is cut out of the pictures."),
-                             Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
-                                       "How a camera is computed from its calibration points."),
-                             ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-                             SweepsField(&Method::ik, "The solver's steps per frame, at most."),
-                             Key::Flags("oracle",
-                                        {{"calibration", OracleOf<&Oracle::calibration>},
-                                         {"segmentation", OracleOf<&Oracle::segmentation>},
-                                         {"directions", OracleOf<&Oracle::directions>},
-                                         {"points", OracleOf<&Oracle::points>}},
-                                        "Stages replaced by the truth.")}};
+    FieldTable<Method> made{
+        {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
+                   "How the person is cut out of the pictures."),
+         Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
+                   "How a camera is computed from its calibration points."),
+         Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
+                   "The performer's own joints, or paper B's 29 degrees of freedom."),
+         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
+         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+         Key::Flags("oracle",
+                    {{"calibration", OracleOf<&Oracle::calibration>},
+                     {"segmentation", OracleOf<&Oracle::segmentation>},
+                     {"directions", OracleOf<&Oracle::directions>},
+                     {"points", OracleOf<&Oracle::points>},
+                     {"start", OracleOf<&Oracle::start>},
+                     {"ik", OracleOf<&Oracle::ik>}},
+                    "Stages replaced by the truth.")}};
     const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     made.fields.insert(made.fields.end(), solver.begin(), solver.end());
     return made;

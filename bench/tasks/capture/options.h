@@ -39,12 +39,20 @@ struct StudioOptions {
   int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
 };
 
+/// The body that a skeleton is made with.
+enum class BodyKind {
+  kFitted,  ///< "fitted": the performer's own joints
+  kPaper,   ///< "paper": paper B's 29 degrees of freedom, with the performer's limb lengths
+};
+
 /// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error.
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;
   bool directions = false;
   bool points = false;
+  bool start = false;
+  bool ik = false;
 };
 
 /// A pipeline with its settings.
@@ -52,6 +60,7 @@ struct CaptureMethod {
   std::string name;
   Segmenter segmenter = Segmenter::kHue;
   Calibration calibration = Calibration::kDlt;
+  BodyKind body = BodyKind::kFitted;
   const IkSolver* solver = DefaultIkSolver();
   IkOptions ik = IkBudget(100);
   Oracle oracle;

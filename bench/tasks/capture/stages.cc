@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/metrics/measurement.h"
+#include "bench/tasks/capture/nearest_poses.h"
 #include "engine/base/digest.h"
 #include "engine/capture/calibrate_cameras.h"
 
@@ -124,6 +125,23 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
     kept = measured_.emplace(choice, MeasureTake(inputs, bridge)).first;
   }
   return kept->second;
+}
+
+Result<const CaptureBody*> CaptureStages::GetBody(const CaptureMethod& method) {
+  auto kept = bodies_.find(method.body);
+  if (kept == bodies_.end()) {
+    Result<CaptureBody> body = method.body == BodyKind::kPaper ? PaperBody(world_.lengths) : FittedBody(world_.body);
+    kept = bodies_.emplace(method.body, std::move(body)).first;
+  }
+  if (!kept->second) return tl::unexpected(kept->second.error());
+  return &*kept->second;
+}
+
+Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& method) {
+  ASSIGN_OR_RETURN(const CaptureBody* body, GetBody(method));
+  auto kept = nearest_.find(method.body);
+  if (kept == nearest_.end()) kept = nearest_.emplace(method.body, FindNearestPoses(*body, world_.truth)).first;
+  return &kept->second;
 }
 
 PersonSource PersonSourceOf(const CaptureMethod& method) {

@@ -89,6 +89,7 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   CaptureWorld world;
   world.truth = ChooseWindow(options, clip, key);
   world.lengths = MeasureLimbLengths(world.truth);
+  world.body = clip.body.joints.empty() ? RestBodyOf(world.truth) : clip.body;
   world.colours = ColoursOf(options.clothes);
   RandomStream room(key, "capture/room");
   world.room.texture_seed = room.IndexBelow(1u << 30);

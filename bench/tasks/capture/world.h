@@ -9,6 +9,7 @@
 #include "engine/capture/measure_frames.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
+#include "engine/motion/rest_body.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
@@ -19,6 +20,7 @@ namespace etude {
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
   LimbLengths lengths;             ///< measured on the performer beforehand, as paper B does
+  RestBody body;                   ///< the same joint by joint
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<Camera> cameras;     ///< two or more, each with its lens
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures

@@ -110,12 +110,15 @@ TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
   const CalibratedCameras cameras;
   const Take take;
   const Observation observation{};
-  const MeasuredTake measured{.frames = std::vector<FrameMeasurement>(2), .seen = {}, .directions_digest = "", .points_digest = ""};
+  const CaptureBody body = PaperBody({});
+  const MeasuredTake measured{
+      .frames = std::vector<FrameMeasurement>(2), .seen = {}, .directions_digest = "", .points_digest = ""};
   const CaptureRun run{.method = method,
                        .cameras = cameras,
                        .take = take,
                        .observation = observation,
                        .measured = measured,
+                       .body = body,
                        .frames = {std::nullopt, std::nullopt}};
   const CellResult cell = ScoreCaptureRun(world, run, false);
   EXPECT_EQ(cell.status, Status::kFailed);
