@@ -60,7 +60,7 @@ std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObserva
                                       const std::vector<EffectorError>& errors) {
   std::vector<EffectorError> kept;
   for (std::size_t e = 0; e < errors.size(); ++e) {
-    if (!seen.lacks_end[Index(body.ends[e].role)]) kept.push_back(errors[e]);
+    if (body.ends[e].has_position && !seen.lacks_end[Index(body.ends[e].role)]) kept.push_back(errors[e]);
   }
   return kept;
 }

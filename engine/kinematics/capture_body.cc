@@ -59,13 +59,13 @@ IkProblem MakeImageProblem(const CaptureBody& body, const LimbObservation& obser
   const TreeFrames frames = ComputeFrames(body.tree, start);
   for (std::size_t e = 0; e < body.ends.size(); ++e) {
     const std::size_t role = Index(body.ends[e].role);
-    const glm::dvec3 seen = glm::normalize(observation.directions[role]);
+    const glm::dvec3 seen = body.ends[e].sense * glm::normalize(observation.directions[role]);
     const glm::dmat3& R_WE = frames.effectors[e].axes;
     const bool counts = body.ends[e].has_direction && !observation.lacks_direction[role];
     EffectorTarget target;
     target.position = observation.ends[body.ends[e].role];
     target.axes = SmallestRotation(R_WE[2], seen) * R_WE;
-    target.position_weight = observation.lacks_end[role] ? 0 : 1;
+    target.position_weight = body.ends[e].has_position && !observation.lacks_end[role] ? 1 : 0;
     target.axis_weights = {0, 0, counts ? 1.0 : 0.0};
     problem.targets.push_back(target);
   }

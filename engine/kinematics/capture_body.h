@@ -24,10 +24,13 @@ struct TreePoint {
 
 /// A body that a motion is captured with: a tree, and what its parts are to the observer.
 struct CaptureBody {
-  /// What an end effector of the tree is, and how it is seen.
+  /// What pictures tell of an end effector of the tree: the place of an end, the direction of the limb that leads to a
+  /// role, or both.
   struct End {
     Role role;
-    bool has_direction = true;  ///< whether its limb runs along the stroke that is drawn to this end
+    bool has_position = true;
+    bool has_direction = true;
+    double sense = 1;  ///< −1: the tree's limb runs against the stroke, which leads away from the trunk
   };
   /// The X axis of a limb that two of its neighbours tell: `bends` × (middle − upper) × (lower − middle).
   struct Twist {

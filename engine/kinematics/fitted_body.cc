@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <string_view>
 #include <utility>
 
 #include "engine/base/angles.h"
@@ -318,16 +317,23 @@ class Builder {
     add(kLeftAnkle, kLeftHip, kLeftKnee, kLeftAnkle, -1);
   }
 
+  // Paper B's four; its root stands as the left foot was seen, this one is held there by that limb's direction.
   void AddEnds() {
-    constexpr std::array<std::pair<Role, std::string_view>, 4> kEnds = {
-        {{kRightFoot, "right_foot"}, {kLeftHand, "left_hand"}, {kRightHand, "right_hand"}, {kHead, "head"}}};
-    for (const auto& [role, name] : kEnds) {
-      const TreePoint& point = body_.roles[Index(role)];
-      body_.tree.effectors.push_back({name, point.joint, point.p_LQ});
-      const double aside = glm::length(glm::cross(point.p_LQ, glm::dvec3(0, 0, 1)));
-      const bool is_stroke = AreSame(OriginOf(point.joint), parts_.places()[*ParentOf(role)]) && aside < kOffLine;
-      body_.ends.push_back({role, is_stroke});
-    }
+    for (const Role role : {kRightFoot, kLeftHand, kRightHand, kHead}) AddEnd(role, true);
+    AddEnd(kLeftFoot, false);
+  }
+
+  void AddEnd(Role role, bool has_position) {
+    const glm::dvec3 outer = parts_.places()[role], inner = parts_.places()[*ParentOf(role)];
+    const int limb = limb_of_[parts_.CarrierOf(role)];
+    const bool is_climbed = AreSame(OriginOf(limb), outer);
+    const TreePoint end = PointAt(is_climbed ? inner : outer, parts_.CarrierOf(role));
+    const double aside = glm::length(glm::cross(end.p_LQ, glm::dvec3(0, 0, 1)));
+    const bool has_direction =
+        AreSame(OriginOf(limb), is_climbed ? outer : inner) && body_.is_rigid[Index(role)] && aside < kOffLine;
+    if (!has_position && !has_direction) return;
+    body_.tree.effectors.push_back({RoleName(role), limb, end.p_LQ});
+    body_.ends.push_back({role, has_position, has_direction, is_climbed ? -1.0 : 1.0});
   }
 
   void AddSkeleton() {
