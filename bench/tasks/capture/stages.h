@@ -66,11 +66,20 @@ class CaptureStages {
     Calibration calibration = Calibration::kDlt;
     auto operator<=>(const CameraChoice&) const = default;
   };
+  /// What decides about a method's body.
+  struct BodyChoice {
+    BodyKind kind = BodyKind::kFitted;
+    bool true_lengths = false;
+    auto operator<=>(const BodyChoice&) const = default;
+  };
+  static BodyChoice BodyChoiceOf(const CaptureMethod& method);
   /// What decides about a method's measurements.
   struct MeasureChoice {
     CameraChoice cameras;
     PersonSource person;
     bool true_directions = false, true_points = false;
+    Sync sync = Sync::kAssumed;
+    Outliers outliers = Outliers::kKeep;
     auto operator<=>(const MeasureChoice&) const = default;
   };
   static CameraChoice CameraChoiceOf(const CaptureMethod& method);
@@ -85,8 +94,8 @@ class CaptureStages {
   std::optional<CalibrationPairs> pairs_;
   std::map<CameraChoice, Result<CalibratedCameras>> cameras_;
   std::map<MeasureChoice, MeasuredTake> measured_;
-  std::map<BodyKind, Result<CaptureBody>> bodies_;
-  std::map<BodyKind, NearestPoses> nearest_;
+  std::map<BodyChoice, Result<CaptureBody>> bodies_;
+  std::map<BodyChoice, NearestPoses> nearest_;
 };
 
 /// How the method cuts out the person.
