@@ -38,7 +38,7 @@ Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
 class Crew {
  public:
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
-      : shooting_(world, options.camera, key, renderer) {
+      : cameras_(world.cameras), shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
       backgrounds_.push_back(shooting_.ShootStage(camera));
     }
@@ -64,12 +64,22 @@ class Crew {
     return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {}});
   }
 
+  const Camera& CameraOf(std::size_t camera) const { return cameras_[camera]; }
+  BodyPose SeenPose(std::size_t camera, std::size_t frame) const { return shooting_.SeenPose(camera, frame); }
+
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
 
  private:
+  const std::vector<Camera>& cameras_;
   Shooting shooting_;
   std::vector<ColourImage> backgrounds_;
 };
+
+Marks Mark(Marking& marking, const PersonSource& source, const Crew& crew, std::size_t camera, std::size_t frame,
+           const AnnotatedPicture& picture) {
+  if (!source.has_true_marks) return marking.Mark(camera, frame, picture);
+  return marking.MarkTrueJoints(frame, picture, crew.CameraOf(camera), crew.SeenPose(camera, frame));
+}
 
 }  // namespace
 
@@ -106,7 +116,8 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
         masks[i].Add(std::span<const std::uint8_t>(person.pixels));
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
         if (wants_masks) observation.masks[camera].push_back(HalveMask(person));
-        observation.marks[camera].push_back(marking[i].Mark(camera, frame, {picture.labels, picture.colour, person}));
+        observation.marks[camera].push_back(
+            Mark(marking[i], sources[i], crew, camera, frame, {picture.labels, picture.colour, person}));
         AddMarks(observation.marks[camera].back(), marks[i]);
       }
     }

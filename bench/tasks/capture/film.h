@@ -14,10 +14,11 @@
 
 namespace etude {
 
-/// How the person was cut out of the pictures: by a segmenter, or by the truth.
+/// How the person was cut out of the pictures, by a segmenter or by the truth, and who marks what is left.
 struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   bool is_truth = false;
+  bool has_true_marks = false;  ///< drawn by someone who knows where the joints are, where the picture shows them
   auto operator<=>(const PersonSource&) const = default;
 };
 

@@ -69,6 +69,8 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Number(
            "annotation_error_px", &Options::annotation_error_px, {0, 50},
            "Standard deviation of an annotator's marks, in u and in v; what else people get wrong grows with it."),
+       Key::Number("limb_measure_mm", &Options::limb_measure_mm, {0, 100},
+                   "Error of the performer's measured limbs, standard deviation of each length."),
        Key::Number("annotators", &Options::annotators, {1, 2},
                    "How many people mark the same pictures, each by themselves; methods get the mean of both."),
        Key::Number("mark_every", &Options::mark_every, {1, 300},
@@ -90,18 +92,29 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Method = CaptureMethod;
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
-    FieldTable<Method> made{{Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
-                                       "How the person is cut out of the pictures."),
-                             Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
-                                       "How a camera is computed from its calibration points."),
-                             ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-                             SweepsField(&Method::ik, "The solver's steps per frame, at most."),
-                             Key::Flags("oracle",
-                                        {{"calibration", OracleOf<&Oracle::calibration>},
-                                         {"segmentation", OracleOf<&Oracle::segmentation>},
-                                         {"directions", OracleOf<&Oracle::directions>},
-                                         {"points", OracleOf<&Oracle::points>}},
-                                        "Stages replaced by the truth.")}};
+    FieldTable<Method> made{
+        {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
+                   "How the person is cut out of the pictures."),
+         Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
+                   "How a camera is computed from its calibration points."),
+         Key::Name("sync", &Method::sync, {{"assumed", Sync::kAssumed}, {"estimated", Sync::kEstimated}},
+                   "Whether the cameras' clocks are taken to agree, or set by how marks move."),
+         Key::Name("outliers", &Method::outliers, {{"keep", Outliers::kKeep}, {"reject", Outliers::kReject}},
+                   "With three or more cameras: whether one that disagrees with the others about a mark is left out."),
+         Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
+                   "The performer's own joints, or paper B's 29 degrees of freedom."),
+         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
+         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+         Key::Flags("oracle",
+                    {{"calibration", OracleOf<&Oracle::calibration>},
+                     {"segmentation", OracleOf<&Oracle::segmentation>},
+                     {"marks", OracleOf<&Oracle::marks>},
+                     {"directions", OracleOf<&Oracle::directions>},
+                     {"points", OracleOf<&Oracle::points>},
+                     {"lengths", OracleOf<&Oracle::lengths>},
+                     {"start", OracleOf<&Oracle::start>},
+                     {"ik", OracleOf<&Oracle::ik>}},
+                    "Stages replaced by the truth.")}};
     const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     made.fields.insert(made.fields.end(), solver.begin(), solver.end());
     return made;

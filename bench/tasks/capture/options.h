@@ -35,16 +35,38 @@ struct StudioOptions {
   double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
-  int annotators = 1;  ///< people who mark the same pictures, each by themselves: 1 or 2
-  int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
+  double limb_measure_mm = 0;  ///< error of every measured limb, standard deviation
+  int annotators = 1;          ///< people who mark the same pictures, each by themselves: 1 or 2
+  int mark_every = 1;          ///< the annotator marks every n-th frame; directions are interpolated in between
 };
 
-/// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error.
+/// The body that a skeleton is made with.
+enum class BodyKind {
+  kFitted,  ///< "fitted": the performer's own joints
+  kPaper,   ///< "paper": paper B's 29 degrees of freedom, with the performer's limb lengths
+};
+
+/// Whether a camera that disagrees with the others is left out.
+enum class Outliers { kKeep, kReject };
+
+/// Where the times of pictures come from.
+enum class Sync {
+  kAssumed,    ///< "assumed": frames of one number are taken at one time
+  kEstimated,  ///< "estimated": from how marks move
+};
+
+/// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error. Of `marks`: where a
+/// picture shows a limb or an end, the strokes and discs run to where the true joints are in it. Of `start`, `ik`: the
+/// pose of the method's body that is nearest to the truth (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;
+  bool marks = false;
   bool directions = false;
   bool points = false;
+  bool lengths = false;
+  bool start = false;
+  bool ik = false;
 };
 
 /// A pipeline with its settings.
@@ -52,6 +74,9 @@ struct CaptureMethod {
   std::string name;
   Segmenter segmenter = Segmenter::kHue;
   Calibration calibration = Calibration::kDlt;
+  Sync sync = Sync::kAssumed;
+  Outliers outliers = Outliers::kKeep;
+  BodyKind body = BodyKind::kFitted;
   const IkSolver* solver = DefaultIkSolver();
   IkOptions ik = IkBudget(100);
   Oracle oracle;

@@ -24,7 +24,7 @@ CaptureExtras DescribeStage(const CaptureWorld& world) {
 }  // namespace
 
 Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
-                        const std::vector<RecoveredFrame>& frames, const std::string& name) {
+                        const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name) {
   Track truth{"truth", {kJudgedRateHz, world.truth}}, recovered{"recovered", {kJudgedRateHz, {}}};
   for (const RecoveredFrame& frame : frames) recovered.motion.poses.push_back(frame.pose);
   CaptureExtras extras = DescribeStage(world);
@@ -33,7 +33,7 @@ Recording MakeRecording(const CaptureWorld& world, const Take& take, const Obser
     const std::string still = EncodeJpeg(take.stills[i], kStillQuality);
     extras.views.push_back({world.cameras[i], observation.masks[i], Base64(still)});
   }
-  extras.bvh = WriteBvh(ToClip(world.lengths, frames, kJudgedRateHz, name));
+  extras.bvh = WriteBvh(ToClip(body, frames, kJudgedRateHz, name));
   return {{std::move(truth), std::move(recovered)}, WriteCaptureExtras(extras)};
 }
 

@@ -13,7 +13,7 @@ namespace etude {
 /// The recording of a built-in method's motion, with its masks (bench/recordings/capture_extras.h). `name`: its BVH
 /// clip's.
 Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
-                        const std::vector<RecoveredFrame>& frames, const std::string& name);
+                        const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name);
 
 /// What an answer alone can show: nothing was cut out, and no joint of its BVH clip turns.
 Recording MakeRecording(const CaptureWorld& world, const std::vector<BodyPose>& poses);

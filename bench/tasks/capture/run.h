@@ -16,6 +16,7 @@ struct CaptureRun {
   const Take& take;
   const Observation& observation;
   const MeasuredTake& measured;
+  const CaptureBody& body;
   std::vector<std::optional<RecoveredFrame>> frames;
 };
 

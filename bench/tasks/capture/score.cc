@@ -193,7 +193,7 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
   }
   const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
   ReportPoses(world, frames, cell);
-  if (keeps_motion) cell.recording = MakeRecording(world, run.take, run.observation, frames, run.method.name);
+  if (keeps_motion) cell.recording = MakeRecording(world, run.take, run.observation, run.body, frames, run.method.name);
   cell.status = Status::kOk;
   cell.reason.clear();
   return cell;
