@@ -71,7 +71,7 @@ MAY_INCLUDE = {
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
-    "bench/recordings": "engine/base engine/cameras",
+    "bench/recordings": "engine/base engine/cameras engine/motion",
     "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":

@@ -74,7 +74,10 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Number("annotators", &Options::annotators, {1, 2},
                    "How many people mark the same pictures, each by themselves; methods get the mean of both."),
        Key::Number("mark_every", &Options::mark_every, {1, 300},
-                   "The annotator marks every n-th frame; what lies between is interpolated.")},
+                   "The annotator marks every n-th frame; what lies between is interpolated."),
+       Key::Numbers(
+           "moments", &Options::moments, {0, 12}, "up to twelve of 1…1800", {1, 1800},
+           "Frames, counted from 1, of which the report shows every stage, as figures 5.3 to 5.14 of paper B do.")},
       CheckStudio};
   const std::vector<Key> camera = CameraFields();
   made.fields.insert(made.fields.end(), camera.begin(), camera.end());

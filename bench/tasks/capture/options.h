@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/cameras/dlt.h"
@@ -38,6 +39,7 @@ struct StudioOptions {
   double limb_measure_mm = 0;  ///< error of every measured limb, standard deviation
   int annotators = 1;          ///< people who mark the same pictures, each by themselves: 1 or 2
   int mark_every = 1;          ///< the annotator marks every n-th frame; directions are interpolated in between
+  std::vector<double> moments = {};  ///< frames, counted from 1, of which a recording keeps every stage
 };
 
 /// The body that a skeleton is made with.

@@ -184,7 +184,8 @@ std::vector<std::string> CaptureMetrics() {
   return ids;
 }
 
-CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion) {
+CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion,
+                           std::span<const double> moments) {
   CellResult cell;
   ReportStages(world, run, cell);
   if (!ReportRecovered(world, run.frames, cell)) {
@@ -193,7 +194,9 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
   }
   const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
   ReportPoses(world, frames, cell);
-  if (keeps_motion) cell.recording = MakeRecording(world, run.take, run.observation, run.body, frames, run.method.name);
+  if (keeps_motion) {
+    cell.recording = MakeRecording(world, run.take, run.observation, run.body, frames, run.method.name, moments);
+  }
   cell.status = Status::kOk;
   cell.reason.clear();
   return cell;
