@@ -22,8 +22,10 @@ constexpr Paint kVeil{0.04, 0.05, 0.06, 0.55};
 Box PanelOf(const CapturePanel& capture, std::size_t camera) {
   const Box& crop = capture.CropOf(camera);
   const Intrinsics& in = capture.CameraOf(camera).intrinsics;
-  const double scale = kPictureWidth / crop.width;
-  return {-crop.x * scale, -crop.y * scale, in.width * scale, in.height * scale};
+  const double scale = std::min(kPictureWidth / crop.width, kPictureHeight / crop.height);
+  const glm::dvec2 middle{kPictureWidth / 2.0, kPictureHeight / 2.0};
+  return {middle.x - (crop.x + crop.width / 2) * scale, middle.y - (crop.y + crop.height / 2) * scale, in.width * scale,
+          in.height * scale};
 }
 
 Mask Inverse(Mask mask) {
