@@ -9,7 +9,7 @@ MAY_INCLUDE = {
     # engine/
     "engine/base": "",
     "engine/boards": "engine/base",
-    "engine/cameras": "engine/base",
+    "engine/cameras": "engine/base engine/document",
     "engine/capture":
         "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
     "engine/document": "engine/base",

@@ -1,0 +1,101 @@
+#include "engine/cameras/camera_parameters.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+glm::dmat3 RotationOf(const CameraParameters& p) {
+  const double so = std::sin(p.omega), co = std::cos(p.omega);
+  const double sp = std::sin(p.phi), cp = std::cos(p.phi);
+  const double sk = std::sin(p.kappa), ck = std::cos(p.kappa);
+  // By columns.
+  return {cp * ck,
+          co * sk + so * sp * ck,
+          so * sk - co * sp * ck,  //
+          -cp * sk,
+          co * ck - so * sp * sk,
+          so * ck + co * sp * sk,  //
+          sp,
+          -so * cp,
+          co * cp};
+}
+
+void SetAngles(const glm::dmat3& R, CameraParameters& p) {
+  p.phi = std::atan2(R[2][0], std::hypot(R[0][0], R[1][0]));
+  p.omega = std::atan2(-R[2][1], R[2][2]);
+  // About the axes that ω and φ have turned: exact also where φ is a right angle and ω arbitrary.
+  const double so = std::sin(p.omega), co = std::cos(p.omega);
+  p.kappa = std::atan2(co * R[0][1] + so * R[0][2], co * R[1][1] + so * R[1][2]);
+}
+
+}  // namespace
+
+Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
+  double sum = 0;
+  for (const auto& row : matrix.h) {
+    for (const double value : row) sum += std::abs(value);
+  }
+  if (!std::isfinite(sum)) return Fail({}, "a camera matrix with a number that is not finite");
+  const auto row = [&](int i) { return glm::dvec3(matrix.h[i][0], matrix.h[i][1], matrix.h[i][2]); };
+  const double scale = glm::length(row(2));
+  if (!(scale > 0)) return Fail({}, "a camera matrix whose third row is empty: a camera at infinity");
+  const glm::dvec3 a1 = row(0) / scale, a2 = row(1) / scale, a3 = row(2) / scale;
+  const glm::dvec3 n1 = glm::cross(a1, a3), n2 = glm::cross(a2, a3);
+  constexpr double kParallel = 1e-12;
+  if (!(glm::length(n1) > kParallel * glm::length(a1)) || !(glm::length(n2) > kParallel * glm::length(a2)) ||
+      !(glm::length(glm::cross(n1, n2)) > kParallel * glm::length(n1) * glm::length(n2))) {
+    return Fail({}, "a camera matrix that shows the world on one line");
+  }
+  if (!(glm::dot(a1, glm::cross(a2, a3)) > 0)) {
+    return Fail({}, "a camera matrix of a mirrored picture; is an axis of the world or of the pixels turned round?");
+  }
+  CameraParameters p;
+  p.principal_u = glm::dot(a1, a3);
+  p.principal_v = glm::dot(a2, a3);
+  p.skew = std::atan2(glm::length(glm::cross(n1, n2)), -glm::dot(n1, n2));
+  const double sine = std::sin(p.skew);
+  p.focal_length = glm::length(n2) * sine;  // δv = 1
+  p.delta_u = p.focal_length / (glm::length(n1) * sine);
+  const glm::dvec3 r1 = n2 / glm::length(n2), r2 = glm::cross(a3, r1);
+  SetAngles(glm::transpose(glm::dmat3(r1, r2, a3)), p);
+  // K t is the last column.
+  const double fx = p.focal_length / p.delta_u, fy = p.focal_length / sine;
+  p.t.z = matrix.h[2][3] / scale;
+  p.t.y = (matrix.h[1][3] / scale - p.principal_v * p.t.z) / fy;
+  p.t.x = (matrix.h[0][3] / scale - p.principal_u * p.t.z + fx * std::cos(p.skew) / sine * p.t.y) / fx;
+  return p;
+}
+
+ProjectionMatrix Recompose(const CameraParameters& parameters) { return MatrixOf(ToCamera(parameters, 1, 1)); }
+
+Camera ToCamera(const CameraParameters& p, int width, int height) {
+  Camera camera;
+  const double fx = p.focal_length / p.delta_u, sine = std::sin(p.skew);
+  camera.intrinsics = {.width = width,
+                       .height = height,
+                       .fx = fx,
+                       .fy = p.focal_length / (p.delta_v * sine),
+                       .cx = p.principal_u,
+                       .cy = p.principal_v,
+                       .skew = -fx * std::cos(p.skew) / sine};
+  camera.R_CW = RotationOf(p);
+  camera.p_WC = -(glm::transpose(camera.R_CW) * p.t);
+  return camera;
+}
+
+CameraParameters ParametersIn(const Camera& camera) {
+  const Intrinsics& in = camera.intrinsics;
+  CameraParameters p;
+  p.principal_u = in.cx;
+  p.principal_v = in.cy;
+  p.skew = std::atan2(in.fx, -in.skew);
+  p.focal_length = in.fy * std::sin(p.skew);
+  p.delta_u = p.focal_length / in.fx;
+  SetAngles(camera.R_CW, p);
+  p.t = -(camera.R_CW * camera.p_WC);
+  return p;
+}
+
+}  // namespace etude

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "engine/base/result.h"
+#include "engine/cameras/camera.h"
+
+namespace etude {
+
+/// Paper B's six parameters inside a camera and six outside it (section 2.2), by the pinhole's usual form
+///
+///         [ f/δu   −(f/δu)·cot θ   pu ]
+///     H ~ [  0      f/(δv·sin θ)   pv ] · [ R_CW | t ],    R_CW = Rx(ω) Ry(φ) Rz(κ).
+///         [  0           0          1 ]
+///
+/// They are twelve for eleven degrees of freedom, so *(ours)* δv := 1: f is in pixel heights.
+struct CameraParameters {
+  double focal_length = 600;  ///< f, pixel heights; > 0
+  double delta_u = 1;         ///< the width of a pixel, in pixel heights; > 0
+  double delta_v = 1;         ///< its height
+  double principal_u = 320;   ///< pu, pixels
+  double principal_v = 240;   ///< pv
+  double skew = kRightAngle;  ///< θ, between the axes of the picture, radians, in (0, π)
+  double omega = 0;           ///< rotations about x, y and z, radians; φ in [−π/2, π/2]
+  double phi = 0;
+  double kappa = 0;
+  glm::dvec3 t{0};  ///< from the camera's centre to the world's origin, in the camera's axes, metres
+
+  static constexpr double kRightAngle = 1.5707963267948966;
+};
+
+/// The parameters of a matrix, in closed form. Fails when it is no camera's: a number that is not finite, two of the
+/// first three columns' rows parallel, or a picture that only a mirror shows.
+Result<CameraParameters> Decompose(const ProjectionMatrix& matrix);
+
+/// The matrix of parameters, scaled such that w is the depth in metres.
+ProjectionMatrix Recompose(const CameraParameters& parameters);
+
+/// The pinhole with these parameters, its picture of `width` × `height` pixels; and the parameters of a camera, which
+/// leave its distortion out.
+Camera ToCamera(const CameraParameters& parameters, int width, int height);
+CameraParameters ParametersIn(const Camera& camera);
+
+}  // namespace etude

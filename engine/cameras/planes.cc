@@ -1,0 +1,219 @@
+#include "engine/cameras/planes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace etude {
+namespace {
+
+using Eigen::Matrix3d;
+
+/// Shifts points to their mean and scales them to a mean distance of √2 (Hartley 1997).
+Matrix3d Normaliser(const Eigen::MatrixX2d& points) {
+  const Eigen::RowVector2d mean = points.colwise().mean();
+  const double distance = (points.rowwise() - mean).rowwise().norm().mean();
+  const double scale = distance > 0 ? std::sqrt(2.0) / distance : 1;
+  Matrix3d m;
+  m << scale, 0, -scale * mean.x(), 0, scale, -scale * mean.y(), 0, 0, 1;
+  return m;
+}
+
+bool LieOnALine(const Eigen::MatrixX2d& points) {
+  constexpr double kOneLine = 1e-4;
+  const Eigen::MatrixX2d centred = points.rowwise() - points.colwise().mean();
+  const Eigen::Vector2d extents = Eigen::JacobiSVD<Eigen::MatrixX2d>(centred).singularValues();
+  return !(extents[1] > kOneLine * extents[0]);
+}
+
+glm::dmat3 ToGlm(const Matrix3d& m) {
+  glm::dmat3 out;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) out[column][row] = m(row, column);
+  }
+  return out;
+}
+
+/// The rotation nearest to a matrix (Frobenius).
+glm::dmat3 NearestRotation(const glm::dmat3& m) {
+  Matrix3d e;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) e(row, column) = m[column][row];
+  }
+  const Eigen::JacobiSVD<Matrix3d> svd(e, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d U = svd.matrixU();
+  if ((U * svd.matrixV().transpose()).determinant() < 0) U.col(2) *= -1;
+  return ToGlm(U * svd.matrixV().transpose());
+}
+
+/// X_AC of X_AB and X_BC.
+TargetPose Product(const TargetPose& ab, const TargetPose& bc) {
+  return {ab.R_WT * bc.R_WT, ab.R_WT * bc.p_WT + ab.p_WT};
+}
+
+TargetPose Inverse(const TargetPose& pose) {
+  const glm::dmat3 R = glm::transpose(pose.R_WT);
+  return {R, -(R * pose.p_WT)};
+}
+
+/// A view of which a homography could be had.
+struct PlaneView {
+  const TargetView* view;
+  glm::dmat3 homography;
+  TargetPose pose_CT{};
+};
+
+/// Places of cameras and boards, found from view to view.
+class Places {
+ public:
+  Places(std::size_t cameras, std::size_t targets) : cameras_(cameras), targets_(targets) {}
+
+  /// From the board that is the world on: every time the view with most corners of those that join something known and
+  /// something unknown. False when nothing is left to join.
+  bool Join(std::span<const PlaneView> views) {
+    const PlaneView* best = nullptr;
+    for (const PlaneView& view : views) {
+      if (cameras_[view.view->camera].has_value() == targets_[view.view->target].has_value()) continue;
+      if (best == nullptr || view.view->pairs.size() > best->view->pairs.size()) best = &view;
+    }
+    if (best == nullptr) return false;
+    auto& camera_CW = cameras_[best->view->camera];
+    auto& target_WT = targets_[best->view->target];
+    if (target_WT) {
+      camera_CW = Product(best->pose_CT, Inverse(*target_WT));
+    } else {
+      target_WT = Product(Inverse(*camera_CW), best->pose_CT);
+    }
+    return true;
+  }
+
+  std::vector<std::optional<TargetPose>> cameras_, targets_;
+};
+
+}  // namespace
+
+Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs) {
+  if (pairs.size() < 4) return Fail({}, "{} corners; at least 4 are needed", pairs.size());
+  const auto count = static_cast<Eigen::Index>(pairs.size());
+  Eigen::MatrixX2d plane(count, 2), picture(count, 2);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const PointPair& pair = pairs[static_cast<std::size_t>(i)];
+    plane.row(i) << pair.world.x, pair.world.y;
+    picture.row(i) << pair.pixel.x, pair.pixel.y;
+  }
+  if (!plane.allFinite() || !picture.allFinite()) return Fail({}, "a corner that is not finite");
+  if (LieOnALine(plane) || LieOnALine(picture)) return Fail({}, "the corners lie on one line");
+  const Matrix3d Np = Normaliser(plane), Ni = Normaliser(picture);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * count, 9);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Vector3d X = Np * plane.row(i).transpose().homogeneous();
+    const Eigen::Vector3d x = Ni * picture.row(i).transpose().homogeneous();
+    A.row(2 * i).segment<3>(0) = X;
+    A.row(2 * i).segment<3>(6) = -x[0] * X;
+    A.row(2 * i + 1).segment<3>(3) = X;
+    A.row(2 * i + 1).segment<3>(6) = -x[1] * X;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullV);
+  const Eigen::VectorXd h = svd.matrixV().col(8);
+  Matrix3d H;
+  H << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], h[8];
+  return ToGlm(Ni.inverse() * H * Np);
+}
+
+Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies, int width, int height) {
+  // With the principal point at the origin and lengths in picture widths, h₁ᵀωh₂ = 0 and h₁ᵀωh₁ = h₂ᵀωh₂ are linear in
+  // ω = diag(a, b, 1), a = 1/fx², b = 1/fy².
+  const double unit = std::max(width, height);
+  Eigen::MatrixX2d A(2 * static_cast<Eigen::Index>(homographies.size()), 2);
+  Eigen::VectorXd rhs(A.rows());
+  Eigen::Index row = 0;
+  for (const glm::dmat3& homography : homographies) {
+    glm::dvec3 h[2];
+    for (int i = 0; i < 2; ++i) {
+      h[i] = homography[i];
+      h[i].x = (h[i].x - width / 2.0 * h[i].z) / unit;
+      h[i].y = (h[i].y - height / 2.0 * h[i].z) / unit;
+    }
+    const double size = std::max(glm::length(h[0]), glm::length(h[1]));
+    for (glm::dvec3& column : h) column /= size;
+    A.row(row) << h[0].x * h[1].x, h[0].y * h[1].y;
+    rhs[row++] = -h[0].z * h[1].z;
+    A.row(row) << h[0].x * h[0].x - h[1].x * h[1].x, h[0].y * h[0].y - h[1].y * h[1].y;
+    rhs[row++] = h[1].z * h[1].z - h[0].z * h[0].z;
+  }
+  // Two unknowns where the planes tell both apart, else square pixels.
+  const Eigen::JacobiSVD<Eigen::MatrixX2d> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  constexpr double kTellsApart = 0.02;
+  Eigen::Vector2d ab = svd.solve(rhs);
+  if (!(svd.singularValues()[1] > kTellsApart * svd.singularValues()[0]) || !(ab.minCoeff() > 0)) {
+    const Eigen::VectorXd both = A.rowwise().sum();
+    ab.setConstant(both.dot(rhs) / both.squaredNorm());
+  }
+  const Eigen::Vector2d focal = unit * ab.cwiseSqrt().cwiseInverse();
+  constexpr double kLongest = 50;  // in picture widths: nothing that films a person
+  if (!(ab.minCoeff() > 0) || !focal.allFinite() || focal.maxCoeff() > kLongest * unit) {
+    return Fail({}, "the boards face the camera straight on, which does not tell its focal length; tilt some of them");
+  }
+  return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
+}
+
+TargetPose PoseOfPlane(const Intrinsics& in, const glm::dmat3& homography) {
+  const glm::dmat3 K = glm::transpose(glm::dmat3(in.fx, in.skew, in.cx, 0, in.fy, in.cy, 0, 0, 1));
+  glm::dmat3 m = glm::inverse(K) * homography;
+  m /= (glm::length(m[0]) + glm::length(m[1])) / 2;
+  if (m[2].z < 0) m *= -1.0;
+  const glm::dvec3 t = m[2];
+  m[2] = glm::cross(m[0], m[1]);
+  return {NearestRotation(m), t};
+}
+
+Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::span<const TargetView> views,
+                                       const RefineOptions& options) {
+  std::size_t targets = 0;
+  std::vector<PlaneView> usable;
+  for (const TargetView& view : views) {
+    targets = std::max(targets, view.target + 1);
+    if (auto homography = HomographyOf(view.pairs)) usable.push_back({&view, *homography});
+  }
+  RigGuess guess;
+  for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
+    std::vector<glm::dmat3> homographies;
+    for (const PlaneView& view : usable) {
+      if (view.view->camera == camera) homographies.push_back(view.homography);
+    }
+    if (homographies.empty()) return Fail({}, "camera {} shows no board with four corners or more", camera + 1);
+    const auto inside = IntrinsicsFromPlanes(homographies, sizes[camera].width, sizes[camera].height);
+    if (!inside) return Fail({}, "camera {}: {}", camera + 1, inside.error().message);
+    guess.cameras.push_back({.intrinsics = *inside});
+  }
+  for (PlaneView& view : usable) {
+    view.pose_CT = PoseOfPlane(guess.cameras[view.view->camera].intrinsics, view.homography);
+  }
+  // Numbers of boards without those that no view is left of.
+  std::vector<std::optional<std::size_t>> number(targets);
+  std::vector<TargetView> kept;
+  std::size_t boards = 0;
+  for (const PlaneView& view : usable) {
+    auto& as = number[view.view->target];
+    if (!as) as = boards++;
+    kept.push_back({view.view->camera, *as, view.view->pairs});
+  }
+  for (std::size_t i = 0; i < usable.size(); ++i) usable[i].view = &kept[i];
+  Places places(sizes.size(), boards);
+  places.targets_.front() = TargetPose{};
+  while (places.Join(usable)) {
+  }
+  for (std::size_t camera = 0; camera < sizes.size(); ++camera) {
+    const auto& pose_CW = places.cameras_[camera];
+    if (!pose_CW) {
+      return Fail({}, "camera {} sees no board at the same time as the cameras before it; show it to both", camera + 1);
+    }
+    guess.cameras[camera].R_CW = pose_CW->R_WT;
+    guess.cameras[camera].p_WC = -(glm::transpose(pose_CW->R_WT) * pose_CW->p_WT);
+  }
+  for (const auto& target : places.targets_) guess.targets.push_back(*target);
+  return RefineRig(guess, kept, options);
+}
+
+}  // namespace etude

@@ -1,0 +1,342 @@
+#include "engine/cameras/refine.h"
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "engine/cameras/camera_parameters.h"
+
+namespace etude {
+namespace {
+
+/// What is inside a camera, as Ceres moves it.
+enum Inside { kFx, kFy, kCx, kCy, kSkew, kK1, kK2, kP1, kP2, kK3, kInsideCount };
+constexpr std::array<const char*, kInsideCount> kInsideNames = {
+    "focal length", "focal length", "principal point", "principal point", "skew",
+    "distortion",   "distortion",   "distortion",      "distortion",      "distortion"};
+/// A pose: Rodrigues' vector, then the translation; of a camera R_CW and p_CW, of a thing R_WT and p_WT.
+constexpr int kPoseCount = 6;
+
+/// How far a pixel is from where its point is shown. The distortion is that of distortion.h, once more because Ceres
+/// differentiates it.
+struct ReprojectionError {
+  glm::dvec3 p_TQ;
+  glm::dvec2 pixel;
+
+  template <typename T>
+  bool operator()(const T* inside, const T* camera, const T* target, T* residual) const {
+    const T in_target[3] = {T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)};
+    T in_world[3], in_camera[3];
+    ceres::AngleAxisRotatePoint(target, in_target, in_world);
+    for (int i = 0; i < 3; ++i) in_world[i] += target[3 + i];
+    ceres::AngleAxisRotatePoint(camera, in_world, in_camera);
+    for (int i = 0; i < 3; ++i) in_camera[i] += camera[3 + i];
+    if (!(in_camera[2] > T(1e-9))) return false;
+    const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
+    const T r2 = x * x + y * y;
+    const T gain = 1.0 + r2 * (inside[kK1] + r2 * (inside[kK2] + r2 * inside[kK3]));
+    const T xd = x * gain + 2.0 * inside[kP1] * x * y + inside[kP2] * (r2 + 2.0 * x * x);
+    const T yd = y * gain + inside[kP1] * (r2 + 2.0 * y * y) + 2.0 * inside[kP2] * x * y;
+    residual[0] = inside[kFx] * xd + inside[kSkew] * yd + inside[kCx] - pixel.x;
+    residual[1] = inside[kFy] * yd + inside[kCy] - pixel.y;
+    return true;
+  }
+};
+
+using InsideBlock = std::array<double, kInsideCount>;
+using PoseBlock = std::array<double, kPoseCount>;
+
+PoseBlock ToBlock(const glm::dmat3& R, const glm::dvec3& t) {
+  PoseBlock block{};
+  ceres::RotationMatrixToAngleAxis(&R[0][0], block.data());  // both by columns
+  for (int i = 0; i < 3; ++i) block[3 + i] = t[i];
+  return block;
+}
+
+glm::dmat3 RotationOf(const PoseBlock& block) {
+  glm::dmat3 R;
+  ceres::AngleAxisToRotationMatrix(block.data(), &R[0][0]);
+  return R;
+}
+
+InsideBlock ToBlock(const Camera& camera, const RefineOptions& options) {
+  const Intrinsics& in = camera.intrinsics;
+  const bool has_lens = options.lens != LensModel::kPinhole;
+  const Distortion d = has_lens ? camera.distortion : Distortion{};
+  return {in.fx, in.fy, in.cx, in.cy, in.skew, d.k1, d.k2, d.p1, d.p2, d.k3};
+}
+
+/// Which parameters inside a camera stay as they are.
+std::vector<int> Held(const RefineOptions& options) {
+  std::vector<int> held;
+  const bool holds_lens = options.lens == LensModel::kPinhole || options.lens == LensModel::kAsInCamera;
+  for (int i = 0; i < kInsideCount; ++i) {
+    const bool is_lens = i >= kK1;
+    if ((i == kSkew && !options.skew) || (is_lens && holds_lens) || (i == kK3 && options.lens == LensModel::kRadial2)) {
+      held.push_back(i);
+    }
+  }
+  return held;
+}
+
+/// A sum of squares, what it depends on, and Ceres's view of both.
+class Bundle {
+ public:
+  Bundle(const RigGuess& guess, std::span<const TargetView> views, const RefineOptions& options)
+      : guess_(guess), views_(views), options_(options), held_(Held(options)) {
+    for (const Camera& camera : guess.cameras) {
+      inside_.push_back(ToBlock(camera, options));
+      cameras_.push_back(ToBlock(camera.R_CW, -(camera.R_CW * camera.p_WC)));
+    }
+    for (const TargetPose& target : guess.targets) targets_.push_back(ToBlock(target.R_WT, target.p_WT));
+    for (const TargetView& view : views) AddView(view);
+    for (InsideBlock& inside : inside_) Hold(inside);
+    problem_.SetParameterBlockConstant(targets_.front().data());
+  }
+
+  std::size_t points() const { return points_; }
+  std::size_t parameters() const {
+    const std::size_t inside = options_.inside_is_known ? 0 : kInsideCount - held_.size();
+    return inside_.size() * (inside + kPoseCount) + (targets_.size() - 1) * kPoseCount;
+  }
+
+  Result<void> Solve() {
+    ceres::Solver::Options o;
+    o.linear_solver_type = targets_.size() > 1 ? ceres::DENSE_SCHUR : ceres::DENSE_QR;
+    if (targets_.size() > 1) o.linear_solver_ordering = TargetsFirst();
+    o.num_threads = 1;
+    o.max_num_iterations = options_.most_iterations;
+    // Stopped by the digits of doubles, not before: what a fit leaves is judged against the corners' own error.
+    o.function_tolerance = 1e-15;
+    o.parameter_tolerance = 1e-14;
+    o.gradient_tolerance = 1e-14;
+    o.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(o, &problem_, &summary);
+    if (summary.termination_type == ceres::FAILURE) {
+      return Fail({}, "the first guess of the cameras does not show every point; are pairs mixed up?");
+    }
+    return {};
+  }
+
+  /// What the views say of the parameters: the inverse of JᵀJ. Fails for what they do not determine.
+  Result<std::vector<IntrinsicsDeviation>> Deviations() {
+    const Eigen::MatrixXd normal = NormalMatrix();
+    const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt();
+    for (Eigen::Index i = 0; i < scale.size(); ++i) {
+      if (!(scale[i] > 0)) return Undetermined(static_cast<std::size_t>(i));
+    }
+    const Eigen::MatrixXd scaled = scale.cwiseInverse().asDiagonal() * normal * scale.cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+    // Below, a change of some parameters by their whole size is as good as none.
+    constexpr double kSingular = 1e-12;
+    if (!(eigen.eigenvalues()[0] > kSingular * eigen.eigenvalues()[scaled.rows() - 1])) {
+      Eigen::Index worst = 0;
+      eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&worst);
+      return Undetermined(static_cast<std::size_t>(worst));
+    }
+    const Eigen::MatrixXd inverse =
+        eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+    const double freedom = 2.0 * static_cast<double>(points_) - static_cast<double>(parameters());
+    const double sigma = freedom > 0 ? std::sqrt(2 * cost_ / freedom) : 0;
+    std::vector<IntrinsicsDeviation> deviations(inside_.size());
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].inside < 0 || columns_[i].inside > kCy) continue;
+      IntrinsicsDeviation& of = deviations[columns_[i].camera];
+      double* const members[] = {&of.fx, &of.fy, &of.cx, &of.cy};
+      const auto at = static_cast<Eigen::Index>(i);
+      *members[columns_[i].inside] = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
+    }
+    return deviations;
+  }
+
+  RefinedRig Answer() const {
+    RefinedRig rig;
+    rig.cameras = guess_.cameras;
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      const InsideBlock& in = inside_[i];
+      Camera& camera = rig.cameras[i];
+      camera.intrinsics = {
+          camera.intrinsics.width, camera.intrinsics.height, in[kFx], in[kFy], in[kCx], in[kCy], in[kSkew]};
+      camera.distortion = {.k1 = in[kK1], .k2 = in[kK2], .p1 = in[kP1], .p2 = in[kP2], .k3 = in[kK3]};
+      camera.R_CW = RotationOf(cameras_[i]);
+      camera.p_WC = -(glm::transpose(camera.R_CW) * glm::dvec3(cameras_[i][3], cameras_[i][4], cameras_[i][5]));
+    }
+    for (const PoseBlock& target : targets_) {
+      rig.targets.push_back({RotationOf(target), {target[3], target[4], target[5]}});
+    }
+    rig.points = points_;
+    rig.parameters = parameters();
+    return rig;
+  }
+
+ private:
+  /// Which free parameter a column of the Jacobian belongs to.
+  struct Column {
+    std::size_t camera = 0;  ///< or the thing, counted behind the cameras
+    int inside = -1;         ///< Inside, or −1: of a pose
+  };
+
+  void AddView(const TargetView& view) {
+    for (const PointPair& pair : view.pairs) {
+      using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kInsideCount, kPoseCount, kPoseCount>;
+      problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel}), nullptr,
+                                inside_[view.camera].data(), cameras_[view.camera].data(),
+                                targets_[view.target].data());
+    }
+    points_ += view.pairs.size();
+  }
+
+  void Hold(InsideBlock& inside) {
+    if (options_.inside_is_known) {
+      problem_.SetParameterBlockConstant(inside.data());
+    } else if (!held_.empty()) {
+      problem_.SetManifold(inside.data(), new ceres::SubsetManifold(kInsideCount, held_));
+    }
+  }
+
+  std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      ordering->AddElementToGroup(inside_[i].data(), 1);
+      ordering->AddElementToGroup(cameras_[i].data(), 1);
+    }
+    return ordering;
+  }
+
+  Eigen::MatrixXd NormalMatrix() {
+    ceres::Problem::EvaluateOptions evaluate;
+    columns_.clear();
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      if (!options_.inside_is_known) {
+        evaluate.parameter_blocks.push_back(inside_[i].data());
+        for (int k = 0; k < kInsideCount; ++k) {
+          if (std::find(held_.begin(), held_.end(), k) == held_.end()) columns_.push_back({i, k});
+        }
+      }
+      evaluate.parameter_blocks.push_back(cameras_[i].data());
+      columns_.insert(columns_.end(), kPoseCount, Column{i, -1});
+    }
+    for (std::size_t i = 1; i < targets_.size(); ++i) {
+      evaluate.parameter_blocks.push_back(targets_[i].data());
+      columns_.insert(columns_.end(), kPoseCount, Column{inside_.size() + i, -1});
+    }
+    ceres::CRSMatrix jacobian;
+    problem_.Evaluate(evaluate, &cost_, nullptr, nullptr, &jacobian);
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(jacobian.num_cols, jacobian.num_cols);
+    for (int row = 0; row < jacobian.num_rows; ++row) {
+      for (int a = jacobian.rows[row]; a < jacobian.rows[row + 1]; ++a) {
+        for (int b = jacobian.rows[row]; b < jacobian.rows[row + 1]; ++b) {
+          normal(jacobian.cols[a], jacobian.cols[b]) += jacobian.values[a] * jacobian.values[b];
+        }
+      }
+    }
+    return normal;
+  }
+
+  tl::unexpected<Error> Undetermined(std::size_t column) const {
+    const Column& of = columns_[column];
+    if (of.camera >= inside_.size())
+      return Fail({}, "the views do not determine where board {} was", of.camera - inside_.size() + 1);
+    const char* const what = of.inside < 0 ? "place" : kInsideNames[static_cast<std::size_t>(of.inside)];
+    return Fail({}, "camera {}: the points do not determine its {}; they must fill a volume, boards be tilted",
+                of.camera + 1, what);
+  }
+
+  const RigGuess& guess_;
+  const std::span<const TargetView> views_;
+  const RefineOptions options_;
+  const std::vector<int> held_;
+  std::vector<InsideBlock> inside_;
+  std::vector<PoseBlock> cameras_, targets_;
+  std::size_t points_ = 0;
+  ceres::Problem problem_;
+  std::vector<Column> columns_;
+  double cost_ = 0;
+};
+
+Result<void> CheckViews(const RigGuess& guess, std::span<const TargetView> views) {
+  std::vector<std::size_t> points(guess.cameras.size());
+  for (const TargetView& view : views) {
+    if (view.camera >= guess.cameras.size() || view.target >= guess.targets.size()) {
+      return Fail({}, "a view of a camera or board that there is not");
+    }
+    points[view.camera] += view.pairs.size();
+    for (const PointPair& pair : view.pairs) {
+      const double sum = pair.world.x + pair.world.y + pair.world.z + pair.pixel.x + pair.pixel.y;
+      if (!std::isfinite(sum)) return Fail({}, "camera {}: a point pair is not finite", view.camera + 1);
+    }
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i] == 0) return Fail({}, "camera {} has no point", i + 1);
+  }
+  return {};
+}
+
+void AddErrors(std::span<const TargetView> views, RefinedRig& rig) {
+  std::vector<double> squares(rig.cameras.size());
+  std::vector<std::size_t> points(rig.cameras.size());
+  double sum = 0;
+  for (const TargetView& view : views) {
+    const double rms = ReprojectionRms(rig.cameras[view.camera], rig.targets[view.target], view.pairs);
+    const double here = rms * rms * static_cast<double>(view.pairs.size());
+    squares[view.camera] += here;
+    points[view.camera] += view.pairs.size();
+    sum += here;
+  }
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    rig.camera_rms_px.push_back(std::sqrt(squares[i] / static_cast<double>(points[i])));
+  }
+  rig.rms_px = std::sqrt(sum / static_cast<double>(rig.points));
+}
+
+}  // namespace
+
+Result<RefinedRig> RefineRig(const RigGuess& guess, std::span<const TargetView> views, const RefineOptions& options) {
+  RETURN_IF_ERROR(CheckViews(guess, views));
+  Bundle bundle(guess, views, options);
+  if (2 * bundle.points() < bundle.parameters()) {
+    return Fail({}, "{} points give {} equations for {} unknowns; more points are needed", bundle.points(),
+                2 * bundle.points(), bundle.parameters());
+  }
+  RETURN_IF_ERROR(bundle.Solve());
+  ASSIGN_OR_RETURN(auto deviations, bundle.Deviations());
+  RefinedRig rig = bundle.Answer();
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (!(rig.cameras[i].intrinsics.fx > 0) || !(rig.cameras[i].intrinsics.fy > 0)) {
+      return Fail({}, "camera {}: no focal length above 0 fits the points", i + 1);
+    }
+  }
+  AddErrors(views, rig);
+  if (!std::isfinite(rig.rms_px)) {
+    return Fail({}, "the best fit folds the picture back within the points: too few of them, or pairs mixed up");
+  }
+  rig.deviations = std::move(deviations);
+  return rig;
+}
+
+Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int height, const RefineOptions& options) {
+  ASSIGN_OR_RETURN(const ProjectionMatrix matrix, Calibrate(pairs, Calibration::kDltNormalised));
+  ASSIGN_OR_RETURN(const CameraParameters parameters, Decompose(matrix));
+  Camera camera = ToCamera(parameters, width, height);
+  if (!options.skew) camera.intrinsics.skew = 0;
+  const std::vector<TargetView> views{{0, 0, {pairs.begin(), pairs.end()}}};
+  return RefineRig({{camera}, {TargetPose{}}}, views, options);
+}
+
+double ReprojectionRms(const Camera& camera, const TargetPose& target, std::span<const PointPair> pairs) {
+  double squares = 0;
+  for (const PointPair& pair : pairs) {
+    const auto pixel = Project(camera, target.R_WT * pair.world + target.p_WT);
+    if (!pixel) return std::numeric_limits<double>::infinity();
+    squares += glm::dot(*pixel - pair.pixel, *pixel - pair.pixel);
+  }
+  return pairs.empty() ? 0 : std::sqrt(squares / static_cast<double>(pairs.size()));
+}
+
+}  // namespace etude

@@ -1,0 +1,146 @@
+#include "engine/cameras/planes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "engine/base/angles.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<Camera> TrueCameras() {
+  Intrinsics in{.width = 640, .height = 480, .fx = 610, .fy = 590, .cx = 327, .cy = 231, .skew = 0};
+  std::vector<Camera> cameras{LookAt(in, {0, 1, 3}, {0, 1, 0})};
+  in.fx = in.fy = 700;
+  cameras.push_back(LookAt(in, {2, 1.4, 2.4}, {0, 1, 0}));
+  cameras.push_back(LookAt(in, {-2, 0.8, 2.4}, {0, 1, 0}));
+  for (Camera& camera : cameras) camera.distortion = {.k1 = -0.1, .k2 = 0.03, .p1 = 0.001, .p2 = -0.001};
+  return cameras;
+}
+
+/// A board of 7 × 5 corners, turned and shifted by dice.
+TargetPose AnyPose(RandomStream& dice) {
+  const glm::dquat turn = glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(0, 1, 0)) *
+                          glm::angleAxis(dice.Uniform(-0.6, 0.6), glm::dvec3(1, 0, 0)) *
+                          glm::angleAxis(dice.Uniform(-0.3, 0.3), glm::dvec3(0, 0, 1));
+  // The board's z points away from who sees its front.
+  const glm::dmat3 facing(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+  return {glm::mat3_cast(turn) * facing, {dice.Uniform(-0.4, 0.2), dice.Uniform(0.9, 1.5), dice.Uniform(-0.3, 0.3)}};
+}
+
+std::vector<TargetView> Views(const std::vector<Camera>& cameras, int boards, double sigma_px, int seed = 1) {
+  RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = seed}, "boards");
+  RandomStream errors(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = seed}, "errors");
+  std::vector<TargetView> views;
+  for (int b = 0; b < boards; ++b) {
+    const TargetPose pose = AnyPose(dice);
+    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+      TargetView view{camera, static_cast<std::size_t>(b), {}};
+      for (int i = 0; i < 35; ++i) {
+        const glm::dvec3 place(0.06 * (i % 7), 0.06 * (i / 7), 0);
+        const auto pixel = Project(cameras[camera], pose.R_WT * place + pose.p_WT);
+        if (pixel) view.pairs.push_back({place, *pixel + sigma_px * glm::dvec2(errors.Normal(), errors.Normal())});
+      }
+      views.push_back(std::move(view));
+    }
+  }
+  return views;
+}
+
+const std::vector<PictureSize> kSizes(3, PictureSize{640, 480});
+
+TEST(Planes, AHomographyShowsThePointsThatItWasMadeOf) {
+  const std::vector<Camera> pinhole{LookAt({}, {0, 1, 3}, {0, 1, 0})};
+  const TargetView view = Views(pinhole, 1, 0).front();
+  const auto H = HomographyOf(view.pairs);
+  ASSERT_TRUE(H);
+  for (const PointPair& pair : view.pairs) {
+    const glm::dvec3 p = *H * glm::dvec3(pair.world.x, pair.world.y, 1);
+    EXPECT_LT(glm::distance(glm::dvec2(p) / p.z, pair.pixel), 1e-8);
+  }
+}
+
+TEST(Planes, APoseComesBackFromItsHomography) {
+  const std::vector<Camera> pinhole{LookAt({}, {0.4, 1.2, 2.5}, {0, 1, 0})};
+  RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
+  const TargetPose pose = AnyPose(dice);
+  const TargetPose found = PoseOfPlane(pinhole[0].intrinsics, *HomographyOf(Views(pinhole, 1, 0).front().pairs));
+  const glm::dmat3 R_CT = pinhole[0].R_CW * pose.R_WT;
+  for (int i = 0; i < 3; ++i) EXPECT_LT(glm::distance(found.R_WT[i], R_CT[i]), 1e-8);
+  EXPECT_LT(glm::distance(found.p_WT, pinhole[0].R_CW * (pose.p_WT - pinhole[0].p_WC)), 1e-8);
+}
+
+TEST(Planes, CamerasComeBackFromExactCorners) {
+  const std::vector<Camera> cameras = TrueCameras();
+  const auto rig = CalibrateFromPlanes(kSizes, Views(cameras, 8, 0));
+  ASSERT_TRUE(rig) << ToString(rig.error());
+  EXPECT_LT(rig->rms_px, 1e-9);
+  EXPECT_EQ(rig->parameters, 3u * 14 + 7 * 6);
+  RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "planes", .trial = 1}, "boards");
+  const TargetPose world = AnyPose(dice);  // the first board's frame is the rig's world
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Camera &found = rig->cameras[i], &wanted = cameras[i];
+    EXPECT_NEAR(found.intrinsics.fx, wanted.intrinsics.fx, 1e-6);
+    EXPECT_NEAR(found.intrinsics.cy, wanted.intrinsics.cy, 1e-6);
+    EXPECT_NEAR(found.distortion.k1, wanted.distortion.k1, 1e-9);
+    EXPECT_NEAR(found.distortion.p2, wanted.distortion.p2, 1e-9);
+    EXPECT_LT(glm::distance(world.R_WT * found.p_WC + world.p_WT, wanted.p_WC), 1e-8);
+  }
+}
+
+TEST(Planes, TheResidualOfNoisyCornersIsTheirNoiseLessTheParameters) {
+  constexpr double kSigma = 0.3;
+  double sum = 0, freedom = 0;
+  for (int seed = 1; seed <= 12; ++seed) {
+    const auto rig = CalibrateFromPlanes(kSizes, Views(TrueCameras(), 8, kSigma, seed));
+    ASSERT_TRUE(rig) << ToString(rig.error());
+    sum += rig->rms_px * rig->rms_px * static_cast<double>(rig->points) / (kSigma * kSigma);
+    freedom += 2.0 * static_cast<double>(rig->points) - static_cast<double>(rig->parameters);
+  }
+  EXPECT_NEAR(sum, freedom, 4 * std::sqrt(2 * freedom));
+  EXPECT_GT(std::abs(sum - freedom - 12 * 84), 4 * std::sqrt(2 * freedom)) << "the control: p counts";
+}
+
+TEST(Planes, RefusedWithTheReason) {
+  const std::vector<Camera> cameras = TrueCameras();
+  std::vector<TargetView> views = Views(cameras, 8, 0);
+  std::vector<TargetView> apart;
+  for (const TargetView& view : views) {
+    if ((view.camera == 2) == (view.target >= 4)) apart.push_back(view);
+  }
+  EXPECT_THAT(CalibrateFromPlanes(kSizes, apart).error().message, HasSubstr("camera 3 sees no board at the same time"));
+  std::vector<TargetView> without;
+  for (const TargetView& view : views) {
+    if (view.camera != 1) without.push_back(view);
+  }
+  EXPECT_THAT(CalibrateFromPlanes(kSizes, without).error().message, HasSubstr("camera 2 shows no board"));
+
+  const Camera front;
+  std::vector<TargetView> straight;
+  for (std::size_t b = 0; b < 3; ++b) {
+    TargetView view{0, b, {}};
+    for (int i = 0; i < 35; ++i) {
+      const glm::dvec3 place(0.06 * (i % 7), 0.06 * (i / 7), 0);
+      view.pairs.push_back(
+          {place, *Project(front, place + glm::dvec3(-0.2, -0.1, 1.0 + 0.3 * static_cast<double>(b)))});
+    }
+    straight.push_back(view);
+  }
+  const auto rig = CalibrateFromPlanes(std::vector<PictureSize>{{640, 480}}, straight);
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(rig.error().message, testing::AnyOf(HasSubstr("tilt"), HasSubstr("do not determine")));
+
+  std::vector<PointPair> line;
+  for (int i = 0; i < 7; ++i) line.push_back({{0.1 * i, 0.2 * i, 0}, {10.0 * i, 5.0 * i}});
+  EXPECT_THAT(HomographyOf(line).error().message, HasSubstr("one line"));
+  EXPECT_THAT(HomographyOf(std::span(line).first(3)).error().message, HasSubstr("at least 4"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,160 @@
+#include "engine/cameras/refine.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+Camera TrueCamera() {
+  Intrinsics in{.width = 640, .height = 480, .fx = 610, .fy = 590, .cx = 327, .cy = 231, .skew = 0};
+  Camera camera = LookAt(in, {2.2, 1.4, 3.1}, {0, 1, 0});
+  camera.distortion = {.k1 = -0.12, .k2 = 0.05, .p1 = 0.001, .p2 = -0.002};
+  return camera;
+}
+
+RandomStream Dice(int seed, const char* purpose) {
+  return RandomStream(WorldKey{.suite_seed = 1, .scenario = "refine", .trial = seed}, purpose);
+}
+
+/// Points of a box about the middle, as `camera` shows them, each coordinate off by `sigma_px`.
+std::vector<PointPair> Pairs(const Camera& camera, int count, int seed, double sigma_px) {
+  RandomStream places = Dice(seed, "places"), errors = Dice(seed, "errors");
+  std::vector<PointPair> pairs;
+  while (static_cast<int>(pairs.size()) < count) {
+    const glm::dvec3 world(places.Uniform(-1, 1), places.Uniform(0, 2), places.Uniform(-1, 1));
+    const auto pixel = Project(camera, world);
+    if (pixel) pairs.push_back({world, *pixel + sigma_px * glm::dvec2(errors.Normal(), errors.Normal())});
+  }
+  return pairs;
+}
+
+void ExpectSame(const Camera& found, const Camera& wanted, double tolerance) {
+  const Intrinsics &a = found.intrinsics, &b = wanted.intrinsics;
+  EXPECT_NEAR(a.fx, b.fx, tolerance * b.fx);
+  EXPECT_NEAR(a.fy, b.fy, tolerance * b.fy);
+  EXPECT_NEAR(a.cx, b.cx, tolerance * b.cx);
+  EXPECT_NEAR(a.cy, b.cy, tolerance * b.cy);
+  EXPECT_NEAR(a.skew, b.skew, tolerance * b.fx);
+  const Distortion &c = found.distortion, &d = wanted.distortion;
+  for (const auto& [x, y] : {std::pair(c.k1, d.k1), {c.k2, d.k2}, {c.p1, d.p1}, {c.p2, d.p2}, {c.k3, d.k3}}) {
+    EXPECT_NEAR(x, y, tolerance);
+  }
+  EXPECT_LT(glm::distance(found.p_WC, wanted.p_WC), tolerance);
+  for (int i = 0; i < 3; ++i) EXPECT_LT(glm::distance(found.R_CW[i], wanted.R_CW[i]), tolerance);
+}
+
+TEST(RefineCamera, GivesEveryParameterBackFromExactPairs) {
+  const auto rig = RefineCamera(Pairs(TrueCamera(), 40, 1, 0), 640, 480);
+  ASSERT_TRUE(rig) << ToString(rig.error());
+  ExpectSame(rig->cameras[0], TrueCamera(), 1e-9);
+  EXPECT_LT(rig->rms_px, 1e-9);
+  EXPECT_EQ(rig->parameters, 14u);
+  EXPECT_EQ(rig->points, 40u);
+}
+
+TEST(RefineCamera, FindsTheElevenDegreesOfFreedomOfThePaper) {
+  Camera camera = TrueCamera();
+  camera.distortion = {};
+  camera.intrinsics.skew = 4;
+  const auto rig = RefineCamera(Pairs(camera, 12, 2, 0), 640, 480, {.lens = LensModel::kPinhole, .skew = true});
+  ASSERT_TRUE(rig) << ToString(rig.error());
+  ExpectSame(rig->cameras[0], camera, 1e-9);
+  EXPECT_EQ(rig->parameters, 11u);
+}
+
+TEST(RefineCamera, FindsTheSixthPowerOfAWideLens) {
+  Camera camera = TrueCamera();
+  camera.distortion.k3 = 0.03;
+  const auto rig = RefineCamera(Pairs(camera, 80, 3, 0), 640, 480, {.lens = LensModel::kRadial3});
+  ASSERT_TRUE(rig) << ToString(rig.error());
+  ExpectSame(rig->cameras[0], camera, 1e-9);
+  const auto without = RefineCamera(Pairs(camera, 80, 3, 0), 640, 480);
+  ASSERT_TRUE(without);
+  EXPECT_GT(without->rms_px, 1e-4) << "the control: a model that lacks it leaves a residual";
+}
+
+/// Σ r² / σ² of a least-squares fit is χ² with 2N − p degrees of freedom, so the residual of a coordinate is
+/// σ √((2N − p) / 2N): its mean over many throws is held to four standard errors.
+TEST(RefineCamera, LeavesTheResidualThatNoiseShouldLeave) {
+  constexpr int kSeeds = 300, kPoints = 40;
+  constexpr double kSigma = 0.5;
+  double sum = 0;
+  std::size_t parameters = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const auto rig = RefineCamera(Pairs(TrueCamera(), kPoints, 100 + seed, kSigma), 640, 480);
+    ASSERT_TRUE(rig) << seed << ": " << ToString(rig.error());
+    sum += rig->rms_px * rig->rms_px * kPoints / (kSigma * kSigma);
+    parameters = rig->parameters;
+  }
+  const double freedom = 2.0 * kPoints - static_cast<double>(parameters);
+  const double tolerance = 4 * std::sqrt(2 * freedom / kSeeds);
+  EXPECT_NEAR(sum / kSeeds, freedom, tolerance);
+  EXPECT_GT(std::abs(sum / kSeeds - 2.0 * kPoints), tolerance) << "the control: not σ itself";
+  EXPECT_GT(std::abs(sum / kSeeds - (2.0 * kPoints - 10)), tolerance) << "the control: not another p";
+}
+
+/// The estimates scatter about the truth as the deviations that the fit tells.
+TEST(RefineCamera, TellsHowUncertainItsFocalLengthIs) {
+  constexpr int kSeeds = 200;
+  double squares = 0;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    const auto rig = RefineCamera(Pairs(TrueCamera(), 40, 500 + seed, 0.5), 640, 480);
+    ASSERT_TRUE(rig);
+    const double off = (rig->cameras[0].intrinsics.fx - TrueCamera().intrinsics.fx) / rig->deviations[0].fx;
+    squares += off * off;
+  }
+  // Student's t with 66 degrees of freedom has variance 1.03; the mean square of 200 of them, ±4 standard errors.
+  EXPECT_NEAR(squares / kSeeds, 1.03, 4 * std::sqrt(2.1 / kSeeds));
+}
+
+TEST(RefineCamera, RefusesWhatDoesNotDetermineACamera) {
+  const auto reason = [](std::span<const PointPair> pairs) {
+    const auto rig = RefineCamera(pairs, 640, 480);
+    return rig ? std::string("no complaint") : rig.error().message;
+  };
+  const std::vector<PointPair> good = Pairs(TrueCamera(), 40, 4, 0);
+  EXPECT_EQ(reason(good), "no complaint") << "the control";
+  EXPECT_THAT(reason(std::span(good).first(5)), HasSubstr("at least 6"));
+  EXPECT_THAT(reason(std::span(good).first(6)), HasSubstr("12 equations for 14 unknowns"));
+  std::vector<PointPair> plane = good, line = good, broken = good, swapped = good;
+  for (PointPair& pair : plane) pair = {{pair.world.x, pair.world.y, 0}, pair.pixel};
+  EXPECT_THAT(reason(plane), HasSubstr("one plane"));
+  for (PointPair& pair : line) pair = {{pair.world.x, 2 * pair.world.x, 0}, pair.pixel};
+  EXPECT_THAT(reason(line), HasSubstr("one line"));
+  broken[7].pixel.y = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(reason(broken), HasSubstr("point pair 8 is not finite"));
+}
+
+TEST(RefineRig, RefusesViewsThatLeaveTheFocalLengthOpen) {
+  // A board that the camera sees straight on may be near and small or far and large.
+  std::vector<PointPair> board;
+  Camera camera;
+  for (int i = 0; i < 25; ++i) board.push_back({{0.1 * (i % 5), 0.1 * (i / 5), 0}, {}});
+  const TargetPose pose{glm::dmat3(1), {-0.2, -0.2, 2}};
+  for (PointPair& pair : board) pair.pixel = *Project(camera, pair.world + pose.p_WT);
+  const auto rig = RefineRig({{camera}, {TargetPose{glm::dmat3(1), pose.p_WT}}}, std::vector<TargetView>{{0, 0, board}},
+                             {.lens = LensModel::kPinhole});
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(rig.error().message, HasSubstr("do not determine"));
+}
+
+TEST(RefineRig, HoldsWhatIsKnownInsideACamera) {
+  Camera off = TrueCamera();
+  off.p_WC += glm::dvec3(0.1, -0.05, 0.2);
+  const std::vector<TargetView> views{{0, 0, Pairs(TrueCamera(), 10, 5, 0)}};
+  const auto rig = RefineRig({{off}, {TargetPose{}}}, views, {.lens = LensModel::kAsInCamera, .inside_is_known = true});
+  ASSERT_TRUE(rig) << ToString(rig.error());
+  EXPECT_EQ(rig->parameters, 6u);
+  ExpectSame(rig->cameras[0], TrueCamera(), 1e-9);
+}
+
+}  // namespace
+}  // namespace etude
