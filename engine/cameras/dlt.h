@@ -20,9 +20,12 @@ struct PointPair {
 enum class Calibration {
   kDlt,            ///< "dlt": least squares on H's entries, |H| = 1 (paper B, section 2.2)
   kDltNormalised,  ///< "dlt-normalised": the same after Hartley's shift and scale of both point sets
+  /// "refined": from there, the camera with its lens of least squared reprojection error. More than a matrix:
+  /// `RefineCamera` (refine.h); `Calibrate` gives the matrix that it starts from.
+  kRefined,
 };
 
-/// "dlt", "dlt-normalised": the names used in scenarios.
+/// "dlt", "dlt-normalised", "refined": the names used in scenarios.
 std::vector<std::string> CalibrationNames();
 /// `name` is one of CalibrationNames().
 Calibration CalibrationNamed(std::string_view name);

@@ -48,11 +48,11 @@ glm::dmat3 NearestRotation(const glm::dmat3& m) {
 }
 
 /// X_AC of X_AB and X_BC.
-TargetPose Product(const TargetPose& ab, const TargetPose& bc) {
+TargetPlace Product(const TargetPlace& ab, const TargetPlace& bc) {
   return {ab.R_WT * bc.R_WT, ab.R_WT * bc.p_WT + ab.p_WT};
 }
 
-TargetPose Inverse(const TargetPose& pose) {
+TargetPlace Inverse(const TargetPlace& pose) {
   const glm::dmat3 R = glm::transpose(pose.R_WT);
   return {R, -(R * pose.p_WT)};
 }
@@ -61,7 +61,7 @@ TargetPose Inverse(const TargetPose& pose) {
 struct PlaneView {
   const TargetView* view;
   glm::dmat3 homography;
-  TargetPose pose_CT{};
+  TargetPlace pose_CT{};
 };
 
 /// Places of cameras and boards, found from view to view.
@@ -88,7 +88,7 @@ class Places {
     return true;
   }
 
-  std::vector<std::optional<TargetPose>> cameras_, targets_;
+  std::vector<std::optional<TargetPlace>> cameras_, targets_;
 };
 
 }  // namespace
@@ -158,7 +158,7 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
   return Intrinsics{width, height, focal[0], focal[1], width / 2.0, height / 2.0, 0};
 }
 
-TargetPose PoseOfPlane(const Intrinsics& in, const glm::dmat3& homography) {
+TargetPlace PoseOfPlane(const Intrinsics& in, const glm::dmat3& homography) {
   const glm::dmat3 K = glm::transpose(glm::dmat3(in.fx, in.skew, in.cx, 0, in.fy, in.cy, 0, 0, 1));
   glm::dmat3 m = glm::inverse(K) * homography;
   m /= (glm::length(m[0]) + glm::length(m[1])) / 2;
@@ -201,7 +201,7 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
   }
   for (std::size_t i = 0; i < usable.size(); ++i) usable[i].view = &kept[i];
   Places places(sizes.size(), boards);
-  places.targets_.front() = TargetPose{};
+  places.targets_.front() = TargetPlace{};
   while (places.Join(usable)) {
   }
   for (std::size_t camera = 0; camera < sizes.size(); ++camera) {

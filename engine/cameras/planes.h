@@ -21,7 +21,7 @@ Result<glm::dmat3> HomographyOf(std::span<const PointPair> pairs);
 Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies, int width, int height);
 
 /// Where the plane is from the camera (R_CT, p_CT): in front of it.
-TargetPose PoseOfPlane(const Intrinsics& intrinsics, const glm::dmat3& homography);
+TargetPlace PoseOfPlane(const Intrinsics& intrinsics, const glm::dmat3& homography);
 
 struct PictureSize {
   int width = 0;

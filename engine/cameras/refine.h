@@ -12,7 +12,7 @@
 namespace etude {
 
 /// Where a rigid thing T with known points stands in the world W: p_WQ = R_WT p_TQ + p_WT.
-struct TargetPose {
+struct TargetPlace {
   glm::dmat3 R_WT{1};
   glm::dvec3 p_WT{0};
 };
@@ -45,7 +45,7 @@ struct RefineOptions {
 /// Cameras and things, as far as they are known.
 struct RigGuess {
   std::vector<Camera> cameras;
-  std::vector<TargetPose> targets;  ///< the first stays where it is: it is what "the world" means
+  std::vector<TargetPlace> targets;  ///< the first stays where it is: it is what "the world" means
 };
 
 /// The standard deviations of a camera's inside, pixels, if the corners err independently and alike.
@@ -55,7 +55,7 @@ struct IntrinsicsDeviation {
 
 struct RefinedRig {
   std::vector<Camera> cameras;
-  std::vector<TargetPose> targets;
+  std::vector<TargetPlace> targets;
   /// Root mean square distance between pixels and projected points, of each camera and of all.
   std::vector<double> camera_rms_px;
   double rms_px = 0;
@@ -77,6 +77,6 @@ Result<RefinedRig> RefineCamera(std::span<const PointPair> pairs, int width, int
 
 /// Root mean square distance of the views' pixels from what the camera, with its lens, shows; infinity when it does not
 /// show some point.
-double ReprojectionRms(const Camera& camera, const TargetPose& target, std::span<const PointPair> pairs);
+double ReprojectionRms(const Camera& camera, const TargetPlace& target, std::span<const PointPair> pairs);
 
 }  // namespace etude

@@ -6,12 +6,16 @@
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
 #include "engine/cameras/dlt.h"
+#include "engine/cameras/planes.h"
+#include "engine/cameras/refine.h"
+#include "engine/vision/strokes.h"
 
 namespace etude {
 
 struct CalibrationOptions {
   /// Paper B's by default. Use `kDltNormalised` when point pairs are few or noisy, or far from the world's origin: its
-  /// equations are scaled alike, so that no pair counts more because its numbers are larger.
+  /// equations are scaled alike, so that no pair counts more because its numbers are larger. `kRefined` asks for
+  /// `RefineCameras`.
   Calibration method = Calibration::kDlt;
 };
 
@@ -20,5 +24,14 @@ struct CalibrationOptions {
 /// Fails for the first camera whose pairs do not determine it, and names it, counted from 1: "camera 2: …".
 Result<std::vector<ProjectionMatrix>> CalibrateCameras(std::span<const std::vector<PointPair>> pairs,
                                                        const CalibrationOptions& options = {});
+
+/// The same with each camera's lens, by least squared reprojection error (`RefineCamera`).
+/// @param sizes of the cameras' pictures, one each
+Result<std::vector<Camera>> RefineCameras(std::span<const std::vector<PointPair>> pairs,
+                                          std::span<const PictureSize> sizes, const RefineOptions& options = {});
+
+/// The marks as a camera without a lens's distortion would show them: what `MeasureInputs` takes, beside `MatrixOf`. A
+/// mark outside of what the lens can show is missing.
+Marks UndistortMarks(const Camera& camera, const Marks& marks);
 
 }  // namespace etude

@@ -11,7 +11,8 @@ MAY_INCLUDE = {
     "engine/boards": "engine/base",
     "engine/cameras": "engine/base engine/document",
     "engine/capture":
-        "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
+        "engine/base engine/boards engine/cameras engine/kinematics engine/kinematics/solvers engine/motion "
+        "engine/vision",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",

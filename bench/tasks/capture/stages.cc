@@ -18,25 +18,51 @@ void Add(const RoleVectors& vectors, Digest& digest) {
   }
 }
 
-Result<std::vector<ProjectionMatrix>> MatricesOf(const CaptureWorld& world, const CalibrationPairs& pairs,
-                                                 bool is_truth, Calibration calibration) {
-  if (!is_truth) return CalibrateCameras(pairs, {.method = calibration});
+std::vector<ProjectionMatrix> MatricesOf(std::span<const Camera> cameras) {
   std::vector<ProjectionMatrix> matrices;
-  for (const Camera& camera : world.cameras) matrices.push_back(MatrixOf(camera));
+  for (const Camera& camera : cameras) matrices.push_back(MatrixOf(camera));
   return matrices;
+}
+
+/// The matrices, and the lenses where the calibration finds them.
+Result<CalibratedCameras> Calibrated(const CaptureWorld& world, const CalibrationPairs& pairs, bool is_truth,
+                                     Calibration calibration) {
+  if (is_truth) return CalibratedCameras{.matrices = MatricesOf(world.cameras)};
+  if (calibration != Calibration::kRefined) {
+    ASSIGN_OR_RETURN(auto matrices, CalibrateCameras(pairs, {.method = calibration}));
+    return CalibratedCameras{.matrices = std::move(matrices)};
+  }
+  std::vector<PictureSize> sizes;
+  for (const Camera& camera : world.cameras) sizes.push_back({camera.intrinsics.width, camera.intrinsics.height});
+  ASSIGN_OR_RETURN(auto lenses, RefineCameras(pairs, sizes));
+  std::vector<ProjectionMatrix> matrices = MatricesOf(lenses);
+  return CalibratedCameras{.matrices = std::move(matrices), .lenses = std::move(lenses)};
+}
+
+/// The pairs as a camera without that lens would show them.
+std::vector<PointPair> UndistortPairs(const Camera& camera, std::vector<PointPair> pairs) {
+  for (PointPair& pair : pairs) pair.pixel = UndistortPixel(camera, pair.pixel).value_or(pair.pixel);
+  return pairs;
 }
 
 Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const CalibrationPairs& pairs, bool is_truth,
                                       Calibration calibration) {
-  ASSIGN_OR_RETURN(auto matrices, MatricesOf(world, pairs, is_truth, calibration));
+  ASSIGN_OR_RETURN(CalibratedCameras cameras, Calibrated(world, pairs, is_truth, calibration));
   Digest digest;
+  std::vector<std::vector<PointPair>> seen(pairs.begin(), pairs.end());
   std::vector<CameraFit> fits;
-  for (std::size_t i = 0; i < matrices.size(); ++i) {
-    for (const auto& row : matrices[i].h) digest.Add(std::span<const double>(row));
-    fits.push_back({matrices[i], pairs[i]});
+  for (std::size_t i = 0; i < cameras.matrices.size(); ++i) {
+    for (const auto& row : cameras.matrices[i].h) digest.Add(std::span<const double>(row));
+    if (!cameras.lenses.empty()) {
+      const Distortion& d = cameras.lenses[i].distortion;
+      digest.Add(d.k1).Add(d.k2).Add(d.p1).Add(d.p2).Add(d.k3);
+      seen[i] = UndistortPairs(cameras.lenses[i], std::move(seen[i]));
+    }
+    fits.push_back({cameras.matrices[i], seen[i]});
   }
-  const double rms_px = MeanReprojectionRmsPx(fits);
-  return CalibratedCameras{std::move(matrices), rms_px, digest.Hex()};
+  cameras.reprojection_rms_px = MeanReprojectionRmsPx(fits);
+  cameras.digest = digest.Hex();
+  return cameras;
 }
 
 /// What a method with these oracles is told of the frames that the annotator marks.
@@ -49,6 +75,14 @@ std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& orac
     if (oracle.points) known[k].ends = truth.ends;
   }
   return known;
+}
+
+/// Marks by camera and frame, without what the lenses do to them, where there are lenses.
+std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std::vector<std::vector<Marks>> marks) {
+  for (std::size_t camera = 0; camera < lenses.size(); ++camera) {
+    for (Marks& of_frame : marks[camera]) of_frame = UndistortMarks(lenses[camera], of_frame);
+  }
+  return marks;
 }
 
 // The marks at the first camera's times.
@@ -128,8 +162,9 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
   auto kept = measured_.find(choice);
   if (kept == measured_.end()) {
     const std::vector<KnownMeasurement> known = Tell(world_, method.oracle, marked_);
+    const auto straight = UndistortAll(cameras.lenses, observation.marks);
     const std::vector<std::vector<Marks>> marks =
-        method.sync == Sync::kEstimated ? InTime(cameras.matrices, observation.marks) : observation.marks;
+        method.sync == Sync::kEstimated ? InTime(cameras.matrices, straight) : straight;
     const MeasureInputs inputs{.cameras = cameras.matrices, .marks = marks, .known = known};
     const MeasureOptions measure{.rejects_outliers = method.outliers == Outliers::kReject};
     const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, options_.mark_every)};

@@ -20,8 +20,9 @@ namespace etude {
 /// All cameras of a world, calibrated one way.
 struct CalibratedCameras {
   std::vector<ProjectionMatrix> matrices;
+  std::vector<Camera> lenses = {};  ///< with their distortion; empty when a calibration finds none
   double reprojection_rms_px = 0;
-  std::string digest;
+  std::string digest = {};
 };
 
 /// What the marks of a whole take say about space.

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "engine/base/result.h"
+#include "engine/keypoints/people.h"
+
+namespace etude {
+
+/// The persons of one film, as found or marked.
+struct PeopleOfFilm {
+  SeenPeople frames;
+  int width = 0, height = 0;  ///< of the pictures they were found in; 0: the files do not tell
+};
+
+/// Reads keypoints from a folder of OpenPose's JSON (`*.json`, a file a frame in the order of their names, numbers in
+/// them by their value) or from one COCO keypoint file. Pixels of files have their centres at whole numbers, ours at
+/// halves. COCO's v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1.
+/// Fails with the file, what was found and what is allowed: no frames, numbers that are not finite, a count of keypoints
+/// that no layout has, or two (25), when `layout` is empty.
+/// @param layout a name of KeypointLayouts(), or "": told by the count
+Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std::string& layout);
+
+/// Reads annotation pictures (`ReadMarks`): PNG files in the order of their names, one a frame, at most one person each.
+Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
+
+/// The one entry of a folder that belongs to the film of that name: its name is the film's, or begins with it and goes
+/// on with no letter or digit ("cam01", "cam01_json", "cam01.json"). Fails when there is none or are several.
+Result<std::filesystem::path> EntryOfFilm(const std::filesystem::path& folder, const std::string& film);
+
+}  // namespace etude

@@ -1,0 +1,126 @@
+#include "engine/cameras/pairs_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "engine/document/fields.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLargestPairsText = std::size_t{1} << 20;
+constexpr std::size_t kMostCamerasInFile = 64;
+constexpr std::string_view kHeading = "camera,x,y,z,u,v";
+/// The centre of our first pixel is (0.5, 0.5).
+constexpr double kFromOpenCv = 0.5;
+
+using Five = std::array<double, 5>;
+
+Result<PointPair> ToPair(const Five& v, const Place& place) {
+  constexpr double kMost = 1e9;
+  for (const double value : v) {
+    if (!(std::abs(value) <= kMost)) return Fail(place, "{} in a point pair; allowed: within ±10⁹", value);
+  }
+  return PointPair{{v[0], v[1], v[2]}, {v[3] + kFromOpenCv, v[4] + kFromOpenCv}};
+}
+
+std::vector<std::string_view> Split(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    std::string_view word = line.substr(0, comma);
+    while (!word.empty() && (word.front() == ' ' || word.front() == '\t')) word.remove_prefix(1);
+    while (!word.empty() && (word.back() == ' ' || word.back() == '\t' || word.back() == '\r')) word.remove_suffix(1);
+    words.push_back(word);
+    if (comma == std::string_view::npos) return words;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+Result<std::vector<CameraPairs>> ReadCsv(std::string_view text, const std::string& file) {
+  std::vector<CameraPairs> cameras;
+  int line = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view here = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const Place place{file, ++line, 0};
+    const std::vector<std::string_view> words = Split(here);
+    if (line == 1) continue;  // the heading
+    if (words.size() == 1 && (words[0].empty() || words[0].front() == '#')) continue;
+    if (words.size() != 6 || words[0].empty()) {
+      return Fail(place, "'{}'; allowed: a camera's name and five numbers, {}", here, kHeading);
+    }
+    Five values;
+    for (std::size_t i = 0; i < 5; ++i) {
+      const std::string_view word = words[i + 1];
+      const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), values[i]);
+      if (error != std::errc{} || stop != word.data() + word.size()) return Fail(place, "'{}' is no number", word);
+    }
+    ASSIGN_OR_RETURN(const PointPair pair, ToPair(values, place));
+    auto of = std::ranges::find(cameras, words[0], &CameraPairs::name);
+    if (of == cameras.end())
+      of = cameras.insert(cameras.end(), CameraPairs{.name = std::string(words[0]), .pairs = {}});
+    of->pairs.push_back(pair);
+  }
+  return cameras;
+}
+
+Result<CameraPairs> ReadCamera(const Node::Entry& entry) {
+  CameraPairs camera{.name = entry.key, .pairs = {}};
+  Fields fields(entry.value, "a camera's point pairs");
+  const std::vector<double> size = fields.Numbers("size", {1, 65536});
+  const Node* pairs = fields.Raw("pairs");
+  RETURN_IF_ERROR(fields.Finish());
+  if (size.size() != 2 || size[0] != std::floor(size[0]) || size[1] != std::floor(size[1])) {
+    return Fail(entry.place, "camera {}: no size; allowed: size: [width, height] in pixels", entry.key);
+  }
+  camera.width = static_cast<int>(size[0]);
+  camera.height = static_cast<int>(size[1]);
+  if (pairs == nullptr || pairs->kind != Node::Kind::kSequence) {
+    return Fail(entry.place, "camera {}: no pairs; allowed: pairs: [[x, y, z, u, v], ...]", entry.key);
+  }
+  for (const Node& item : pairs->items) {
+    if (item.kind != Node::Kind::kSequence || item.items.size() != 5) {
+      return Fail(item.place, "{}; allowed: [x, y, z, u, v]", Describe(item));
+    }
+    Five values;
+    for (std::size_t i = 0; i < 5; ++i) {
+      ASSIGN_OR_RETURN(values[i], AsNumber(item.items[i]));
+    }
+    ASSIGN_OR_RETURN(const PointPair pair, ToPair(values, item.place));
+    camera.pairs.push_back(pair);
+  }
+  return camera;
+}
+
+Result<std::vector<CameraPairs>> ReadYaml(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file));
+  if (root.kind != Node::Kind::kMapping) {
+    return Fail({file}, "{}; allowed: point pairs as CSV ({}) or YAML (a mapping of cameras)", Describe(root),
+                kHeading);
+  }
+  std::vector<CameraPairs> cameras;
+  for (const Node::Entry& entry : root.entries) {
+    ASSIGN_OR_RETURN(auto camera, ReadCamera(entry));
+    cameras.push_back(std::move(camera));
+  }
+  return cameras;
+}
+
+}  // namespace
+
+Result<std::vector<CameraPairs>> ReadPointPairs(std::string_view text, const std::string& file) {
+  if (text.size() > kLargestPairsText) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestPairsText);
+  std::string heading(text.substr(0, text.find('\n')));
+  std::erase_if(heading, [](char c) { return c == ' ' || c == '\r' || c == '\t'; });
+  ASSIGN_OR_RETURN(auto cameras, heading == kHeading ? ReadCsv(text, file) : ReadYaml(text, file));
+  if (cameras.empty() || cameras.size() > kMostCamerasInFile) {
+    return Fail({file}, "point pairs of {} cameras; allowed: 1 to {}", cameras.size(), kMostCamerasInFile);
+  }
+  return cameras;
+}
+
+}  // namespace etude

@@ -1,0 +1,31 @@
+#include "engine/capture/board_views.h"
+
+namespace etude {
+
+std::size_t BoardViews::Add(std::size_t camera, std::size_t moment, const ColourImage& picture) {
+  const std::vector<SeenCorner> corners = FindBoards(picture, boards_);
+  std::map<std::size_t, TargetView> by_board;
+  for (const SeenCorner& corner : corners) {
+    const glm::dvec2 place = PlaceOf(boards_[corner.board], corner.corner);
+    by_board[corner.board].pairs.push_back({{place.x, place.y, 0}, corner.pixel});
+  }
+  for (auto& [board, view] : by_board) {
+    view.camera = camera;
+    view.target = things_.try_emplace({moment, board}, things_.size()).first->second;
+    views_.push_back(std::move(view));
+  }
+  return corners.size();
+}
+
+void TurnToStance(BoardStance stance, std::span<Camera> cameras) {
+  // A board's x runs right, its y down, its z away from who sees its front. By columns: where they point in the world.
+  const glm::dmat3 R_WT = stance == BoardStance::kOnFloor
+                              ? glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0))
+                              : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1));
+  for (Camera& camera : cameras) {
+    camera.R_CW = camera.R_CW * glm::transpose(R_WT);
+    camera.p_WC = R_WT * camera.p_WC;
+  }
+}
+
+}  // namespace etude

@@ -1,0 +1,238 @@
+#include "engine/keypoints/keypoint_motion.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+using enum Landmark;
+
+std::optional<glm::dvec3> Middle(const std::optional<glm::dvec3>& a, const std::optional<glm::dvec3>& b) {
+  if (!a || !b) return std::nullopt;
+  return 0.5 * (*a + *b);
+}
+
+/// The landmarks of one side.
+struct SideMarks {
+  Landmark shoulder, elbow, wrist, hand, hip, knee, ankle, toe;
+};
+constexpr SideMarks kSides[] = {
+    {kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand, kLeftHip, kLeftKnee, kLeftAnkle, kLeftBigToe},
+    {kRightShoulder, kRightElbow, kRightWrist, kRightHand, kRightHip, kRightKnee, kRightAnkle, kRightBigToe}};
+
+struct SideRoles {
+  Role shoulder, elbow, wrist, hand, hip, knee, ankle, foot;
+};
+constexpr SideRoles kSideRoles[] = {
+    {Role::kLeftShoulder, Role::kLeftElbow, Role::kLeftWrist, Role::kLeftHand, Role::kLeftHip, Role::kLeftKnee,
+     Role::kLeftAnkle, Role::kLeftFoot},
+    {Role::kRightShoulder, Role::kRightElbow, Role::kRightWrist, Role::kRightHand, Role::kRightHip, Role::kRightKnee,
+     Role::kRightAnkle, Role::kRightFoot}};
+
+constexpr double kHandOfForearm = 0.72;
+constexpr double kFootLength = 0.18;
+
+/// A direction and what it points from and to.
+struct Limb {
+  Role from, to;
+};
+constexpr Limb kLimbs[] = {{Role::kShoulderCentre, Role::kHead},
+                           {Role::kLeftShoulder, Role::kLeftElbow},
+                           {Role::kLeftElbow, Role::kLeftWrist},
+                           {Role::kLeftWrist, Role::kLeftHand},
+                           {Role::kRightShoulder, Role::kRightElbow},
+                           {Role::kRightElbow, Role::kRightWrist},
+                           {Role::kRightWrist, Role::kRightHand},
+                           {Role::kLeftHip, Role::kLeftKnee},
+                           {Role::kLeftKnee, Role::kLeftAnkle},
+                           {Role::kLeftAnkle, Role::kLeftFoot},
+                           {Role::kRightHip, Role::kRightKnee},
+                           {Role::kRightKnee, Role::kRightAnkle},
+                           {Role::kRightAnkle, Role::kRightFoot}};
+constexpr Role kEnds[] = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
+
+/// Where the body faces: normal to the hips' line and the trunk, level.
+std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
+  const auto &left = joints[Index(Role::kLeftHip)], &right = joints[Index(Role::kRightHip)];
+  if (!left || !right) return std::nullopt;
+  const glm::dvec3 facing = glm::cross(*left - *right, glm::dvec3(0, 1, 0));
+  const double length = glm::length(facing);
+  if (!(length > 1e-6)) return std::nullopt;
+  return facing / length;
+}
+
+void AddSide(const LandmarkPlaces& marks, const SideMarks& m, const SideRoles& r, RoleVectors& joints) {
+  const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
+  const std::pair<Role, Landmark> same[] = {{r.shoulder, m.shoulder}, {r.elbow, m.elbow}, {r.wrist, m.wrist},
+                                            {r.hip, m.hip},           {r.knee, m.knee},   {r.ankle, m.ankle}};
+  for (const auto& [role, landmark] : same) joints[Index(role)] = at(landmark);
+  joints[Index(r.hand)] = at(m.hand);
+  if (!at(m.hand) && at(m.elbow) && at(m.wrist)) {
+    joints[Index(r.hand)] = *at(m.wrist) + kHandOfForearm * (*at(m.wrist) - *at(m.elbow));
+  }
+  joints[Index(r.foot)] = at(m.toe);
+}
+
+double MedianOf(std::vector<double> values) {
+  assert(!values.empty());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
+                                              const TriangulateOptions& options, TriangulationReport* report) {
+  assert(person.seen.size() == cameras.size());
+  const std::size_t frames = person.seen.empty() ? 0 : person.seen.front().size();
+  std::vector<LandmarkPlaces> places(frames);
+  std::vector<double> residuals, used(cameras.size()), rejected(cameras.size());
+  std::array<std::size_t, kLandmarkCount> found{};
+  for (std::size_t frame = 0; frame < frames; ++frame) {
+    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+      std::vector<WeightedSighting> sightings;
+      std::vector<std::size_t> by;
+      for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+        const auto& seen = person.seen[camera][frame];
+        if (!seen || seen->keypoints[i].confidence < options.least_confidence) continue;
+        sightings.push_back({{cameras[camera], seen->keypoints[i].pixel}, seen->keypoints[i].confidence});
+        by.push_back(camera);
+      }
+      const auto point = TriangulateRobustly(sightings, options.robust);
+      if (!point) continue;
+      places[frame][i] = point->position;
+      residuals.push_back(point->residual_px);
+      ++found[i];
+      for (std::size_t k = 0; k < by.size(); ++k) {
+        used[by[k]] += 1;
+        if (!point->agrees[k]) rejected[by[k]] += 1;
+      }
+    }
+  }
+  if (report != nullptr) {
+    report->rejected.clear();
+    for (std::size_t c = 0; c < cameras.size(); ++c) report->rejected.push_back(used[c] > 0 ? rejected[c] / used[c] : 0);
+    report->residual_px = residuals.empty() ? 0 : MedianOf(residuals);
+    const auto ever = static_cast<double>(std::ranges::count_if(found, [](std::size_t n) { return n > 0; }));
+    report->found = ever > 0 ? static_cast<double>(residuals.size()) / (ever * static_cast<double>(frames)) : 0;
+  }
+  return places;
+}
+
+void BridgePoints(std::span<LandmarkPlaces> frames, std::size_t longest_gap) {
+  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+    std::optional<std::size_t> last;
+    for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+      if (!frames[frame][i]) continue;
+      if (last && frame - *last > 1 && frame - *last - 1 <= longest_gap) {
+        const glm::dvec3 from = *frames[*last][i], to = *frames[frame][i];
+        for (std::size_t k = *last + 1; k < frame; ++k) {
+          frames[k][i] = glm::mix(from, to, static_cast<double>(k - *last) / static_cast<double>(frame - *last));
+        }
+      }
+      last = frame;
+    }
+  }
+}
+
+void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutoff_hz) {
+  if (!(cutoff_hz < rate_hz / 2)) return;
+  // exp(−2π²σ²f²) = 1/√2 at the cutoff.
+  const double sigma = std::sqrt(std::log(2.0)) / (2 * kPi * cutoff_hz) * rate_hz;  // frames
+  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3 * sigma));
+  const std::vector<LandmarkPlaces> before(frames.begin(), frames.end());
+  const auto count = static_cast<std::ptrdiff_t>(frames.size());
+  for (std::ptrdiff_t frame = 0; frame < count; ++frame) {
+    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+      if (!before[static_cast<std::size_t>(frame)][i]) continue;
+      glm::dvec3 sum(0);
+      double weights = 0;
+      // As far to one side as to the other, so that the ends of a film do not lag.
+      const std::ptrdiff_t far = std::min({reach, frame, count - 1 - frame});
+      for (std::ptrdiff_t k = -far; k <= far; ++k) {
+        const auto& place = before[static_cast<std::size_t>(frame + k)][i];
+        const double x = static_cast<double>(k) / sigma;
+        if (!place) continue;
+        sum += std::exp(-0.5 * x * x) * *place;
+        weights += std::exp(-0.5 * x * x);
+      }
+      frames[static_cast<std::size_t>(frame)][i] = sum / weights;
+    }
+  }
+}
+
+RoleVectors JointsOf(const LandmarkPlaces& marks) {
+  const auto at = [&](Landmark landmark) { return marks[Index(landmark)]; };
+  RoleVectors joints;
+  for (std::size_t side = 0; side < 2; ++side) AddSide(marks, kSides[side], kSideRoles[side], joints);
+  joints[Index(Role::kHipCentre)] = Middle(at(kLeftHip), at(kRightHip));
+  joints[Index(Role::kShoulderCentre)] = Middle(at(kLeftShoulder), at(kRightShoulder));
+  auto& head = joints[Index(Role::kHead)];
+  head = at(kHead);
+  if (!head) head = Middle(at(kLeftEar), at(kRightEar));
+  if (!head) head = at(kNose);
+  if (const auto facing = FacingOf(joints)) {
+    for (const SideRoles& side : kSideRoles) {
+      auto& foot = joints[Index(side.foot)];
+      const auto& ankle = joints[Index(side.ankle)];
+      constexpr double kAhead = 0.95, kDown = 0.31;
+      if (!foot && ankle) foot = *ankle + kFootLength * (kAhead * *facing - glm::dvec3(0, kDown, 0));
+    }
+  }
+  return joints;
+}
+
+std::vector<KnownMeasurement> MeasurementsOf(std::span<const LandmarkPlaces> frames) {
+  std::vector<KnownMeasurement> known;
+  for (const LandmarkPlaces& landmarks : frames) {
+    const RoleVectors joints = JointsOf(landmarks);
+    RoleVectors ends, directions;
+    for (const Role role : kEnds) ends[Index(role)] = joints[Index(role)];
+    for (const Limb& limb : kLimbs) {
+      const auto &from = joints[Index(limb.from)], &to = joints[Index(limb.to)];
+      constexpr double kShortest = 1e-3;
+      if (from && to && glm::distance(*from, *to) > kShortest) {
+        directions[Index(limb.to)] = glm::normalize(*to - *from);
+      }
+    }
+    known.push_back({ends, directions});
+  }
+  return known;
+}
+
+std::optional<LimbLengths> MedianLengths(std::span<const LandmarkPlaces> frames) {
+  std::array<std::vector<double>, 10> seen;
+  for (const LandmarkPlaces& landmarks : frames) {
+    const RoleVectors joints = JointsOf(landmarks);
+    const auto add = [&](std::size_t which, Role a, Role b) {
+      const auto &p = joints[Index(a)], &q = joints[Index(b)];
+      if (p && q) seen[which].push_back(glm::distance(*p, *q));
+    };
+    for (const SideRoles& r : kSideRoles) {
+      add(0, r.ankle, r.foot);
+      add(1, r.knee, r.ankle);
+      add(2, r.hip, r.knee);
+      add(7, r.shoulder, r.elbow);
+      add(8, r.elbow, r.wrist);
+      add(9, r.wrist, r.hand);
+    }
+    add(3, Role::kLeftHip, Role::kRightHip);
+    add(4, Role::kHipCentre, Role::kShoulderCentre);
+    add(5, Role::kShoulderCentre, Role::kHead);
+    add(6, Role::kLeftShoulder, Role::kRightShoulder);
+  }
+  std::array<double, 10> median{};
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (seen[i].empty()) return std::nullopt;
+    median[i] = MedianOf(seen[i]);
+  }
+  return LimbLengths{median[0], median[1], median[2], median[3], median[4],
+                     median[5], median[6], median[7], median[8], median[9]};
+}
+
+}  // namespace etude
