@@ -8,6 +8,7 @@
 #include "bench/run/worker.h"
 #include "cli/bridge_arguments.h"
 #include "cli/calibrate_command.h"
+#include "cli/capture_command.h"
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
 #include "cli/sensor_arguments.h"
@@ -262,6 +263,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineTrain(app, action);
   DefineSensor(app, action);
   DefineCalibrate(app, action);
+  DefineCapture(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

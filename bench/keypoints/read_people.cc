@@ -113,7 +113,8 @@ Result<std::vector<SeenPerson>> ReadOpenPoseFrame(const fs::path& file, const st
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const Json json, ReadJson(text, file.string()));
   const Json* people = Member(json, "people");
-  if (people == nullptr || !people->is_array()) return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it");
+  if (people == nullptr || !people->is_array())
+    return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it");
   if (people->size() > kMostPeople) return Fail(place, "{} people; allowed: {}", people->size(), kMostPeople);
   std::vector<SeenPerson> frame;
   for (const Json& person : *people) {
@@ -167,7 +168,8 @@ Result<PeopleOfFilm> ReadCoco(const fs::path& file, const std::string& layout) {
   ASSIGN_OR_RETURN(const Json json, ReadJson(text, file.string()));
   const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
   if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
-    return Fail(place, "no lists 'images' and 'annotations'; allowed: COCO's keypoint files, or a folder of OpenPose's JSON");
+    return Fail(place,
+                "no lists 'images' and 'annotations'; allowed: COCO's keypoint files, or a folder of OpenPose's JSON");
   }
   PeopleOfFilm film;
   ASSIGN_OR_RETURN(const auto frames, FramesOf(*images, film, place));
@@ -187,7 +189,8 @@ Result<PeopleOfFilm> ReadCoco(const fs::path& file, const std::string& layout) {
     // Flags, when a 2 is among them; else scores.
     for (Keypoint& point : person.points) point.confidence /= most > 1 ? 2 : 1;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(person.points, layout, place));
-    if (film.frames[person.frame].size() >= kMostPeople) return Fail(place, "more than {} people in a frame", kMostPeople);
+    if (film.frames[person.frame].size() >= kMostPeople)
+      return Fail(place, "more than {} people in a frame", kMostPeople);
     film.frames[person.frame].push_back(seen);
   }
   return film;

@@ -18,12 +18,13 @@ struct PeopleOfFilm {
 /// Reads keypoints from a folder of OpenPose's JSON (`*.json`, a file a frame in the order of their names, numbers in
 /// them by their value) or from one COCO keypoint file. Pixels of files have their centres at whole numbers, ours at
 /// halves. COCO's v is 2 for a visible and 1 for a hidden keypoint (confidence 1 and 0.5), or a score within 0…1.
-/// Fails with the file, what was found and what is allowed: no frames, numbers that are not finite, a count of keypoints
-/// that no layout has, or two (25), when `layout` is empty.
+/// Fails with the file, what was found and what is allowed: no frames, numbers that are not finite, a count of
+/// keypoints that no layout has, or two (25), when `layout` is empty.
 /// @param layout a name of KeypointLayouts(), or "": told by the count
 Result<PeopleOfFilm> ReadKeypoints(const std::filesystem::path& path, const std::string& layout);
 
-/// Reads annotation pictures (`ReadMarks`): PNG files in the order of their names, one a frame, at most one person each.
+/// Reads annotation pictures (`ReadMarks`): PNG files in the order of their names, one a frame, at most one person
+/// each.
 Result<PeopleOfFilm> ReadMarkedPictures(const std::filesystem::path& folder);
 
 /// The one entry of a folder that belongs to the film of that name: its name is the film's, or begins with it and goes

@@ -3,37 +3,176 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <iterator>
+#include <span>
 
 namespace etude {
 
-std::string WriteTrc(const BodyMotion& motion, std::string name) {
+namespace {
+
+constexpr double kMillimetres = 1000;
+
+std::string Head(double rate_hz, std::size_t frames, std::span<const std::string> markers, std::string name) {
   // It stands in a table of lines and tabs.
   std::ranges::replace_if(
       name, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '_');
-  constexpr double kMillimetres = 1000;
-  const std::size_t frames = motion.poses.size();
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "PathFileType\t4\t(X/Y/Z)\t{}.trc\n", name);
   fmt::format_to(out,
                  "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
                  "OrigNumFrames\n");
-  fmt::format_to(out, "{0}\t{0}\t{1}\t{2}\tmm\t{0}\t1\t{1}\n", motion.rate_hz, frames, kRoleCount);
+  fmt::format_to(out, "{0}\t{0}\t{1}\t{2}\tmm\t{0}\t1\t{1}\n", rate_hz, frames, markers.size());
   // A marker's name stands over the first of its three columns.
   text += "Frame#\tTime";
-  for (const Role role : AllRoles()) fmt::format_to(out, "\t{}\t\t", RoleName(role));
+  for (const std::string& marker : markers) fmt::format_to(out, "\t{}\t\t", marker);
   text += "\n\t";
-  for (std::size_t i = 1; i <= kRoleCount; ++i) fmt::format_to(out, "\tX{0}\tY{0}\tZ{0}", i);
+  for (std::size_t i = 1; i <= markers.size(); ++i) fmt::format_to(out, "\tX{0}\tY{0}\tZ{0}", i);
   text += "\n\n";
-  for (std::size_t k = 0; k < frames; ++k) {
-    fmt::format_to(out, "{}\t{:.6f}", k + 1, static_cast<double>(k) / motion.rate_hz);
-    for (const glm::dvec3& joint : motion.poses[k].joints) {
-      for (int axis = 0; axis < 3; ++axis) fmt::format_to(out, "\t{:.5f}", kMillimetres * joint[axis]);
+  return text;
+}
+
+void AddPlace(const std::optional<glm::dvec3>& place, std::string& text) {
+  for (int axis = 0; axis < 3; ++axis) {
+    text += '\t';
+    if (place) fmt::format_to(std::back_inserter(text), "{:.5f}", kMillimetres * (*place)[axis]);
+  }
+}
+
+std::string_view TakeLine(std::string_view& text, int& line) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view here = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  ++line;
+  if (!here.empty() && here.back() == '\r') here.remove_suffix(1);
+  return here;
+}
+
+/// What stands between tabs; of a line that ends in tabs the last ones are empty.
+std::vector<std::string_view> Cells(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t tab = line.find('\t');
+    std::string_view cell = line.substr(0, tab);
+    while (!cell.empty() && cell.front() == ' ') cell.remove_prefix(1);
+    while (!cell.empty() && cell.back() == ' ') cell.remove_suffix(1);
+    cells.push_back(cell);
+    if (tab == std::string_view::npos) return cells;
+    line.remove_prefix(tab + 1);
+  }
+}
+
+std::optional<double> NumberIn(std::string_view cell) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size()) return std::nullopt;
+  return value;
+}
+
+/// The header's third line, as numbers and a unit.
+struct TrcHeader {
+  double rate_hz = 0;
+  std::size_t frames = 0, markers = 0;
+  double metres = 0;  ///< per unit
+};
+
+Result<TrcHeader> ReadHeader(std::string_view names, std::string_view values, const Place& place) {
+  const auto keys = Cells(names), cells = Cells(values);
+  const auto of = [&](std::string_view key) {
+    const auto found = std::ranges::find(keys, key);
+    const auto at = static_cast<std::size_t>(found - keys.begin());
+    return at < cells.size() ? cells[at] : std::string_view{};
+  };
+  const auto rate = NumberIn(of("DataRate")), frames = NumberIn(of("NumFrames")), markers = NumberIn(of("NumMarkers"));
+  constexpr double kMostFrames = 1e7, kMostMarkers = 1000;
+  if (!rate || !frames || !markers || !(*rate > 0) || !(*frames >= 0 && *frames <= kMostFrames) ||
+      !(*markers >= 1 && *markers <= kMostMarkers)) {
+    return Fail(place,
+                "no header of a TRC file; allowed: DataRate, NumFrames, NumMarkers (to 1000) and Units with "
+                "their values in the next line");
+  }
+  const std::string_view unit = of("Units");
+  const double metres = unit == "m" ? 1 : unit == "cm" ? 0.01 : unit == "mm" ? 0.001 : 0;
+  if (metres == 0) return Fail(place, "units '{}'; allowed: m, cm, mm", unit);
+  return TrcHeader{*rate, static_cast<std::size_t>(*frames), static_cast<std::size_t>(*markers), metres};
+}
+
+Result<std::vector<std::optional<glm::dvec3>>> ReadFrame(std::string_view line, const TrcHeader& header,
+                                                         const Place& place) {
+  const auto cells = Cells(line);
+  if (cells.size() < 2 || cells.size() > 2 + 3 * header.markers + 1) {
+    return Fail(place, "{} columns; allowed: {} for {} markers", cells.size(), 2 + 3 * header.markers, header.markers);
+  }
+  std::vector<std::optional<glm::dvec3>> frame(header.markers);
+  for (std::size_t marker = 0; marker < header.markers; ++marker) {
+    glm::dvec3 place_of(0);
+    bool is_seen = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t at = 2 + 3 * marker + axis;
+      const std::string_view cell = at < cells.size() ? cells[at] : std::string_view{};
+      const auto value = NumberIn(cell);
+      if (!cell.empty() && !value) return Fail(place, "'{}' is no number", cell);
+      constexpr double kMost = 1e9;
+      is_seen = is_seen && value && std::abs(*value) <= kMost;  // not "nan"
+      if (is_seen) place_of[static_cast<int>(axis)] = header.metres * *value;
     }
+    if (is_seen) frame[marker] = place_of;
+  }
+  return frame;
+}
+
+}  // namespace
+
+std::string WriteTrc(const BodyMotion& motion, std::string name) {
+  std::vector<std::string> markers;
+  for (const Role role : AllRoles()) markers.emplace_back(RoleName(role));
+  std::string text = Head(motion.rate_hz, motion.poses.size(), markers, std::move(name));
+  for (std::size_t k = 0; k < motion.poses.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{}\t{:.6f}", k + 1, static_cast<double>(k) / motion.rate_hz);
+    for (const glm::dvec3& joint : motion.poses[k].joints) AddPlace(joint, text);
     text += '\n';
   }
   return text;
+}
+
+std::string WriteTrc(const MarkerMotion& motion, std::string name) {
+  std::string text = Head(motion.rate_hz, motion.frames.size(), motion.names, std::move(name));
+  for (std::size_t k = 0; k < motion.frames.size(); ++k) {
+    fmt::format_to(std::back_inserter(text), "{}\t{:.6f}", k + 1, static_cast<double>(k) / motion.rate_hz);
+    for (const auto& place : motion.frames[k]) AddPlace(place, text);
+    text += '\n';
+  }
+  return text;
+}
+
+Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file) {
+  constexpr std::size_t kLargestTrc = std::size_t{64} << 20;
+  if (text.size() > kLargestTrc) return Fail({file}, "{} bytes; allowed: {}", text.size(), kLargestTrc);
+  int line = 0;
+  TakeLine(text, line);  // PathFileType
+  const std::string_view keys = TakeLine(text, line), values = TakeLine(text, line);
+  ASSIGN_OR_RETURN(const TrcHeader header, ReadHeader(keys, values, {file, line, 0}));
+  MarkerMotion motion{.rate_hz = header.rate_hz, .names = {}, .frames = {}};
+  const auto names = Cells(TakeLine(text, line));
+  for (std::size_t marker = 0; marker < header.markers; ++marker) {
+    const std::size_t at = 2 + 3 * marker;
+    if (at >= names.size() || names[at].empty())
+      return Fail({file, line, 0}, "{} markers announced, {} named", header.markers, marker);
+    motion.names.emplace_back(names[at]);
+  }
+  TakeLine(text, line);  // X1 Y1 Z1 …
+  while (!text.empty()) {
+    const std::string_view here = TakeLine(text, line);
+    if (here.find_first_not_of(" \t") == std::string_view::npos) continue;
+    ASSIGN_OR_RETURN(auto frame, ReadFrame(here, header, {file, line, 0}));
+    motion.frames.push_back(std::move(frame));
+  }
+  if (motion.frames.size() != header.frames) {
+    return Fail({file}, "{} frames, {} announced", motion.frames.size(), header.frames);
+  }
+  return motion;
 }
 
 }  // namespace etude

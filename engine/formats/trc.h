@@ -1,7 +1,12 @@
 #pragma once
 
+#include <glm/glm.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "engine/base/result.h"
 #include "engine/motion/body.h"
 
 namespace etude {
@@ -10,5 +15,21 @@ namespace etude {
 /// trajectories: one marker per role, millimetres, Y up, five decimals; frames count from 1, time from 0 s. `name` is
 /// told in the file's first line, with '_' for tabs and line ends.
 std::string WriteTrc(const BodyMotion& motion, std::string name);
+
+/// Trajectories of any markers.
+struct MarkerMotion {
+  double rate_hz = 30;
+  std::vector<std::string> names;
+  /// Metres; of each frame one place a marker, nothing where it was not seen.
+  std::vector<std::vector<std::optional<glm::dvec3>>> frames;
+};
+
+/// The same file of markers; what was not seen stays empty between its tabs, as OpenSim reads it.
+std::string WriteTrc(const MarkerMotion& motion, std::string name);
+
+/// Reads a TRC file in metres or millimetres (`Units`; also cm), its axes as they are. An empty place or "nan" is a
+/// marker not seen. Fails with the line: no header, another number of frames or columns than announced, words for
+/// numbers, over 1,000 markers or 64 MiB.
+Result<MarkerMotion> ReadTrc(std::string_view text, const std::string& file);
 
 }  // namespace etude

@@ -27,11 +27,10 @@ constexpr SideMarks kSides[] = {
 struct SideRoles {
   Role shoulder, elbow, wrist, hand, hip, knee, ankle, foot;
 };
-constexpr SideRoles kSideRoles[] = {
-    {Role::kLeftShoulder, Role::kLeftElbow, Role::kLeftWrist, Role::kLeftHand, Role::kLeftHip, Role::kLeftKnee,
-     Role::kLeftAnkle, Role::kLeftFoot},
-    {Role::kRightShoulder, Role::kRightElbow, Role::kRightWrist, Role::kRightHand, Role::kRightHip, Role::kRightKnee,
-     Role::kRightAnkle, Role::kRightFoot}};
+constexpr SideRoles kSideRoles[] = {{Role::kLeftShoulder, Role::kLeftElbow, Role::kLeftWrist, Role::kLeftHand,
+                                     Role::kLeftHip, Role::kLeftKnee, Role::kLeftAnkle, Role::kLeftFoot},
+                                    {Role::kRightShoulder, Role::kRightElbow, Role::kRightWrist, Role::kRightHand,
+                                     Role::kRightHip, Role::kRightKnee, Role::kRightAnkle, Role::kRightFoot}};
 
 constexpr double kHandOfForearm = 0.72;
 constexpr double kFootLength = 0.18;
@@ -40,18 +39,12 @@ constexpr double kFootLength = 0.18;
 struct Limb {
   Role from, to;
 };
-constexpr Limb kLimbs[] = {{Role::kShoulderCentre, Role::kHead},
-                           {Role::kLeftShoulder, Role::kLeftElbow},
-                           {Role::kLeftElbow, Role::kLeftWrist},
-                           {Role::kLeftWrist, Role::kLeftHand},
-                           {Role::kRightShoulder, Role::kRightElbow},
-                           {Role::kRightElbow, Role::kRightWrist},
-                           {Role::kRightWrist, Role::kRightHand},
-                           {Role::kLeftHip, Role::kLeftKnee},
-                           {Role::kLeftKnee, Role::kLeftAnkle},
-                           {Role::kLeftAnkle, Role::kLeftFoot},
-                           {Role::kRightHip, Role::kRightKnee},
-                           {Role::kRightKnee, Role::kRightAnkle},
+constexpr Limb kLimbs[] = {{Role::kShoulderCentre, Role::kHead},      {Role::kLeftShoulder, Role::kLeftElbow},
+                           {Role::kLeftElbow, Role::kLeftWrist},      {Role::kLeftWrist, Role::kLeftHand},
+                           {Role::kRightShoulder, Role::kRightElbow}, {Role::kRightElbow, Role::kRightWrist},
+                           {Role::kRightWrist, Role::kRightHand},     {Role::kLeftHip, Role::kLeftKnee},
+                           {Role::kLeftKnee, Role::kLeftAnkle},       {Role::kLeftAnkle, Role::kLeftFoot},
+                           {Role::kRightHip, Role::kRightKnee},       {Role::kRightKnee, Role::kRightAnkle},
                            {Role::kRightAnkle, Role::kRightFoot}};
 constexpr Role kEnds[] = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
 
@@ -116,7 +109,8 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
   }
   if (report != nullptr) {
     report->rejected.clear();
-    for (std::size_t c = 0; c < cameras.size(); ++c) report->rejected.push_back(used[c] > 0 ? rejected[c] / used[c] : 0);
+    for (std::size_t c = 0; c < cameras.size(); ++c)
+      report->rejected.push_back(used[c] > 0 ? rejected[c] / used[c] : 0);
     report->residual_px = residuals.empty() ? 0 : MedianOf(residuals);
     const auto ever = static_cast<double>(std::ranges::count_if(found, [](std::size_t n) { return n > 0; }));
     report->found = ever > 0 ? static_cast<double>(residuals.size()) / (ever * static_cast<double>(frames)) : 0;

@@ -37,8 +37,8 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
 /// Fills gaps of at most `longest_gap` frames straight from the last to the next place of the landmark.
 void BridgePoints(std::span<LandmarkPlaces> frames, std::size_t longest_gap);
 
-/// A Gaussian over time that halves the power at `cutoff_hz`; each place is replaced by the weighted mean of those around it. It
-/// delays nothing. A cutoff of half the rate or more changes nothing.
+/// A Gaussian over time that halves the power at `cutoff_hz`; each place is replaced by the weighted mean of those
+/// around it. It delays nothing. A cutoff of half the rate or more changes nothing.
 void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutoff_hz);
 
 /// The twenty joints as far as landmarks tell them: hips, knees, ankles, shoulders, elbows and wrists are themselves;

@@ -7,9 +7,9 @@ namespace etude {
 namespace {
 
 constexpr std::array<std::string_view, kLandmarkCount> kNames = {
-    "Nose",     "LEye",   "REye",   "LEar",  "REar",  "LShoulder", "RShoulder", "LElbow",    "RElbow", "LWrist",
-    "RWrist",   "LHip",   "RHip",   "LKnee", "RKnee", "LAnkle",    "RAnkle",    "Neck",      "Head",   "LBigToe",
-    "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel", "MidHip", "LHand", "RHand"};
+    "Nose",      "LEye",  "REye",    "LEar",      "REar",  "LShoulder", "RShoulder", "LElbow", "RElbow", "LWrist",
+    "RWrist",    "LHip",  "RHip",    "LKnee",     "RKnee", "LAnkle",    "RAnkle",    "Neck",   "Head",   "LBigToe",
+    "LSmallToe", "LHeel", "RBigToe", "RSmallToe", "RHeel", "MidHip",    "LHand",     "RHand"};
 
 /// The landmarks of a list of their names, apart by blanks.
 std::vector<Landmark> Listed(std::string_view names) {

@@ -164,7 +164,8 @@ class Joiner {
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
       if (p.confidence < options_.least_confidence || q.confidence < options_.least_confidence) continue;
-      const auto line_a = SightLineOf({cameras_[camera_a], p.pixel}), line_b = SightLineOf({cameras_[camera_b], q.pixel});
+      const auto line_a = SightLineOf({cameras_[camera_a], p.pixel}),
+                 line_b = SightLineOf({cameras_[camera_b], q.pixel});
       const auto middle = line_a && line_b ? MiddleOf(*line_a, *line_b) : std::nullopt;
       const auto shown_a = middle ? Project(cameras_[camera_a], *middle) : std::nullopt;
       const auto shown_b = middle ? Project(cameras_[camera_b], *middle) : std::nullopt;

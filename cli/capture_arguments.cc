@@ -1,0 +1,83 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "cli/capture_command.h"
+#include "cli/validators.h"
+#include "engine/keypoints/landmarks.h"
+#include "engine/kinematics/solvers/ik_solver.h"
+
+namespace etude {
+namespace {
+
+constexpr const char* kCaptureExamples =
+    "\nTwo or more calibrated cameras film a person at the same time; this command says how the person moved. What "
+    "the\n"
+    "pictures show is told by keypoints of an estimator (--keypoints: a folder with, for each film, a folder of\n"
+    "OpenPose's JSON or a COCO keypoint file) or by marks drawn by hand (--marks: a folder of annotation\n"
+    "pictures for each film). Each entry's name begins with its film's: cam01.mp4, cam01_json/.\n\n"
+    "Lenses are undone; persons are matched over cameras and time; each point comes from all cameras that agree on "
+    "it,\n"
+    "weighed by confidence; gaps up to --longest-gap are bridged; limb lengths are medians of what was seen; inverse\n"
+    "kinematics gives joint angles. --person 2 asks for the one seen second most.\n\n"
+    "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose or Qualisys. Films are\n"
+    "matched to its cameras by name (cam01.mp4 is cam_01), or in the order of --cameras. Films of other sizes than "
+    "the\n"
+    "rig's are refused until --fit says what was done to them: letterbox (scaled, bars added), stretch, crop.\n\n"
+    "With --reference FILE.trc a table tells how far the triangulated keypoints are from it, for all cameras and\n"
+    "every pair. Made of the same keypoints, that is agreement, not error.\n\n"
+    "Try:\n"
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
+    "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
+    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6";
+
+std::vector<std::string> SolverNames() {
+  std::vector<std::string> names;
+  for (const IkSolver& solver : AllIkSolvers()) names.emplace_back(solver.name);
+  return names;
+}
+
+}  // namespace
+
+void DefineCapture(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CaptureCommandOptions>();
+  CLI::App* command = app.add_subcommand("capture", "The motion of a person out of films by several cameras");
+  command->add_option("films", options->films, "A film of each camera, all begun at the same moment")->required();
+  command->add_option("--rig", options->rig, "The calibrated cameras")->required();
+  command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
+      ->delimiter(',');
+  auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
+  command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
+      ->excludes(keypoints);
+  command->add_option("--layout", options->layout, "The order of keypoints, where their count does not tell it")
+      ->check(CLI::IsMember(KeypointLayoutNames()));
+  command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
+  command->add_option("--points", options->points, "Write the triangulated keypoints, too (.trc)");
+  command->add_option("--film", options->film, "Write the skeleton drawn over the films, too (.mp4)");
+  command->add_option("--reference", options->reference,
+                      "Compare the triangulated keypoints with these markers (.trc)");
+  command->add_option("--fit", options->fit, "How films of another size than the rig's came of its pictures")
+      ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
+      ->capture_default_str();
+  command->add_option("--person", options->person, "Which person, the one seen most first")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_option("--smooth", options->smooth_hz, "Smooth places below this frequency, Hz (0: not at all)")
+      ->check(NumberWithin(0, 1000, "frequency in Hz"))
+      ->capture_default_str();
+  command->add_option("--longest-gap", options->longest_gap_s, "Gaps up to this are bridged, s")
+      ->check(NumberWithin(0, 60, "gap in s"))
+      ->capture_default_str();
+  command
+      ->add_option("--outlier", options->outlier_px,
+                   "A keypoint further than this from where the others say is left out, px (0: 3 % of the picture)")
+      ->check(NumberWithin(0, 10000, "distance in px"))
+      ->capture_default_str();
+  command->add_option("--solver", options->solver, "Of inverse kinematics")
+      ->check(CLI::IsMember(SolverNames()))
+      ->capture_default_str();
+  command->add_flag("--overwrite", options->overwrite, "Replace files that are there");
+  command->footer(kCaptureExamples);
+  command->callback([=, &action] { action = [=] { return CaptureCommand(*options); }; });
+}
+
+}  // namespace etude

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// How a film's pixels come from the rig's: film = scale · rig + shift, each axis by itself.
+struct PixelFit {
+  glm::dvec2 scale{1};
+  glm::dvec2 shift{0};
+
+  glm::dvec2 ToFilm(const glm::dvec2& rig) const { return scale * rig + shift; }
+  glm::dvec2 ToRig(const glm::dvec2& film) const { return (film - shift) / scale; }
+  bool IsNone() const { return scale == glm::dvec2(1) && shift == glm::dvec2(0); }
+};
+
+/// How pictures of one size were made those of another.
+enum class FitMode {
+  kNone,       ///< "none": not at all; other sizes are refused
+  kLetterbox,  ///< "letterbox": scaled alike in both axes until they fit in, bars of equal size added
+  kStretch,    ///< "stretch": scaled in each axis by itself
+  kCrop,       ///< "crop": cut off alike on opposite sides, or bars added; not scaled
+};
+
+std::optional<FitMode> FindFitMode(std::string_view name);
+
+/// Fails when sizes differ and `mode` is kNone, and for sizes of nothing.
+Result<PixelFit> FitPictures(FitMode mode, const glm::dvec2& rig, const glm::dvec2& film);
+
+}  // namespace etude
