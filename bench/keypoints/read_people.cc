@@ -10,6 +10,7 @@
 #include "bench/files/files.h"
 #include "bench/files/json.h"
 #include "engine/keypoints/marked_person.h"
+#include "engine/vision/strokes.h"
 #include "sim/sensors/image_files.h"
 
 namespace etude {

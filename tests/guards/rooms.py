@@ -17,6 +17,8 @@ MAY_INCLUDE = {
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
     "engine/fuzzy": "engine/base engine/document engine/motion",
+    "engine/keypoints":
+        "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision",
     "engine/kinematics": "engine/base engine/motion",
     "engine/kinematics/solvers": "engine/base engine/kinematics",
     "engine/motion": "engine/base",
@@ -64,6 +66,7 @@ MAY_INCLUDE = {
     "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",
     "bench/gate": "engine/base sim/random bench/files bench/metrics bench/model bench/statistics",
     "bench/keys": "engine/base engine/document bench/files",
+    "bench/keypoints": "engine/base engine/keypoints engine/vision sim/sensors bench/files",
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
@@ -122,6 +125,7 @@ MAY_INCLUDE = {
     "reports/assets": "",
     "reports/bridges":
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
+    "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion reports/films",
     "reports/clips":
         "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
         "bench/files reports/films reports/words",

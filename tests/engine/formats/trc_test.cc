@@ -1,5 +1,6 @@
 #include "engine/formats/trc.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -64,6 +65,48 @@ TEST(Trc, HasTheHeadingsAndColumnsThatOpenSimWants) {
 TEST(Trc, KeepsItsFirstLineWhateverTheName) {
   EXPECT_TRUE(
       WriteTrc(Steps(), "a\nb\tc \xC3\xA9").starts_with("PathFileType\t4\t(X/Y/Z)\ta_b_c \xC3\xA9.trc\nDataRate"));
+}
+
+TEST(ReadTrc, ReadsWhatWasWrittenAndWhatWasNotSeen) {
+  MarkerMotion motion{.rate_hz = 60, .names = {"RHip", "L Toe"}, .frames = {}};
+  motion.frames = {
+      {glm::dvec3(1, 2, -3), std::nullopt}, {glm::dvec3(0.5), glm::dvec3(-0.25, 0, 1)}, {std::nullopt, glm::dvec3(1)}};
+  const auto back = ReadTrc(WriteTrc(motion, "two"), "two.trc");
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(back->names, motion.names);
+  EXPECT_EQ(back->rate_hz, 60);
+  EXPECT_EQ(back->frames, motion.frames);
+  const auto body = ReadTrc(WriteTrc(Steps(), "steps"), "steps.trc");
+  ASSERT_TRUE(body) << ToString(body.error());
+  EXPECT_EQ(body->names.size(), kRoleCount);
+  EXPECT_NEAR(body->frames[1][3]->y, 3.251, 1e-9);
+}
+
+TEST(ReadTrc, TakesOtherProgramsFiles) {
+  const std::string text =
+      "PathFileType\t4\t(X/Y/Z)\ta.trc\r\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\r\n100\t100\t1\t2\tm\r\n"
+      "Frame#\tTime\tA\t\t\tB\t\t\r\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\r\n1\t0.0\t1\t2\t3\tnan\tnan\tnan\r\n";
+  const auto motion = ReadTrc(text, "a.trc");
+  ASSERT_TRUE(motion) << ToString(motion.error());
+  EXPECT_EQ(motion->frames[0][0], glm::dvec3(1, 2, 3));
+  EXPECT_FALSE(motion->frames[0][1]);
+}
+
+TEST(ReadTrc, RefusesWithTheLine) {
+  const std::string good = WriteTrc(Steps(), "steps");
+  const auto reason = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    const auto motion = ReadTrc(text.replace(at, from.size(), to), "s.trc");
+    return motion ? std::string("no complaint") : ToString(motion.error());
+  };
+  EXPECT_EQ(reason("steps", "other"), "no complaint");
+  EXPECT_THAT(reason("\tmm\t", "\tinch\t"), ::testing::HasSubstr("s.trc:3: units 'inch'; allowed: m, cm, mm"));
+  EXPECT_THAT(reason("30\t30\t2", "30\t30\t3"), ::testing::HasSubstr("2 frames, 3 announced"));
+  EXPECT_THAT(reason("2\t0.033333\t", "2\t0.033333\tx"), ::testing::HasSubstr("is no number"));
+  EXPECT_THAT(reason("DataRate", "Rate"), ::testing::HasSubstr("no header of a TRC file"));
+  EXPECT_THAT(reason("\thip_centre\t", "\t\t"), ::testing::HasSubstr("20 markers announced, 0 named"));
 }
 
 }  // namespace

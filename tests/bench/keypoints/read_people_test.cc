@@ -1,0 +1,100 @@
+#include "bench/keypoints/read_people.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+class ReadPeople : public testing::Test {
+ protected:
+  ReadPeople() : folder_(*TemporaryFolder::Make("read-people")) {}
+  std::filesystem::path Write(const std::string& name, const std::string& text) {
+    const std::filesystem::path path = folder_.path() / name;
+    EXPECT_TRUE(WriteFileAtomically(path, text));
+    return path;
+  }
+  static std::string Triples(std::size_t count, const std::string& first = "10, 20, 0.5") {
+    std::string list = first;
+    for (std::size_t i = 1; i < count; ++i) list += ", 0, 0, 0";
+    return list;
+  }
+  static std::string OpenPose(std::size_t count, const std::string& first = "10, 20, 0.5") {
+    return R"({"version": 1.3, "people": [{"pose_keypoints_2d": [)" + Triples(count, first) + "]}]}";
+  }
+  std::string Reason(const std::filesystem::path& path, const std::string& layout = "") {
+    const auto film = ReadKeypoints(path, layout);
+    return film ? "no complaint" : ToString(film.error());
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
+  Write("a/f_10.json", OpenPose(25, "30, 40, 0.7"));
+  Write("a/f_9.json", OpenPose(25));
+  Write("a/f_0100.json", R"({"people": []})");
+  const auto film = ReadKeypoints(folder_.path() / "a", "body_25b");
+  ASSERT_TRUE(film) << ToString(film.error());
+  ASSERT_EQ(film->frames.size(), 3u);
+  EXPECT_EQ(film->frames[0][0][Landmark::kNose].pixel, glm::dvec2(10.5, 20.5));
+  EXPECT_DOUBLE_EQ(film->frames[1][0][Landmark::kNose].confidence, 0.7);
+  EXPECT_EQ(film->frames[0][0][Landmark::kNeck].confidence, 0);
+  EXPECT_TRUE(film->frames[2].empty());
+}
+
+TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
+  Write("a/1.json", OpenPose(25));
+  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; tell which one by --layout"));
+  EXPECT_EQ(Reason(folder_.path() / "a", "body_25"), "no complaint");
+  EXPECT_THAT(Reason(folder_.path() / "a", "coco"), HasSubstr("25 keypoints a person, not coco; allowed: coco (17)"));
+}
+
+TEST_F(ReadPeople, ReadsCocoWithFlagsOrScores) {
+  const auto coco = [&](const std::string& v) {
+    return R"({"images": [{"id": 7, "width": 640, "height": 480}, {"id": 3, "width": 640, "height": 480}],
+      "annotations": [{"image_id": 3, "keypoints": [)" +
+           Triples(17, "1, 2, " + v) + "]}]}";
+  };
+  const auto flags = ReadKeypoints(Write("flags.json", coco("2")), "");
+  ASSERT_TRUE(flags) << ToString(flags.error());
+  ASSERT_EQ(flags->frames.size(), 2u);
+  EXPECT_TRUE(flags->frames[0].empty());
+  EXPECT_DOUBLE_EQ(flags->frames[1][0][Landmark::kNose].confidence, 1);
+  EXPECT_EQ(flags->width, 640);
+  const auto scores = ReadKeypoints(Write("scores.json", coco("0.25")), "");
+  EXPECT_DOUBLE_EQ(scores->frames[1][0][Landmark::kNose].confidence, 0.25);
+}
+
+TEST_F(ReadPeople, RefusesWithTheFileAndTheReason) {
+  EXPECT_THAT(Reason(Write("a.json", "{")), HasSubstr("a.json"));
+  EXPECT_THAT(Reason(Write("b.json", "[]")), HasSubstr("no lists 'images' and 'annotations'"));
+  EXPECT_THAT(Reason(Write("c.json", R"({"images": [], "annotations": []})")), HasSubstr("no image"));
+  EXPECT_THAT(Reason(Write("d.json", R"({"images": [{"id": 1}, {"id": 1}], "annotations": []})")),
+              HasSubstr("two images"));
+  Write("e/1.json", OpenPose(17, "1, \"x\", 1"));
+  EXPECT_THAT(Reason(folder_.path() / "e"), HasSubstr("a keypoint's number is \"x\""));
+  Write("f/1.json", OpenPose(17, "1, 1e300, 1"));
+  EXPECT_THAT(Reason(folder_.path() / "f"), HasSubstr("a keypoint's number is 1e+300"));
+  Write("g/note.txt", "");
+  EXPECT_THAT(Reason(folder_.path() / "g"), HasSubstr("no .json file in it"));
+}
+
+TEST_F(ReadPeople, FindsTheEntryOfAFilm) {
+  Write("cam1_json/1.json", "");
+  Write("cam10.json", "");
+  Write("cam2.json", "");
+  Write("cam2_b.json", "");
+  EXPECT_EQ(EntryOfFilm(folder_.path(), "cam1")->filename(), "cam1_json");
+  EXPECT_EQ(EntryOfFilm(folder_.path(), "cam10")->filename(), "cam10.json");
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam2").error().message, HasSubstr("both cam2.json and cam2_b.json"));
+  EXPECT_THAT(EntryOfFilm(folder_.path(), "cam3").error().message, HasSubstr("nothing in it begins"));
+}
+
+}  // namespace
+}  // namespace etude

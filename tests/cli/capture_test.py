@@ -1,0 +1,186 @@
+"""`etude calibrate` and `etude capture`: from measured points to a rig, from films and keypoints to a motion."""
+import json
+import math
+import subprocess
+import unittest
+
+from etude_case import EtudeCase
+
+WIDTH, HEIGHT, FRAMES, RATE = 320, 240, 20, 30
+FOCAL = 260.0
+PLACES = {"left": (-2.5, 1.6, 3.0), "middle": (0.3, 2.2, 3.9), "right": (3.0, 1.2, 2.4)}
+
+
+def sub(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def unit(a):
+    return tuple(x / math.sqrt(dot(a, a)) for x in a)
+
+
+def project(camera, point):
+    """OpenCV's pixels of a camera that looks at (0, 1, 0)."""
+    z = unit(sub((0, 1, 0), PLACES[camera]))
+    x = unit(cross(z, (0, 1, 0)))
+    y = cross(z, x)
+    p = sub(point, PLACES[camera])
+    return (FOCAL * dot(x, p) / dot(z, p) + WIDTH / 2 - 0.5, FOCAL * dot(y, p) / dot(z, p) + HEIGHT / 2 - 0.5)
+
+
+def body(t):
+    """A stick figure as COCO's seventeen keypoints, arms swinging."""
+    a = 0.6 * math.sin(3 * t)
+    points = [(0, 1.62, 0.1), (0.03, 1.66, 0.08), (-0.03, 1.66, 0.08), (0.08, 1.64, 0), (-0.08, 1.64, 0)]
+    rows = {"shoulder": [], "elbow": [], "wrist": [], "hip": [], "knee": [], "ankle": []}
+    for side in (1, -1):
+        rows["shoulder"].append((0.18 * side, 1.42, 0))
+        rows["elbow"].append((0.18 * side, 1.42 - 0.29 * math.cos(a), side * 0.29 * math.sin(a)))
+        ex, ey, ez = rows["elbow"][-1]
+        rows["wrist"].append((ex, ey - 0.25 * math.cos(a + 0.5), ez + 0.25 * math.sin(a + 0.5)))
+        rows["hip"].append((0.09 * side, 0.92, 0))
+        rows["knee"].append((0.09 * side, 0.92 - 0.43 * math.cos(0.2), 0.43 * math.sin(0.2)))
+        kx, ky, kz = rows["knee"][-1]
+        rows["ankle"].append((kx, ky - 0.42, kz))
+    for name in rows:
+        points += rows[name]
+    return points
+
+
+class Capture(EtudeCase):
+    def setUp(self):
+        super().setUp()
+        lines = ["camera,x,y,z,u,v"]
+        for camera in PLACES:
+            for i in range(30):
+                point = (math.sin(1.7 * i), 1 + 0.9 * math.cos(2.3 * i), math.sin(0.9 * i + 1))
+                lines.append(f"{camera},{','.join(f'{v:.9f}' for v in point + project(camera, point))}")
+        self.pairs = self.write("pairs.csv", "\n".join(lines) + "\n")
+        self.rig = str(self.folder / "rig.yaml")
+        self.keypoints = self.folder / "keypoints"
+        for camera in PLACES:
+            folder = self.keypoints / f"{camera}_json"
+            folder.mkdir(parents=True)
+            for k in range(FRAMES):
+                flat = [v for point in body(k / RATE) for v in (*project(camera, point), 0.9)]
+                (folder / f"{camera}_{k}.json").write_text(json.dumps({"people": [{"pose_keypoints_2d": flat}]}))
+            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i",
+                            f"testsrc=size={WIDTH}x{HEIGHT}:rate={RATE}", "-frames:v", str(FRAMES), "-pix_fmt", "yuv420p",
+                            str(self.folder / f"{camera}.mp4")], check=True, timeout=60)
+        self.films = [str(self.folder / f"{camera}.mp4") for camera in PLACES]
+
+    def calibrate(self):
+        result = self.etude("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--lens", "none", "-o", self.rig)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def refusal(self, *arguments):
+        result = self.etude(*arguments)
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        return result.stderr
+
+    def capture(self, *arguments, films=None):
+        return ["capture", "--rig", self.rig, *(films or self.films), "--keypoints", self.keypoints, *arguments]
+
+    def test_calibrates_by_measured_points(self):
+        told = self.calibrate()
+        self.assertIn("middle: reprojection error 0.000 px RMS over 30 points", told)
+        self.assertIn("stands at        0.300, 2.200, 3.900 m", told)
+        self.assertRegex(told, r"focal lengths    260\.00 ± 0\.00, 260\.00")
+        again = self.etude("calibrate", self.pairs, "--size", f"{WIDTH}x{HEIGHT}", "--method", "dlt", "-o", self.rig,
+                           "--overwrite")
+        self.assertIn("theta 90.000 deg", again.stdout)
+        text = (self.folder / "rig.yaml").read_text()
+        self.assertTrue(text.startswith('%YAML:1.0\n---\ncameras: [ "left", "middle", "right" ]\nleft:\n   image_width: 320'))
+
+    def test_refuses_what_is_no_calibration(self):
+        self.assertIn("--size ''; needed", self.refusal("calibrate", self.pairs, "-o", self.rig))
+        five = self.write("five.csv", "camera,x,y,z,u,v\n" + "a,1,2,3,4,5\n" * 5)
+        self.assertIn("camera a: cannot calibrate a camera: 5 point pairs; at least 6",
+                      self.refusal("calibrate", five, "--size", "640x480", "-o", self.rig))
+        words = self.write("words.csv", "camera,x,y,z,u,v\na,1,2,three,4,5\n")
+        self.assertIn("words.csv:2: 'three' is no number",
+                      self.refusal("calibrate", words, "--size", "640x480", "-o", self.rig))
+        self.assertIn("no board; allowed: 3 to 16 squares", self.refusal("calibrate", "x", "--board", "2x2x1", "-o", self.rig))
+        self.assertIn("no such file", self.refusal("calibrate", "nothing.mp4", "-o", self.rig))
+        self.assertFalse((self.folder / "rig.yaml").exists(), "nothing is written")
+
+    def test_prints_a_board(self):
+        board = self.folder / "board.png"
+        result = self.etude("calibrate", "--print", board, "--board", "5x4x0.1")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(board.read_bytes()[:4], b"\x89PNG")
+
+    def test_captures_a_motion_into_every_format(self):
+        self.calibrate()
+        trc = self.folder / "points.trc"
+        result = self.etude(*self.capture("-o", self.folder / "m.bvh", "--points", trc))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("person 1: seen by left (20 frames), middle (20 frames), right (20 frames)", result.stdout)
+        self.assertIn("upper arm 29.0, forearm 25.0", result.stdout)
+        # The points are where the figure was: an independent projection made the keypoints.
+        lines = trc.read_text().splitlines()
+        names = [name for name in lines[3].split("\t")[2:] if name]
+        row = [float(v) / 1000 for v in lines[6 + 7].split("\t")[2:]]
+        at = names.index("LWrist")
+        wanted = body(7 / RATE)[9]
+        for axis in range(3):
+            self.assertAlmostEqual(row[3 * at + axis], wanted[axis], places=4)
+        for ending in ("glb", "trc", "csv"):
+            result = self.etude(*self.capture("-o", self.folder / f"m.{ending}"))
+            self.assertEqual(result.returncode, 0, result.stderr)
+        info = self.etude("clip", "info", self.folder / "m.bvh", self.folder / "m.glb").stdout
+        self.assertEqual(info.count("20 frames at 30 Hz"), 2, info)
+        beside = self.etude(*self.capture("-o", self.folder / "n.csv", "--reference", trc)).stdout
+        self.assertRegex(beside, r"LWrist +0\.0 +0\.0 +0\.0 +0\.0\n")
+        self.assertIn("agreement, not error", beside)
+
+    def test_draws_the_skeleton_over_the_films(self):
+        self.calibrate()
+        film = self.folder / "overlay.mp4"
+        result = self.etude(*self.capture("-o", self.folder / "m.csv", "--film", film))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        told = subprocess.run(["ffprobe", "-v", "error", "-count_packets", "-show_entries",
+                               "stream=width,height,nb_read_packets", "-of", "csv=p=0", str(film)],
+                              capture_output=True, text=True, timeout=60).stdout.strip()
+        self.assertEqual(told, "1920,480,20")
+
+    def test_refuses_films_that_do_not_fit(self):
+        self.calibrate()
+        out = self.folder / "m.bvh"
+        self.assertIn("1 film; allowed: 2 to 64", self.refusal(*self.capture("-o", out, films=self.films[:1])))
+        self.assertIn("none.yaml: no such file", self.refusal("capture", "--rig", "none.yaml", *self.films, "--keypoints",
+                                                   self.keypoints, "-o", out))
+        self.assertIn("allowed: --keypoints DIR or --marks DIR", self.refusal("capture", "--rig", self.rig, *self.films, "-o", out))
+
+        def film(name, size, rate, frames):
+            path = self.folder / name / "left.mp4"
+            path.parent.mkdir()
+            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"testsrc=size={size}:rate={rate}", "-frames:v",
+                            str(frames), str(path)], check=True, timeout=60)
+            return [str(path), *self.films[1:]]
+
+        small = self.refusal(*self.capture("-o", out, films=film("small", "160x120", RATE, FRAMES)))
+        self.assertIn("160 x 120 pixels, the rig's camera 320 x 240; tell how they were fitted (--fit)", small)
+        slow = self.refusal(*self.capture("-o", out, films=film("slow", "320x240", 25, FRAMES)))
+        self.assertIn("30 frames a second", slow)
+        short = self.refusal(*self.capture("-o", out, films=film("short", "320x240", RATE, 18)))
+        self.assertIn("20 frames", short)
+        (self.keypoints / "left_json" / "left_3.json").unlink()
+        self.assertIn("19 frames, the film", self.refusal(*self.capture("-o", out)))
+        (self.keypoints / "left_json" / "left_4.json").write_text('{"people": [{"pose_keypoints_2d": [1, 2]}]}')
+        self.assertIn("left_4.json: no list of keypoints", self.refusal(*self.capture("-o", out)))
+        self.assertFalse(out.exists(), "nothing is written")
+
+
+if __name__ == "__main__":
+    unittest.main()

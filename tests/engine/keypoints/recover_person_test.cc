@@ -1,0 +1,218 @@
+#include "engine/keypoints/recover_person.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/kinematics/solvers/ik_solver.h"
+#include "tests/engine/keypoints/walkers.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::size_t kFrames = 60;
+constexpr double kRate = 30;
+constexpr double kFirstX = -0.5, kSecondX = 0.7;
+
+/// Two persons side by side, seen by some of the four cameras, in an order that changes from frame to frame.
+std::vector<SeenPeople> TwoWalkers(const std::vector<Camera>& cameras, double sigma_px) {
+  RandomStream dice = WalkersDice("errors");
+  std::vector<SeenPeople> people(cameras.size(), SeenPeople(kFrames));
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    for (std::size_t k = 0; k < kFrames; ++k) {
+      const double t = static_cast<double>(k) / kRate;
+      people[c][k].push_back(Seen(cameras[c], Walker(kFirstX, 0, t), sigma_px, dice));
+      people[c][k].push_back(Seen(cameras[c], Walker(kSecondX, 0.2, t + 0.4), sigma_px, dice));
+      if ((k * 7 + c) % 3 == 0) std::swap(people[c][k][0], people[c][k][1]);
+    }
+  }
+  return people;
+}
+
+std::vector<ProjectionMatrix> MatricesOf(const std::vector<Camera>& cameras) {
+  std::vector<ProjectionMatrix> matrices;
+  for (const Camera& camera : cameras) matrices.push_back(MatrixOf(camera));
+  return matrices;
+}
+
+std::vector<Camera> Pinholes() {
+  std::vector<Camera> cameras = FourCameras();
+  for (Camera& camera : cameras) camera.distortion = {};
+  return cameras;
+}
+
+RecoverPersonOptions Options() {
+  RecoverPersonOptions options{.rate_hz = kRate, .match = {}, .triangulate = {}, .capture = {}};
+  options.capture.recover.solver = FindIkSolver("gauss-newton");
+  return options;
+}
+
+/// The largest distance of any landmark to a walker's, metres.
+double WorstOff(const std::vector<LandmarkPlaces>& found, double x, double z, double later) {
+  double worst = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const LandmarkPlaces truth = Walker(x, z, static_cast<double>(k) / kRate + later);
+    for (std::size_t i = 0; i < kLandmarkCount; ++i) {
+      if (truth[i]) worst = std::max(worst, found[k][i] ? glm::distance(*found[k][i], *truth[i]) : 9.0);
+    }
+  }
+  return worst;
+}
+
+TEST(MatchPeople, TellsTwoPersonsApartInFourCamerasWhateverTheirOrder) {
+  const std::vector<Camera> cameras = Pinholes();
+  const auto people = MatchPeople(MatricesOf(cameras), TwoWalkers(cameras, 2));
+  ASSERT_EQ(people.size(), 2u);
+  for (const MatchedPerson& person : people) {
+    EXPECT_EQ(person.cameras, 4u);
+    // Whoever it is, every keypoint lies on that walker and not on the other.
+    const auto truth = [&](double x, double z, double later) {
+      double worst = 0;
+      for (std::size_t c = 0; c < 4; ++c) {
+        for (std::size_t k = 0; k < kFrames; ++k) {
+          const LandmarkPlaces places = Walker(x, z, static_cast<double>(k) / kRate + later);
+          if (!person.seen[c][k]) return 1e9;
+          const Keypoint& hip = (*person.seen[c][k])[Landmark::kLeftHip];
+          worst = std::max(worst, glm::distance(hip.pixel, *Project(cameras[c], *places[Index(Landmark::kLeftHip)])));
+        }
+      }
+      return worst;
+    };
+    const double first = truth(kFirstX, 0, 0), second = truth(kSecondX, 0.2, 0.4);
+    EXPECT_LT(std::min(first, second), 12);
+    EXPECT_GT(std::max(first, second), 50) << "the control: the walkers are apart";
+  }
+}
+
+TEST(MatchPeople, JoinsWhatACameraLostForAWhileByTheOthers) {
+  const std::vector<Camera> cameras = Pinholes();
+  auto people = TwoWalkers(cameras, 1);
+  for (std::size_t k = 15; k < 40; ++k) people[1][k].clear();
+  const auto matched = MatchPeople(MatricesOf(cameras), people);
+  ASSERT_EQ(matched.size(), 2u);
+  for (const MatchedPerson& person : matched) {
+    EXPECT_TRUE(person.seen[1][10] && person.seen[1][50]);
+    EXPECT_FALSE(person.seen[1][20]);
+  }
+}
+
+TEST(MatchPeople, LeavesAPersonAloneWhomNoOtherCameraSees) {
+  const std::vector<Camera> cameras = Pinholes();
+  RandomStream dice = WalkersDice("bystander");
+  std::vector<SeenPeople> people(4, SeenPeople(kFrames));
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    const double t = static_cast<double>(k) / kRate;
+    for (std::size_t c = 0; c < 4; ++c) people[c][k].push_back(Seen(cameras[c], Walker(0, 0, t), 1, dice));
+    people[2][k].push_back(Seen(cameras[2], Walker(1.5, -1, 0.2 * t), 1, dice));
+  }
+  const auto matched = MatchPeople(MatricesOf(cameras), people);
+  ASSERT_EQ(matched.size(), 2u);
+  EXPECT_EQ(matched[0].cameras, 4u);
+  EXPECT_EQ(matched[1].cameras, 1u);
+  EXPECT_GT(matched[0].sightings, matched[1].sightings);
+}
+
+TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
+  const std::vector<Camera> cameras = FourCameras();
+  const auto person = RecoverPerson(cameras, TwoWalkers(cameras, 0), Options());
+  ASSERT_TRUE(person) << ToString(person.error());
+  const double first = WorstOff(person->landmarks, kFirstX, 0, 0),
+               second = WorstOff(person->landmarks, kSecondX, 0.2, 0.4);
+  EXPECT_LT(std::min(first, second), 1e-6);
+  EXPECT_NEAR(person->lengths.shank, 0.42, 1e-6);
+  EXPECT_NEAR(person->lengths.upper_arm, 0.29, 1e-6);
+  EXPECT_NEAR(person->lengths.hand, 0.72 * 0.25, 1e-6);
+  EXPECT_EQ(person->held, 0u);
+  EXPECT_EQ(person->motion.poses.size(), kFrames);
+  EXPECT_EQ(person->clip.frames.size(), kFrames);
+}
+
+TEST(RecoverPerson, ItsSkeletonStandsWhereThePointsAre) {
+  const std::vector<Camera> cameras = FourCameras();
+  RandomStream dice = WalkersDice("one");
+  std::vector<SeenPeople> people(4, SeenPeople(kFrames));
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    const LandmarkPlaces walker = Walker(0, 0, static_cast<double>(k) / kRate);
+    for (std::size_t c = 0; c < 4; ++c) people[c][k].push_back(Seen(cameras[c], walker, 0, dice));
+  }
+  const auto person = RecoverPerson(cameras, people, Options());
+  ASSERT_TRUE(person) << ToString(person.error());
+  double sum = 0;
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    const RoleVectors truth = JointsOf(Walker(0, 0, static_cast<double>(k) / kRate));
+    for (const Role role : {Role::kLeftKnee, Role::kRightAnkle, Role::kLeftElbow, Role::kRightWrist, Role::kHead}) {
+      sum += glm::distance(person->motion.poses[k][role], *truth[Index(role)]) / (5.0 * kFrames);
+    }
+  }
+  EXPECT_LT(sum, 0.03);
+}
+
+TEST(RecoverPerson, RefusesWhatIsNoSession) {
+  const std::vector<Camera> cameras = FourCameras();
+  const auto people = TwoWalkers(cameras, 1);
+  // Two cameras, the second one nodding by 10° from where the rig says.
+  std::vector<Camera> moved{cameras[0], cameras[1]};
+  const double sine = std::sin(Radians(10)), cosine = std::cos(Radians(10));
+  moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;
+  const auto alone = RecoverPerson(moved, std::span(people).first(2), Options());
+  ASSERT_FALSE(alone);
+  EXPECT_THAT(alone.error().message, HasSubstr("no person is seen alike"));
+  RecoverPersonOptions third = Options();
+  third.person = 2;
+  EXPECT_THAT(RecoverPerson(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));
+}
+
+TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {
+  std::vector<LandmarkPlaces> frames(12);
+  frames[0][0] = glm::dvec3(0);
+  frames[4][0] = glm::dvec3(4, 8, 0);
+  frames[11][0] = glm::dvec3(1);
+  BridgePoints(frames, 3);
+  ASSERT_TRUE(frames[1][0]);
+  EXPECT_LT(glm::distance(*frames[1][0], glm::dvec3(1, 2, 0)), 1e-12);
+  EXPECT_FALSE(frames[7][0]) << "six frames are more than three";
+}
+
+TEST(SmoothPoints, HalvesThePowerAtTheCutoffAndKeepsWhatIsSlow) {
+  const auto gain = [](double frequency_hz) {
+    constexpr double kHz = 120;
+    std::vector<LandmarkPlaces> frames(480);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      frames[k][0] = glm::dvec3(std::sin(2 * kPi * frequency_hz * static_cast<double>(k) / kHz), 0, 0);
+    }
+    SmoothPoints(frames, kHz, 6);
+    double most = 0;
+    for (std::size_t k = 100; k < 380; ++k) most = std::max(most, frames[k][0]->x);
+    return most;
+  };
+  EXPECT_NEAR(gain(6), std::sqrt(0.5), 0.01);
+  EXPECT_GT(gain(0.5), 0.99);
+  EXPECT_LT(gain(20), 0.05);
+}
+
+TEST(TriangulatePerson, TellsWhichCameraDisagreed) {
+  const std::vector<Camera> cameras = Pinholes();
+  RandomStream dice = WalkersDice("one");
+  MatchedPerson person;
+  person.seen.assign(4, std::vector<std::optional<SeenPerson>>(20));
+  for (std::size_t k = 0; k < 20; ++k) {
+    for (std::size_t c = 0; c < 4; ++c)
+      person.seen[c][k] = Seen(cameras[c], Walker(0, 0, 0.03 * static_cast<double>(k)), 1, dice);
+    for (Keypoint& keypoint : person.seen[2][k]->keypoints) keypoint.pixel += glm::dvec2(200, -90);
+  }
+  TriangulationReport report;
+  const auto places = TriangulatePerson(MatricesOf(cameras), person, {}, &report);
+  EXPECT_LT(WorstOff(places, 0, 0, 0) > 1 ? 9 : 0, 1) << "nothing is missing";
+  ASSERT_EQ(report.rejected.size(), 4u);
+  EXPECT_GT(report.rejected[2], 0.99);
+  EXPECT_LT(report.rejected[0], 0.01);
+  EXPECT_DOUBLE_EQ(report.found, 1);
+}
+
+}  // namespace
+}  // namespace etude
