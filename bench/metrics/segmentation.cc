@@ -20,6 +20,12 @@ std::optional<double> MeanOf(std::span<const MaskScore> scores, std::optional<do
   return sum / count;
 }
 
+std::optional<double> Percent(std::int64_t part, std::int64_t whole) {
+  const auto share = Share(part, whole);
+  if (!share) return std::nullopt;
+  return 100 * *share;
+}
+
 }  // namespace
 
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
@@ -38,7 +44,8 @@ MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
           .precision = Share(both, found_count),
           .recall = Share(both, true_count),
           .f1 = Share(2 * both, found_count + true_count),
-          .shadow_error = Share(shadow_found, shadow_count)};
+          .shadow_error = Share(shadow_found, shadow_count),
+          .pwc = Percent(found_count + true_count - 2 * both, static_cast<std::int64_t>(found.pixels.size()))};
 }
 
 MaskScore MeanScore(std::span<const MaskScore> scores) {
@@ -46,7 +53,8 @@ MaskScore MeanScore(std::span<const MaskScore> scores) {
           .precision = MeanOf(scores, &MaskScore::precision),
           .recall = MeanOf(scores, &MaskScore::recall),
           .f1 = MeanOf(scores, &MaskScore::f1),
-          .shadow_error = MeanOf(scores, &MaskScore::shadow_error)};
+          .shadow_error = MeanOf(scores, &MaskScore::shadow_error),
+          .pwc = MeanOf(scores, &MaskScore::pwc)};
 }
 
 }  // namespace etude

@@ -15,6 +15,7 @@ struct MaskScore {
   std::optional<double> recall = {};        ///< |found ∩ true| / |true|
   std::optional<double> f1 = {};            ///< 2 |found ∩ true| / (|found| + |true|)
   std::optional<double> shadow_error = {};  ///< |found ∩ shadow| / |shadow|
+  std::optional<double> pwc = {};           ///< 100 |found ≠ true| / |pixels|: percentage of wrong classification
 };
 
 /// All three have the same size; `shadow` marks the pixels where the room lies in the person's shadow.

@@ -13,7 +13,11 @@
 namespace etude {
 namespace {
 
-constexpr Named<Segmenter> kSegmenters[] = {{"hue", Segmenter::kHue}, {"hue-gated", Segmenter::kHueGated}};
+constexpr Named<Segmenter> kSegmenters[] = {{"rgb", Segmenter::kRgb},
+                                            {"hue", Segmenter::kHue},
+                                            {"hue-gated", Segmenter::kHueGated},
+                                            {"ratio", Segmenter::kRatio},
+                                            {"running", Segmenter::kRunning}};
 
 // Whether two hues are more than the threshold apart, by the cosine of the angle between them.
 class HueComparison {
@@ -71,6 +75,25 @@ void CompareHues(const ColourImage& background, const ColourImage& picture, doub
   }
 }
 
+void CompareColours(const ColourImage& background, const ColourImage& picture, int threshold, Mask& mask) {
+  for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+    const Rgb8 b = background.pixels[i], p = picture.pixels[i];
+    const int r = std::abs(p.r - b.r), g = std::abs(p.g - b.g), blue = std::abs(p.b - b.b);
+    mask.pixels[i] = std::max(r, std::max(g, blue)) > threshold;
+  }
+}
+
+/// Whether a pixel is not its background's colour times a factor that light explains.
+bool IsNoShade(Rgb8 background, Rgb8 pixel, const ChangeOptions& o) {
+  const double br = background.r, bg = background.g, bb = background.b;
+  const double dot = pixel.r * br + pixel.g * bg + pixel.b * bb;
+  const double length2 = br * br + bg * bg + bb * bb;
+  const double factor = length2 > 0 ? dot / length2 : 1;
+  if (factor < o.darkest_shadow || factor > o.brightest_light) return true;
+  const double r = pixel.r - factor * br, g = pixel.g - factor * bg, b = pixel.b - factor * bb;
+  return r * r + g * g + b * b > o.ratio_threshold * o.ratio_threshold;
+}
+
 class GatedComparison {
  public:
   explicit GatedComparison(const ChangeOptions& options) : o_(options), hues_(options.hue_threshold) {}
@@ -114,13 +137,27 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
   assert(background.width == picture.width && background.height == picture.height);
   assert(options.hue_threshold >= 0 && options.hue_threshold < kPi / 2);
   Mask mask(picture.width, picture.height);
-  if (segmenter == Segmenter::kHue) {
-    CompareHues(background, picture, options.hue_threshold, mask);
-  } else {
-    const GatedComparison tones(options);
+  const auto compare = [&](auto differ) {
     for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-      mask.pixels[i] = tones.Differ(background.pixels[i], picture.pixels[i]);
+      mask.pixels[i] = differ(background.pixels[i], picture.pixels[i]);
     }
+  };
+  switch (segmenter) {
+    case Segmenter::kRgb:
+      CompareColours(background, picture, options.rgb_threshold, mask);
+      break;
+    case Segmenter::kHue:
+      CompareHues(background, picture, options.hue_threshold, mask);
+      break;
+    case Segmenter::kHueGated:
+      compare([tones = GatedComparison(options)](Rgb8 b, Rgb8 p) { return tones.Differ(b, p); });
+      break;
+    case Segmenter::kRatio:
+      compare([&](Rgb8 b, Rgb8 p) { return IsNoShade(b, p, options); });
+      break;
+    case Segmenter::kRunning:
+      assert(false && "it needs the pictures before: PersonFinder");
+      break;
   }
   return mask;
 }

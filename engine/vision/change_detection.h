@@ -10,13 +10,25 @@
 namespace etude {
 
 enum class Segmenter {
+  /// "rgb": red, green and blue compared by themselves: what paper B, chapter 4, starts from, and leaves for the
+  /// shadows
+  /// that it takes for a person.
+  kRgb,
   kHue,  ///< "hue": hues compared, nothing else (paper B, chapter 4)
   /// "hue-gated" (ours): compares hues only where both colours are far enough from grey to have one, else
   /// greyness; then the light, beyond what a shadow or the lamp explains.
   kHueGated,
+  /// "ratio": is the pixel its background's colour times one factor, as in a shadow or under more light? (Horprasert et
+  /// al. 1999: brightness and chromaticity distortion, without their per-pixel deviations.)
+  kRatio,
+  /// "running": no picture of the empty room. Each pixel's background is a mean and a deviation that follow the film
+  /// (Wren et al. 1997, Pfinder); who stands still becomes background, and where somebody stood at the beginning a
+  /// ghost
+  /// stays for a while. Only `PersonFinder` has it: it needs all pictures before.
+  kRunning,
 };
 
-/// "hue", "hue-gated": the names used in scenarios.
+/// "rgb", "hue", "hue-gated", "ratio", "running": the names used in scenarios.
 std::vector<std::string> SegmenterNames();
 /// `name` is one of SegmenterNames().
 Segmenter SegmenterNamed(std::string_view name);
@@ -35,10 +47,20 @@ struct ChangeOptions {
   /// a change.
   double darkest_shadow = 0.45;
   double brightest_light = 1.30;
+  /// rgb: levels by which the most different of the three colours may differ. Ten deviations of pixel noise: light
+  /// changes slowly over a wall.
+  int rgb_threshold = 24;
+  /// ratio: levels by which a pixel may be off the line from black through its background's colour.
+  double ratio_threshold = 14;
+  /// running: how fast mean and deviation follow what is background, per frame; of what is foreground a tenth.
+  double learning_rate = 0.05;
+  /// running: deviations from the mean that are a change, and the least deviation of a colour, levels.
+  double running_deviations = 4;
+  double least_deviation = 4;
 };
 
 /// The pixels in which `picture` shows something else than `background`. The two have the same size.
-/// A grey pixel has hue 0 for `kHue`, as in the paper's formula.
+/// A grey pixel has hue 0 for `kHue`, as in the paper's formula. Not for `kRunning`.
 Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
                   const ChangeOptions& options = {});
 

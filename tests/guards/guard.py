@@ -43,6 +43,7 @@ DOORS = {
     "glog/": ["engine/kinematics/solvers"],
     "kdl/": ["bench/micro"],
     "Simbody.h": ["bench/micro"],
+    "opencv2/": ["bench/micro"],
 }
 # What a header may include from outside: small, or only names.
 LIGHT_HEADERS = ("glm/", "fmt/", "tl/", "nlohmann/json_fwd.hpp")

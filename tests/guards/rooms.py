@@ -69,7 +69,7 @@ MAY_INCLUDE = {
     "bench/keypoints": "engine/base engine/keypoints engine/vision sim/sensors bench/files",
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
-        "engine/base engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
+        "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
         "sim/character sim/choreography sim/random sim/render sim/stage bench/clips",
     "bench/model": "engine/base engine/motion bench/files",

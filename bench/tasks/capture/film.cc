@@ -6,6 +6,7 @@
 #include "bench/tasks/capture/marking.h"
 #include "bench/tasks/capture/shooting.h"
 #include "engine/base/digest.h"
+#include "engine/vision/person_finder.h"
 #include "sim/body/shape.h"
 
 namespace etude {
@@ -59,11 +60,6 @@ class Crew {
     return {std::move(view.colour), std::move(view.labels), std::move(person), std::move(shadow)};
   }
 
-  Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
-    if (source.is_truth) return picture.person;
-    return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {}});
-  }
-
   const Camera& CameraOf(std::size_t camera) const { return cameras_[camera]; }
   BodyPose SeenPose(std::size_t camera, std::size_t frame) const { return shooting_.SeenPose(camera, frame); }
 
@@ -106,13 +102,17 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   }
 
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    std::vector<PersonFinder> finders;
+    for (const PersonSource& source : sources) {
+      finders.emplace_back(crew.backgrounds()[camera], PersonOptions{.segmenter = source.segmenter, .change = {}});
+    }
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const Crew::Picture picture = crew.Shoot(camera, frame);
       show(camera, frame, picture.colour);
       if (wants_masks && frame == world.truth.size() / 2) take.stills.push_back(picture.colour);
       for (std::size_t i = 0; i < sources.size(); ++i) {
         Observation& observation = take.observations[i];
-        const Mask person = crew.CutOut(picture, camera, sources[i]);
+        const Mask person = sources[i].is_truth ? picture.person : finders[i].Find(picture.colour);
         masks[i].Add(std::span<const std::uint8_t>(person.pixels));
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
         if (wants_masks) observation.masks[camera].push_back(HalveMask(person));

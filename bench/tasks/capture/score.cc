@@ -17,6 +17,7 @@ void ReportMasks(const MaskScore& score, CellResult& cell) {
   cell.MeasureOr("mask_recall", score.recall, "no picture shows a person");
   cell.MeasureOr("mask_f1", score.f1, "no picture shows or finds a person");
   cell.MeasureOr("shadow_error", score.shadow_error, "no picture shows a shadow");
+  cell.MeasureOr("pwc", score.pwc, "there is no picture");
 }
 
 void Add(const BodyPose& pose, Digest& digest) {
@@ -76,6 +77,7 @@ constexpr std::array kStageMetrics = {"reprojection_rms_px",
                                       "mask_recall",
                                       "mask_f1",
                                       "shadow_error",
+                                      "pwc",
                                       "annotator_distance_px",
                                       "annotator_overlap",
                                       "limb_direction_error_deg",

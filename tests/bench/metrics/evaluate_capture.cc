@@ -95,6 +95,7 @@ std::span<const Evaluator> CaptureEvaluators() {
       {"mask_recall", [](const Json& in) -> Value { return MasksOf(in).recall; }},
       {"mask_f1", [](const Json& in) -> Value { return MasksOf(in).f1; }},
       {"shadow_error", [](const Json& in) -> Value { return MasksOf(in).shadow_error; }},
+      {"pwc", [](const Json& in) -> Value { return MasksOf(in).pwc; }},
   };
   return kAll;
 }

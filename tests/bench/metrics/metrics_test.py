@@ -27,13 +27,13 @@ MUTANTS = {
     "median for mean": (common, {"mean": or_nothing(statistics.median)}, [
         "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
         "mpjpe_before_ik_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg",
-        "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
+        "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error", "pwc",
         "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "ldlj", "roc_auc",
         "iterations_per_frame", "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "worst for mean": (common, {"mean": or_nothing(max)}, [
         "position_error_cm", "orientation_error_deg", "orientation_error_max_deg", "hidden_angle_error_deg",
         "mpjpe_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg", "triangulation_error_mm",
-        "reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error",
+        "reprojection_rms_px", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error", "pwc",
         "mean_joint_jump_cm", "foot_slide_cmps", "ldlj", "iterations_per_frame",
         "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "mean for worst": (common, {"worst": lambda values: statistics.fmean(values) if values else 0.0}, [

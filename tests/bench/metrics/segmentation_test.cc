@@ -22,6 +22,7 @@ TEST(MaskScore, HasTheValuesCountedByHand) {
   EXPECT_DOUBLE_EQ(*score.recall, 3.0 / 5);
   EXPECT_DOUBLE_EQ(*score.f1, 2 * 0.75 * 0.6 / (0.75 + 0.6));
   EXPECT_DOUBLE_EQ(*score.shadow_error, 0.5);
+  EXPECT_DOUBLE_EQ(*score.pwc, 100.0 * 3 / 8);
 }
 
 TEST(MaskScore, IsOneForThePerfectMaskAndNotForAnyOther) {
@@ -39,6 +40,7 @@ TEST(MaskScore, IsMissingWhereThereIsNothingToBeAShareOf) {
   const Mask nothing = Row({0, 0}), truth = Row({1, 0});
   const MaskScore empty = ScoreMask(nothing, nothing, nothing);
   EXPECT_FALSE(empty.iou || empty.precision || empty.recall || empty.f1 || empty.shadow_error);
+  EXPECT_EQ(*empty.pwc, 0) << "an empty room counts";
   const MaskScore missed = ScoreMask(nothing, truth, nothing);
   EXPECT_EQ(*missed.iou, 0);
   EXPECT_EQ(*missed.recall, 0);

@@ -143,4 +143,5 @@ METRICS = {
     "mask_recall": lambda g: over_images(g, lambda f, t, s: f and t, lambda f, t, s: t),
     "mask_f1": lambda g: over_images(g, lambda f, t, s: 2 * (f and t), lambda f, t, s: f + t),
     "shadow_error": lambda g: over_images(g, lambda f, t, s: f and s, lambda f, t, s: s),
+    "pwc": lambda g: over_images(g, lambda f, t, s: 100 * (f != t), lambda f, t, s: 1),
 }

@@ -1,0 +1,192 @@
+#include "bench/micro/opencv_peer.h"
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video.hpp>
+
+namespace etude {
+namespace {
+
+cv::Mat ViewOf(const ColourImage& picture) {
+  return {picture.height, picture.width, CV_8UC3, const_cast<Rgb8*>(picture.pixels.data())};
+}
+
+/// The largest 8-connected piece of `changed` with its holes of at most `largest_hole` pixels filled. Of a contour that
+/// is drawn filled, holes are filled, too; those that are larger are cut out again.
+void KeepPerson(const cv::Mat& changed, int largest_hole, cv::Mat& labels, cv::Mat& stats, cv::Mat& centroids,
+                Mask& out) {
+  const int pieces = cv::connectedComponentsWithStats(changed, labels, stats, centroids, 8, CV_32S, cv::CCL_SAUF);
+  int best = 0, area = 0;
+  for (int i = 1; i < pieces; ++i) {
+    if (stats.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
+    area = stats.at<int>(i, cv::CC_STAT_AREA);
+    best = i;
+  }
+  cv::Mat result(out.height, out.width, CV_8U, out.pixels.data());
+  if (best == 0) {
+    result.setTo(0);
+    return;
+  }
+  // Within its box, one pixel wider, the holes are the pieces of the rest that do not touch the border.
+  const cv::Rect box(stats.at<int>(best, cv::CC_STAT_LEFT), stats.at<int>(best, cv::CC_STAT_TOP),
+                     stats.at<int>(best, cv::CC_STAT_WIDTH), stats.at<int>(best, cv::CC_STAT_HEIGHT));
+  result.setTo(0);
+  cv::Mat person = result(box);
+  cv::compare(labels(box), best, person, cv::CMP_EQ);
+  std::vector<std::vector<cv::Point>> contours;
+  std::vector<cv::Vec4i> hierarchy;
+  cv::Mat padded;
+  cv::copyMakeBorder(person, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
+  cv::findContours(padded, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    if (hierarchy[i][3] < 0) continue;  // an outline
+    // A hole's contour runs on the person's pixels around it.
+    const cv::Rect around = cv::boundingRect(contours[i]);
+    if (around.area() > 4 * (largest_hole + 16)) continue;  // surely larger
+    cv::Mat hole = cv::Mat::zeros(around.size(), CV_8U);
+    cv::drawContours(hole, contours, static_cast<int>(i), 255, cv::FILLED, cv::LINE_8, cv::noArray(), 0, -around.tl());
+    hole.setTo(0, padded(around));
+    if (cv::countNonZero(hole) <= largest_hole) padded(around).setTo(255, hole);
+  }
+  cv::threshold(padded(cv::Rect(1, 1, box.width, box.height)), person, 0, 1, cv::THRESH_BINARY);
+}
+
+struct Buffers {
+  cv::Mat labels, stats, centroids, changed;
+};
+
+}  // namespace
+
+struct OpenCvPerson::State {
+  Kind kind;
+  int largest_hole;
+  double cosine2;
+  int steps;               ///< of cvtColor's hue
+  cv::Mat bx, by3, reach;  ///< kSameHue
+  cv::Mat hue;             ///< kHsv
+  cv::Mat chroma, planes[2], dot, own, tmp, mask, hsv, apart;
+  Buffers buffers;
+
+  void Chroma(const cv::Mat& rgb) {
+    // (2R − G − B, G − B) as whole numbers in floats; grey has the hue of red.
+    static const cv::Matx23f kToChroma(2, -1, -1, 0, 1, -1);
+    rgb.convertTo(tmp, CV_32F);
+    cv::transform(tmp, chroma, kToChroma);
+    cv::split(chroma, planes);
+    cv::compare(planes[0], 0, mask, cv::CMP_EQ);
+    cv::compare(planes[1], 0, apart, cv::CMP_EQ);
+    cv::bitwise_and(mask, apart, mask);
+    planes[0].setTo(510, mask);
+  }
+};
+
+OpenCvPerson::OpenCvPerson(const ColourImage& background, double hue_threshold, int largest_hole, Kind kind)
+    : state_(std::make_unique<State>()) {
+  cv::setNumThreads(1);
+  State& s = *state_;
+  s.kind = kind;
+  s.largest_hole = largest_hole;
+  s.cosine2 = std::cos(hue_threshold) * std::cos(hue_threshold);
+  s.steps = static_cast<int>(std::lround(hue_threshold / (2 * M_PI) * 180));
+  if (kind == Kind::kSameHue) {
+    s.Chroma(ViewOf(background));
+    s.bx = s.planes[0].clone();
+    s.by3 = 3 * s.planes[1];
+    s.reach = s.cosine2 * (s.bx.mul(s.bx) + s.by3.mul(s.planes[1]));
+  } else {
+    cv::cvtColor(ViewOf(background), s.hsv, cv::COLOR_RGB2HSV);
+    cv::extractChannel(s.hsv, s.hue, 0);
+    s.hue = s.hue.clone();
+  }
+}
+OpenCvPerson::~OpenCvPerson() = default;
+OpenCvPerson::OpenCvPerson(OpenCvPerson&&) noexcept = default;
+
+Mask OpenCvPerson::Find(const ColourImage& picture) {
+  State& s = *state_;
+  if (s.kind == Kind::kSameHue) {
+    s.Chroma(ViewOf(picture));
+    cv::multiply(s.planes[0], s.bx, s.dot);
+    cv::accumulateProduct(s.planes[1], s.by3, s.dot);
+    cv::multiply(s.planes[0], s.planes[0], s.own);
+    cv::multiply(s.planes[1], s.planes[1], s.tmp, 3);
+    cv::add(s.own, s.tmp, s.own);
+    cv::multiply(s.own, s.reach, s.own);
+    cv::compare(s.dot, 0, s.mask, cv::CMP_LE);
+    cv::multiply(s.dot, s.dot, s.dot);
+    cv::compare(s.dot, s.own, s.buffers.changed, cv::CMP_LT);
+    cv::bitwise_or(s.buffers.changed, s.mask, s.buffers.changed);
+  } else {
+    cv::cvtColor(ViewOf(picture), s.hsv, cv::COLOR_RGB2HSV);
+    cv::extractChannel(s.hsv, s.planes[0], 0);
+    // Round the circle of 180: further than `steps` either way.
+    cv::absdiff(s.planes[0], s.hue, s.apart);
+    cv::inRange(s.apart, s.steps + 1, 179 - s.steps, s.buffers.changed);
+  }
+  Mask out(picture.width, picture.height);
+  KeepPerson(s.buffers.changed, s.largest_hole, s.buffers.labels, s.buffers.stats, s.buffers.centroids, out);
+  return out;
+}
+
+struct OpenCvModel::State {
+  cv::Ptr<cv::BackgroundSubtractor> model;
+  int largest_hole;
+  cv::Mat found;
+  Buffers buffers;
+};
+
+OpenCvModel::OpenCvModel(Kind kind, int largest_hole) : state_(std::make_unique<State>()) {
+  cv::setNumThreads(1);
+  state_->largest_hole = largest_hole;
+  if (kind == Kind::kMog2) {
+    state_->model = cv::createBackgroundSubtractorMOG2();
+  } else {
+    state_->model = cv::createBackgroundSubtractorKNN();
+  }
+}
+OpenCvModel::~OpenCvModel() = default;
+OpenCvModel::OpenCvModel(OpenCvModel&&) noexcept = default;
+
+Mask OpenCvModel::Find(const ColourImage& picture) {
+  State& s = *state_;
+  s.model->apply(ViewOf(picture), s.found);
+  cv::threshold(s.found, s.buffers.changed, 200, 255, cv::THRESH_BINARY);  // 127 is shadow
+  Mask out(picture.width, picture.height);
+  KeepPerson(s.buffers.changed, s.largest_hole, s.buffers.labels, s.buffers.stats, s.buffers.centroids, out);
+  return out;
+}
+
+OpenCvCalibration CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size) {
+  cv::setNumThreads(1);
+  constexpr double kOurPixelCentre = 0.5;
+  std::vector<std::vector<cv::Point3f>> places;
+  std::vector<std::vector<cv::Point2f>> pixels;
+  for (const TargetView& view : views) {
+    auto& of_places = places.emplace_back();
+    auto& of_pixels = pixels.emplace_back();
+    for (const PointPair& pair : view.pairs) {
+      of_places.emplace_back(static_cast<float>(pair.world.x), static_cast<float>(pair.world.y), 0.0F);
+      of_pixels.emplace_back(static_cast<float>(pair.pixel.x - kOurPixelCentre),
+                             static_cast<float>(pair.pixel.y - kOurPixelCentre));
+    }
+  }
+  cv::Mat K, distortion;
+  std::vector<cv::Mat> rotations, translations;
+  OpenCvCalibration found;
+  found.rms_px = cv::calibrateCamera(places, pixels, {size.width, size.height}, K, distortion, rotations, translations,
+                                     cv::CALIB_FIX_K3, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 100, 1e-12});
+  found.intrinsics = {size.width,
+                      size.height,
+                      K.at<double>(0, 0),
+                      K.at<double>(1, 1),
+                      K.at<double>(0, 2) + kOurPixelCentre,
+                      K.at<double>(1, 2) + kOurPixelCentre,
+                      0};
+  found.distortion = {distortion.at<double>(0), distortion.at<double>(1), distortion.at<double>(2),
+                      distortion.at<double>(3), 0};
+  return found;
+}
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/cameras/planes.h"
+
+namespace etude {
+
+// What is compared with OpenCV, as OpenCV's users would write it: its own functions, buffers kept, one thread.
+
+/// Finds a person by hue in pictures of one camera: the background's part computed once, the largest contour, its small
+/// holes filled.
+class OpenCvPerson {
+ public:
+  enum class Kind {
+    kSameHue,  ///< the paper's hue, by OpenCV's arithmetic on whole pictures: the same masks as ours
+    kHsv,      ///< cvtColor's hue of 180 steps: what one takes who wants it fast; other masks
+  };
+  OpenCvPerson(const ColourImage& background, double hue_threshold, int largest_hole, Kind kind);
+  ~OpenCvPerson();
+  OpenCvPerson(OpenCvPerson&&) noexcept;
+  OpenCvPerson& operator=(OpenCvPerson&&) = delete;
+
+  Mask Find(const ColourImage& picture);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// MOG2 or KNN, shadows told apart, with the same largest piece and holes.
+class OpenCvModel {
+ public:
+  enum class Kind { kMog2, kKnn };
+  OpenCvModel(Kind kind, int largest_hole);
+  ~OpenCvModel();
+  OpenCvModel(OpenCvModel&&) noexcept;
+  OpenCvModel& operator=(OpenCvModel&&) = delete;
+
+  Mask Find(const ColourImage& picture);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// cv::calibrateCamera of one camera's views, with its lens (k1, k2, p1, p2).
+struct OpenCvCalibration {
+  Intrinsics intrinsics;
+  Distortion distortion;
+  double rms_px = 0;
+};
+OpenCvCalibration CalibrateByOpenCv(std::span<const TargetView> views, const PictureSize& size);
+
+}  // namespace etude

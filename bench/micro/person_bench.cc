@@ -1,0 +1,129 @@
+// Finding the person in a picture of 640 x 480: our segmenters and, where OpenCV is there, a chain of its own
+// functions.
+//   build/release/bench/micro/person_bench --benchmark_repetitions=9 --benchmark_report_aggregates_only=true
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+#include "engine/vision/person_finder.h"
+#include "sim/random/stream.h"
+#ifdef ETUDE_HAS_OPENCV
+#include "bench/micro/opencv_peer.h"
+#endif
+
+namespace etude {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480;
+
+std::uint8_t Level(double value) { return static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value + 0.5); }
+
+/// A room of coloured wall and floor, with a person in it when `shift` tells where: noise of two levels everywhere.
+ColourImage Room(const char* noise, int shift, bool has_person) {
+  RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "person-bench", .trial = shift}, noise);
+  ColourImage picture(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const double shade = 0.8 + 0.2 * x / kWidth;
+      double r = 150 * shade, g = 170 * shade, b = 210 * shade;
+      if (y > 330) r = 150 * shade, g = 110 * shade, b = 80 * shade;
+      const auto in = [&](double cx, double cy, double rx, double ry) {
+        const double u = (x - cx - shift) / rx, v = (y - cy) / ry;
+        return u * u + v * v < 1;
+      };
+      if (has_person) {
+        if (in(320, 120, 22, 28)) r = 220, g = 160, b = 130;
+        if (in(320, 220, 45, 80)) r = 200, g = 40, b = 50;
+        if (in(260, 210, 12, 70) || in(380, 210, 12, 70)) r = 220, g = 160, b = 130;
+        if (in(300, 350, 20, 90) || in(340, 350, 20, 90)) r = 40, g = 120, b = 60;
+        if (in(318, 225, 5, 3)) r = 150 * shade, g = 170 * shade, b = 210 * shade;  // a small hole
+      }
+      picture.At(x, y) = {Level(r + 2 * dice.Normal()), Level(g + 2 * dice.Normal()), Level(b + 2 * dice.Normal())};
+    }
+  }
+  return picture;
+}
+
+const ColourImage& Background() {
+  static const ColourImage room = Room("background", 0, false);
+  return room;
+}
+
+const std::vector<ColourImage>& Pictures() {
+  static const std::vector<ColourImage> pictures = [] {
+    std::vector<ColourImage> made;
+    for (int i = 0; i < 4; ++i) made.push_back(Room("pictures", 9 * i, true));
+    return made;
+  }();
+  return pictures;
+}
+
+template <typename Finder>
+void FindAll(benchmark::State& state, Finder& finder) {
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Mask mask = finder.Find(Pictures()[i++ % Pictures().size()]);
+    benchmark::DoNotOptimize(mask.pixels.data());
+  }
+}
+
+void Ours(benchmark::State& state, Segmenter segmenter) {
+  PersonFinder finder(Background(), {.segmenter = segmenter, .change = {}});
+  FindAll(state, finder);
+}
+BENCHMARK_CAPTURE(Ours, rgb, Segmenter::kRgb)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Ours, hue, Segmenter::kHue)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Ours, hue_gated, Segmenter::kHueGated)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Ours, ratio, Segmenter::kRatio)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(Ours, running, Segmenter::kRunning)->Unit(benchmark::kMicrosecond);
+
+/// The pixels alone, before pieces and holes.
+void OursDetect(benchmark::State& state) {
+  PersonFinder finder(Background(), {.segmenter = Segmenter::kHue, .change = {}});
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const Mask mask = finder.Detect(Pictures()[i++ % Pictures().size()]);
+    benchmark::DoNotOptimize(mask.pixels.data());
+  }
+}
+BENCHMARK(OursDetect)->Unit(benchmark::kMicrosecond);
+
+#ifdef ETUDE_HAS_OPENCV
+/// How many pixels of all pictures two finders call differently.
+template <typename Finder>
+std::size_t DifferentFromOurs(Finder& peer) {
+  PersonFinder ours(Background(), {.segmenter = Segmenter::kHue, .change = {}});
+  std::size_t different = 0;
+  for (const ColourImage& picture : Pictures()) {
+    const Mask a = ours.Find(picture), b = peer.Find(picture);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) different += a.pixels[i] != b.pixels[i];
+  }
+  return different;
+}
+
+void OpenCvHue(benchmark::State& state, OpenCvPerson::Kind kind) {
+  const PersonOptions options;
+  OpenCvPerson peer(Background(), options.change.hue_threshold, options.largest_hole, kind);
+  const std::size_t different = DifferentFromOurs(peer);
+  if (kind == OpenCvPerson::Kind::kSameHue && different != 0) {
+    std::fprintf(stderr, "the chains disagree about %zu pixels\n", different);
+    std::exit(1);
+  }
+  FindAll(state, peer);
+  state.counters["pixels_unlike_ours"] = static_cast<double>(different);
+}
+BENCHMARK_CAPTURE(OpenCvHue, same_hue, OpenCvPerson::Kind::kSameHue)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(OpenCvHue, hsv, OpenCvPerson::Kind::kHsv)->Unit(benchmark::kMicrosecond);
+
+void OpenCvMixture(benchmark::State& state, OpenCvModel::Kind kind) {
+  OpenCvModel peer(kind, PersonOptions{}.largest_hole);
+  FindAll(state, peer);
+}
+BENCHMARK_CAPTURE(OpenCvMixture, mog2, OpenCvModel::Kind::kMog2)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(OpenCvMixture, knn, OpenCvModel::Kind::kKnn)->Unit(benchmark::kMicrosecond);
+#endif
+
+}  // namespace
+}  // namespace etude

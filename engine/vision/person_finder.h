@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/vision/change_detection.h"
+
+namespace etude {
+
+/// Cuts the person out of one camera's pictures, one after the other: what `ExtractPerson` does, pixel by pixel the
+/// same, with what depends on the background alone computed once; and `kRunning`, which remembers.
+class PersonFinder {
+ public:
+  /// `background` is the empty room; not looked at by `kRunning`, but for its size.
+  PersonFinder(const ColourImage& background, const PersonOptions& options);
+
+  /// The person in the next picture, of the background's size.
+  Mask Find(const ColourImage& picture);
+
+  /// The pixels that changed, before the largest piece is kept: `DetectChange`.
+  Mask Detect(const ColourImage& picture);
+
+ private:
+  void CompareHues(const ColourImage& picture, Mask& mask) const;
+  void Follow(const ColourImage& picture, Mask& mask);
+
+  PersonOptions options_;
+  ColourImage background_;
+  /// kHue: of the background, x and 3y of its chroma, and cos² of the threshold times its squared length.
+  std::vector<float> x_, y3_, reach_;
+  /// kRunning: mean and squared deviation of every pixel's three colours; empty before the first picture.
+  std::vector<float> mean_, variance_;
+};
+
+}  // namespace etude
