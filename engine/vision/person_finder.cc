@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 #include "engine/vision/components.h"
 #include "engine/vision/hsi.h"
@@ -54,33 +56,36 @@ Mask PersonFinder::Detect(const ColourImage& picture) {
   return DetectChange(background_, picture, options_.segmenter, options_.change);
 }
 
-// In single precision, eight pixels at a time. Scalar products of chromas are whole numbers below 2²⁴, so only their
-// squares are rounded: where the two sides are nearer than that, the block is compared again in double precision.
+// In single precision. Scalar products of chromas are whole numbers below 2²⁴, so only their squares are rounded: where
+// the two sides are nearer than that, the block is compared again in double precision. Comparisons are read from signs,
+// which leaves no branch: the loops become vector instructions.
 void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
   std::array<float, kPixelsAtOnce> x, y;
-  std::array<std::uint8_t, kPixelsAtOnce> close;
+  std::array<std::uint32_t, kPixelsAtOnce> signs;
   constexpr float kRounding = 1e-6F;
-  constexpr float kPureRed = static_cast<float>(Chroma(Rgb8{255, 0, 0}).x);
+  constexpr int kPureRed = Chroma(Rgb8{255, 0, 0}).x;
   for (std::size_t first = 0; first < mask.pixels.size(); first += kPixelsAtOnce) {
     const std::size_t count = std::min(kPixelsAtOnce, mask.pixels.size() - first);
     const Rgb8* pixels = &picture.pixels[first];
     for (std::size_t i = 0; i < count; ++i) {
       const int r = pixels[i].r, g = pixels[i].g, b = pixels[i].b;
-      x[i] = static_cast<float>(2 * r - g - b);
-      y[i] = static_cast<float>(g - b);
+      const int across = g - b, along = 2 * r - g - b;
+      x[i] = static_cast<float>(along + (kPureRed & -static_cast<int>((across | along) == 0)));
+      y[i] = static_cast<float>(across);
     }
     const float *bx = &x_[first], *by3 = &y3_[first], *reach = &reach_[first];
-    std::uint8_t* out = &mask.pixels[first];
-    int closest = 0;
+    std::uint32_t closest = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const float px = (x[i] == 0.0F) & (y[i] == 0.0F) ? kPureRed : x[i];
-      const float dot = px * bx[i] + y[i] * by3[i];
-      const float own = px * px + 3.0F * y[i] * y[i];
-      const float seen = dot * dot, allowed = reach[i] * own;
-      out[i] = (dot <= 0.0F) | (seen < allowed);
-      close[i] = std::abs(seen - allowed) <= kRounding * allowed;
+      const float dot = x[i] * bx[i] + y[i] * by3[i];
+      const float own = x[i] * x[i] + 3.0F * y[i] * y[i];
+      const float allowed = reach[i] * own, beyond = dot * dot - allowed;
+      // A right angle or more (whole numbers: dot ≤ 0), or a smaller cosine than the threshold's.
+      signs[i] = std::bit_cast<std::uint32_t>(dot - 0.5F) | std::bit_cast<std::uint32_t>(beyond);
+      closest |= std::bit_cast<std::uint32_t>(std::abs(beyond) - kRounding * allowed);
     }
-    for (std::size_t i = 0; i < count; ++i) closest |= close[i];
+    std::uint8_t* out = &mask.pixels[first];
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(signs[i] >> 31);
+    closest >>= 31;
     if (closest == 0) continue;
     const double cosine = std::cos(options_.change.hue_threshold);
     for (std::size_t i = 0; i < count; ++i) {
