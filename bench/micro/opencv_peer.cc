@@ -13,49 +13,66 @@ cv::Mat ViewOf(const ColourImage& picture) {
   return {picture.height, picture.width, CV_8UC3, const_cast<Rgb8*>(picture.pixels.data())};
 }
 
-/// The largest 8-connected piece of `changed` with its holes of at most `largest_hole` pixels filled. Of a contour that
-/// is drawn filled, holes are filled, too; those that are larger are cut out again.
-void KeepPerson(const cv::Mat& changed, int largest_hole, cv::Mat& labels, cv::Mat& stats, cv::Mat& centroids,
-                Mask& out) {
-  const int pieces = cv::connectedComponentsWithStats(changed, labels, stats, centroids, 8, CV_32S, cv::CCL_SAUF);
-  int best = 0, area = 0;
-  for (int i = 1; i < pieces; ++i) {
-    if (stats.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
-    area = stats.at<int>(i, cv::CC_STAT_AREA);
-    best = i;
-  }
-  cv::Mat result(out.height, out.width, CV_8U, out.pixels.data());
-  if (best == 0) {
-    result.setTo(0);
-    return;
-  }
-  // Within its box, one pixel wider, the holes are the pieces of the rest that do not touch the border.
-  const cv::Rect box(stats.at<int>(best, cv::CC_STAT_LEFT), stats.at<int>(best, cv::CC_STAT_TOP),
-                     stats.at<int>(best, cv::CC_STAT_WIDTH), stats.at<int>(best, cv::CC_STAT_HEIGHT));
-  result.setTo(0);
-  cv::Mat person = result(box);
-  cv::compare(labels(box), best, person, cv::CMP_EQ);
-  std::vector<std::vector<cv::Point>> contours;
-  std::vector<cv::Vec4i> hierarchy;
-  cv::Mat padded;
-  cv::copyMakeBorder(person, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, 0);
-  cv::findContours(padded, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-  for (std::size_t i = 0; i < contours.size(); ++i) {
-    if (hierarchy[i][3] < 0) continue;  // an outline
-    // A hole's contour runs on the person's pixels around it.
-    const cv::Rect around = cv::boundingRect(contours[i]);
-    if (around.area() > 4 * (largest_hole + 16)) continue;  // surely larger
-    cv::Mat hole = cv::Mat::zeros(around.size(), CV_8U);
-    cv::drawContours(hole, contours, static_cast<int>(i), 255, cv::FILLED, cv::LINE_8, cv::noArray(), 0, -around.tl());
-    hole.setTo(0, padded(around));
-    if (cv::countNonZero(hole) <= largest_hole) padded(around).setTo(255, hole);
-  }
-  cv::threshold(padded(cv::Rect(1, 1, box.width, box.height)), person, 0, 1, cv::THRESH_BINARY);
-}
-
 struct Buffers {
   cv::Mat labels, stats, centroids, changed;
 };
+
+/// Fills the holes of at most `largest_hole` pixels among `contours` (of two levels, outlines and holes) of a mask. A
+/// hole's contour runs on the person's pixels around it.
+void FillSmallHoles(const std::vector<std::vector<cv::Point>>& contours, const std::vector<cv::Vec4i>& hierarchy,
+                    int outline, int largest_hole, cv::Mat& person) {
+  for (int i = hierarchy[static_cast<std::size_t>(outline)][2]; i >= 0; i = hierarchy[static_cast<std::size_t>(i)][0]) {
+    const cv::Rect around = cv::boundingRect(contours[static_cast<std::size_t>(i)]);
+    cv::Mat hole = cv::Mat::zeros(around.size(), CV_8U);
+    cv::drawContours(hole, contours, i, 255, cv::FILLED, cv::LINE_8, cv::noArray(), 0, -around.tl());
+    hole.setTo(0, person(around));
+    if (cv::countNonZero(hole) <= largest_hole) person(around).setTo(1, hole);
+  }
+}
+
+/// The largest 8-connected piece of `changed` with its holes of at most `largest_hole` pixels filled, by the labels of
+/// cv::connectedComponentsWithStats and the contours of that piece's box.
+void KeepPersonByLabels(const cv::Mat& changed, int largest_hole, Buffers& b, Mask& out) {
+  const int pieces = cv::connectedComponentsWithStats(changed, b.labels, b.stats, b.centroids, 8, CV_32S, cv::CCL_SAUF);
+  int best = 0, area = 0;
+  for (int i = 1; i < pieces; ++i) {
+    if (b.stats.at<int>(i, cv::CC_STAT_AREA) <= area) continue;
+    area = b.stats.at<int>(i, cv::CC_STAT_AREA);
+    best = i;
+  }
+  if (best == 0) return;
+  const cv::Rect box(b.stats.at<int>(best, cv::CC_STAT_LEFT), b.stats.at<int>(best, cv::CC_STAT_TOP),
+                     b.stats.at<int>(best, cv::CC_STAT_WIDTH), b.stats.at<int>(best, cv::CC_STAT_HEIGHT));
+  cv::Mat person = cv::Mat(out.height, out.width, CV_8U, out.pixels.data())(box);
+  cv::compare(b.labels(box), best, person, cv::CMP_EQ);
+  cv::bitwise_and(person, 1, person);
+  std::vector<std::vector<cv::Point>> contours;
+  std::vector<cv::Vec4i> hierarchy;
+  cv::findContours(person, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  for (int i = 0; i >= 0 && !contours.empty(); i = hierarchy[static_cast<std::size_t>(i)][0]) {
+    FillSmallHoles(contours, hierarchy, i, largest_hole, person);
+  }
+}
+
+/// The same by contours alone: that of the largest area is drawn, its holes with it, unless they are large.
+void KeepPersonByContours(const cv::Mat& changed, int largest_hole, Mask& out) {
+  std::vector<std::vector<cv::Point>> contours;
+  std::vector<cv::Vec4i> hierarchy;
+  cv::findContours(changed, contours, hierarchy, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
+  int best = -1;
+  double area = -1;
+  for (int i = contours.empty() ? -1 : 0; i >= 0; i = hierarchy[static_cast<std::size_t>(i)][0]) {
+    const double here = cv::contourArea(contours[static_cast<std::size_t>(i)]);
+    if (here <= area) continue;
+    area = here;
+    best = i;
+  }
+  if (best < 0) return;
+  cv::Mat person(out.height, out.width, CV_8U, out.pixels.data());
+  // With its holes: they are its children, one level below.
+  cv::drawContours(person, contours, best, 1, cv::FILLED, cv::LINE_8, hierarchy, 1);
+  FillSmallHoles(contours, hierarchy, best, largest_hole, person);
+}
 
 }  // namespace
 
@@ -126,7 +143,11 @@ Mask OpenCvPerson::Find(const ColourImage& picture) {
     cv::inRange(s.apart, s.steps + 1, 179 - s.steps, s.buffers.changed);
   }
   Mask out(picture.width, picture.height);
-  KeepPerson(s.buffers.changed, s.largest_hole, s.buffers.labels, s.buffers.stats, s.buffers.centroids, out);
+  if (s.kind == Kind::kHsvContours) {
+    KeepPersonByContours(s.buffers.changed, s.largest_hole, out);
+  } else {
+    KeepPersonByLabels(s.buffers.changed, s.largest_hole, s.buffers, out);
+  }
   return out;
 }
 
@@ -154,7 +175,7 @@ Mask OpenCvModel::Find(const ColourImage& picture) {
   s.model->apply(ViewOf(picture), s.found);
   cv::threshold(s.found, s.buffers.changed, 200, 255, cv::THRESH_BINARY);  // 127 is shadow
   Mask out(picture.width, picture.height);
-  KeepPerson(s.buffers.changed, s.largest_hole, s.buffers.labels, s.buffers.stats, s.buffers.centroids, out);
+  KeepPersonByLabels(s.buffers.changed, s.largest_hole, s.buffers, out);
   return out;
 }
 

@@ -16,8 +16,9 @@ namespace etude {
 class OpenCvPerson {
  public:
   enum class Kind {
-    kSameHue,  ///< the paper's hue, by OpenCV's arithmetic on whole pictures: the same masks as ours
-    kHsv,      ///< cvtColor's hue of 180 steps: what one takes who wants it fast; other masks
+    kSameHue,      ///< the paper's hue, by OpenCV's arithmetic on whole pictures: the same masks as ours
+    kHsv,          ///< cvtColor's hue of 180 steps: what one takes who wants it fast
+    kHsvContours,  ///< the same, the largest piece by contours alone instead of labels
   };
   OpenCvPerson(const ColourImage& background, double hue_threshold, int largest_hole, Kind kind);
   ~OpenCvPerson();

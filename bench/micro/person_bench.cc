@@ -116,6 +116,7 @@ void OpenCvHue(benchmark::State& state, OpenCvPerson::Kind kind) {
 }
 BENCHMARK_CAPTURE(OpenCvHue, same_hue, OpenCvPerson::Kind::kSameHue)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(OpenCvHue, hsv, OpenCvPerson::Kind::kHsv)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(OpenCvHue, hsv_contours, OpenCvPerson::Kind::kHsvContours)->Unit(benchmark::kMicrosecond);
 
 void OpenCvMixture(benchmark::State& state, OpenCvModel::Kind kind) {
   OpenCvModel peer(kind, PersonOptions{}.largest_hole);

@@ -32,6 +32,9 @@ int EndOfRun(const std::uint8_t* row, int x, int width) {
 
 RunsOfMask FindRuns(const Mask& mask) {
   RunsOfMask found;
+  constexpr std::size_t kUsualRunsInARow = 8;
+  found.runs.reserve(kUsualRunsInARow * static_cast<std::size_t>(mask.height));
+  found.set.reserve(found.runs.capacity());
   for (int y = 0; y < mask.height; ++y) {
     const std::uint8_t* row = mask.pixels.data() + static_cast<std::ptrdiff_t>(y) * mask.width;
     for (int x = 0; x < mask.width;) {
@@ -89,8 +92,9 @@ void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
 
 }  // namespace
 
-Components LabelComponents(const Mask& mask, Connectivity connectivity) {
-  RunsOfMask found = FindRuns(mask);
+namespace {
+
+Components LabelRuns(RunsOfMask found, int width, int height, Connectivity connectivity) {
   Sets sets(found.runs.size());
   JoinRows(found, connectivity, sets);
 
@@ -103,13 +107,13 @@ Components LabelComponents(const Mask& mask, Connectivity connectivity) {
     if (first == i) components.pieces.push_back({found.set[i], 0, false});
     Components::Piece& piece = components.pieces[run.piece];
     piece.size += run.end - run.begin;
-    piece.touches_border |= run.row == 0 || run.row == mask.height - 1 || run.begin == 0 || run.end == mask.width;
+    piece.touches_border |= run.row == 0 || run.row == height - 1 || run.begin == 0 || run.end == width;
   }
   return components;
 }
 
-Mask LargestComponent(const Mask& mask) {
-  const Components components = LabelComponents(mask);
+/// The index of the largest piece of 1s, the first among equals; behind the last when there is none.
+std::size_t LargestOf(const Components& components) {
   std::size_t largest = components.pieces.size();
   int size = 0;
   for (std::size_t i = 0; i < components.pieces.size(); ++i) {
@@ -117,6 +121,34 @@ Mask LargestComponent(const Mask& mask) {
     largest = i;
     size = components.pieces[i].size;
   }
+  return largest;
+}
+
+/// The runs of the mask that has that piece of 1s alone.
+RunsOfMask RunsOfPiece(const Components& components, std::size_t piece) {
+  RunsOfMask kept;
+  kept.runs.reserve(components.runs.size());
+  for (const Run& run : components.runs) {
+    const bool set = run.piece == piece;
+    if (!set && !kept.runs.empty() && !kept.set.back() && kept.runs.back().row == run.row) {
+      kept.runs.back().end = run.end;
+    } else {
+      kept.runs.push_back({run.row, run.begin, run.end, 0});
+      kept.set.push_back(set);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+Components LabelComponents(const Mask& mask, Connectivity connectivity) {
+  return LabelRuns(FindRuns(mask), mask.width, mask.height, connectivity);
+}
+
+Mask LargestComponent(const Mask& mask) {
+  const Components components = LabelComponents(mask);
+  const std::size_t largest = LargestOf(components);
   Mask result(mask.width, mask.height);
   for (const Run& run : components.runs) {
     if (run.piece == largest) Paint(run, 1, result);
@@ -132,6 +164,20 @@ Mask FillHoles(const Mask& mask, int largest_hole) {
     if (!piece.set && !piece.touches_border && piece.size <= largest_hole) Paint(run, 1, result);
   }
   return result;
+}
+
+void KeepPerson(Mask& mask, int largest_hole) {
+  const Components components = LabelComponents(mask);
+  const std::size_t largest = LargestOf(components);
+  for (const Run& run : components.runs) {
+    if (run.piece != largest && components.pieces[run.piece].set) Paint(run, 0, mask);
+  }
+  // What is left is known run by run: the pixels need not be looked at again.
+  const Components person = LabelRuns(RunsOfPiece(components, largest), mask.width, mask.height, Connectivity::kEight);
+  for (const Run& run : person.runs) {
+    const Components::Piece& piece = person.pieces[run.piece];
+    if (!piece.set && !piece.touches_border && piece.size <= largest_hole) Paint(run, 1, mask);
+  }
 }
 
 }  // namespace etude

@@ -39,4 +39,7 @@ Mask LargestComponent(const Mask& mask);
 /// Sets the holes (4-connected pieces of 0s that do not touch the border) of at most `largest_hole` pixels.
 Mask FillHoles(const Mask& mask, int largest_hole);
 
+/// FillHoles(LargestComponent(mask), largest_hole), in place and with one look at the pixels. Set pixels are 1.
+void KeepPerson(Mask& mask, int largest_hole);
+
 }  // namespace etude

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 
 #include "engine/vision/components.h"
 #include "engine/vision/hsi.h"
+#include "engine/vision/hue_block.h"
 
 namespace etude {
 namespace {
@@ -28,17 +28,18 @@ Chroma ChromaOrPureRed(Rgb8 colour) {
 PersonFinder::PersonFinder(const ColourImage& background, const PersonOptions& options)
     : options_(options), background_(background) {
   if (options.segmenter != Segmenter::kHue) return;
-  const double cosine = std::cos(options.change.hue_threshold);
+  cosine2_ = std::cos(options.change.hue_threshold) * std::cos(options.change.hue_threshold);
   for (const Rgb8 colour : background.pixels) {
     const Chroma chroma = ChromaOrPureRed(colour);
-    x_.push_back(static_cast<float>(chroma.x));
-    y3_.push_back(static_cast<float>(3 * chroma.y));
-    reach_.push_back(static_cast<float>(cosine * cosine * Dot4(chroma, chroma)));
+    x_.push_back(static_cast<std::int16_t>(chroma.x));
+    y_.push_back(static_cast<std::int16_t>(chroma.y));
   }
 }
 
 Mask PersonFinder::Find(const ColourImage& picture) {
-  return FillHoles(LargestComponent(Detect(picture)), options_.largest_hole);
+  Mask mask = Detect(picture);
+  KeepPerson(mask, options_.largest_hole);
+  return mask;
 }
 
 Mask PersonFinder::Detect(const ColourImage& picture) {
@@ -56,42 +57,19 @@ Mask PersonFinder::Detect(const ColourImage& picture) {
   return DetectChange(background_, picture, options_.segmenter, options_.change);
 }
 
-// In single precision. Scalar products of chromas are whole numbers below 2²⁴, so only their squares are rounded: where
-// the two sides are nearer than that, the block is compared again in double precision. Comparisons are read from signs,
-// which leaves no branch: the loops become vector instructions.
+// By vectors; what they leave over, and blocks in which rounding may have decided, in double precision.
 void PersonFinder::CompareHues(const ColourImage& picture, Mask& mask) const {
-  std::array<float, kPixelsAtOnce> x, y;
-  std::array<std::uint32_t, kPixelsAtOnce> signs;
-  constexpr float kRounding = 1e-6F;
-  constexpr int kPureRed = Chroma(Rgb8{255, 0, 0}).x;
   for (std::size_t first = 0; first < mask.pixels.size(); first += kPixelsAtOnce) {
-    const std::size_t count = std::min(kPixelsAtOnce, mask.pixels.size() - first);
-    const Rgb8* pixels = &picture.pixels[first];
-    for (std::size_t i = 0; i < count; ++i) {
-      const int r = pixels[i].r, g = pixels[i].g, b = pixels[i].b;
-      const int across = g - b, along = 2 * r - g - b;
-      x[i] = static_cast<float>(along + (kPureRed & -static_cast<int>((across | along) == 0)));
-      y[i] = static_cast<float>(across);
-    }
-    const float *bx = &x_[first], *by3 = &y3_[first], *reach = &reach_[first];
-    std::uint32_t closest = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const float dot = x[i] * bx[i] + y[i] * by3[i];
-      const float own = x[i] * x[i] + 3.0F * y[i] * y[i];
-      const float allowed = reach[i] * own, beyond = dot * dot - allowed;
-      // A right angle or more (whole numbers: dot ≤ 0), or a smaller cosine than the threshold's.
-      signs[i] = std::bit_cast<std::uint32_t>(dot - 0.5F) | std::bit_cast<std::uint32_t>(beyond);
-      closest |= std::bit_cast<std::uint32_t>(std::abs(beyond) - kRounding * allowed);
-    }
+    const HueBlock block{.pixels = &picture.pixels[first],
+                         .background_x = &x_[first],
+                         .background_y = &y_[first],
+                         .count = std::min(kPixelsAtOnce, mask.pixels.size() - first)};
     std::uint8_t* out = &mask.pixels[first];
-    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::uint8_t>(signs[i] >> 31);
-    closest >>= 31;
-    if (closest == 0) continue;
-    const double cosine = std::cos(options_.change.hue_threshold);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Chroma b = ChromaOrPureRed(background_.pixels[first + i]), p = ChromaOrPureRed(pixels[i]);
+    const HueBlockResult done = CompareHueBlock(block, static_cast<float>(cosine2_), out);
+    for (std::size_t i = done.is_sure ? done.compared : 0; i < block.count; ++i) {
+      const Chroma b = ChromaOrPureRed(background_.pixels[first + i]), p = ChromaOrPureRed(block.pixels[i]);
       const double dot = Dot4(b, p);
-      out[i] = (dot <= 0) | (dot * dot < cosine * cosine * Dot4(b, b) * Dot4(p, p));
+      out[i] = (dot <= 0) | (dot * dot < cosine2_ * Dot4(b, b) * Dot4(p, p));
     }
   }
 }

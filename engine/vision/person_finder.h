@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "engine/base/image.h"
@@ -26,8 +27,8 @@ class PersonFinder {
 
   PersonOptions options_;
   ColourImage background_;
-  /// kHue: of the background, x and 3y of its chroma, and cos² of the threshold times its squared length.
-  std::vector<float> x_, y3_, reach_;
+  std::vector<std::int16_t> x_, y_;  ///< kHue: the background's chromas
+  double cosine2_ = 0;               ///< of the threshold
   /// kRunning: mean and squared deviation of every pixel's three colours; empty before the first picture.
   std::vector<float> mean_, variance_;
 };

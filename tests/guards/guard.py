@@ -35,7 +35,7 @@ DOORS = {
     "xxhash.h": ["engine/base"],
     "nlohmann/": ["bench", "reports"],
     "boost/": ["bench/statistics"],
-    "hwy/": ["engine/kinematics/solvers", "engine/transitions/search"],
+    "hwy/": ["engine/kinematics/solvers", "engine/transitions/search", "engine/vision"],
     "libxml/": ["engine/cameras", "engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
     "nanoflann.hpp": ["bench/micro"],
