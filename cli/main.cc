@@ -33,7 +33,9 @@ constexpr const char* kExamples =
     "  etude list methods                             what a scenario can name; also keys, metrics, clips\n"
     "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
     "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips lead into each other, and how well\n"
-    "  etude train 'builtin:*' -o mine.yaml           a fuzzy system learnt from clips, for a scenario's fuzzy: key\n\n"
+    "  etude train 'builtin:*' -o mine.yaml           a fuzzy system learnt from clips, for a scenario's fuzzy: key\n"
+    "  etude calibrate left/ right/ -o rig.yaml       cameras from pictures of a board, or from measured points\n"
+    "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     films to a motion\n\n"
     "Exit codes: 0 fine, 1 no cell was ok (gate: regression; replay: a difference), 2 bad input (nothing is\n"
     "written), 3 incomplete, 130 interrupted.";
 

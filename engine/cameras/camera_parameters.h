@@ -29,8 +29,8 @@ struct CameraParameters {
   static constexpr double kRightAngle = 1.5707963267948966;
 };
 
-/// The parameters of a matrix, in closed form. Fails when it is no camera's: a number that is not finite, two of the
-/// first three columns' rows parallel, or a picture that only a mirror shows.
+/// The parameters of a matrix, in closed form. Fails when it is no camera's: a number that is not finite,
+/// rows that are parallel, or a picture that only a mirror shows.
 Result<CameraParameters> Decompose(const ProjectionMatrix& matrix);
 
 /// The matrix of parameters, scaled such that w is the depth in metres.
