@@ -170,6 +170,9 @@ RoleVectors JointsOf(const LandmarkPlaces& marks) {
   head = at(kHead);
   if (!head) head = Middle(at(kLeftEar), at(kRightEar));
   if (!head) head = at(kNose);
+  const auto &hips = joints[Index(Role::kHipCentre)], &shoulders = joints[Index(Role::kShoulderCentre)];
+  constexpr double kNeckOfTrunk = 0.5;
+  if (!head && hips && shoulders) head = *shoulders + kNeckOfTrunk * (*shoulders - *hips);
   if (const auto facing = FacingOf(joints)) {
     for (const SideRoles& side : kSideRoles) {
       auto& foot = joints[Index(side.foot)];

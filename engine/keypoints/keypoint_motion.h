@@ -44,7 +44,8 @@ void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutof
 /// The twenty joints as far as landmarks tell them: hips, knees, ankles, shoulders, elbows and wrists are themselves;
 /// the shoulder centre is midway between the shoulders, the hip centre between the hips; the head is its top, or else
 /// the middle of the ears, or the nose; a foot ends at its big toe. *(Ours)*: without finger tips, a hand goes on from
-/// the forearm at 0.72 of its length; without toes, a foot is 0.18 m ahead of its ankle and a little down.
+/// the forearm at 0.72 of its length; without a face, the head goes on from the trunk at half of its length; without
+/// toes, a foot is 0.18 m ahead of its ankle and a little down.
 RoleVectors JointsOf(const LandmarkPlaces& landmarks);
 
 /// What `CaptureMotion` is told of every frame: ends and directions of the limbs.
