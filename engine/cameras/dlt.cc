@@ -10,9 +10,8 @@
 namespace etude {
 namespace {
 
-constexpr Named<Calibration> kCalibrations[] = {{"dlt", Calibration::kDlt},
-                                                {"dlt-normalised", Calibration::kDltNormalised},
-                                                {"refined", Calibration::kRefined}};
+constexpr Named<Calibration> kCalibrations[] = {
+    {"dlt", Calibration::kDlt}, {"dlt-normalised", Calibration::kDltNormalised}, {"refined", Calibration::kRefined}};
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 

@@ -140,8 +140,8 @@ TEST(RefineRig, RefusesViewsThatLeaveTheFocalLengthOpen) {
   for (int i = 0; i < 25; ++i) board.push_back({{0.1 * (i % 5), 0.1 * (i / 5), 0}, {}});
   const TargetPlace pose{glm::dmat3(1), {-0.2, -0.2, 2}};
   for (PointPair& pair : board) pair.pixel = *Project(camera, pair.world + pose.p_WT);
-  const auto rig = RefineRig({{camera}, {TargetPlace{glm::dmat3(1), pose.p_WT}}}, std::vector<TargetView>{{0, 0, board}},
-                             {.lens = LensModel::kPinhole});
+  const auto rig = RefineRig({{camera}, {TargetPlace{glm::dmat3(1), pose.p_WT}}},
+                             std::vector<TargetView>{{0, 0, board}}, {.lens = LensModel::kPinhole});
   ASSERT_FALSE(rig);
   EXPECT_THAT(rig.error().message, HasSubstr("do not determine"));
 }
@@ -150,7 +150,8 @@ TEST(RefineRig, HoldsWhatIsKnownInsideACamera) {
   Camera off = TrueCamera();
   off.p_WC += glm::dvec3(0.1, -0.05, 0.2);
   const std::vector<TargetView> views{{0, 0, Pairs(TrueCamera(), 10, 5, 0)}};
-  const auto rig = RefineRig({{off}, {TargetPlace{}}}, views, {.lens = LensModel::kAsInCamera, .inside_is_known = true});
+  const auto rig =
+      RefineRig({{off}, {TargetPlace{}}}, views, {.lens = LensModel::kAsInCamera, .inside_is_known = true});
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_EQ(rig->parameters, 6u);
   ExpectSame(rig->cameras[0], TrueCamera(), 1e-9);
