@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/kinematics/capture_body.h"
+
 namespace etude {
 namespace {
 
@@ -12,7 +14,7 @@ Result<CapturedMotion> Capture(std::span<const ProjectionMatrix> matrices, const
   const std::vector<KnownMeasurement> known = MeasurementsOf(person.landmarks);
   const std::vector<std::vector<Marks>> marks(matrices.size(), std::vector<Marks>(known.size()));
   const CaptureInputs inputs{.pictures = {.cameras = matrices, .marks = marks, .known = known},
-                             .lengths = person.lengths};
+                             .body = PaperBody(person.lengths)};
   return CaptureMotion(inputs, options);
 }
 
@@ -66,7 +68,7 @@ Result<RecoveredPerson> RecoverPerson(std::span<const Camera> cameras, std::span
   if (recovered == 0) return Fail({}, "no frame shows enough of the person");
   person.held = captured.frames.size() - static_cast<std::size_t>(recovered);
   const std::vector<RecoveredFrame> frames = HoldFrames(captured.frames);
-  person.clip = ToClip(person.lengths, frames, options.rate_hz, "capture");
+  person.clip = ToClip(PaperBody(person.lengths), frames, options.rate_hz, "capture");
   person.motion.rate_hz = options.rate_hz;
   for (const RecoveredFrame& frame : frames) person.motion.poses.push_back(frame.pose);
   return person;
