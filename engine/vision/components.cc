@@ -124,6 +124,16 @@ Mask LargestComponent(const Mask& mask) {
   return result;
 }
 
+Mask LargeComponents(const Mask& mask, int smallest) {
+  const Components components = LabelComponents(mask);
+  Mask result(mask.width, mask.height);
+  for (const Run& run : components.runs) {
+    const Components::Piece& piece = components.pieces[run.piece];
+    if (piece.set && piece.size >= smallest) Paint(run, 1, result);
+  }
+  return result;
+}
+
 Mask FillHoles(const Mask& mask, int largest_hole) {
   const Components components = LabelComponents(mask);
   Mask result = mask;

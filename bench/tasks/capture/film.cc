@@ -61,7 +61,8 @@ class Crew {
 
   Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
     if (source.is_truth) return picture.person;
-    return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {}});
+    return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {},
+                          .pieces = source.for_silhouettes ? PersonPieces::kLarge : PersonPieces::kLargest});
   }
 
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
@@ -92,7 +93,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
     Observation& observation = take.observations.emplace_back();
     observation.source = source;
     observation.marks.resize(world.cameras.size());
-    if (wants_masks) observation.masks.resize(world.cameras.size());
+    if (wants_masks || source.for_silhouettes) observation.masks.resize(world.cameras.size());
   }
 
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
@@ -105,8 +106,10 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
         const Mask person = crew.CutOut(picture, camera, sources[i]);
         masks[i].Add(std::span<const std::uint8_t>(person.pixels));
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
-        if (wants_masks) observation.masks[camera].push_back(HalveMask(person));
-        observation.marks[camera].push_back(marking[i].Mark(camera, frame, {picture.labels, picture.colour, person}));
+        if (wants_masks || sources[i].for_silhouettes) observation.masks[camera].push_back(HalveMask(person));
+        observation.marks[camera].push_back(
+            sources[i].for_silhouettes ? Marks{}
+                                       : marking[i].Mark(camera, frame, {picture.labels, picture.colour, person}));
         AddMarks(observation.marks[camera].back(), marks[i]);
       }
     }

@@ -18,6 +18,9 @@ namespace etude {
 struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   bool is_truth = false;
+  /// Cut out for methods that read silhouettes alone: every large piece belongs to the person, masks are kept, and
+  /// nobody marks the pictures.
+  bool for_silhouettes = false;
   auto operator<=>(const PersonSource&) const = default;
 };
 
@@ -25,7 +28,7 @@ struct PersonSource {
 struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
-  std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for
+  std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for, or for silhouettes
   MaskScore score;                        ///< mean over all pictures
   /// How two annotators agree, over all pictures; nothing when one marks alone.
   std::optional<double> annotator_distance_px, annotator_overlap;

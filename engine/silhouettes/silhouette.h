@@ -1,0 +1,43 @@
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/base/image.h"
+
+namespace etude {
+
+struct SilhouetteOptions {
+  /// How many pixels of the camera a pixel of the mask is wide: 2 for a mask of half the picture's size.
+  double mask_pixel = 1;
+  /// The outline is sampled once in every square of this many mask pixels. Fewer samples are quicker; 3 leaves about
+  /// two hundred of a person who fills a picture of 320 × 240.
+  int spacing = 3;
+};
+
+/// Where the outline of a silhouette runs, in the camera's pixels.
+struct OutlinePoint {
+  glm::dvec2 pixel{0};
+  glm::dvec2 normal{0};  ///< unit, out of the silhouette
+};
+
+/// One camera's picture of a person as the fit reads it.
+struct Silhouette {
+  Image<float> distances;  ///< `SignedDistances` of the mask, in pixels of the mask
+  double mask_pixel = 1;
+  std::vector<OutlinePoint> outline;
+  glm::dvec2 centre{0};  ///< mean of the set pixels, in the camera's pixels
+  int area = 0;          ///< set pixels of the mask; 0 when the picture shows nobody, then it tells nothing
+};
+
+Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});
+
+/// The signed distance at a pixel of the camera, in pixels of the camera, and its gradient. Bilinear between pixel
+/// centres; outside the picture that of the nearest pixel within, so that what leaves the picture is not pulled back.
+struct DistanceAt {
+  double distance = 0;
+  glm::dvec2 gradient{0};
+};
+DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel);
+
+}  // namespace etude
