@@ -12,8 +12,6 @@
 namespace etude {
 namespace {
 
-constexpr int kRootDofs = 6;  // place and turn
-
 // How the two ends of one capsule move in one picture, by coordinate: the columns of δ of SilhouetteResidual, only for
 // the coordinates that move its limb.
 struct CapsuleMotion {

@@ -1,7 +1,7 @@
 #include "engine/silhouettes/silhouette.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 
 #include "engine/silhouettes/distance_transform.h"
 
@@ -27,12 +27,33 @@ glm::dvec2 NormalAt(const Mask& mask, int x, int y) {
   return length > 0 ? -inwards / length : glm::dvec2(0);
 }
 
-}  // namespace
+struct Box {
+  int left, top, right, bottom;  // the last two just outside
+};
 
-Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
-  Silhouette made;
-  made.distances = SignedDistances(mask);
-  made.mask_pixel = options.mask_pixel;
+// About all set pixels, with a margin as far as the picture goes; empty when there are none.
+Box BoxOf(const Mask& mask) {
+  constexpr int kMargin = 8;
+  Box box{mask.width, mask.height, 0, 0};
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      if (mask.At(x, y) == 0) continue;
+      box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1), y + 1};
+    }
+  }
+  return {std::max(box.left - kMargin, 0), std::max(box.top - kMargin, 0), std::min(box.right + kMargin, mask.width),
+          std::min(box.bottom + kMargin, mask.height)};
+}
+
+Mask CutOut(const Mask& mask, const Box& box) {
+  Mask part(box.right - box.left, box.bottom - box.top);
+  for (int y = 0; y < part.height; ++y) {
+    for (int x = 0; x < part.width; ++x) part.At(x, y) = mask.At(box.left + x, box.top + y);
+  }
+  return part;
+}
+
+void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouette& made) {
   const int cells = mask.width / options.spacing + 1;
   std::vector<char> taken(static_cast<std::size_t>(cells) * (mask.height / options.spacing + 1), 0);
   glm::dvec2 sum(0);
@@ -48,22 +69,49 @@ Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
       made.outline.push_back({options.mask_pixel * (glm::dvec2(x + 0.5, y + 0.5) + 0.5 * normal), normal});
     }
   }
-  if (made.area > 0) made.centre = options.mask_pixel * sum / static_cast<double>(made.area);
+  made.centre = options.mask_pixel * sum / static_cast<double>(made.area);
+}
+
+}  // namespace
+
+Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
+  Silhouette made;
+  made.width = mask.width;
+  made.height = mask.height;
+  made.mask_pixel = options.mask_pixel;
+  const Box box = BoxOf(mask);
+  if (box.right <= box.left + 1 || box.bottom <= box.top + 1) return made;
+  made.left = box.left;
+  made.top = box.top;
+  made.distances = SignedDistances(CutOut(mask, box));
+  SampleOutline(mask, options, made);
   return made;
 }
 
 DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel) {
+  assert(silhouette.area > 0);
   const Image<float>& field = silhouette.distances;
-  const glm::dvec2 at = pixel / silhouette.mask_pixel - 0.5;
-  const double u = std::clamp(at.x, 0.0, field.width - 1.0), v = std::clamp(at.y, 0.0, field.height - 1.0);
-  const int x = std::min(static_cast<int>(u), field.width - 2), y = std::min(static_cast<int>(v), field.height - 2);
-  const double s = u - x, t = v - y;
+  const glm::dvec2 wanted = pixel / silhouette.mask_pixel - 0.5;
+  const glm::dvec2 seen = glm::clamp(wanted, glm::dvec2(0), glm::dvec2(silhouette.width - 1, silhouette.height - 1));
+  const glm::dvec2 in_box = seen - glm::dvec2(silhouette.left, silhouette.top);
+  const glm::dvec2 at = glm::clamp(in_box, glm::dvec2(0), glm::dvec2(field.width - 1, field.height - 1));
+  const int x = std::min(static_cast<int>(at.x), field.width - 2), y = std::min(static_cast<int>(at.y), field.height - 2);
+  const double s = at.x - x, t = at.y - y;
   const double a = field.At(x, y), b = field.At(x + 1, y), c = field.At(x, y + 1), d = field.At(x + 1, y + 1);
-  DistanceAt found;
-  found.distance = silhouette.mask_pixel * ((1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d));
-  found.gradient = {(1 - t) * (b - a) + t * (d - c), (1 - s) * (c - a) + s * (d - b)};
-  if (u != at.x) found.gradient.x = 0;
-  if (v != at.y) found.gradient.y = 0;
+  DistanceAt found{(1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d),
+                   {(1 - t) * (b - a) + t * (d - c), (1 - s) * (c - a) + s * (d - b)}};
+  const glm::dvec2 beyond = in_box - at;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (beyond[axis] != 0 || seen[axis] != wanted[axis]) found.gradient[axis] = 0;
+  }
+  const double away = glm::length(beyond);
+  if (away > 0) {
+    found.distance += away;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (seen[axis] == wanted[axis]) found.gradient[axis] += beyond[axis] / away;
+    }
+  }
+  found.distance *= silhouette.mask_pixel;
   return found;
 }
 

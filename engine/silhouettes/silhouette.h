@@ -21,9 +21,11 @@ struct OutlinePoint {
   glm::dvec2 normal{0};  ///< unit, out of the silhouette
 };
 
-/// One camera's picture of a person as the fit reads it.
+/// One camera's picture of a person as the fit reads it. Of the distances only the box about the person is kept.
 struct Silhouette {
-  Image<float> distances;  ///< `SignedDistances` of the mask, in pixels of the mask
+  Image<float> distances;  ///< `SignedDistances` of the mask, in pixels of the mask, from (left, top) on
+  int left = 0, top = 0;
+  int width = 0, height = 0;  ///< of the whole mask
   double mask_pixel = 1;
   std::vector<OutlinePoint> outline;
   glm::dvec2 centre{0};  ///< mean of the set pixels, in the camera's pixels
@@ -32,8 +34,10 @@ struct Silhouette {
 
 Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options = {});
 
-/// The signed distance at a pixel of the camera, in pixels of the camera, and its gradient. Bilinear between pixel
-/// centres; outside the picture that of the nearest pixel within, so that what leaves the picture is not pulled back.
+/// The signed distance at a pixel of the camera, in pixels of the camera, and its gradient: bilinear between pixel
+/// centres. Away from the person, where the box ends, the distance to the box is added to that on its edge: never less
+/// than the true one. Outside the picture it is that of the nearest pixel within, so that what leaves the picture is
+/// not pulled back. The silhouette shows somebody.
 struct DistanceAt {
   double distance = 0;
   glm::dvec2 gradient{0};

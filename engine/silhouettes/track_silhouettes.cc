@@ -19,6 +19,7 @@ using Fits = std::vector<std::optional<SilhouetteFit>>;
 // Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near it.
 constexpr double kWideReach = 3;  // times that of the options
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
+constexpr std::size_t kFollowedAnchors = 2;
 constexpr double kSpeedKept = 0.6;  // of the last frame's change, what the next is foretold to have
 
 double Squared(double x) { return x * x; }
@@ -54,10 +55,14 @@ class Tracker {
 
   SilhouetteTrack Run() {
     Fits fits(frame_count_);
-    const std::optional<Anchor> anchor = take_.start ? KnownAnchor() : FindAnchor();
-    if (!anchor) return {body_, std::move(fits)};
-    Fits first = FollowBothWays(*anchor);
-    fits = Better(first, Retraced(first));
+    bool is_first = true;
+    for (const Anchor& anchor : ChooseAnchors()) {
+      Fits followed = FollowBothWays(anchor);
+      followed = Better(followed, Retraced(followed));
+      fits = is_first ? std::move(followed) : Better(fits, followed);
+      is_first = false;
+    }
+    if (is_first) return {body_, std::move(fits)};
     if (options_.fits_thickness) {
       FitThickness(fits);
       Refit(fits);
@@ -88,8 +93,11 @@ class Tracker {
   }
 
   std::optional<Anchor> KnownAnchor() {
+    if (!take_.start) return std::nullopt;
     for (std::size_t frame = 0; frame < frame_count_; ++frame) {
-      if (Shows(frame)) return Anchor{frame, Fit(frame, *take_.start, nullptr, true)};
+      if (!Shows(frame)) continue;
+      const PosePrior prior{*take_.start, options_.start_place_m, options_.start_angle, options_.start_angle};
+      return Anchor{frame, Fit(frame, *take_.start, &prior, true)};
     }
     return std::nullopt;
   }
@@ -157,23 +165,31 @@ class Tracker {
     return sum / count;
   }
 
-  std::optional<Anchor> FindAnchor() {
+  // Where the take is followed from: the known start, and what was found in the pictures, the likeliest first.
+  std::vector<Anchor> ChooseAnchors() {
+    std::vector<Anchor> anchors = FindAnchors();
+    if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
+    if (anchors.size() > kFollowedAnchors) anchors.resize(kFollowedAnchors);
+    return anchors;
+  }
+
+  std::vector<Anchor> FindAnchors() {
     std::vector<std::size_t> shown;
     for (std::size_t k = 0; k < frame_count_; ++k) {
       if (Shows(k)) shown.push_back(k);
     }
-    std::optional<Anchor> best;
-    double least = 0;
+    std::vector<std::pair<double, Anchor>> tried;
     const std::size_t count = std::min<std::size_t>(options_.anchors, shown.size());
     for (std::size_t i = 0; i < count; ++i) {
       for (Anchor& anchor : AnchorsAt(shown[(2 * i + 1) * shown.size() / (2 * count)])) {
         const double cost = TrialCost(anchor);
-        if (best && cost >= least) continue;
-        least = cost;
-        best = std::move(anchor);
+        tried.emplace_back(cost, std::move(anchor));
       }
     }
-    return best;
+    std::ranges::stable_sort(tried, {}, [](const auto& one) { return one.first; });
+    std::vector<Anchor> anchors;
+    for (auto& [cost, anchor] : tried) anchors.push_back(std::move(anchor));
+    return anchors;
   }
 
   SilhouetteFit WithLimbsFound(std::size_t frame, const SilhouetteFit& fit, const PosePrior* prior) {
@@ -280,26 +296,41 @@ class Tracker {
     return std::nullopt;
   }
 
-  // Looks for the limbs of frames that cost far more than most, and hands what was found on to the frames around them.
-  void Repair(Fits& fits) {
+  // What a frame costs that has lost nothing.
+  double UsualCost(const Fits& fits) const {
     std::vector<double> costs;
     for (const auto& fit : fits) {
       if (fit) costs.push_back(fit->picture_cost);
     }
-    if (costs.empty()) return;
-    std::ranges::nth_element(costs, costs.begin() + costs.size() / 2);
-    const double too_much = options_.lost * costs[costs.size() / 2];
+    if (costs.empty()) return 0;
+    const auto usual = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 5);
+    std::ranges::nth_element(costs, usual);
+    return *usual;
+  }
+
+  // Looks for the limbs of every few of the frames that cost far more than most, follows what was found through the
+  // others, in one direction of time and the other, and keeps what makes the better path.
+  void Repair(Fits& fits) {
+    constexpr int kFollowed = 4;
+    const double too_much = options_.lost * UsualCost(fits);
     for (const int step : {1, -1}) {
+      Fits repaired = fits;
+      int followed = kFollowed;
       for (std::size_t i = 0; i < frame_count_; ++i) {
         const std::size_t k = step > 0 ? i : frame_count_ - 1 - i;
-        if (!fits[k] || fits[k]->picture_cost <= too_much) continue;
-        const std::size_t neighbour = k - static_cast<std::size_t>(step);
-        if (neighbour < frame_count_ && fits[neighbour]) {
-          SilhouetteFit trial = Fit(k, fits[neighbour]->state, nullptr, true);
-          if (trial.cost < fits[k]->cost) fits[k] = std::move(trial);
+        if (!fits[k] || fits[k]->picture_cost <= too_much) {
+          followed = kFollowed;
+          continue;
         }
-        if (fits[k]->picture_cost > too_much) fits[k] = WithLimbsFound(k, *fits[k], nullptr);
+        if (++followed > kFollowed) {
+          repaired[k] = WithLimbsFound(k, *fits[k], nullptr);
+          followed = 0;
+        } else if (const auto& last = repaired[k - static_cast<std::size_t>(step)]) {
+          const PosePrior prior = PriorNear(last->state);
+          repaired[k] = Fit(k, last->state, &prior, true);
+        }
       }
+      fits = Better(fits, repaired);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/angles.h"
 #include "engine/cameras/camera.h"
 #include "engine/silhouettes/fit_silhouettes.h"
 #include "engine/silhouettes/silhouette.h"
@@ -23,6 +24,9 @@ struct SilhouetteTake {
 
 struct TrackOptions {
   SilhouetteCostOptions cost;
+  /// How exact a known start is: standard deviation of an angle and of the root's turn, radians, and of its place.
+  double start_angle = Radians(10);
+  double start_place_m = 0.1;
   /// Cold: at how many moments, evenly over the take, the body is searched for.
   int anchors = 5;
   /// Cold: how many frames each of the likeliest poses is followed, to tell front from back: a single silhouette often
@@ -32,8 +36,8 @@ struct TrackOptions {
   /// standard deviation of an angle, radians.
   double angle_change = 0.15;
   double place_change_m = 0.05;
-  /// A frame that costs this many times the median has lost a limb or more, and is searched anew.
-  double lost = 1.6;
+  /// A frame that costs this many times what the best fifth does has lost a limb or more, and is searched anew.
+  double lost = 1.8;
   /// How often lost frames are searched anew and all are smoothed.
   int repairs = 2;
   /// Whether the thickness of trunk, head, arms and legs is estimated from the take: a person is no average.

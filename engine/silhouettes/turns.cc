@@ -38,7 +38,6 @@ glm::dvec3 TurnOf(const glm::dmat3& rotation) {
 }
 
 TreeState Moved(const KinematicTree& tree, const TreeState& state, std::span<const double> by) {
-  constexpr std::size_t kRootDofs = 6;
   TreeState moved = state;
   moved.root_position += glm::dvec3(by[0], by[1], by[2]);
   moved.root_frame = RotationBy({by[3], by[4], by[5]}) * state.root_frame;

@@ -7,6 +7,9 @@
 
 namespace etude {
 
+/// The coordinates of a free root before those of the angles: three of its place, three of its turn.
+constexpr int kRootDofs = 6;
+
 /// The rotation about `turn` by its length, radians (Rodrigues).
 glm::dmat3 RotationBy(const glm::dvec3& turn);
 
@@ -14,7 +17,7 @@ glm::dmat3 RotationBy(const glm::dvec3& turn);
 /// being π or 0.
 glm::dvec3 TurnOf(const glm::dmat3& rotation);
 
-/// `state` moved: by[0…2] is added to the root's place, by[3…5] turns it (a rotation vector in the world), the rest is
+/// `state` moved by so much of every coordinate: by[0…2] is added to the root's place, by[3…5] turns it (a rotation vector in the world), the rest is
 /// added to the angles, which stay within their limits.
 TreeState Moved(const KinematicTree& tree, const TreeState& state, std::span<const double> by);
 
