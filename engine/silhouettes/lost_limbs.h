@@ -14,6 +14,6 @@ std::vector<TreeState> Postures(const SilhouetteBody& body);
 /// `state` with one arm or leg elsewhere: of a grid over the range of its joints, the few places that cost least.
 std::vector<TreeState> LimbPlaces(const SilhouetteBody& body, std::span<const SilhouetteView> views,
                                   const TreeState& state, const SilhouetteBody::Limb& limb,
-                                  const SilhouetteCostOptions& options, FitWorkspace& workspace);
+                                  const SilhouetteCostOptions& options);
 
 }  // namespace etude

@@ -53,6 +53,20 @@ Mask CutOut(const Mask& mask, const Box& box) {
   return part;
 }
 
+// The pixels whose signed distance is at most `distance`: grown by it, or shrunk where it is negative.
+Mask Grown(const Mask& mask, double distance) {
+  const Image<float> distances = SignedDistances(mask);
+  Mask grown(mask.width, mask.height);
+  for (std::size_t i = 0; i < grown.pixels.size(); ++i) grown.pixels[i] = distances.pixels[i] <= distance;
+  return grown;
+}
+
+// Without what is thinner than the disc.
+Mask Opened(const Mask& mask, double radius) {
+  if (radius <= 0) return mask;
+  return Grown(Grown(mask, -radius), radius);
+}
+
 void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouette& made) {
   const int cells = mask.width / options.spacing + 1;
   std::vector<char> taken(static_cast<std::size_t>(cells) * (mask.height / options.spacing + 1), 0);
@@ -60,16 +74,17 @@ void SampleOutline(const Mask& mask, const SilhouetteOptions& options, Silhouett
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
       if (mask.At(x, y) == 0) continue;
-      sum += glm::dvec2(x + 0.5, y + 0.5);
+      const glm::dvec2 pixel(made.left + x + 0.5, made.top + y + 0.5);
+      sum += pixel;
       ++made.area;
       char& cell = taken[static_cast<std::size_t>(y / options.spacing) * cells + x / options.spacing];
       if (cell || !IsOutline(mask, x, y)) continue;
       cell = 1;
       const glm::dvec2 normal = NormalAt(mask, x, y);
-      made.outline.push_back({options.mask_pixel * (glm::dvec2(x + 0.5, y + 0.5) + 0.5 * normal), normal});
+      made.outline.push_back({options.mask_pixel * (pixel + 0.5 * normal), normal});
     }
   }
-  made.centre = options.mask_pixel * sum / static_cast<double>(made.area);
+  if (made.area > 0) made.centre = options.mask_pixel * sum / static_cast<double>(made.area);
 }
 
 }  // namespace
@@ -83,8 +98,9 @@ Silhouette MakeSilhouette(const Mask& mask, const SilhouetteOptions& options) {
   if (box.right <= box.left + 1 || box.bottom <= box.top + 1) return made;
   made.left = box.left;
   made.top = box.top;
-  made.distances = SignedDistances(CutOut(mask, box));
-  SampleOutline(mask, options, made);
+  const Mask person = Opened(CutOut(mask, box), options.thinnest);
+  made.distances = SignedDistances(person);
+  SampleOutline(person, options, made);
   return made;
 }
 

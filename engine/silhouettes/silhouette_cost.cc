@@ -17,7 +17,7 @@ struct ConePoint {
   double signed_distance = 0;
 };
 
-// Inigo Quilez's round cone in two dimensions, from the condition that along the axis the distance less the radius is
+// A round cone in two dimensions, from the condition that along the axis the distance less the radius is
 // least: (x − along·length) / distance = −(radius_b − radius_a) / length.
 ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel) {
   const glm::dvec2 axis = capsule.b - capsule.a, from_a = pixel - capsule.a;
@@ -34,40 +34,47 @@ ConePoint NearestOnCone(const ProjectedCapsule& capsule, const glm::dvec2& pixel
   return found;
 }
 
+// A circle around a projected capsule: no point of its outline is nearer to a pixel than the circle is.
+struct Bound {
+  glm::dvec2 centre{0};
+  double radius = 0;
+};
+
+std::vector<Bound> BoundsOf(const std::vector<ProjectedCapsule>& flesh) {
+  std::vector<Bound> bounds;
+  for (const ProjectedCapsule& capsule : flesh) {
+    bounds.push_back({0.5 * (capsule.a + capsule.b),
+                      0.5 * glm::distance(capsule.a, capsule.b) + std::max(capsule.radius_a, capsule.radius_b)});
+  }
+  return bounds;
+}
+
+// The piece of flesh whose outline is nearest, −1 if none is drawn; `distance` falls to its signed distance.
+int NearestCapsule(const std::vector<ProjectedCapsule>& flesh, const std::vector<Bound>& bounds,
+                   const glm::dvec2& pixel, double& distance) {
+  int nearest = -1;
+  for (std::size_t i = 0; i < flesh.size(); ++i) {
+    if (!flesh[i].is_valid) continue;
+    const glm::dvec2 away = pixel - bounds[i].centre;
+    const double reach = distance + bounds[i].radius;
+    if (reach <= 0 || glm::dot(away, away) >= reach * reach) continue;
+    const double found = NearestOnCone(flesh[i], pixel).signed_distance;
+    if (found >= distance) continue;
+    distance = found;
+    nearest = static_cast<int>(i);
+  }
+  return nearest;
+}
+
 void AppendOutline(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                    std::vector<SilhouetteResidual>& out) {
+  const std::vector<Bound> bounds = BoundsOf(flesh);
   for (const OutlinePoint& point : silhouette.outline) {
-    double nearest = std::numeric_limits<double>::infinity();
-    int owner = -1;
-    for (std::size_t i = 0; i < flesh.size(); ++i) {
-      if (!flesh[i].is_valid) continue;
-      const double distance = NearestOnCone(flesh[i], point.pixel).signed_distance;
-      if (distance >= nearest) continue;
-      nearest = distance;
-      owner = static_cast<int>(i);
-    }
+    double distance = std::numeric_limits<double>::infinity();
+    const int owner = NearestCapsule(flesh, bounds, point.pixel, distance);
     if (owner < 0) continue;
     SilhouetteResidual& residual = out.emplace_back(DistanceTo(flesh[owner], point.pixel));
     residual.capsule = owner;
-  }
-}
-
-void AppendInside(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
-                  const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out) {
-  constexpr std::array<double, 4> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
-  for (std::size_t i = 0; i < flesh.size(); ++i) {
-    if (!flesh[i].is_valid) continue;
-    for (const double t : kSamples) {
-      const double radius = std::lerp(flesh[i].radius_a, flesh[i].radius_b, t);
-      const DistanceAt at = DistanceAtPixel(silhouette, glm::mix(flesh[i].a, flesh[i].b, t));
-      const double outside = at.distance + options.inside_share * radius;
-      if (outside <= 0) continue;
-      const double s = 1 - t, share = options.inside_share;
-      out.push_back({outside,
-                     static_cast<int>(i),
-                     {s * at.gradient.x, s * at.gradient.y, s * share, t * at.gradient.x, t * at.gradient.y, t * share},
-                     true});
-    }
   }
 }
 
@@ -102,7 +109,34 @@ void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouett
                      const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out) {
   if (silhouette.area == 0) return;
   AppendOutline(flesh, silhouette, out);
-  AppendInside(flesh, silhouette, options, out);
+  AppendContainment(flesh, silhouette, options, out);
+}
+
+void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                      std::span<double> distances) {
+  const std::vector<Bound> bounds = BoundsOf(flesh);
+  for (std::size_t i = 0; i < silhouette.outline.size(); ++i) {
+    NearestCapsule(flesh, bounds, silhouette.outline[i].pixel, distances[i]);
+  }
+}
+
+void AppendContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                       const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out) {
+  constexpr std::array<double, 4> kSamples = {0, 1.0 / 3, 2.0 / 3, 1};
+  for (std::size_t i = 0; i < flesh.size(); ++i) {
+    if (!flesh[i].is_valid) continue;
+    for (const double t : kSamples) {
+      const double radius = std::lerp(flesh[i].radius_a, flesh[i].radius_b, t);
+      const DistanceAt at = DistanceAtPixel(silhouette, glm::mix(flesh[i].a, flesh[i].b, t));
+      const double outside = at.distance + options.inside_share * radius;
+      if (outside <= 0) continue;
+      const double s = 1 - t, share = options.inside_share;
+      out.push_back({outside,
+                     static_cast<int>(i),
+                     {s * at.gradient.x, s * at.gradient.y, s * share, t * at.gradient.x, t * at.gradient.y, t * share},
+                     true});
+    }
+  }
 }
 
 Loss LossOf(const SilhouetteResidual& residual, const SilhouetteCostOptions& options) {

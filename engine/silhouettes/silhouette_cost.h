@@ -63,6 +63,14 @@ SilhouetteResidual DistanceTo(const ProjectedCapsule& capsule, const glm::dvec2&
 void AppendResiduals(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
                      const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
 
+/// The two halves of AppendResiduals, for a search that tries many places of a few pieces. Containment alone, of these
+/// pieces; and of each outline point the least signed distance: `distances` fall to those of `flesh` where these are
+/// less.
+void AppendContainment(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                       const SilhouetteCostOptions& options, std::vector<SilhouetteResidual>& out);
+void OutlineDistances(const std::vector<ProjectedCapsule>& flesh, const Silhouette& silhouette,
+                      std::span<double> distances);
+
 /// The loss of a residual and the weight of its square in a step: Geman and McClure's e²/(1 + e²/reach²), in units of
 /// sigma².
 struct Loss {

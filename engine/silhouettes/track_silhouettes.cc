@@ -195,7 +195,7 @@ class Tracker {
   SilhouetteFit WithLimbsFound(std::size_t frame, const SilhouetteFit& fit, const PosePrior* prior) {
     SilhouetteFit best = fit;
     for (const SilhouetteBody::Limb& limb : body_.limbs) {
-      for (const TreeState& start : LimbPlaces(body_, views_[frame], best.state, limb, wide_.cost, workspace_)) {
+      for (const TreeState& start : LimbPlaces(body_, views_[frame], best.state, limb, wide_.cost)) {
         SilhouetteFit trial = Fit(frame, start, prior, false);
         if (trial.cost < best.cost) best = std::move(trial);
       }

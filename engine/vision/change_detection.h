@@ -45,8 +45,8 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
 /// Which pieces of what changed are the person.
 enum class PersonPieces {
   kLargest,  ///< the largest one alone (paper B)
-  /// *Ours*: every one of some size. Where a sleeve ends, or skin is of the wall's hue, forearms and feet are pieces of
-  /// their own, and the largest one has lost them; but so may be the shadow, or another person.
+  /// *Ours*: the largest, and every one of some size beside it. Where a sleeve ends, or skin is of the wall's hue,
+  /// forearms and feet are pieces of their own, and the largest one has lost them; but so may be a shadow.
   kLarge,
 };
 
@@ -56,6 +56,8 @@ struct PersonOptions {
   PersonPieces pieces = PersonPieces::kLargest;
   /// kLarge: pieces of fewer pixels are noise. 120 is a hand four metres away in a picture of 640 × 480.
   int smallest_piece = 120;
+  /// kLarge: so far may the box about a piece be from that about the largest one, pixels: the length of a forearm there.
+  int piece_reach = 40;
   /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
   int largest_hole = 60;
 };

@@ -47,9 +47,23 @@ struct Oracle {
   bool points = false;
 };
 
+/// What tells where the limbs are.
+enum class LimbSource {
+  kStrokes,      ///< "strokes": a human's marks (paper B)
+  kSilhouettes,  ///< "silhouettes": nothing but what was cut out (engine/silhouettes)
+};
+
+/// What a method that follows silhouettes begins with.
+enum class SilhouetteStart {
+  kCold,  ///< "cold": the pictures alone
+  kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
+};
+
 /// A pipeline with its settings.
 struct CaptureMethod {
   std::string name;
+  LimbSource limbs = LimbSource::kStrokes;
+  SilhouetteStart start = SilhouetteStart::kCold;
   Segmenter segmenter = Segmenter::kHue;
   Calibration calibration = Calibration::kDlt;
   const IkSolver* solver = DefaultIkSolver();

@@ -1,6 +1,9 @@
 #include "bench/tasks/capture/run.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "bench/tasks/capture/silhouettes.h"
 
 namespace etude {
 namespace {
@@ -17,6 +20,19 @@ Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method
   ASSIGN_OR_RETURN(const Take* take, stages.GetTake());
   const Observation& observation = ObservationBy(*take, PersonSourceOf(method));
   const MeasuredTake& measured = stages.GetMeasured(method, *cameras, observation);
+  if (method.limbs == LimbSource::kSilhouettes) {
+    ASSIGN_OR_RETURN(auto frames, FollowSilhouettes({.world = stages.world(),
+                                                     .key = stages.key(),
+                                                     .cameras = cameras->matrices,
+                                                     .masks = observation.masks,
+                                                     .start = method.start}));
+    return CaptureRun{.method = method,
+                      .cameras = *cameras,
+                      .take = *take,
+                      .observation = observation,
+                      .measured = measured,
+                      .frames = std::move(frames)};
+  }
   return CaptureRun{
       .method = method,
       .cameras = *cameras,

@@ -86,13 +86,14 @@ constexpr std::array kStageMetrics = {"reprojection_rms_px",
 constexpr std::array kPoseMetrics = {"mpjpe_mm",  "mpjpe_before_ik_mm",   "pa_mpjpe_mm",      "pck_50mm",
                                      "auc_200mm", "bone_length_error_cm", "position_error_cm"};
 
-/// The errors of final poses; those before inverse kinematics only where there were such.
-void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellResult& cell) {
+/// The errors of final poses; those before inverse kinematics only where there were such, else why not.
+void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, const char* why_none_before,
+                       CellResult& cell) {
   cell.Measure("mpjpe_mm", after.mpjpe_mm);
   if (before != nullptr) {
     cell.Measure("mpjpe_before_ik_mm", before->mpjpe_mm);
   } else {
-    cell.Missing("mpjpe_before_ik_mm", kNoStages);
+    cell.Missing("mpjpe_before_ik_mm", why_none_before);
   }
   cell.Measure("pa_mpjpe_mm", after.pa_mpjpe_mm);
   cell.Measure("pck_50mm", after.pck_50mm);
@@ -133,7 +134,8 @@ std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& fra
   return of_frames / count;
 }
 
-void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& frames, CellResult& cell) {
+void ReportPoses(const CaptureWorld& world, const CaptureMethod& method, const std::vector<RecoveredFrame>& frames,
+                 CellResult& cell) {
   std::vector<BodyPose> fixed, poses;
   Digest lengths_digest, pose_digest;
   for (const RecoveredFrame& frame : frames) {
@@ -145,7 +147,9 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
   const PoseErrors before = JudgePoses(world, fixed);
-  ReportJointErrors(JudgePoses(world, poses), &before, cell);
+  const bool has_ik = method.limbs == LimbSource::kStrokes;
+  ReportJointErrors(JudgePoses(world, poses), has_ik ? &before : nullptr,
+                    "the body is fitted to silhouettes, without inverse kinematics", cell);
   cell.MeasureOr("position_error_cm", MeanEffectorErrorCm(InView(world, frames)),
                  "no end effector was seen in any frame in view");
 }
@@ -188,11 +192,14 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
   CellResult cell;
   ReportStages(world, run, cell);
   if (!ReportRecovered(world, run.frames, cell)) {
-    FailWithoutPoses(ReasonForNoSkeleton(run.measured.frames), cell);
+    FailWithoutPoses(run.method.limbs == LimbSource::kSilhouettes
+                         ? "no skeleton: in no frame do two cameras' pictures show anybody"
+                         : ReasonForNoSkeleton(run.measured.frames),
+                     cell);
     return cell;
   }
   const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
-  ReportPoses(world, frames, cell);
+  ReportPoses(world, run.method, frames, cell);
   if (keeps_motion) cell.recording = MakeRecording(world, run.take, run.observation, frames, run.method.name);
   cell.status = Status::kOk;
   cell.reason.clear();
@@ -210,7 +217,7 @@ CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& an
   Digest digest;
   for (const BodyPose& pose : poses) Add(pose, digest);
   cell.digests = {{"pose", digest.Hex()}};
-  ReportJointErrors(JudgePoses(world, poses), nullptr, cell);
+  ReportJointErrors(JudgePoses(world, poses), nullptr, kNoStages, cell);
   cell.Missing("position_error_cm", kNoStages);
   if (keeps_motion) cell.recording = MakeRecording(world, poses);
   cell.status = Status::kOk;

@@ -127,8 +127,11 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
 }
 
 PersonSource PersonSourceOf(const CaptureMethod& method) {
-  if (method.oracle.segmentation) return {.segmenter = Segmenter::kHue, .is_truth = true};
-  return {.segmenter = method.segmenter, .is_truth = false};
+  const bool for_silhouettes = method.limbs == LimbSource::kSilhouettes;
+  if (method.oracle.segmentation) {
+    return {.segmenter = Segmenter::kHue, .is_truth = true, .for_silhouettes = for_silhouettes};
+  }
+  return {.segmenter = method.segmenter, .is_truth = false, .for_silhouettes = for_silhouettes};
 }
 
 }  // namespace etude

@@ -40,6 +40,7 @@ class CaptureStages {
                 std::span<const PersonSource> sources, bool keeps_masks);
 
   const CaptureWorld& world() const { return world_; }
+  const WorldKey& key() const { return key_; }
   /// Which frames the annotator marks.
   const std::vector<bool>& marked() const { return marked_; }
   /// The renderer of this world; fails, saying why, when there can be none.
