@@ -78,8 +78,7 @@ class Linearisation {
       motion_.coordinates.push_back(coordinate);
       motion_.columns.push_back({glm::dot(at_a.u, moves_a), glm::dot(at_a.v, moves_a),
                                  flesh.radius_a * glm::dot(at_a.pixels_per_metre, moves_a), glm::dot(at_b.u, moves_b),
-                                 glm::dot(at_b.v, moves_b),
-                                 flesh.radius_b * glm::dot(at_b.pixels_per_metre, moves_b)});
+                                 glm::dot(at_b.v, moves_b), flesh.radius_b * glm::dot(at_b.pixels_per_metre, moves_b)});
     };
     const auto add_turn = [&](int coordinate, const glm::dvec3& axis, const glm::dvec3& about) {
       add(coordinate, glm::cross(axis, p_WA - about), glm::cross(axis, p_WB - about));
@@ -202,8 +201,9 @@ SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const Silhoue
     while (!is_better && fit.iterations < options.max_iterations && damping < kMostDamping) {
       ++fit.iterations;
       const Eigen::VectorXd step = Step(linear, held, damping);
-      SilhouetteFit trial = CostOf(body, views, Moved(body.tree, fit.state, {step.data(), static_cast<std::size_t>(step.size())}),
-                                   prior, options.cost, workspace);
+      SilhouetteFit trial =
+          CostOf(body, views, Moved(body.tree, fit.state, {step.data(), static_cast<std::size_t>(step.size())}), prior,
+                 options.cost, workspace);
       is_better = trial.cost < fit.cost;
       damping = is_better ? damping * kShrinks : damping * kGrows;
       if (!is_better) continue;

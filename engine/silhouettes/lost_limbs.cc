@@ -67,7 +67,7 @@ class LimbCost {
 
   const std::span<const SilhouetteView> views_;
   const SilhouetteCostOptions& options_;
-  SilhouetteBody limb_;  // its flesh is the limb's alone
+  SilhouetteBody limb_;                       // its flesh is the limb's alone
   std::vector<std::vector<double>> to_rest_;  // [view][outline point]: to the nearest flesh that stays
   TreeFrames frames_;
   std::vector<ProjectedCapsule> flesh_;

@@ -111,7 +111,8 @@ DistanceAt DistanceAtPixel(const Silhouette& silhouette, const glm::dvec2& pixel
   const glm::dvec2 seen = glm::clamp(wanted, glm::dvec2(0), glm::dvec2(silhouette.width - 1, silhouette.height - 1));
   const glm::dvec2 in_box = seen - glm::dvec2(silhouette.left, silhouette.top);
   const glm::dvec2 at = glm::clamp(in_box, glm::dvec2(0), glm::dvec2(field.width - 1, field.height - 1));
-  const int x = std::min(static_cast<int>(at.x), field.width - 2), y = std::min(static_cast<int>(at.y), field.height - 2);
+  const int x = std::min(static_cast<int>(at.x), field.width - 2),
+            y = std::min(static_cast<int>(at.y), field.height - 2);
   const double s = at.x - x, t = at.y - y;
   const double a = field.At(x, y), b = field.At(x + 1, y), c = field.At(x, y + 1), d = field.At(x + 1, y + 1);
   DistanceAt found{(1 - t) * ((1 - s) * a + s * b) + t * ((1 - s) * c + s * d),

@@ -65,17 +65,41 @@ const std::array<JointRow, kJointCount>& JointRows() {
       {kChest, "chest", kLoins, kSpine, kRising, {{-45, 25}, {-25, 25}, {-35, 35}}, {{0, 15}, {0, 10}, {0, 12}}},
       {kNeck, "neck", kChest, kShoulderCentre, kRising, {{-60, 60}, {-45, 45}, {-70, 70}}, {{0, 20}, {0, 15}, {0, 25}}},
       {kLeftCollar, "left_collar", kChest, kShoulderCentre, kToTheLeft, {{-12, 35}, {-25, 25}}, {{0, 10}, {0, 10}}},
-      {kLeftUpperArm, "left_upper_arm", kLeftCollar, kLeftShoulder, kHanging, {{-90, 190}, {-88, 60}, {-110, 110}}, {{20, 60}, {0, 45}, {0, 45}}},
+      {kLeftUpperArm,
+       "left_upper_arm",
+       kLeftCollar,
+       kLeftShoulder,
+       kHanging,
+       {{-90, 190}, {-88, 60}, {-110, 110}},
+       {{20, 60}, {0, 45}, {0, 45}}},
       {kLeftForearm, "left_forearm", kLeftUpperArm, kLeftElbow, kHanging, {{0, 150}}, {{40, 45}}},
       {kLeftPalm, "left_hand", kLeftForearm, kLeftWrist, kHanging, {{-60, 60}, {-30, 30}}, {{0, 20}, {0, 12}}},
       {kRightCollar, "right_collar", kChest, kShoulderCentre, kToTheRight, {{-12, 35}, {-25, 25}}, {{0, 10}, {0, 10}}},
-      {kRightUpperArm, "right_upper_arm", kRightCollar, kRightShoulder, kHanging, {{-90, 190}, {-60, 88}, {-110, 110}}, {{20, 60}, {0, 45}, {0, 45}}},
+      {kRightUpperArm,
+       "right_upper_arm",
+       kRightCollar,
+       kRightShoulder,
+       kHanging,
+       {{-90, 190}, {-60, 88}, {-110, 110}},
+       {{20, 60}, {0, 45}, {0, 45}}},
       {kRightForearm, "right_forearm", kRightUpperArm, kRightElbow, kHanging, {{0, 150}}, {{40, 45}}},
       {kRightPalm, "right_hand", kRightForearm, kRightWrist, kHanging, {{-60, 60}, {-30, 30}}, {{0, 20}, {0, 12}}},
-      {kLeftThigh, "left_thigh", kPelvis, kLeftHip, kHanging, {{-40, 130}, {-70, 40}, {-60, 60}}, {{15, 40}, {0, 25}, {0, 20}}},
+      {kLeftThigh,
+       "left_thigh",
+       kPelvis,
+       kLeftHip,
+       kHanging,
+       {{-40, 130}, {-70, 40}, {-60, 60}},
+       {{15, 40}, {0, 25}, {0, 20}}},
       {kLeftShank, "left_shank", kLeftThigh, kLeftKnee, kHanging, {{-150, 0}}, {{-20, 40}}},
       {kLeftSole, "left_foot", kLeftShank, kLeftAnkle, kFootwards, {{-65, 35}, {-30, 30}}, {{-15, 20}, {0, 10}}},
-      {kRightThigh, "right_thigh", kPelvis, kRightHip, kHanging, {{-40, 130}, {-40, 70}, {-60, 60}}, {{15, 40}, {0, 25}, {0, 20}}},
+      {kRightThigh,
+       "right_thigh",
+       kPelvis,
+       kRightHip,
+       kHanging,
+       {{-40, 130}, {-40, 70}, {-60, 60}},
+       {{15, 40}, {0, 25}, {0, 20}}},
       {kRightShank, "right_shank", kRightThigh, kRightKnee, kHanging, {{-150, 0}}, {{-20, 40}}},
       {kRightSole, "right_foot", kRightShank, kRightAnkle, kFootwards, {{-65, 35}, {-30, 30}}, {{-15, 20}, {0, 10}}},
   }};
@@ -84,9 +108,9 @@ const std::array<JointRow, kJointCount>& JointRows() {
 
 // Which limb carries each joint of the canonical body, in the order of Role.
 constexpr std::array<JointIndex, kRoleCount> kCarriers = {
-    kPelvis,       kChest,         kNeck,        kNeck,       kLeftUpperArm, kLeftForearm, kLeftPalm,
-    kLeftPalm,     kRightUpperArm, kRightForearm, kRightPalm, kRightPalm,    kLeftThigh,   kLeftShank,
-    kLeftSole,     kLeftSole,      kRightThigh,  kRightShank, kRightSole,    kRightSole};
+    kPelvis,   kChest,         kNeck,         kNeck,       kLeftUpperArm, kLeftForearm, kLeftPalm,
+    kLeftPalm, kRightUpperArm, kRightForearm, kRightPalm,  kRightPalm,    kLeftThigh,   kLeftShank,
+    kLeftSole, kLeftSole,      kRightThigh,   kRightShank, kRightSole,    kRightSole};
 
 // A person of 1.70 m, whose thigh, shank and trunk have this length together.
 constexpr double kStatureLengths = 1.32;  // metres
@@ -149,7 +173,8 @@ struct FleshRow {
 
 const std::vector<FleshRow>& FleshRows() {
   static const std::vector<FleshRow> rows = {
-      // The pelvis and the chest are about 34 wide and 23 deep, the waist 29.
+      // The pelvis and the chest are about 34 wide and 23 deep, the waist 29; the crotch lies 8 below the hip joints.
+      {kTrunk, kPelvis, kHipCentre, {4, -1, 0}, kHipCentre, {5.5, 2, -1}, 7.5, 11.8},
       {kTrunk, kPelvis, kHipCentre, {5.5, 2, -1}, kHipCentre, {4.5, 9, 0}, 11.8, 11},
       {kTrunk, kLoins, kHipCentre, {4.2, 8, 0}, kSpine, {4.5, 0, 0}, 10.7, 10.7},
       {kTrunk, kChest, kSpine, {4.5, 0, 0}, kShoulderCentre, {5, -13, 0}, 10.8, 11},
@@ -180,8 +205,8 @@ std::vector<FleshCapsule> MakeFlesh(const BodyPose& rest, double scale) {
   std::vector<FleshCapsule> flesh;
   for (const FleshRow& row : FleshRows()) {
     for (const bool mirror : {false, true}) {
-      const bool in_the_middle = row.a == Mirrored(row.a) && row.b == Mirrored(row.b) && row.from_a_cm.x == 0 &&
-                                 row.from_b_cm.x == 0;
+      const bool in_the_middle =
+          row.a == Mirrored(row.a) && row.b == Mirrored(row.b) && row.from_a_cm.x == 0 && row.from_b_cm.x == 0;
       if (mirror && in_the_middle) continue;
       const glm::dvec3 to_side(mirror ? -1 : 1, 1, 1);
       const JointIndex limb = mirror ? MirroredLimb(row.limb) : row.limb;

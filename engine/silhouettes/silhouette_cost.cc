@@ -141,8 +141,7 @@ void AppendContainment(const std::vector<ProjectedCapsule>& flesh, const Silhoue
 
 Loss LossOf(const SilhouetteResidual& residual, const SilhouetteCostOptions& options) {
   const double reach = residual.is_inside ? options.inside_reach_px : options.outline_reach_px;
-  const double counts =
-      (residual.is_inside ? options.inside_weight : 1) / (options.sigma_px * options.sigma_px);
+  const double counts = (residual.is_inside ? options.inside_weight : 1) / (options.sigma_px * options.sigma_px);
   const double square = residual.value * residual.value;
   const double share = 1 / (1 + square / (reach * reach));
   return {counts * square * share, counts * share * share};

@@ -18,12 +18,13 @@ struct SilhouetteView {
 
 /// How a pose of the body is compared with silhouettes. All lengths in pixels of the camera.
 struct SilhouetteCostOptions {
-  /// A residual of this size counts as one standard deviation, against the habits of the body's angles.
-  double sigma_px = 4;
+  /// A residual of this size counts as one standard deviation, against the habits of the body's angles. It is several
+  /// times what an outline errs, because neighbouring points err alike: clothes, flesh of other shape.
+  double sigma_px = 8;
   /// Beyond this distance an outline point, or a piece of the body outside the silhouette, counts less and less (Geman
   /// and McClure's loss): what it tells is somebody's shadow, a lost piece, or a limb that is elsewhere. Wide far from
   /// the solution, narrow near it.
-  double outline_reach_px = 20;
+  double outline_reach_px = 14;
   double inside_reach_px = 60;
   /// How much of the flesh must lie inside: 1 all of it. Less, because this person may be thinner.
   double inside_share = 0.8;

@@ -6,7 +6,7 @@ namespace etude {
 namespace {
 
 constexpr double kSpreadOfPeople = 0.15;  // of people about the average, standard deviation
-constexpr double kMostUnlike = 0.35;    // a part more unlike the average than this is a mistake
+constexpr double kMostChange = 0.15;      // how much a part may change at a time
 
 }  // namespace
 
@@ -36,7 +36,7 @@ SilhouetteBody ThicknessEstimate::Apply() const {
   SilhouetteBody body = body_;
   for (FleshCapsule& capsule : body.flesh) {
     const double share = agrees_[capsule.part] / (counts_[capsule.part] + 1 / (kSpreadOfPeople * kSpreadOfPeople));
-    const double scale = 1 + std::clamp(share, -kMostUnlike, kMostUnlike);
+    const double scale = 1 + std::clamp(share, -kMostChange, kMostChange);
     capsule.radius_a *= scale;
     capsule.radius_b *= scale;
   }

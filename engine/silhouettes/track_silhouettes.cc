@@ -16,7 +16,8 @@ namespace {
 
 using Fits = std::vector<std::optional<SilhouetteFit>>;
 
-// Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near it.
+// Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near
+// it.
 constexpr double kWideReach = 3;  // times that of the options
 constexpr int kCoarseSteps = 8, kFineSteps = 12;
 constexpr std::size_t kFollowedAnchors = 2;
@@ -63,7 +64,7 @@ class Tracker {
       is_first = false;
     }
     if (is_first) return {body_, std::move(fits)};
-    if (options_.fits_thickness) {
+    for (int i = 0; i < options_.thickness_passes; ++i) {
       FitThickness(fits);
       Refit(fits);
     }

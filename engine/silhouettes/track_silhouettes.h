@@ -40,8 +40,9 @@ struct TrackOptions {
   double lost = 1.8;
   /// How often lost frames are searched anew and all are smoothed.
   int repairs = 2;
-  /// Whether the thickness of trunk, head, arms and legs is estimated from the take: a person is no average.
-  bool fits_thickness = true;
+  /// How often the thickness of trunk, head, arms and legs is estimated from the take, each time nearer: a person is no
+  /// average. 0 keeps the average.
+  int thickness_passes = 2;
 };
 
 /// The body's pose in every frame, and the body with its thickness as estimated.

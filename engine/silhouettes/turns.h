@@ -17,8 +17,8 @@ glm::dmat3 RotationBy(const glm::dvec3& turn);
 /// being π or 0.
 glm::dvec3 TurnOf(const glm::dmat3& rotation);
 
-/// `state` moved by so much of every coordinate: by[0…2] is added to the root's place, by[3…5] turns it (a rotation vector in the world), the rest is
-/// added to the angles, which stay within their limits.
+/// `state` moved by so much of every coordinate: by[0…2] is added to the root's place, by[3…5] turns it (a rotation
+/// vector in the world), the rest is added to the angles, which stay within their limits.
 TreeState Moved(const KinematicTree& tree, const TreeState& state, std::span<const double> by);
 
 /// The mean of two poses, half-way also in the root's turn.

@@ -127,8 +127,9 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
 
 Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options) {
   const Mask changed = DetectChange(background, picture, options.segmenter, options.change);
-  const Mask person = options.pieces == PersonPieces::kLargest ? LargestComponent(changed)
-                                                               : LargeComponents(changed, options.smallest_piece, options.piece_reach);
+  const Mask person = options.pieces == PersonPieces::kLargest
+                          ? LargestComponent(changed)
+                          : LargeComponents(changed, options.smallest_piece, options.piece_reach);
   return FillHoles(person, options.largest_hole);
 }
 

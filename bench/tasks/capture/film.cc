@@ -61,7 +61,9 @@ class Crew {
 
   Mask CutOut(const Picture& picture, std::size_t camera, const PersonSource& source) const {
     if (source.is_truth) return picture.person;
-    return ExtractPerson(backgrounds_[camera], picture.colour, {.segmenter = source.segmenter, .change = {},
+    return ExtractPerson(backgrounds_[camera], picture.colour,
+                         {.segmenter = source.segmenter,
+                          .change = {},
                           .pieces = source.for_silhouettes ? PersonPieces::kLarge : PersonPieces::kLargest});
   }
 

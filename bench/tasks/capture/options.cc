@@ -90,25 +90,25 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
   using Method = CaptureMethod;
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
-    FieldTable<Method> made{{Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
-                                       "How the person is cut out of the pictures."),
-                             Key::Name("limbs", &Method::limbs,
-                                       {{"strokes", LimbSource::kStrokes}, {"silhouettes", LimbSource::kSilhouettes}},
-                                       "What tells where the limbs are: a human's strokes, or the silhouettes alone."),
-                             Key::Name("start", &Method::start,
-                                       {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
-                                       "What is known of the first frame's pose: nothing, or every angle to 10°.")
-                                 .With("limbs", {"silhouettes"}),
-                             Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
-                                       "How a camera is computed from its calibration points."),
-                             ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-                             SweepsField(&Method::ik, "The solver's steps per frame, at most."),
-                             Key::Flags("oracle",
-                                        {{"calibration", OracleOf<&Oracle::calibration>},
-                                         {"segmentation", OracleOf<&Oracle::segmentation>},
-                                         {"directions", OracleOf<&Oracle::directions>},
-                                         {"points", OracleOf<&Oracle::points>}},
-                                        "Stages replaced by the truth.")}};
+    FieldTable<Method> made{
+        {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
+                   "How the person is cut out of the pictures."),
+         Key::Name("limbs", &Method::limbs,
+                   {{"strokes", LimbSource::kStrokes}, {"silhouettes", LimbSource::kSilhouettes}},
+                   "What tells where the limbs are: a human's strokes, or the silhouettes alone."),
+         Key::Name("start", &Method::start, {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
+                   "What is known of the first frame's pose: nothing, or every angle to 10°.")
+             .With("limbs", {"silhouettes"}),
+         Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
+                   "How a camera is computed from its calibration points."),
+         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
+         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+         Key::Flags("oracle",
+                    {{"calibration", OracleOf<&Oracle::calibration>},
+                     {"segmentation", OracleOf<&Oracle::segmentation>},
+                     {"directions", OracleOf<&Oracle::directions>},
+                     {"points", OracleOf<&Oracle::points>}},
+                    "Stages replaced by the truth.")}};
     const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     made.fields.insert(made.fields.end(), solver.begin(), solver.end());
     return made;

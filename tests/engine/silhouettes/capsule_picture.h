@@ -48,8 +48,8 @@ inline std::vector<Camera> CamerasAround(const std::vector<double>& angles_deg) 
   for (std::size_t i = 0; i < angles_deg.size(); ++i) {
     const double angle = angles_deg[i] * 3.14159265358979 / 180;
     const glm::dvec3 p_WC(3.8 * std::sin(angle), i % 2 == 0 ? 1.0 : 2.2, 3.8 * std::cos(angle));
-    cameras.push_back(LookAt({.width = 240, .height = 180, .fx = 225, .fy = 225, .cx = 120, .cy = 90}, p_WC,
-                             glm::dvec3(0, 0.95, 0)));
+    cameras.push_back(
+        LookAt({.width = 240, .height = 180, .fx = 225, .fy = 225, .cx = 120, .cy = 90}, p_WC, glm::dvec3(0, 0.95, 0)));
   }
   return cameras;
 }

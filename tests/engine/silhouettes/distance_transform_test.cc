@@ -71,7 +71,8 @@ TEST(Silhouette, OfADiscTellsItsMiddleItsOutlineAndHowFarEverythingIs) {
     EXPECT_NEAR(glm::length(out), 30, 1.6);
     EXPECT_GT(glm::dot(point.normal, glm::normalize(out)), 0.95);
   }
-  for (const glm::dvec2 pixel : {glm::dvec2(100, 80.7), glm::dvec2(120, 95), glm::dvec2(150, 80), glm::dvec2(100, 140)}) {
+  for (const glm::dvec2 pixel :
+       {glm::dvec2(100, 80.7), glm::dvec2(120, 95), glm::dvec2(150, 80), glm::dvec2(100, 140)}) {
     const DistanceAt at = DistanceAtPixel(disc, pixel);
     EXPECT_NEAR(at.distance, glm::distance(pixel, disc.centre) - 30, 2);
   }

@@ -58,7 +58,7 @@ struct Take {
 
 TrackOptions TrackInSmallPictures() {
   TrackOptions options;
-  options.cost = {.sigma_px = 1.5, .outline_reach_px = 8, .inside_reach_px = 22};
+  options.cost = {.sigma_px = 1, .outline_reach_px = 8, .inside_reach_px = 22};
   options.anchors = 2;
   return options;
 }
@@ -75,7 +75,7 @@ TEST(TrackSilhouettes, FindsOutHowThickThePersonIs) {
   TrackOptions options = TrackInSmallPictures();
   const SilhouetteTake seen{take.matrices, take.silhouettes, take.truth[0]};
   const SilhouetteTrack fitted = TrackSilhouettes(take.body, seen, options);
-  options.fits_thickness = false;
+  options.thickness_passes = 0;
   const SilhouetteTrack average = TrackSilhouettes(take.body, seen, options);
   const auto mean_radius = [](const SilhouetteBody& body) {
     double sum = 0;

@@ -127,8 +127,10 @@ TEST(LargestComponent, DropsEverythingElse) {
 }
 
 TEST(LargeComponents, KeepsTheLargestAndWhatIsLargeAndNear) {
-  const Mask mask = FromRows({"##........##", "............", "..####......", "..####..#...", "............", "##.........."});
-  const Mask expected = FromRows({"##..........", "............", "..####......", "..####......", "............", "##.........."});
+  const Mask mask =
+      FromRows({"##........##", "............", "..####......", "..####..#...", "............", "##.........."});
+  const Mask expected =
+      FromRows({"##..........", "............", "..####......", "..####......", "............", "##.........."});
   EXPECT_EQ(LargeComponents(mask, 2, 2).pixels, expected.pixels) << "one piece is small, one is far away";
   EXPECT_EQ(LargeComponents(mask, 1, 20).pixels, mask.pixels);
   EXPECT_EQ(LargeComponents(mask, 100, 20).pixels, LargestComponent(mask).pixels);

@@ -102,6 +102,25 @@ TEST(CaptureTask, MakesASkeletonOfWhatIsMarkedAndSaysHowLittleThatWas) {
   EXPECT_TRUE(ValueOf(cells[0], "mpjpe_mm"));
 }
 
+TEST(CaptureTask, FollowsSilhouettesWithoutAMark) {
+  const auto task = Make(
+      "duration_s: 0.2\nmethods:\n- {name: near, limbs: silhouettes, start: near}\n"
+      "- {name: cold, limbs: silhouettes}\n- {name: strokes}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, kKey, 3, true), again = RunWorld(**task, kKey, 3, true);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(cells[i].status, Status::kOk) << cells[i].reason;
+    EXPECT_EQ(cells[i].digests, again[i].digests);
+    EXPECT_EQ(ValueOf(cells[i], "frames_recovered"), 1);
+    EXPECT_LT(*ValueOf(cells[i], "mpjpe_mm"), 60);
+    EXPECT_FALSE(ValueOf(cells[i], "mpjpe_before_ik_mm")) << "there is no inverse kinematics";
+    EXPECT_FALSE(ValueOf(cells[i], "limb_direction_error_deg")) << "no limb was marked";
+    EXPECT_TRUE(cells[i].recording);
+  }
+  EXPECT_EQ(DigestOf(cells[0], "pictures"), DigestOf(cells[2], "pictures"));
+  EXPECT_FALSE(Make("methods:\n- {name: a, start: near}\n")) << "strokes start from nothing";
+}
+
 TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
   CaptureWorld world;
   world.truth.resize(2);
