@@ -90,12 +90,16 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
+  const bool are_few = world.cameras.size() * world.truth.size() <= kMostSilhouettes;
+  const auto keeps_masks = [&](const PersonSource& source) {
+    return wants_masks || (source.for_silhouettes && are_few);
+  };
   std::vector<Marking> marking(sources.size(), Marking(options, world, key));
   for (const PersonSource& source : sources) {
     Observation& observation = take.observations.emplace_back();
     observation.source = source;
     observation.marks.resize(world.cameras.size());
-    if (wants_masks || source.for_silhouettes) observation.masks.resize(world.cameras.size());
+    if (keeps_masks(source)) observation.masks.resize(world.cameras.size());
   }
 
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
@@ -108,7 +112,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
         const Mask person = crew.CutOut(picture, camera, sources[i]);
         masks[i].Add(std::span<const std::uint8_t>(person.pixels));
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
-        if (wants_masks || sources[i].for_silhouettes) observation.masks[camera].push_back(HalveMask(person));
+        if (keeps_masks(sources[i])) observation.masks[camera].push_back(HalveMask(person));
         observation.marks[camera].push_back(
             sources[i].for_silhouettes ? Marks{}
                                        : marking[i].Mark(camera, frame, {picture.labels, picture.colour, person}));

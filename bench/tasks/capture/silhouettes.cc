@@ -1,5 +1,6 @@
 #include "bench/tasks/capture/silhouettes.h"
 
+#include "bench/tasks/capture/film.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/start_angles.h"
@@ -10,8 +11,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostSilhouettes = 8000;  // some 50 kB each
-constexpr double kMaskPixel = 2;                // masks are half size
+constexpr double kMaskPixel = 2;  // masks are half size
 
 // The pose of the first frame as somebody would tell it who knows every angle to `kNearAngle`.
 TreeState NearStart(const SilhouetteBody& body, const CaptureWorld& world, const WorldKey& key) {
@@ -43,10 +43,11 @@ TreeState NearestPaperState(const KinematicTree& tree, const BodyPose& pose, con
 }  // namespace
 
 Result<std::vector<std::optional<RecoveredFrame>>> FollowSilhouettes(const SilhouetteInputs& inputs) {
-  const std::size_t frames = inputs.world.truth.size(), pictures = inputs.masks.size() * frames;
+  const std::size_t frames = inputs.world.truth.size(), cameras = inputs.world.cameras.size();
+  const std::size_t pictures = cameras * frames;
   if (pictures > kMostSilhouettes) {
     return Fail({}, "silhouettes of {} pictures; at most {} are held in memory, that is a duration_s of {:g}", pictures,
-                kMostSilhouettes, static_cast<double>(kMostSilhouettes / inputs.masks.size()) / kJudgedRateHz);
+                kMostSilhouettes, static_cast<double>(kMostSilhouettes / cameras) / kJudgedRateHz);
   }
   const std::vector<std::vector<Silhouette>> silhouettes = ReadMasks(inputs.masks);
   const SilhouetteBody body = MakeSilhouetteBody(inputs.world.lengths);
