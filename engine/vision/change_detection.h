@@ -56,7 +56,8 @@ struct PersonOptions {
   PersonPieces pieces = PersonPieces::kLargest;
   /// kLarge: pieces of fewer pixels are noise. 120 is a hand four metres away in a picture of 640 × 480.
   int smallest_piece = 120;
-  /// kLarge: so far may the box about a piece be from that about the largest one, pixels: the length of a forearm there.
+  /// kLarge: so far may the box about a piece be from that about the largest one, pixels: the length of a forearm
+  /// there.
   int piece_reach = 40;
   /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
   int largest_hole = 60;
