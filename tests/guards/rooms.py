@@ -9,9 +9,11 @@ MAY_INCLUDE = {
     # engine/
     "engine/base": "",
     "engine/boards": "engine/base",
+    "engine/bundle_adjustment": "engine/base engine/cameras engine/kinematics",
     "engine/cameras": "engine/base",
     "engine/capture":
-        "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
+        "engine/base engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers engine/motion "
+        "engine/smoothing engine/vision",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
@@ -21,6 +23,7 @@ MAY_INCLUDE = {
     "engine/motion": "engine/base",
     "engine/recognition": "engine/base engine/fuzzy engine/motion",
     "engine/retargeting": "engine/base engine/document engine/motion",
+    "engine/smoothing": "",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":

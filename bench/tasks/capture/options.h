@@ -71,6 +71,25 @@ struct Oracle {
   bool ik = false;
 };
 
+/// How marks become the poses of a body.
+enum class Recovery {
+  kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
+  kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
+  kBundle,  ///< "bundle": all marks of all frames explained at once by one body in smooth motion
+};
+
+/// What is done to the joints of a whole take.
+enum class Smoothing {
+  kNone,  ///< "none"
+  kRts,   ///< "rts": each joint's track by itself (Rauch, Tung and Striebel)
+};
+
+/// Where the limb lengths come from.
+enum class LengthSource {
+  kKnown,     ///< "known": measured on the performer beforehand (paper B)
+  kMeasured,  ///< "measured": from the marks of a few frames
+};
+
 /// A pipeline with its settings.
 struct CaptureMethod {
   std::string name;
@@ -81,6 +100,9 @@ struct CaptureMethod {
   BodyKind body = BodyKind::kFitted;
   const IkSolver* solver = DefaultIkSolver();
   IkOptions ik = IkBudget(100);
+  Recovery recovery = Recovery::kIk;
+  Smoothing smoothing = Smoothing::kNone;
+  LengthSource lengths = LengthSource::kKnown;
   Oracle oracle;
 };
 

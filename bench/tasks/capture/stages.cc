@@ -61,6 +61,7 @@ MeasuredTake MeasureTake(const MeasureInputs& inputs, const MeasureOptions& meas
   MeasuredTake take;
   take.frames = MeasureFrames(inputs, measure);
   take.seen = BridgeGaps(take.frames, bridge);
+  take.joints = MeasureJoints(inputs);
   Digest directions, points;
   for (const FrameMeasurement& frame : take.frames) {
     Add(frame.directions, directions);

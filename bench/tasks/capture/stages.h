@@ -13,6 +13,7 @@
 #include "bench/tasks/capture/world.h"
 #include "engine/capture/bridge_gaps.h"
 #include "engine/capture/measure_frames.h"
+#include "engine/capture/measure_joints.h"
 #include "engine/kinematics/capture_body.h"
 
 namespace etude {
@@ -28,6 +29,7 @@ struct CalibratedCameras {
 struct MeasuredTake {
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
+  std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };
 
