@@ -146,6 +146,16 @@ std::string Strip(const ScenarioSummary& scenario, const Media& media) {
   return html + "</div>";
 }
 
+std::string Plates(const ScenarioSummary& scenario, const Media& media) {
+  std::string html;
+  for (const ScenarioPicture& shown : media.plates) {
+    if (shown.scenario != scenario.name) continue;
+    html += fmt::format("<details open><summary>{}</summary>{}</details>", EscapeMarkup(shown.picture.caption),
+                        ImageElement(shown.picture));
+  }
+  return html;
+}
+
 }  // namespace
 
 std::string CardAnchor(std::size_t index) { return fmt::format("scenario-{}", index + 1); }
@@ -160,6 +170,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
                       EscapeMarkup(scenario.question.empty() ? scenario.name : scenario.question));
   html += Answer(findings);
   html += Strip(scenario, media);
+  html += Plates(scenario, media);
   html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);
   html += Methods(findings);

@@ -2,13 +2,16 @@
 
 #include "bench/clips/builtin_clip.h"
 #include "bench/clips/references.h"
+#include "engine/retargeting/measure_body.h"
 
 namespace etude {
 namespace {
 
 Result<void> AddBuiltin(const std::string& reference, const Place& place, ClipLibrary& library) {
   ASSIGN_OR_RETURN(auto builtin, LoadBuiltinClip(reference.substr(kBuiltinPrefix.size()), place));
-  library.clips.push_back({reference, reference, std::move(builtin.motion), std::move(builtin.move), ""});
+  RestBody body = RestBodyOf(builtin.motion.poses);
+  library.clips.push_back(
+      {reference, reference, std::move(builtin.motion), std::move(builtin.move), "", std::move(body)});
   return {};
 }
 
@@ -16,8 +19,9 @@ Result<void> AddFile(const std::string& reference, const OpenOptions& options, C
   ASSIGN_OR_RETURN(auto clips, ReadClips(reference));
   for (SourceClip& clip : clips) {
     ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), options));
-    library.clips.push_back(
-        {opened.source.name, opened.source.source, std::move(opened.body.motion), std::nullopt, opened.body.note});
+    RestBody body = MeasureBody(opened.source.clip, opened.map, opened.body);
+    library.clips.push_back({opened.source.name, opened.source.source, std::move(opened.body.motion), std::nullopt,
+                             opened.body.note, std::move(body)});
   }
   return {};
 }

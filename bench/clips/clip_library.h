@@ -7,6 +7,7 @@
 #include "bench/clips/open_clip.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
+#include "engine/motion/rest_body.h"
 #include "sim/choreography/move.h"
 
 namespace etude {
@@ -18,6 +19,7 @@ struct LibraryClip {
   BodyMotion motion;
   std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
   std::string note;          ///< what loading had to repair ("dropped a leading T-pose", "1 unit = 5.65 cm")
+  RestBody body = {};        ///< of who moves, at rest; without joints where nobody has measured it
 };
 
 /// The clips of one scenario, in order; trials go round-robin over them.

@@ -74,8 +74,8 @@ struct Field {
                        std::string meaning) {
     std::string fallback;
     const auto values = Default(member);
-    for (double value : values) fallback += (fallback.empty() ? "[" : ", ") + NumberText(value);
-    return {{key, ListKind(std::move(allowed), NumberKind(range), count), fallback + "]", std::move(meaning)},
+    for (double value : values) fallback += (fallback.empty() ? "" : ", ") + NumberText(value);
+    return {{key, ListKind(std::move(allowed), NumberKind(range), count), "[" + fallback + "]", std::move(meaning)},
             [=](Fields& fields, Options& options) {
               ReadNumbers(fields, key, count, range, std::invoke(member, options));
             }};

@@ -51,6 +51,8 @@ struct ComparedMethod {
   std::string name;
   std::string against;      ///< the method it is compared with; the first is its own
   bool has_oracle = false;  ///< part of its work is done by the truth: it shows what could be, and competes with none
+  std::vector<std::string> oracle = {};  ///< which stages the truth stands for
+  std::string settings = {};  ///< all else that is said of it, the same text for the same; "" = of an outside method
 };
 
 /// What a scenario compares and what it expects, without how its worlds are made: all that judging its rows takes.

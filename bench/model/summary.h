@@ -95,11 +95,29 @@ struct Comparison {
   Beyond beyond;                   ///< these worlds, for other units like theirs
 };
 
+/// What one stage costs: how much smaller the error is when the truth stands for it, mean over worlds.
+struct BudgetShare {
+  std::string stage;  ///< or several, that were made true together
+  double mean = 0;
+  std::optional<double> ci_low = {}, ci_high = {};  ///< 95 % interval of the mean
+};
+
+/// The error of one method, split into what its stages cost (bench/statistics/error_budget.h).
+struct ErrorBudget {
+  std::string metric;
+  std::string method;       ///< of which no stage, or the fewest, is true
+  bool is_shapley = false;  ///< shares are averages over all orders; else those of one order, that of `shares`
+  int worlds = 0;
+  double total = 0, rest = 0;  ///< mean error of that method, and of the one with the most stages true
+  std::vector<BudgetShare> shares;
+};
+
 struct ConditionSummary {
   std::vector<SweptValue> condition;
   std::vector<MethodSummary> methods;
-  std::vector<Comparison> comparisons;  ///< every method against its baseline, headline metrics
-  std::vector<Comparison> rivals;       ///< every method against the strongest other one, headline metrics
+  std::vector<Comparison> comparisons;    ///< every method against its baseline, headline metrics
+  std::vector<Comparison> rivals;         ///< every method against the strongest other one, headline metrics
+  std::vector<ErrorBudget> budgets = {};  ///< of the first headline metric, where methods differ in oracles alone
 };
 
 /// Whether something that was said to come out did: an expectation, a time rule.

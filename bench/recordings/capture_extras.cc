@@ -39,6 +39,35 @@ Json ToJson(const CaptureExtras::View& view) {
   return json;
 }
 
+Json ToJson(const CaptureExtras::Moment& moment) {
+  Json fixed = Json::array(), marks = Json::array();
+  for (const glm::dvec3& p : moment.fixed.joints) fixed.push_back({p.x, p.y, p.z});
+  for (const std::vector<CaptureExtras::Mark>& drawn : moment.marks) {
+    Json of_camera = Json::array();
+    for (const CaptureExtras::Mark& mark : drawn) {
+      of_camera.push_back({mark.a.x, mark.a.y, mark.b.x, mark.b.y, mark.colour.r, mark.colour.g, mark.colour.b});
+    }
+    marks.push_back(std::move(of_camera));
+  }
+  return {{"frame", moment.frame}, {"fixed", std::move(fixed)}, {"marks", std::move(marks)}};
+}
+
+CaptureExtras::Moment ToMoment(const Json& json) {
+  CaptureExtras::Moment moment;
+  moment.frame = json.at("frame");
+  for (std::size_t i = 0; i < moment.fixed.joints.size(); ++i) {
+    const Json& p = json.at("fixed").at(i);
+    moment.fixed.joints[i] = {p.at(0), p.at(1), p.at(2)};
+  }
+  for (const Json& of_camera : json.at("marks")) {
+    std::vector<CaptureExtras::Mark>& drawn = moment.marks.emplace_back();
+    for (const Json& mark : of_camera) {
+      drawn.push_back({{mark.at(0), mark.at(1)}, {mark.at(2), mark.at(3)}, {mark.at(4), mark.at(5), mark.at(6)}});
+    }
+  }
+  return moment;
+}
+
 bool IsBase64(std::string_view text) {
   return text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/=") == text.npos;
 }
@@ -93,6 +122,13 @@ Result<CaptureExtras> ToExtras(const Json& json) {
     }
     extras.views.push_back(std::move(view));
   }
+  for (const Json& json_moment : json.value("moments", Json::array())) {
+    extras.moments.push_back(ToMoment(json_moment));
+    const CaptureExtras::Moment& moment = extras.moments.back();
+    if (moment.frame >= extras.brightness.size() || moment.marks.size() != extras.views.size()) {
+      return Fail({}, "a capture recording with a moment of another take");
+    }
+  }
   extras.bvh = json.at("bvh");
   return extras;
 }
@@ -113,6 +149,11 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
                {"bvh", extras.bvh}};
   if (extras.scene > 0) {
     json["stage"] = {{"seed", extras.stage_seed}, {"scene", extras.scene}, {"everyday", extras.wears_everyday}};
+  }
+  if (!extras.moments.empty()) {
+    Json moments = Json::array();
+    for (const CaptureExtras::Moment& moment : extras.moments) moments.push_back(ToJson(moment));
+    json["moments"] = std::move(moments);
   }
   return json.dump();
 }

@@ -9,6 +9,7 @@
 #include "engine/base/image.h"
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
+#include "engine/motion/body.h"
 
 namespace etude {
 
@@ -31,12 +32,26 @@ namespace etude {
 ///                   "mask_width": 320, "mask_height": 240,
 ///                   "still": "/9j/4AAQ…",                      the picture of frame n / 2: JPEG in base64; may be
 ///                   absent "masks": ["120 14 306 …", …]}, …],     one text per frame, see EncodeMask
+///      "moments": [{"frame": 9, "fixed": [[x, y, z], …],          of the twenty roles, lengths fixed, before IK
+///                   "marks": [[[u, v, u, v, r, g, b], …], …]}],    of each camera; absent when none were asked for
 ///      "bvh": "HIERARCHY\n…"}                              the recovered clip as a BVH file's text
 struct CaptureExtras {
   struct View {
     Camera truth;                        ///< the camera that took the pictures
     std::vector<Mask> masks;             ///< the person as found, one per frame, at half the pictures' size
     std::string still_jpeg_base64 = {};  ///< the middle frame's picture as it was taken; may be empty
+  };
+
+  /// A stroke that was drawn in a picture.
+  struct Mark {
+    glm::dvec2 a{0}, b{0};  ///< pixels
+    Rgb8 colour{};          ///< the limb's
+  };
+  /// A frame of which every stage can be shown.
+  struct Moment {
+    std::size_t frame = 0;
+    BodyPose fixed;                        ///< with the known limb lengths, before inverse kinematics
+    std::vector<std::vector<Mark>> marks;  ///< of each camera
   };
 
   std::uint64_t texture_seed = 1;
@@ -47,6 +62,7 @@ struct CaptureExtras {
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;
+  std::vector<Moment> moments;
   std::string bvh;
 };
 

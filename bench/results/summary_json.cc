@@ -104,6 +104,34 @@ Json Encode(const Comparison& comparison) {
           {"beyond", Encode(comparison.beyond)}};
 }
 
+Json Encode(const ErrorBudget& budget) {
+  Json shares = Json::array();
+  for (const BudgetShare& share : budget.shares) {
+    shares.push_back({{"stage", share.stage},
+                      {"mean", share.mean},
+                      {"mean_ci95_low", Number(share.ci_low)},
+                      {"mean_ci95_high", Number(share.ci_high)}});
+  }
+  return {{"metric", budget.metric},    {"method", budget.method}, {"shapley", budget.is_shapley},
+          {"worlds", budget.worlds},    {"total", budget.total},   {"rest", budget.rest},
+          {"shares", std::move(shares)}};
+}
+
+ErrorBudget DecodeBudget(const Json& json) {
+  ErrorBudget budget{.metric = json.at("metric").get<std::string>(),
+                     .method = json.at("method").get<std::string>(),
+                     .is_shapley = json.at("shapley").get<bool>(),
+                     .worlds = json.at("worlds").get<int>(),
+                     .total = json.at("total").get<double>(),
+                     .rest = json.at("rest").get<double>(),
+                     .shares = {}};
+  for (const Json& share : json.at("shares")) {
+    budget.shares.push_back({share.at("stage").get<std::string>(), share.at("mean").get<double>(),
+                             AsOptional(share.at("mean_ci95_low")), AsOptional(share.at("mean_ci95_high"))});
+  }
+  return budget;
+}
+
 std::vector<SweptValue> DecodeCondition(const Json& json) {
   std::vector<SweptValue> condition;
   for (const Json& swept : json) {
@@ -207,6 +235,8 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
                             {"methods", std::move(methods)},
                             {"comparisons", std::move(comparisons)},
                             {"rivals", std::move(rivals)}});
+      // Only where there are some: most scenarios have none.
+      for (const ErrorBudget& budget : condition.budgets) conditions.back()["error_budgets"].push_back(Encode(budget));
     }
     Json expectations = Json::array();
     for (const ExpectationResult& expectation : scenario.expectations) {
@@ -240,10 +270,13 @@ Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Pla
                                {},
                                entry.at("comparisons_in_family").get<int>()};
       for (const Json& part : entry.at("conditions")) {
-        ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}, {}};
+        ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}, {}, {}};
         for (const Json& method : part.at("methods")) condition.methods.push_back(DecodeMethod(method));
         for (const Json& row : part.at("comparisons")) condition.comparisons.push_back(DecodeComparison(row));
         for (const Json& row : part.at("rivals")) condition.rivals.push_back(DecodeComparison(row));
+        if (part.contains("error_budgets")) {
+          for (const Json& budget : part.at("error_budgets")) condition.budgets.push_back(DecodeBudget(budget));
+        }
         scenario.conditions.push_back(std::move(condition));
       }
       for (const Json& expectation : entry.at("expectations")) {

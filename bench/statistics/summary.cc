@@ -4,6 +4,7 @@
 
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
+#include "bench/statistics/error_budget.h"
 #include "bench/statistics/expectations.h"
 #include "bench/statistics/family.h"
 #include "bench/statistics/proportion.h"
@@ -185,6 +186,7 @@ ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::u
     for (const MethodColumns& method : condition.methods) {
       part.methods.push_back(SummariseMethod(method, condition, metrics, study, seed));
     }
+    if (!study.metrics.empty()) part.budgets = ComputeErrorBudgets(study, condition, study.metrics.front(), seed);
   }
   auto against_baselines = AskAgainstBaselines(study, table, seed),
        against_rivals = AskAgainstRivals(study, table, seed);

@@ -32,17 +32,30 @@ double LargestPlaneAngle(std::span<const StrokePlane> planes) {
   return largest;
 }
 
-// The unit vector nearest to normal to all normals; its sign means nothing.
-glm::dvec3 LineAlong(std::span<const StrokePlane> planes) {
+// The unit vector nearest to normal to all normals, each times its weight; its sign means nothing.
+glm::dvec3 LineAlong(std::span<const StrokePlane> planes, std::span<const double> weights) {
   if (planes.size() == 2) return glm::normalize(glm::cross(planes[0].normal_W, planes[1].normal_W));
   Eigen::MatrixX3d normals(planes.size(), 3);
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    const glm::dvec3& n = planes[i].normal_W;
+    const glm::dvec3 n = weights[i] * planes[i].normal_W;
     normals.row(static_cast<Eigen::Index>(i)) << n.x, n.y, n.z;
   }
   const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(normals, Eigen::ComputeFullV);
   const Eigen::Vector3d along_W = svd.matrixV().col(2);
   return {along_W[0], along_W[1], along_W[2]};
+}
+
+// What an error of a pixel at the stroke's ends is worth in Nᵢ·d, inverted; relative to the largest.
+std::vector<double> WeightsOf(std::span<const StrokePlane> planes, const glm::dvec3& along_W) {
+  std::vector<double> weights;
+  constexpr double kEndOn = 0.05;  // sine: a limb seen along itself tells nothing sure, however short its stroke
+  for (const StrokePlane& plane : planes) {
+    const glm::dvec3 middle = glm::normalize(plane.ray_a_W + plane.ray_b_W);
+    weights.push_back(plane.length_px / std::max(kEndOn, glm::length(glm::cross(middle, along_W))));
+  }
+  const double largest = *std::ranges::max_element(weights);
+  for (double& weight : weights) weight /= largest;
+  return weights;
 }
 
 // How far `direction` leads from ray a towards ray b, in [−1, 1]. Within the plane, direction =
@@ -76,7 +89,8 @@ LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, doub
   limb.plane_angle = LargestPlaneAngle(planes);
   if (limb.plane_angle < std::max(smallest_plane_angle, kSamePixel)) return limb;
 
-  const glm::dvec3 along_W = LineAlong(planes);
+  const std::vector<double> alike(planes.size(), 1.0);
+  const glm::dvec3 along_W = LineAlong(planes, WeightsOf(planes, LineAlong(planes, alike)));
   double sense = 0;
   for (const StrokePlane& plane : planes) sense += Sense(plane, along_W);
   return {DirectionStatus::kOk, sense < 0 ? -along_W : along_W, limb.plane_angle};

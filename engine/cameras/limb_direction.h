@@ -52,9 +52,10 @@ struct LimbDirection {
 
 /// The direction of a limb seen by two or more cameras. Each stroke and its camera's centre span a plane with the unit
 /// normal N ~ ray(a) × ray(b), in which the limb lies. With two planes it lies along N₁ × N₂ (paper B, section 2.3).
-/// *Ours*: with more, along the unit vector d with the smallest Σ (Nᵢ·d)²; planes count alike, because the same error
-/// in the pictures of cameras equally far away moves Nᵢ·d alike, however foreshortened the limb is. Strokes without
-/// length are left out. The sign is such that the limb runs from a to b in the pictures (ours; the paper is silent);
+/// *Ours*: with more, along the unit vector d with the smallest Σ (Nᵢ·d)²/εᵢ², where εᵢ ~ |rayᵢ × d| / length of the
+/// stroke is what an error of so many pixels at its ends makes of Nᵢ·d: planes of strokes that are drawn long for what
+/// they show of the limb weigh more, which are those of near cameras (d for the weights is that of equal ones). Strokes
+/// without length are left out. The sign is such that the limb runs from a to b in the pictures (ours; the paper is silent);
 /// where they disagree, those in which the limb is less foreshortened decide.
 /// @param smallest_plane_angle ill-conditioned when no two planes are so far from parallel, radians
 LimbDirection ComputeLimbDirection(std::span<const LimbSighting> sightings, double smallest_plane_angle = Radians(3));

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/cameras/limb_direction.h"
 
@@ -21,6 +22,42 @@ double ResidualPx(std::span<const Sighting> sightings, const glm::dvec3& p_WQ) {
     squares += glm::dot(*pixel - s.pixel, *pixel - s.pixel);
   }
   return std::sqrt(squares / static_cast<double>(sightings.size()));
+}
+
+// In front of the camera, in units of its own; the same for all scales of H.
+double DepthOf(const ProjectionMatrix& matrix, const glm::dvec3& p_WQ) {
+  const auto& h3 = matrix.h[2];
+  const double scale = std::sqrt(h3[0] * h3[0] + h3[1] * h3[1] + h3[2] * h3[2]);
+  return std::abs(h3[0] * p_WQ.x + h3[1] * p_WQ.y + h3[2] * p_WQ.z + h3[3]) / scale;
+}
+
+// Each sighting's two rows times its weight.
+TriangulatedPoint TriangulateWeighted(std::span<const Sighting> sightings, std::span<const double> weights) {
+  TriangulatedPoint point;
+  if (sightings.size() < 2) return point;
+  point.status = PointStatus::kIllConditioned;
+
+  Eigen::MatrixXd M(2 * sightings.size(), 3);
+  Eigen::VectorXd b(2 * sightings.size());
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const auto& h = sightings[i].matrix.h;
+    const double scale = weights[i] / std::sqrt(h[2][0] * h[2][0] + h[2][1] * h[2][1] + h[2][2] * h[2][2]);
+    for (int k = 0; k < 2; ++k) {
+      const double pixel = sightings[i].pixel[k];
+      const auto row = static_cast<Eigen::Index>(2 * i + k);
+      for (int column = 0; column < 3; ++column) M(row, column) = scale * (h[k][column] - h[2][column] * pixel);
+      b[row] = scale * (h[2][3] * pixel - h[k][3]);
+    }
+  }
+  if (!M.allFinite() || !b.allFinite()) return point;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (!(svd.singularValues()[2] > kParallel * svd.singularValues()[0])) return point;
+  const Eigen::Vector3d V = svd.solve(b);
+  const glm::dvec3 p_WQ(V[0], V[1], V[2]);
+  // Behind a camera: no camera can have seen it there.
+  const double residual = ResidualPx(sightings, p_WQ);
+  if (residual < 0) return point;
+  return {PointStatus::kOk, p_WQ, residual};
 }
 
 }  // namespace
@@ -42,31 +79,20 @@ glm::dvec3 NearestOn(const SightLine& line, const glm::dvec3& p_WQ) {
 }
 
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings) {
-  TriangulatedPoint point;
-  if (sightings.size() < 2) return point;
-  point.status = PointStatus::kIllConditioned;
+  return TriangulateWeighted(sightings, std::vector<double>(sightings.size(), 1.0));
+}
 
-  Eigen::MatrixXd M(2 * sightings.size(), 3);
-  Eigen::VectorXd b(2 * sightings.size());
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    const auto& h = sightings[i].matrix.h;
-    const double scale = 1 / std::sqrt(h[2][0] * h[2][0] + h[2][1] * h[2][1] + h[2][2] * h[2][2]);
-    for (int k = 0; k < 2; ++k) {
-      const double pixel = sightings[i].pixel[k];
-      const auto row = static_cast<Eigen::Index>(2 * i + k);
-      for (int column = 0; column < 3; ++column) M(row, column) = scale * (h[k][column] - h[2][column] * pixel);
-      b[row] = scale * (h[2][3] * pixel - h[k][3]);
-    }
+TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings) {
+  TriangulatedPoint point = Triangulate(sightings);
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds && point.status == PointStatus::kOk; ++round) {
+    std::vector<double> weights;
+    for (const Sighting& sighting : sightings) weights.push_back(1 / DepthOf(sighting.matrix, point.position));
+    const TriangulatedPoint next = TriangulateWeighted(sightings, weights);
+    if (next.status != PointStatus::kOk) break;
+    point = next;
   }
-  if (!M.allFinite() || !b.allFinite()) return point;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(M, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  if (!(svd.singularValues()[2] > kParallel * svd.singularValues()[0])) return point;
-  const Eigen::Vector3d V = svd.solve(b);
-  const glm::dvec3 p_WQ(V[0], V[1], V[2]);
-  // Behind a camera: no camera can have seen it there.
-  const double residual = ResidualPx(sightings, p_WQ);
-  if (residual < 0) return point;
-  return {PointStatus::kOk, p_WQ, residual};
+  return point;
 }
 
 }  // namespace etude

@@ -43,4 +43,9 @@ struct TriangulatedPoint {
 /// does not weigh its camera. (The paper prints h₁₄ for h₂₄ in the v rows: misprint.)
 TriangulatedPoint Triangulate(std::span<const Sighting> sightings);
 
+/// *Ours*: the same, every row divided by the point's depth before its camera as well, so that what is minimised are
+/// distances in pixels: a camera far away sees a point less exactly, and weighs less (iterated linear least squares,
+/// Hartley and Sturm 1997, section 4.3; three rounds). Two equally far cameras give the point of `Triangulate`.
+TriangulatedPoint TriangulateByPixels(std::span<const Sighting> sightings);
+
 }  // namespace etude

@@ -20,7 +20,7 @@ Result<void> Check(const CaptureInputs& inputs, const CaptureOptions& options) {
   if (!inputs.marked.empty() && inputs.marked.size() != frames) {
     return Fail({}, "'marked' tells of {} frames, and there are marks of {}", inputs.marked.size(), frames);
   }
-  if (!IsValid(inputs.lengths)) return Fail({}, "a limb length that is not positive");
+  if (!IsValid(inputs.body.lengths)) return Fail({}, "a limb length that is not positive");
   if (options.recover.solver == nullptr) return Fail({}, "no solver is given");
   return {};
 }
@@ -32,8 +32,7 @@ Result<CapturedMotion> CaptureMotion(const CaptureInputs& inputs, const CaptureO
   CapturedMotion motion;
   motion.measured = MeasureFrames(inputs.pictures, options.measure);
   motion.seen = BridgeGaps(motion.measured, options.bridge);
-  motion.frames =
-      RecoverFrames({.lengths = inputs.lengths, .seen = motion.seen, .marked = inputs.marked}, options.recover);
+  motion.frames = RecoverFrames({.body = inputs.body, .seen = motion.seen, .marked = inputs.marked}, options.recover);
   return motion;
 }
 

@@ -9,7 +9,7 @@ namespace etude {
 
 struct CaptureInputs {
   MeasureInputs pictures;
-  LimbLengths lengths;            ///< of the person, measured beforehand, metres
+  CaptureBody body;               ///< of the person, measured beforehand
   std::vector<bool> marked = {};  ///< `RecoverInputs::marked`: one per frame, or empty when all frames were marked
 };
 
@@ -28,8 +28,8 @@ struct CapturedMotion {
 
 /// Paper B from marked pictures to a motion: MeasureFrames, BridgeGaps, RecoverFrames. Frames of which too little was
 /// seen stay empty, be it all of them; HoldFrames and ToClip make a clip of the others. Fails, saying why, when inputs
-/// do not fit together: fewer than two cameras, not as many lists of marks as cameras, lists of different lengths, limb
-/// lengths that are not positive, no solver.
+/// do not fit together: fewer than two cameras, not as many lists of marks as cameras, lists of different lengths, a
+/// body with limb lengths that are not positive, no solver.
 Result<CapturedMotion> CaptureMotion(const CaptureInputs& inputs, const CaptureOptions& options);
 
 }  // namespace etude

@@ -2,70 +2,142 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
+#include "engine/capture/fit_pose.h"
 #include "engine/kinematics/partial_observation.h"
 #include "engine/kinematics/start_angles.h"
-#include "engine/kinematics/tree_to_body.h"
 
 namespace etude {
 namespace {
 
-// The pose that the solver begins with, or nothing when neither the images nor the last frame give one.
-std::optional<TreeState> FindStart(const KinematicTree& body, const BodyPose& fixed, bool is_marked,
-                                   const std::optional<RecoveredFrame>& last) {
-  std::optional<TreeState> seen = FindStartState(body, fixed, body.limits);
-  if (!last || (seen && is_marked)) return seen;
-  // The solver does not move the root: its place and frame are always the images'.
-  TreeState start = last->state;
-  start.root_position = fixed[Role::kLeftFoot];
-  if (seen) start.root_frame = seen->root_frame;
-  return start;
+using enum Role;
+
+/// Where pictures put the joints before the solver brings the ends back.
+struct Start {
+  BodyPose fixed;                 ///< with the body's lengths
+  std::optional<TreeState> seen;  ///< the same as angles
+};
+
+std::optional<Start> PaperStart(const CaptureBody& body, const LimbObservation& seen) {
+  const std::optional<BodyPose> fixed = FixLimbLengths(seen, body.lengths);
+  if (!fixed) return std::nullopt;
+  return Start{*fixed, FindStartState(body.tree, *fixed, body.tree.limits)};
+}
+
+// Every joint that an end and the limbs from there lead to, as paper B's figure 3.2(a), and the middle of the hips.
+PoseTargets ClimbFromEnds(const CaptureBody& body, const LimbObservation& seen) {
+  constexpr double kUnseen = 0.01;  // what was completed weighs little,
+  constexpr double kBent = 0.1;     // and what lies beyond a joint that nobody sees bend less than the rest
+  PoseTargets wanted;
+  for (const Role end : {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead}) {
+    glm::dvec3 place = seen.ends[end];
+    double weight = seen.lacks_end[Index(end)] ? kUnseen : 1;
+    Role role = end;
+    while (true) {
+      wanted.places[role] = place;
+      wanted.weights[Index(role)] = weight;
+      if (std::ranges::find(ObservedLimbs(), role) == ObservedLimbs().end()) break;
+      if (!body.is_rigid[Index(role)]) weight = std::min(weight, kBent);
+      if (seen.lacks_direction[Index(role)]) weight = kUnseen;
+      place -= body.bones[Index(role)] * glm::normalize(seen.directions[Index(role)]);
+      role = *ParentOf(role);
+    }
+  }
+  wanted.places[kHipCentre] = 0.5 * (wanted.places[kLeftHip] + wanted.places[kRightHip]);
+  wanted.weights[Index(kLeftFoot)] = 1;
+  return wanted;
+}
+
+std::optional<Start> FittedStart(const CaptureBody& body, const PoseFitter& fitter, const LimbObservation& seen) {
+  const std::optional<TreeState> state = fitter.Fit(ClimbFromEnds(body, seen));
+  if (!state) return std::nullopt;
+  return Start{ToBodyPose(body, *state), state};
 }
 
 // Of the effectors whose ends were seen.
-std::vector<EffectorError> ErrorsSeen(const KinematicTree& body, const LimbObservation& seen,
+std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObservation& seen,
                                       const std::vector<EffectorError>& errors) {
   std::vector<EffectorError> kept;
   for (std::size_t e = 0; e < errors.size(); ++e) {
-    const Role role = BodyTreeLimbs()[body.effectors[e].joint].to;
-    if (!seen.lacks_end[Index(role)]) kept.push_back(errors[e]);
+    if (body.ends[e].has_position && !seen.lacks_end[Index(body.ends[e].role)]) kept.push_back(errors[e]);
   }
   return kept;
 }
 
-std::optional<RecoveredFrame> RecoverFrame(const KinematicTree& body, const LimbLengths& lengths,
-                                           const LimbObservation& observed, bool is_marked,
-                                           const std::optional<RecoveredFrame>& last, const RecoverOptions& options) {
-  const BodyPose like = last ? last->pose : ToBodyPose(body, StandingState(body));
-  const auto completed = CompleteObservation(observed, lengths, like, last.has_value());
-  if (!completed) return std::nullopt;
-  const LimbObservation& seen = *completed;
-  const std::optional<BodyPose> fixed = FixLimbLengths(seen, lengths);
-  if (!fixed) return std::nullopt;
-  const std::optional<TreeState> start = FindStart(body, *fixed, is_marked, last);
-  if (!start) return std::nullopt;
-  IkSolution solution = options.solver->solve(body, MakeImageProblem(body, seen, *start), options.ik);
-  if (solution.status == IkStatus::kBadInput) return std::nullopt;
-  TreeState state = *start;
-  state.angles = std::move(solution.angles);
-  const BodyPose pose = ToBodyPose(body, state);
-  return RecoveredFrame{*fixed, std::move(state), pose, ErrorsSeen(body, seen, solution.errors)};
-}
+/// Recovers one frame after the other.
+class Recovery {
+ public:
+  Recovery(const RecoverInputs& inputs, const RecoverOptions& options)
+      : inputs_(inputs), options_(options), body_(inputs.body), fitter_(inputs.body) {}
+
+  std::optional<RecoveredFrame> Recover(std::size_t frame) {
+    if (!inputs_.seen[frame]) return std::nullopt;
+    const BodyPose like = last_ ? last_->pose : ToBodyPose(body_, StandingState(body_.tree));
+    const auto seen = CompleteObservation(*inputs_.seen[frame], body_.lengths, like, last_.has_value());
+    if (!seen) return std::nullopt;
+    const auto found = body_.is_paper ? PaperStart(body_, *seen) : FittedStart(body_, fitter_, *seen);
+    if (!found) return std::nullopt;
+    const std::optional<TreeState> start = StartOf(frame, *found);
+    if (!start) return std::nullopt;
+    std::optional<RecoveredFrame> recovered = Solve(frame, *seen, *start);
+    if (!recovered) return std::nullopt;
+    recovered->fixed = found->fixed;
+    last_ = recovered;
+    return recovered;
+  }
+
+ private:
+  // The pose that the solver begins with, or nothing when neither the images nor the last frame give one.
+  std::optional<TreeState> StartOf(std::size_t frame, const Start& found) const {
+    if (!inputs_.known_starts.empty()) return inputs_.known_starts[frame];
+    const bool is_marked = inputs_.marked.empty() || inputs_.marked[frame];
+    if (!last_ || (found.seen && is_marked)) return found.seen;
+    // The solver does not move the root: its place and frame are always the images'.
+    TreeState start = last_->state;
+    start.root_position = found.fixed[kLeftFoot];
+    if (found.seen) start.root_frame = found.seen->root_frame;
+    return start;
+  }
+
+  std::optional<RecoveredFrame> Solve(std::size_t frame, const LimbObservation& seen, const TreeState& start) const {
+    const IkProblem problem = MakeImageProblem(body_, seen, start);
+    TreeState state = start;
+    std::vector<EffectorError> errors;
+    if (inputs_.known_poses.empty()) {
+      IkSolution solution = options_.solver->solve(body_.tree, problem, options_.ik);
+      if (solution.status == IkStatus::kBadInput) return std::nullopt;
+      state.angles = std::move(solution.angles);
+      errors = std::move(solution.errors);
+    } else {
+      state = inputs_.known_poses[frame];
+      const TreeFrames frames = ComputeFrames(body_.tree, state);
+      for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+        errors.push_back(ErrorOf(frames.effectors[e], problem.targets[e]));
+      }
+    }
+    const BodyPose pose = ToBodyPose(body_, state);
+    return RecoveredFrame{
+        .fixed = {}, .state = std::move(state), .pose = pose, .errors = ErrorsSeen(body_, seen, errors)};
+  }
+
+  const RecoverInputs& inputs_;
+  const RecoverOptions& options_;
+  const CaptureBody& body_;
+  const PoseFitter fitter_;
+  std::optional<RecoveredFrame> last_;
+};
 
 }  // namespace
 
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options) {
   assert(options.solver != nullptr);
-  assert(inputs.marked.empty() || inputs.marked.size() == inputs.seen.size());
-  const KinematicTree body = MakeBodyTree(inputs.lengths);
-  std::vector<std::optional<RecoveredFrame>> frames(inputs.seen.size());
-  std::optional<RecoveredFrame> last;
-  for (std::size_t i = 0; i < inputs.seen.size(); ++i) {
-    if (!inputs.seen[i]) continue;
-    const bool is_marked = inputs.marked.empty() || inputs.marked[i];
-    frames[i] = RecoverFrame(body, inputs.lengths, *inputs.seen[i], is_marked, last, options);
-    if (frames[i]) last = frames[i];
-  }
+  const auto fits = [&](std::size_t count) { return count == 0 || count == inputs.seen.size(); };
+  assert(fits(inputs.marked.size()) && fits(inputs.known_starts.size()) && fits(inputs.known_poses.size()));
+  (void)fits;
+  Recovery recovery(inputs, options);
+  std::vector<std::optional<RecoveredFrame>> frames;
+  for (std::size_t i = 0; i < inputs.seen.size(); ++i) frames.push_back(recovery.Recover(i));
   return frames;
 }
 
@@ -84,11 +156,10 @@ std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFr
   return held;
 }
 
-Clip ToClip(const LimbLengths& lengths, std::span<const RecoveredFrame> frames, double rate_hz,
-            const std::string& name) {
+Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, double rate_hz, const std::string& name) {
   std::vector<TreeState> states;
   for (const RecoveredFrame& frame : frames) states.push_back(frame.state);
-  return ToClip(MakeBodyTree(lengths), states, rate_hz, name);
+  return ToClip(body, states, rate_hz, name);
 }
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 #include "engine/kinematics/tree.h"
@@ -14,13 +15,15 @@
 namespace etude {
 
 struct RecoverInputs {
-  /// Of the person, measured beforehand (metres): the body is `MakeBodyTree(lengths)`.
-  LimbLengths lengths;
+  CaptureBody body;  ///< of the person, measured beforehand: PaperBody or FittedBody
   /// One per frame; nothing in frames of which too little was seen.
   std::span<const std::optional<LimbObservation>> seen;
   /// One per frame, or empty when all are: whether the frame itself was marked. The solver starts a marked frame from
   /// the angles that its pictures show, any other from the last frame's angles.
   std::vector<bool> marked = {};
+  /// What the caller knows without pictures, to see what a stage costs; empty, or one per frame, each in place of what
+  /// the stage would find: where the solver starts, and what it returns.
+  std::vector<TreeState> known_starts = {}, known_poses = {};
 };
 
 struct RecoverOptions {
@@ -41,7 +44,11 @@ struct RecoveredFrame {
 };
 
 /// From what was seen to a skeleton (paper B, chapter 3): limb lengths fixed, then every end effector brought back by
-/// the solver. What an observation lacks comes from the last frame, or a standing body before there is one
+/// the solver. Lengths of paper B's body are fixed as in its section 3.2 (`FixLimbLengths`), start angles found as
+/// in 3.3
+/// (`FindStartState`); another body is brought as near as it can be to all joints that ends and directions lead to
+/// (`PoseFitter`), which does both. What an observation lacks comes from the last frame, or a standing body before
+/// there is one
 /// (`CompleteObservation`), and is no target. A frame without observation, or whose skeleton cannot be computed, stays
 /// empty, and so do frames that show no end before the first that does.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
@@ -49,8 +56,7 @@ std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& in
 /// Every frame: an empty one shows the last skeleton before it, leading ones the first. At least one is not empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);
 
-/// The motion as a clip, which WriteBvh writes: metres, Y up. `lengths` are those it was recovered with.
-Clip ToClip(const LimbLengths& lengths, std::span<const RecoveredFrame> frames, double rate_hz,
-            const std::string& name);
+/// The motion as a clip, which WriteBvh writes: metres, Y up. `body` is the one it was recovered with.
+Clip ToClip(const CaptureBody& body, std::span<const RecoveredFrame> frames, double rate_hz, const std::string& name);
 
 }  // namespace etude

@@ -107,7 +107,8 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
   if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
-    if (!IsSane(joint.p_PJ) || glm::length(joint.p_PJ) <= 0) return "a limb has no length";
+    // Where the root stands a joint may, too: so a tree turns as a whole.
+    if (!IsSane(joint.p_PJ) || (joint.parent > 0 && glm::length(joint.p_PJ) <= 0)) return "a limb has no length";
   }
   for (const Effector& effector : tree.effectors) {
     if (!IsSane(effector.p_LE) || glm::length(effector.p_LE) <= 0) return "a limb has no length";

@@ -89,8 +89,8 @@ struct IkSolution {
 };
 
 /// Why a problem cannot be worked on, or empty when it can: joints that are no tree, sizes that do not fit it, values
-/// that are not finite or absurdly far (> 1,000 km), limbs of no length, limits whose lower end is above the upper,
-/// axes that are not unit vectors, negative weights, an iteration limit below 1.
+/// that are not finite or absurdly far (> 1,000 km), limbs of no length (a joint may stand where the root does), limits
+/// whose lower end is above the upper, axes that are not unit vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 
 /// Whether the limbs are too short for the targets whatever the angles: an effector's target is farther from the root,

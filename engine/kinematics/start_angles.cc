@@ -117,21 +117,4 @@ std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPos
   return state;
 }
 
-IkProblem MakeImageProblem(const KinematicTree& body, const LimbObservation& observation, const TreeState& start) {
-  IkProblem problem{start, {}, body.limits};
-  const TreeFrames frames = ComputeFrames(body, start);
-  for (std::size_t e = 0; e < body.effectors.size(); ++e) {
-    const Role role = BodyTreeLimbs()[body.effectors[e].joint].to;
-    const glm::dvec3 seen = glm::normalize(observation.directions[Index(role)]);
-    const glm::dmat3& R_WE = frames.effectors[e].axes;
-    EffectorTarget target;
-    target.position = observation.ends[role];
-    target.axes = SmallestRotation(R_WE[2], seen) * R_WE;
-    target.position_weight = observation.lacks_end[Index(role)] ? 0 : 1;
-    target.axis_weights = {0, 0, observation.lacks_direction[Index(role)] ? 0.0 : 1.0};
-    problem.targets.push_back(target);
-  }
-  return problem;
-}
-
 }  // namespace etude

@@ -4,8 +4,6 @@
 #include <optional>
 #include <span>
 
-#include "engine/kinematics/ik_problem.h"
-#include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
 
@@ -27,11 +25,5 @@ namespace etude {
 /// line.
 std::optional<TreeState> FindStartState(const KinematicTree& body, const BodyPose& joints,
                                         std::span<const AngleRange> limits);
-
-/// The problem that remains after the limb lengths are fixed: bring the ends back to where they were seen, the last
-/// limbs into their seen directions. The targets' Z axes are those directions, X and Y the start pose's, turned by the
-/// smallest rotation; a stroke says nothing about them, so their weight is 0, and so is that of all that `observation`
-/// lacks. Limits are those of `body`.
-IkProblem MakeImageProblem(const KinematicTree& body, const LimbObservation& observation, const TreeState& start);
 
 }  // namespace etude

@@ -6,15 +6,10 @@
 
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/tree.h"
+#include "engine/kinematics/tree_point.h"
 #include "engine/motion/body.h"
 
 namespace etude {
-
-/// A point Q that moves with a limb L of a tree.
-struct TreePoint {
-  int joint = 0;
-  glm::dvec3 p_LQ{0};  ///< metres
-};
 
 /// Flesh around a limb: every point within the radius of the segment a–b, where the radius changes evenly from one end
 /// to the other. Metres.

@@ -34,7 +34,7 @@ ProjectedJoints ProjectAll(const BodyPose& pose, const Camera& camera, const Box
   return projected;
 }
 
-void DrawSkeleton(Canvas& canvas, const ProjectedJoints& joints) {
+void DrawJoints(Canvas& canvas, const ProjectedJoints& joints) {
   const auto draw_bones = [&](double width, bool shadow) {
     for (const Bone& bone : AllBones()) {
       const auto &from = joints.points[Index(bone.parent)], &to = joints.points[Index(bone.child)];
@@ -79,6 +79,10 @@ StagedRoom StageOf(const CaptureExtras& extras, const BodyMotion& truth) {
 }
 
 }  // namespace
+
+void DrawSkeleton(Canvas& canvas, const BodyPose& pose, const Camera& camera, const Box& panel) {
+  DrawJoints(canvas, ProjectAll(pose, camera, panel));
+}
 
 Mask OutlineOf(const Mask& mask) {
   Mask outline(mask.width, mask.height);
@@ -175,7 +179,7 @@ void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, 
   canvas.DrawImage(Seen(renderer, camera, frame, Targets::kColour).colour, panel);
   canvas.DrawMask(view.masks[k], panel, kMaskTint);
   canvas.DrawMask(OutlineOf(view.masks[k]), panel, kMaskEdge);
-  DrawSkeleton(canvas, ProjectAll(recovered_.poses[k], view.truth, panel));
+  DrawSkeleton(canvas, recovered_.poses[k], view.truth, panel);
 }
 
 }  // namespace etude

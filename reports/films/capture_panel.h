@@ -36,6 +36,16 @@ class CapturePanel {
   /// What one camera saw, without noise.
   View Seen(Renderer& renderer, std::size_t camera, int frame, Targets targets) const;
 
+  /// The moments that the recording keeps (`CaptureExtras::moments`).
+  const std::vector<CaptureExtras::Moment>& Moments() const { return extras_.moments; }
+  const Mask& MaskOf(std::size_t camera, int frame) const {
+    return extras_.views[camera].masks[static_cast<std::size_t>(frame)];
+  }
+  const BodyPose& Recovered(int frame) const { return recovered_.poses[static_cast<std::size_t>(frame)]; }
+  const Camera& CameraOf(std::size_t camera) const { return extras_.views[camera].truth; }
+  /// The part of the camera's pictures that holds the person in every frame, pixels.
+  const Box& CropOf(std::size_t camera) const { return crops_[camera]; }
+
   /// The part of one camera's picture around the person, with mask and skeleton over it, without words;
   /// it fills the whole canvas. The same canvas size asks for the same picture, so callers may keep it.
   void Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, int frame) const;
@@ -50,6 +60,9 @@ class CapturePanel {
   std::optional<double> error_mm_;
   std::string method_, clip_;
 };
+
+/// The body's bones and joints as the camera sees them; `panel` is where its whole picture lies.
+void DrawSkeleton(Canvas& canvas, const BodyPose& pose, const Camera& camera, const Box& panel);
 
 /// The pixels of the mask that touch something outside it.
 Mask OutlineOf(const Mask& mask);

@@ -33,16 +33,20 @@ CastCell MiddleOf(std::vector<CastCell> cells, const std::string& metric) {
 
 }  // namespace
 
+std::optional<CastCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track) {
+  const std::vector<CastCell> cells = RecordedCells(run, scenario, track);
+  if (cells.empty()) return std::nullopt;
+  const ScenarioFindings findings = FindingsOf(run, scenario);
+  std::vector<CastCell> preferred;
+  std::ranges::copy_if(cells, std::back_inserter(preferred),
+                       [&](const CastCell& cell) { return cell.row->method == findings.answer.method; });
+  return MiddleOf(preferred.empty() ? cells : preferred, findings.metric);
+}
+
 std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     if (scenario.task != task) continue;
-    const std::vector<CastCell> cells = RecordedCells(run, scenario, track);
-    if (cells.empty()) continue;
-    const ScenarioFindings findings = FindingsOf(run, scenario);
-    std::vector<CastCell> preferred;
-    std::ranges::copy_if(cells, std::back_inserter(preferred),
-                         [&](const CastCell& cell) { return cell.row->method == findings.answer.method; });
-    return MiddleOf(preferred.empty() ? cells : preferred, findings.metric);
+    if (auto cell = ChooseCell(run, scenario, track)) return cell;
   }
   return std::nullopt;
 }

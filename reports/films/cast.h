@@ -20,6 +20,9 @@ struct CastCell {
 /// these the one in the middle by the first headline metric. A typical cell, not the best one.
 std::optional<CastCell> ChooseCell(const RunData& run, std::string_view task, std::string_view track);
 
+/// The same of one scenario.
+std::optional<CastCell> ChooseCell(const RunData& run, const ScenarioSummary& scenario, std::string_view track);
+
 /// The curve of that name of a cell, or null.
 const Series* FindSeries(const RunData& run, const Row& row, std::string_view name);
 

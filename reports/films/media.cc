@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "reports/films/capture_plate.h"
 #include "reports/films/cast.h"
 #include "reports/films/convergence_scene.h"
 #include "reports/films/film.h"
@@ -82,6 +83,20 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& la
   media.film = std::move(film);
 }
 
+// Of one recorded cell of each capture scenario, if it keeps moments.
+void MakePlates(const RunData& run, LazyRenderer& lazy, Media& media) {
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    if (scenario.task != "capture") continue;
+    const auto cell = ChooseCell(run, scenario, "recovered");
+    if (!cell) continue;
+    const auto panel = CapturePanel::Make(run, *cell);
+    if (!panel || panel->Moments().empty()) continue;
+    const auto renderer = lazy.Get();
+    if (!renderer) return;
+    if (auto plate = DrawPlate(*panel, **renderer)) media.plates.push_back({scenario.name, std::move(*plate)});
+  }
+}
+
 /// Methods side by side in one world; or, in words, why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
@@ -114,6 +129,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths) {
   Media media;
   LazyRenderer renderer;
   MakeStageFilm(run, paths, renderer, media);
+  MakePlates(run, renderer, media);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;

@@ -36,12 +36,19 @@ struct ScenarioFilm {
   Film film;
 };
 
+/// A picture that belongs to one scenario's card.
+struct ScenarioPicture {
+  std::string scenario;
+  Picture picture;
+};
+
 /// What the recordings gave to look at, and plain words for what they did not.
 struct Media {
   Film film;  ///< of the run: coach and cameras; empty for tasks without either, and where a scenario's film shows all
-  std::vector<Picture> strip;  ///< moments of the capture: stereo pictures, mask, recovered skeleton
-  std::vector<Still> stills;   ///< the same capture's middle frame as its cameras took it
-  std::string strip_scenario;  ///< whose card shows the strip and the stills
+  std::vector<Picture> strip;           ///< moments of the capture: stereo pictures, mask, recovered skeleton
+  std::vector<Still> stills;            ///< the same capture's middle frame as its cameras took it
+  std::string strip_scenario;           ///< whose card shows the strip and the stills
+  std::vector<ScenarioPicture> plates;  ///< of captures: every stage of some moments
   std::vector<ScenarioFilm>
       scenario_films;  ///< methods side by side: inverse kinematics settling, transitions from clip to clip
 };

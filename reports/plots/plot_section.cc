@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "reports/plots/error_budget.h"
 #include "reports/plots/estimation.h"
 #include "reports/plots/left_out_strip.h"
 #include "reports/plots/strips.h"
@@ -16,7 +17,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostOpen = 4;     // conditions whose pictures are not folded away
+constexpr std::size_t kMostOpen = 4;    // conditions whose pictures are not folded away
 constexpr std::size_t kMostFolded = 8;  // plots
 constexpr std::size_t kMostStrips = 12;
 
@@ -43,8 +44,9 @@ class Section {
   }
 
   std::string Html() const {
-    return open_ + Folded("The other comparisons, world by world",
-                          folded_.empty() ? "" : folded_ + LeftOutHtml(folded_count_, kMostFolded, "plots", "cells.jsonl"));
+    return open_ +
+           Folded("The other comparisons, world by world",
+                  folded_.empty() ? "" : folded_ + LeftOutHtml(folded_count_, kMostFolded, "plots", "cells.jsonl"));
   }
 
  private:
@@ -90,6 +92,23 @@ std::string Strips(const RunData& run, const ScenarioSummary& scenario, const st
   return fmt::format("<div class=\"panels\">{}</div>", open) + Folded("The same under the other conditions", folded);
 }
 
+// Each with the condition that it is of, where there are several.
+std::string Budgets(const ScenarioSummary& scenario) {
+  std::string html;
+  std::size_t count = 0;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    std::string label;
+    for (const SweptValue& swept : condition.condition) {
+      label += (label.empty() ? "" : ", ") + swept.key + " = " + swept.value;
+    }
+    for (const ErrorBudget& budget : condition.budgets) {
+      if (++count <= kMostStrips) html += ErrorBudgetHtml(budget, label);
+    }
+  }
+  if (html.empty()) return "";
+  return "<div class=\"panels\">" + html + "</div>" + LeftOutHtml(count, kMostStrips, "error budgets", "summary.json");
+}
+
 }  // namespace
 
 std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario) {
@@ -97,8 +116,8 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
   const std::string& metric = scenario.headline_metrics.front();
   const std::string strips = Strips(run, scenario, metric);
   if (strips.empty()) return "";
-  return fmt::format("<div class=\"plots\">{}{}{}</div>", strips, Comparisons(run, scenario, metric),
-                     SurvivalHtml(run, scenario));
+  return fmt::format("<div class=\"plots\">{}{}{}{}</div>", strips, Budgets(scenario),
+                     Comparisons(run, scenario, metric), SurvivalHtml(run, scenario));
 }
 
 }  // namespace etude

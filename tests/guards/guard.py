@@ -39,8 +39,8 @@ DOORS = {
     "libxml/": ["engine/transitions/tags_file"],
     "pagmo/": ["bench/training"],
     "nanoflann.hpp": ["bench/micro"],
-    "ceres/": ["engine/kinematics/solvers"],
-    "glog/": ["engine/kinematics/solvers"],
+    "ceres/": ["engine/bundle_adjustment", "engine/kinematics/solvers"],
+    "glog/": ["engine/bundle_adjustment", "engine/kinematics/solvers"],
     "kdl/": ["bench/micro"],
     "Simbody.h": ["bench/micro"],
 }

@@ -9,9 +9,11 @@ MAY_INCLUDE = {
     # engine/
     "engine/base": "",
     "engine/boards": "engine/base",
+    "engine/bundle_adjustment": "engine/base engine/cameras engine/kinematics",
     "engine/cameras": "engine/base",
     "engine/capture":
-        "engine/base engine/cameras engine/kinematics engine/kinematics/solvers engine/motion engine/vision",
+        "engine/base engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers engine/motion "
+        "engine/smoothing engine/vision",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
@@ -22,6 +24,7 @@ MAY_INCLUDE = {
     "engine/recognition": "engine/base engine/fuzzy engine/motion",
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
+    "engine/smoothing": "",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
@@ -72,7 +75,7 @@ MAY_INCLUDE = {
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
-    "bench/recordings": "engine/base engine/cameras",
+    "bench/recordings": "engine/base engine/cameras engine/motion",
     "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":

@@ -10,7 +10,7 @@
 
 namespace etude::testing {
 
-inline BodyPose RestBody(const Skeleton& skeleton, const JointMap& map) {
+inline BodyPose BodyAtRest(const Skeleton& skeleton, const JointMap& map) {
   std::vector<GlobalTransform> globals;
   ComputeGlobals(skeleton, RestPose(skeleton), globals);
   return Evaluate(map, globals);
@@ -51,7 +51,7 @@ inline void ExpectThePerson(const Skeleton& skeleton) {
   const auto map = FindJointMap(skeleton, "person.bvh");
   ASSERT_TRUE(map) << ToString(map.error());
   EXPECT_THAT(map->composed, ::testing::IsEmpty());
-  ExpectThePersonsPlaces(RestBody(skeleton, *map));
+  ExpectThePersonsPlaces(BodyAtRest(skeleton, *map));
 }
 
 }  // namespace etude::testing

@@ -41,7 +41,7 @@ class CaptureTaskWorld : public TaskWorld {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
     const auto run = RunCapture(stages_, study_.methods[method]);
     if (!run) return CellResult::Ended(Status::kFailed, run.error().message);
-    return ScoreCaptureRun(stages_.world(), *run, keeps_motion_);
+    return ScoreCaptureRun(stages_.world(), *run, keeps_motion_, study_.options.moments);
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }

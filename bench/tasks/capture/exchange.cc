@@ -143,7 +143,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
     marks[SegmenterNames()[i]] = ToJson(take.observations[i], stages.marked());
   }
   *problem.json = {{"frames", world.truth.size()},
-                   {"limb_lengths_m", ToJson(world.lengths)},
+                   {"limb_lengths_m", ToJson(world.measured.lengths)},
                    {"cameras", std::move(cameras)},
                    {"marks", std::move(marks)}};
   for (std::size_t i = 0; i < sources.size(); ++i) {

@@ -38,7 +38,7 @@ Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
 class Crew {
  public:
   Crew(const CaptureWorld& world, const StudioOptions& options, const WorldKey& key, Renderer& renderer)
-      : shooting_(world, options.camera, key, renderer) {
+      : cameras_(world.cameras), shooting_(world, options.camera, key, renderer) {
     for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
       backgrounds_.push_back(shooting_.ShootStage(camera));
     }
@@ -67,12 +67,23 @@ class Crew {
                           .pieces = source.for_silhouettes ? PersonPieces::kLarge : PersonPieces::kLargest});
   }
 
+  const Camera& CameraOf(std::size_t camera) const { return cameras_[camera]; }
+  BodyPose SeenPose(std::size_t camera, std::size_t frame) const { return shooting_.SeenPose(camera, frame); }
+
   const std::vector<ColourImage>& backgrounds() const { return backgrounds_; }
 
  private:
+  const std::vector<Camera>& cameras_;
   Shooting shooting_;
   std::vector<ColourImage> backgrounds_;
 };
+
+Marks Mark(Marking& marking, const PersonSource& source, const Crew& crew, std::size_t camera, std::size_t frame,
+           const AnnotatedPicture& picture) {
+  if (source.for_silhouettes) return {};
+  if (!source.has_true_marks) return marking.Mark(camera, frame, picture);
+  return marking.MarkTrueJoints(frame, picture, crew.CameraOf(camera), crew.SeenPose(camera, frame));
+}
 
 }  // namespace
 
@@ -114,8 +125,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
         if (keeps_masks(sources[i])) observation.masks[camera].push_back(HalveMask(person));
         observation.marks[camera].push_back(
-            sources[i].for_silhouettes ? Marks{}
-                                       : marking[i].Mark(camera, frame, {picture.labels, picture.colour, person}));
+            Mark(marking[i], sources[i], crew, camera, frame, {picture.labels, picture.colour, person}));
         AddMarks(observation.marks[camera].back(), marks[i]);
       }
     }

@@ -77,13 +77,29 @@ double HeadBelowCrown(const BodyPose& body) {
 Marking::Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key)
     : mark_every_(static_cast<std::size_t>(options.mark_every)), annotators_(world.cameras.size()) {
   const PersonErrors errors{.error_px = options.annotation_error_px};
-  EvidenceOptions eye;
-  eye.head_below_crown = HeadBelowCrown(world.truth.front());
+  eye_.head_below_crown = HeadBelowCrown(world.truth.front());
   for (std::size_t camera = 0; camera < annotators_.size(); ++camera) {
     for (int annotator = 0; annotator < options.annotators; ++annotator) {
-      annotators_[camera].emplace_back(errors, eye, key, annotator, static_cast<int>(camera));
+      annotators_[camera].emplace_back(errors, eye_, key, annotator, static_cast<int>(camera));
     }
   }
+}
+
+Marks Marking::MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
+                              const BodyPose& pose) const {
+  Marks marks;
+  if (frame % mark_every_ != 0) return marks;
+  const PictureEvidence seen = SeePicture(picture, eye_);
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!seen.limbs[i]) continue;
+    const auto a = Project(camera, pose[StrokeMarks()[i].from]), b = Project(camera, pose[StrokeMarks()[i].to]);
+    if (a && b) marks.strokes[i] = PixelSegment{*a, *b};
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) {
+    const Role role = EffectorMarks()[i].role;
+    if (seen.joints[Index(role)]) marks.effectors[i] = Project(camera, pose[role]);
+  }
+  return marks;
 }
 
 Marks Marking::Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture) {

@@ -5,6 +5,8 @@
 #include "bench/metrics/annotation.h"
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/world.h"
+#include "engine/cameras/camera.h"
+#include "engine/motion/body.h"
 #include "engine/vision/strokes.h"
 #include "sim/annotator/annotator.h"
 #include "sim/random/stream.h"
@@ -22,6 +24,11 @@ class Marking {
   /// there is. Nothing in frames that nobody is asked to mark. A camera's frames come in order.
   Marks Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture);
 
+  /// The same by someone who knows where the joints of `pose` are: what the picture shows of limbs and ends, marked
+  /// exactly, and not drawn. Throws no dice.
+  Marks MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
+                       const BodyPose& pose) const;
+
   /// What two annotators made of each joint and each limb of all pictures marked so far; empty when one marks alone.
   const std::vector<MarkedTwice>& joints() const { return joints_; }
   const std::vector<MarkedTwice>& limbs() const { return limbs_; }
@@ -30,6 +37,7 @@ class Marking {
   void Compare(const Marks& first, const Marks& second);
 
   std::size_t mark_every_;
+  EvidenceOptions eye_;
   std::vector<std::vector<Annotator>> annotators_;  // [camera][annotator]
   std::vector<MarkedTwice> joints_, limbs_;
 };

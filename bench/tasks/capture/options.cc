@@ -69,14 +69,33 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Number(
            "annotation_error_px", &Options::annotation_error_px, {0, 50},
            "Standard deviation of an annotator's marks, in u and in v; what else people get wrong grows with it."),
+       Key::Number("limb_measure_mm", &Options::limb_measure_mm, {0, 100},
+                   "Error of the performer's measured limbs, standard deviation of each length."),
        Key::Number("annotators", &Options::annotators, {1, 2},
                    "How many people mark the same pictures, each by themselves; methods get the mean of both."),
        Key::Number("mark_every", &Options::mark_every, {1, 300},
-                   "The annotator marks every n-th frame; what lies between is interpolated.")},
+                   "The annotator marks every n-th frame; what lies between is interpolated."),
+       Key::Numbers(
+           "moments", &Options::moments, {0, 12}, "up to twelve of 1…1800", {1, 1800},
+           "Frames, counted from 1, of which the report shows every stage, as figures 5.3 to 5.14 of paper B do.")},
       CheckStudio};
   const std::vector<Key> camera = CameraFields();
   made.fields.insert(made.fields.end(), camera.begin(), camera.end());
   return made;
+}
+
+void CheckMethod(Fields& fields, CaptureMethod& method) {
+  const Oracle& oracle = method.oracle;
+  if (method.recovery == Recovery::kSilhouettes) {
+    if (oracle.marks || method.lengths == LengthSource::kMeasured) {
+      fields.Complain(fields.node().place,
+                      "'recovery: silhouettes' has no marks: neither the oracle marks, nor lengths "
+                      "measured from them");
+    }
+  }
+  if (method.recovery == Recovery::kIk || !(oracle.directions || oracle.points || oracle.start || oracle.ik)) return;
+  fields.Complain(fields.Raw("oracle")->place,
+                  "only 'recovery: ik' has the stages directions, points, start and ik: others see the pictures alone");
 }
 
 }  // namespace
@@ -93,23 +112,49 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
     FieldTable<Method> made{
         {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
                    "How the person is cut out of the pictures."),
-         Key::Name("limbs", &Method::limbs,
-                   {{"strokes", LimbSource::kStrokes}, {"silhouettes", LimbSource::kSilhouettes}},
-                   "What tells where the limbs are: a human's strokes, or the silhouettes alone."),
-         Key::Name("start", &Method::start, {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
-                   "What is known of the first frame's pose: nothing, or every angle to 10°.")
-             .With("limbs", {"silhouettes"}),
          Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
                    "How a camera is computed from its calibration points."),
-         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+         Key::Name("sync", &Method::sync, {{"assumed", Sync::kAssumed}, {"estimated", Sync::kEstimated}},
+                   "Whether the cameras' clocks are taken to agree, or set by how marks move."),
+         Key::Name("outliers", &Method::outliers, {{"keep", Outliers::kKeep}, {"reject", Outliers::kReject}},
+                   "With three or more cameras: whether one that disagrees with the others about a mark is left out."),
+         Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
+                   "The performer's own joints, or paper B's 29 degrees of freedom.")
+             .With("recovery", {"ik"}),
+         Key::Name(
+             "recovery", &Method::recovery,
+             {{"ik", Recovery::kIk},
+              {"ends", Recovery::kEnds},
+              {"bundle", Recovery::kBundle},
+              {"silhouettes", Recovery::kSilhouettes}},
+             "How pictures become poses: paper B's inverse kinematics; every joint triangulated from the strokes that "
+             "end there; bundle adjustment of paper B's body over the whole take; or, without a mark, a body fitted to "
+             "the silhouettes."),
+         Key::Name("start", &Method::start, {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
+                   "What is known of the first frame's pose: nothing, or every angle to 10°.")
+             .With("recovery", {"silhouettes"}),
+         Key::Name("smoothing", &Method::smoothing, {{"none", Smoothing::kNone}, {"rts", Smoothing::kRts}},
+                   "What is done to the joints of the whole take afterwards: nothing, or Rauch, Tung and Striebel's "
+                   "smoother.")
+             .With("recovery", {"ik", "ends", "bundle"}),
+         Key::Name("lengths", &Method::lengths,
+                   {{"known", LengthSource::kKnown}, {"measured", LengthSource::kMeasured}},
+                   "Whether the body is measured beforehand, or its limb lengths from the marks of a few frames."),
+         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images.").With("recovery", {"ik"}),
+         SweepsField(&Method::ik, "The solver's steps per frame, at most.").With("recovery", {"ik"}),
          Key::Flags("oracle",
                     {{"calibration", OracleOf<&Oracle::calibration>},
                      {"segmentation", OracleOf<&Oracle::segmentation>},
+                     {"marks", OracleOf<&Oracle::marks>},
                      {"directions", OracleOf<&Oracle::directions>},
-                     {"points", OracleOf<&Oracle::points>}},
-                    "Stages replaced by the truth.")}};
-    const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
+                     {"points", OracleOf<&Oracle::points>},
+                     {"lengths", OracleOf<&Oracle::lengths>},
+                     {"start", OracleOf<&Oracle::start>},
+                     {"ik", OracleOf<&Oracle::ik>}},
+                    "Stages replaced by the truth.")},
+        CheckMethod};
+    std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
+    solver.front() = solver.front().With("recovery", {"ik"});
     made.fields.insert(made.fields.end(), solver.begin(), solver.end());
     return made;
   }();

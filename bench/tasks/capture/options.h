@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/tasks/base/solver_fields.h"
 #include "engine/cameras/dlt.h"
@@ -35,22 +36,60 @@ struct StudioOptions {
   double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
-  int annotators = 1;  ///< people who mark the same pictures, each by themselves: 1 or 2
-  int mark_every = 1;  ///< the annotator marks every n-th frame; directions are interpolated in between
+  double limb_measure_mm = 0;        ///< error of every measured limb, standard deviation
+  int annotators = 1;                ///< people who mark the same pictures, each by themselves: 1 or 2
+  int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
+  std::vector<double> moments = {};  ///< frames, counted from 1, of which a recording keeps every stage
 };
 
-/// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error.
+/// The body that a skeleton is made with.
+enum class BodyKind {
+  kFitted,  ///< "fitted": the performer's own joints
+  kPaper,   ///< "paper": paper B's 29 degrees of freedom, with the performer's limb lengths
+};
+
+/// Whether a camera that disagrees with the others is left out.
+enum class Outliers { kKeep, kReject };
+
+/// Where the times of pictures come from.
+enum class Sync {
+  kAssumed,    ///< "assumed": frames of one number are taken at one time
+  kEstimated,  ///< "estimated": from how marks move
+};
+
+/// A stage of the pipeline can be replaced by the truth, to see what it costs in the final error. Of `marks`: where a
+/// picture shows a limb or an end, the strokes and discs run to where the true joints are in it. Of `start`, `ik`: the
+/// pose of the method's body that is nearest to the truth (`FindNearestPoses`).
 struct Oracle {
   bool calibration = false;
   bool segmentation = false;
+  bool marks = false;
   bool directions = false;
   bool points = false;
+  bool lengths = false;
+  bool start = false;
+  bool ik = false;
 };
 
-/// What tells where the limbs are.
-enum class LimbSource {
-  kStrokes,      ///< "strokes": a human's marks (paper B)
-  kSilhouettes,  ///< "silhouettes": nothing but what was cut out (engine/silhouettes)
+/// How pictures become the poses of a body.
+enum class Recovery {
+  kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
+  kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
+  kBundle,  ///< "bundle": all marks of all frames explained at once by one body in smooth motion
+  /// "silhouettes": no marks; a body fitted to what was cut out, and followed from frame to frame (engine/silhouettes)
+  kSilhouettes,
+};
+
+/// What is done to the joints of a whole take.
+enum class Smoothing {
+  kNone,  ///< "none"
+  kRts,   ///< "rts": each joint's track by itself (Rauch, Tung and Striebel)
+};
+
+/// Where the limb lengths come from.
+enum class LengthSource {
+  kKnown,     ///< "known": measured on the performer beforehand (paper B)
+  kMeasured,  ///< "measured": from the marks of a few frames
 };
 
 /// What a method that follows silhouettes begins with.
@@ -62,12 +101,17 @@ enum class SilhouetteStart {
 /// A pipeline with its settings.
 struct CaptureMethod {
   std::string name;
-  LimbSource limbs = LimbSource::kStrokes;
-  SilhouetteStart start = SilhouetteStart::kCold;
   Segmenter segmenter = Segmenter::kHue;
   Calibration calibration = Calibration::kDlt;
+  Sync sync = Sync::kAssumed;
+  Outliers outliers = Outliers::kKeep;
+  BodyKind body = BodyKind::kFitted;
   const IkSolver* solver = DefaultIkSolver();
   IkOptions ik = IkBudget(100);
+  Recovery recovery = Recovery::kIk;
+  SilhouetteStart start = SilhouetteStart::kCold;
+  Smoothing smoothing = Smoothing::kNone;
+  LengthSource lengths = LengthSource::kKnown;
   Oracle oracle;
 };
 

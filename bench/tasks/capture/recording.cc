@@ -21,10 +21,19 @@ CaptureExtras DescribeStage(const CaptureWorld& world) {
   return extras;
 }
 
+std::vector<CaptureExtras::Mark> StrokesOf(const Marks& marks) {
+  std::vector<CaptureExtras::Mark> strokes;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (const auto& stroke = marks.strokes[i]) strokes.push_back({stroke->a, stroke->b, StrokeMarks()[i].first_half});
+  }
+  return strokes;
+}
+
 }  // namespace
 
 Recording MakeRecording(const CaptureWorld& world, const Take& take, const Observation& observation,
-                        const std::vector<RecoveredFrame>& frames, const std::string& name) {
+                        const CaptureBody& body, const std::vector<RecoveredFrame>& frames, const std::string& name,
+                        std::span<const double> moments) {
   Track truth{"truth", {kJudgedRateHz, world.truth}}, recovered{"recovered", {kJudgedRateHz, {}}};
   for (const RecoveredFrame& frame : frames) recovered.motion.poses.push_back(frame.pose);
   CaptureExtras extras = DescribeStage(world);
@@ -33,7 +42,14 @@ Recording MakeRecording(const CaptureWorld& world, const Take& take, const Obser
     const std::string still = EncodeJpeg(take.stills[i], kStillQuality);
     extras.views.push_back({world.cameras[i], observation.masks[i], Base64(still)});
   }
-  extras.bvh = WriteBvh(ToClip(world.lengths, frames, kJudgedRateHz, name));
+  for (const double number : moments) {
+    const auto frame = static_cast<std::size_t>(number) - 1;
+    if (frame >= frames.size()) continue;
+    CaptureExtras::Moment& moment = extras.moments.emplace_back();
+    moment = {frame, frames[frame].fixed, {}};
+    for (const std::vector<Marks>& marks : observation.marks) moment.marks.push_back(StrokesOf(marks[frame]));
+  }
+  extras.bvh = WriteBvh(ToClip(body, frames, kJudgedRateHz, name));
   return {{std::move(truth), std::move(recovered)}, WriteCaptureExtras(extras)};
 }
 

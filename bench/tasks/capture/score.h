@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,10 @@
 
 namespace etude {
 
-/// Compares what every stage of a built-in method made with the truth of the world. `keeps_motion`: with a recording.
-CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion);
+/// Compares what every stage of a built-in method made with the truth of the world. `keeps_motion`: with a recording,
+/// which keeps every stage of the `moments` (`StudioOptions`).
+CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, bool keeps_motion,
+                           std::span<const double> moments = {});
 
 /// Scores an answer of a method outside likewise; what only stages can tell is missing.
 CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& answer, bool keeps_motion);

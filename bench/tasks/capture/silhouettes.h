@@ -5,16 +5,17 @@
 #include <vector>
 
 #include "bench/tasks/capture/options.h"
-#include "bench/tasks/capture/world.h"
 #include "engine/base/result.h"
 #include "engine/capture/recover_frames.h"
+#include "engine/kinematics/capture_body.h"
+#include "sim/random/stream.h"
 
 namespace etude {
 
 struct SilhouetteInputs {
-  /// Of the world the limb lengths are used; of its truth, the first frame's pose when the start is `kNear`.
-  const CaptureWorld& world;
+  std::span<const BodyPose> truth;  ///< its first pose is used when the start is `kNear`, and nothing else
   const WorldKey& key;
+  const CaptureBody& body;  ///< paper B's, of which the limb lengths are used
   std::span<const ProjectionMatrix> cameras;
   /// `masks[camera][frame]`, half size.
   std::span<const std::vector<Mask>> masks;

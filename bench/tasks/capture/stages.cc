@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "bench/metrics/measurement.h"
+#include "bench/tasks/capture/nearest_poses.h"
 #include "engine/base/digest.h"
 #include "engine/capture/calibrate_cameras.h"
+#include "engine/capture/synchronise.h"
 
 namespace etude {
 namespace {
@@ -49,10 +51,17 @@ std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& orac
   return known;
 }
 
-MeasuredTake MeasureTake(const MeasureInputs& inputs, const BridgeOptions& bridge) {
+// The marks at the first camera's times.
+std::vector<std::vector<Marks>> InTime(std::span<const ProjectionMatrix> cameras,
+                                       const std::vector<std::vector<Marks>>& marks) {
+  return Synchronised(marks, EstimateOffsets(cameras, marks));
+}
+
+MeasuredTake MeasureTake(const MeasureInputs& inputs, const MeasureOptions& measure, const BridgeOptions& bridge) {
   MeasuredTake take;
-  take.frames = MeasureFrames(inputs);
+  take.frames = MeasureFrames(inputs, measure);
   take.seen = BridgeGaps(take.frames, bridge);
+  take.joints = MeasureJoints(inputs);
   Digest directions, points;
   for (const FrameMeasurement& frame : take.frames) {
     Add(frame.directions, directions);
@@ -114,24 +123,56 @@ Result<const CalibratedCameras*> CaptureStages::GetCameras(const CaptureMethod& 
 
 const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
                                                const Observation& observation) {
-  const MeasureChoice choice{CameraChoiceOf(method), PersonSourceOf(method), method.oracle.directions,
-                             method.oracle.points};
+  const MeasureChoice choice{
+      CameraChoiceOf(method), PersonSourceOf(method), method.oracle.directions, method.oracle.points, method.sync,
+      method.outliers};
   auto kept = measured_.find(choice);
   if (kept == measured_.end()) {
     const std::vector<KnownMeasurement> known = Tell(world_, method.oracle, marked_);
-    const MeasureInputs inputs{.cameras = cameras.matrices, .marks = observation.marks, .known = known};
+    const std::vector<std::vector<Marks>> marks =
+        method.sync == Sync::kEstimated ? InTime(cameras.matrices, observation.marks) : observation.marks;
+    const MeasureInputs inputs{.cameras = cameras.matrices, .marks = marks, .known = known};
+    const MeasureOptions measure{.rejects_outliers = method.outliers == Outliers::kReject};
     const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, options_.mark_every)};
-    kept = measured_.emplace(choice, MeasureTake(inputs, bridge)).first;
+    kept = measured_.emplace(choice, MeasureTake(inputs, measure, bridge)).first;
   }
   return kept->second;
 }
 
-PersonSource PersonSourceOf(const CaptureMethod& method) {
-  const bool for_silhouettes = method.limbs == LimbSource::kSilhouettes;
-  if (method.oracle.segmentation) {
-    return {.segmenter = Segmenter::kHue, .is_truth = true, .for_silhouettes = for_silhouettes};
+CaptureStages::BodyChoice CaptureStages::BodyChoiceOf(const CaptureMethod& method) {
+  return {.kind = method.body, .true_lengths = method.oracle.lengths};
+}
+
+Result<const CaptureBody*> CaptureStages::GetBody(const CaptureMethod& method) {
+  const BodyChoice choice = BodyChoiceOf(method);
+  auto kept = bodies_.find(choice);
+  if (kept == bodies_.end()) {
+    const Person& person = choice.true_lengths ? world_.person : world_.measured;
+    Result<CaptureBody> body = choice.kind == BodyKind::kPaper ? PaperBody(person.lengths) : FittedBody(person.body);
+    kept = bodies_.emplace(choice, std::move(body)).first;
   }
-  return {.segmenter = method.segmenter, .is_truth = false, .for_silhouettes = for_silhouettes};
+  if (!kept->second) return tl::unexpected(kept->second.error());
+  return &*kept->second;
+}
+
+Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& method) {
+  ASSIGN_OR_RETURN(const CaptureBody* body, GetBody(method));
+  const BodyChoice choice = BodyChoiceOf(method);
+  auto kept = nearest_.find(choice);
+  if (kept == nearest_.end()) kept = nearest_.emplace(choice, FindNearestPoses(*body, world_.truth)).first;
+  return &kept->second;
+}
+
+PersonSource PersonSourceOf(const CaptureMethod& method) {
+  PersonSource source{.segmenter = method.segmenter,
+                      .is_truth = false,
+                      .for_silhouettes = method.recovery == Recovery::kSilhouettes,
+                      .has_true_marks = method.oracle.marks};
+  if (method.oracle.segmentation) {
+    source.segmenter = Segmenter::kHue;
+    source.is_truth = true;
+  }
+  return source;
 }
 
 }  // namespace etude

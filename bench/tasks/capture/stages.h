@@ -13,6 +13,8 @@
 #include "bench/tasks/capture/world.h"
 #include "engine/capture/bridge_gaps.h"
 #include "engine/capture/measure_frames.h"
+#include "engine/capture/measure_joints.h"
+#include "engine/kinematics/capture_body.h"
 
 namespace etude {
 
@@ -27,8 +29,12 @@ struct CalibratedCameras {
 struct MeasuredTake {
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
+  std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };
+
+/// The truth in a body's angles (`FindNearestPoses`), frame by frame.
+using NearestPoses = std::vector<TreeState>;
 
 /// The stages that methods may share in one world: each is computed when the first method asks for it, and kept for
 /// the next ones.
@@ -51,6 +57,10 @@ class CaptureStages {
   /// `cameras` and `observation` are those of `method`.
   const MeasuredTake& GetMeasured(const CaptureMethod& method, const CalibratedCameras& cameras,
                                   const Observation& observation);
+  /// Fails, saying why, when a body cannot be made of the performer's joints.
+  Result<const CaptureBody*> GetBody(const CaptureMethod& method);
+  /// In the body of `method`.
+  Result<const NearestPoses*> GetNearestPoses(const CaptureMethod& method);
 
  private:
   /// What decides about the matrices of a method's cameras.
@@ -59,11 +69,20 @@ class CaptureStages {
     Calibration calibration = Calibration::kDlt;
     auto operator<=>(const CameraChoice&) const = default;
   };
+  /// What decides about a method's body.
+  struct BodyChoice {
+    BodyKind kind = BodyKind::kFitted;
+    bool true_lengths = false;
+    auto operator<=>(const BodyChoice&) const = default;
+  };
+  static BodyChoice BodyChoiceOf(const CaptureMethod& method);
   /// What decides about a method's measurements.
   struct MeasureChoice {
     CameraChoice cameras;
     PersonSource person;
     bool true_directions = false, true_points = false;
+    Sync sync = Sync::kAssumed;
+    Outliers outliers = Outliers::kKeep;
     auto operator<=>(const MeasureChoice&) const = default;
   };
   static CameraChoice CameraChoiceOf(const CaptureMethod& method);
@@ -78,6 +97,8 @@ class CaptureStages {
   std::optional<CalibrationPairs> pairs_;
   std::map<CameraChoice, Result<CalibratedCameras>> cameras_;
   std::map<MeasureChoice, MeasuredTake> measured_;
+  std::map<BodyChoice, Result<CaptureBody>> bodies_;
+  std::map<BodyChoice, NearestPoses> nearest_;
 };
 
 /// How the method cuts out the person.

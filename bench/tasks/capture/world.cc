@@ -83,12 +83,56 @@ std::vector<double> MakeBrightness(const StudioOptions& options, std::size_t fra
   return brightness;
 }
 
+// A length as a tape tells it.
+class Tape {
+ public:
+  Tape(double error_mm, const WorldKey& key) : error_m_(0.001 * error_mm), random_(key, "capture/limb-tape") {}
+
+  double Measure(double length) {
+    constexpr double kShortest = 0.01;
+    const double measured = length + error_m_ * random_.Normal();
+    return length > kShortest ? std::max(kShortest, measured) : length;
+  }
+  /// From one place to another.
+  glm::dvec3 Measure(const glm::dvec3& from_to) {
+    const double length = glm::length(from_to), measured = Measure(length);
+    return length > 0 ? measured / length * from_to : from_to;
+  }
+
+ private:
+  const double error_m_;
+  RandomStream random_;
+};
+
+Person Measured(const Person& person, double error_mm, const WorldKey& key) {
+  if (error_mm == 0) return person;
+  Tape tape(error_mm, key);
+  Person measured = person;
+  LimbLengths& l = measured.lengths;
+  for (double* length : {&l.foot, &l.shank, &l.thigh, &l.hip_width, &l.trunk, &l.neck, &l.shoulder_width, &l.upper_arm,
+                         &l.forearm, &l.hand}) {
+    *length = tape.Measure(*length);
+  }
+  for (std::size_t i = 1; i < measured.body.joints.size(); ++i) {
+    const RestBody::Joint& joint = person.body.joints[i];
+    const glm::dvec3& above = measured.body.joints[joint.parent].position;
+    measured.body.joints[i].position = above + tape.Measure(joint.position - person.body.joints[joint.parent].position);
+  }
+  for (RestBody::RolePlace& role : measured.body.roles) {
+    role.position = measured.body.joints[role.joint].position +
+                    tape.Measure(role.position - person.body.joints[role.joint].position);
+  }
+  return measured;
+}
+
 }  // namespace
 
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
   CaptureWorld world;
   world.truth = ChooseWindow(options, clip, key);
-  world.lengths = MeasureLimbLengths(world.truth);
+  world.person.lengths = MeasureLimbLengths(world.truth);
+  world.person.body = clip.body.joints.empty() ? RestBodyOf(world.truth) : clip.body;
+  world.measured = Measured(world.person, options.limb_measure_mm, key);
   world.colours = ColoursOf(options.clothes);
   RandomStream room(key, "capture/room");
   world.room.texture_seed = room.IndexBelow(1u << 30);

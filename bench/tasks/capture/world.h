@@ -9,16 +9,24 @@
 #include "engine/capture/measure_frames.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
+#include "engine/motion/rest_body.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
 
 namespace etude {
 
+/// How long somebody's limbs are: as paper B counts them, and joint by joint.
+struct Person {
+  LimbLengths lengths;
+  RestBody body;
+};
+
 /// Everything true about one take: who moves how in front of which cameras under which light.
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
-  LimbLengths lengths;             ///< measured on the performer beforehand, as paper B does
+  Person person;                   ///< who moves
+  Person measured;                 ///< the same as it was measured beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<Camera> cameras;     ///< two or more, each with its lens
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures

@@ -32,6 +32,8 @@ CaptureExtras Sample() {
   }
   extras.views[1].truth.distortion = {.k1 = -0.2, .k2 = 0.03, .p1 = 0.001, .p2 = -0.002, .k3 = 0.01};
   extras.views[0].still_jpeg_base64 = "/9j/4A+b";
+  extras.moments = {{.frame = 1, .fixed = {}, .marks = {{{{1.5, 2}, {30, 40.25}, {9, 8, 255}}}, {}}}};
+  extras.moments[0].fixed.joints[7] = {0.1, -2, 3};
   extras.bvh = "HIERARCHY\n";
   return extras;
 }
@@ -54,6 +56,32 @@ TEST(CaptureExtras, SurviveWritingAndReading) {
     EXPECT_EQ(read->views[i].still_jpeg_base64, written.views[i].still_jpeg_base64);
     ASSERT_EQ(read->views[i].masks.size(), 2u);
     for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(read->views[i].masks[k].pixels, written.views[i].masks[k].pixels);
+  }
+}
+
+TEST(CaptureExtras, KeepMoments) {
+  const auto read = ReadCaptureExtras(WriteCaptureExtras(Sample()));
+  ASSERT_TRUE(read) << ToString(read.error());
+  ASSERT_EQ(read->moments.size(), 1u);
+  const CaptureExtras::Moment &moment = read->moments[0], expected = Sample().moments[0];
+  EXPECT_EQ(moment.frame, 1u);
+  EXPECT_EQ(moment.fixed.joints, expected.fixed.joints);
+  ASSERT_EQ(moment.marks.size(), 2u);
+  ASSERT_EQ(moment.marks[0].size(), 1u);
+  EXPECT_EQ(moment.marks[0][0].a, expected.marks[0][0].a);
+  EXPECT_EQ(moment.marks[0][0].b, expected.marks[0][0].b);
+  EXPECT_EQ(moment.marks[0][0].colour, expected.marks[0][0].colour);
+  EXPECT_TRUE(moment.marks[1].empty());
+}
+
+TEST(CaptureExtras, RefuseMomentsOfAnotherTake) {
+  CaptureExtras late = Sample(), lopsided = Sample();
+  late.moments[0].frame = 2;
+  lopsided.moments[0].marks.pop_back();
+  for (const CaptureExtras& extras : {late, lopsided}) {
+    const auto read = ReadCaptureExtras(WriteCaptureExtras(extras));
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr("moment"));
   }
 }
 

@@ -171,6 +171,25 @@ TEST(Summary, SurvivesTheWayToAFileAndBack) {
   EXPECT_FALSE((*back)[0].conditions[0].comparisons[1].difference);
 }
 
+TEST(Summary, KeepsErrorBudgetsAndSaysNothingWhereThereAreNone) {
+  ScenarioSummary scenario;
+  scenario.conditions.emplace_back();
+  EXPECT_THAT(*WriteJson(EncodeSummaries({scenario})), testing::Not(testing::HasSubstr("error_budgets")));
+  scenario.conditions[0].budgets = {{.metric = "mpjpe_mm",
+                                     .method = "seen",
+                                     .is_shapley = true,
+                                     .worlds = 12,
+                                     .total = 40,
+                                     .rest = 5,
+                                     .shares = {{"marks", 38, 30, 44}, {"ik", -3}}}};
+  const auto text = WriteJson(EncodeSummaries({scenario}));
+  const auto back = DecodeSummaries(*ReadJson(*text, "x"), kPlace);
+  ASSERT_TRUE(back) << ToString(back.error());
+  EXPECT_EQ(*WriteJson(EncodeSummaries(*back)), *text);
+  EXPECT_EQ((*back)[0].conditions[0].budgets[0].shares[0].ci_high, 44);
+  EXPECT_FALSE((*back)[0].conditions[0].budgets[0].shares[1].ci_low);
+}
+
 TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "etude_torn_run";
   std::filesystem::remove_all(folder);

@@ -36,13 +36,14 @@ TEST(CaptureMotion, MakesAClipOfMarkedPicturesOfTwoCamerasOrThree) {
 
     const auto cameras = CalibrateCameras(pairs);
     ASSERT_TRUE(cameras) << ToString(cameras.error());
-    const CaptureInputs inputs{.pictures = {.cameras = *cameras, .marks = marks}, .lengths = MeasureLimbLengths(truth)};
+    const CaptureInputs inputs{.pictures = {.cameras = *cameras, .marks = marks},
+                               .body = PaperBody(MeasureLimbLengths(truth))};
     CaptureOptions options;
     options.measure.smallest_plane_angle = Radians(1);  // exact marks need no margin
     options.recover.solver = FindIkSolver("damped-least-squares");
     const auto motion = CaptureMotion(inputs, options);
     ASSERT_TRUE(motion) << ToString(motion.error());
-    const Clip clip = ToClip(inputs.lengths, HoldFrames(motion->frames), kJudgedRateHz, "dance");
+    const Clip clip = ToClip(inputs.body, HoldFrames(motion->frames), kJudgedRateHz, "dance");
 
     ASSERT_EQ(clip.frames.size(), truth.size());
     const int head = clip.skeleton.Find("Head");
@@ -64,13 +65,13 @@ struct Studio {
   TakeMarks marks = ExactMarks(truth, cameras);
   std::vector<KnownMeasurement> known;
   std::vector<bool> marked;
-  LimbLengths lengths;
+  CaptureBody body = PaperBody({});
   CaptureOptions options;
 
   Studio() { options.recover.solver = FindIkSolver("ccd"); }
   Result<CapturedMotion> Capture() const {
     const MeasureInputs pictures{.cameras = cameras, .marks = marks, .known = known};
-    return CaptureMotion({.pictures = pictures, .lengths = lengths, .marked = marked}, options);
+    return CaptureMotion({.pictures = pictures, .body = body, .marked = marked}, options);
   }
 };
 
@@ -118,7 +119,7 @@ TEST(CaptureMotion, RefusesInputsThatDoNotFitTogether) {
   EXPECT_EQ(complaint([](Studio& s) { s.marks[1].pop_back(); }), "camera 2 has marks of 5 frames, camera 1 of 6");
   EXPECT_EQ(complaint([](Studio& s) { s.known.resize(2); }), "known measurements of 2 frames, and marks of 6");
   EXPECT_EQ(complaint([](Studio& s) { s.marked.resize(7); }), "'marked' tells of 7 frames, and there are marks of 6");
-  EXPECT_EQ(complaint([](Studio& s) { s.lengths.neck = 0; }), "a limb length that is not positive");
+  EXPECT_EQ(complaint([](Studio& s) { s.body.lengths.neck = 0; }), "a limb length that is not positive");
   EXPECT_EQ(complaint([](Studio& s) { s.options.recover.solver = nullptr; }), "no solver is given");
 }
 

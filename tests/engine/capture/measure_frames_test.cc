@@ -219,5 +219,41 @@ TEST(MeasureFrames, TakesWhatIsKnownInsteadOfMarks) {
   EXPECT_EQ(MeasureFrames({.cameras = cameras, .marks = marks, .known = known})[0].directions, RoleVectors{});
 }
 
+TEST(MeasureFrames, OfOneWrongCameraIsExactOnlyWhenOutliersAreRejected) {
+  const BodyPose pose = ModelPose();
+  const std::vector<ProjectionMatrix> cameras = {CameraAt(-40, 1), CameraAt(40, 2.2), CameraAt(100, 1.5),
+                                                 CameraAt(-110, 1.8)};
+  for (std::size_t count : {3u, 4u}) {
+    for (std::size_t wrong = 0; wrong < count; ++wrong) {
+      const std::vector<ProjectionMatrix> studio(cameras.begin(), cameras.begin() + static_cast<std::ptrdiff_t>(count));
+      TakeMarks marks = ExactMarks(std::vector{pose}, studio);
+      for (auto& disc : marks[wrong][0].effectors) *disc += glm::dvec2(50, -35);
+      for (auto& stroke : marks[wrong][0].strokes) {
+        stroke->a += glm::dvec2(50, -35);
+        stroke->b += glm::dvec2(-20, 40);
+      }
+      const MeasureInputs inputs{.cameras = studio, .marks = marks};
+      const auto worst = [&](bool rejects) {
+        const FrameMeasurement frame =
+            MeasureFrames(inputs, {.smallest_plane_angle = Radians(0.1), .rejects_outliers = rejects})[0];
+        double worst_m = 0, worst_rad = 0;
+        for (const EffectorMark& mark : EffectorMarks()) {
+          worst_m =
+              std::max(worst_m, glm::distance(frame.ends[Index(mark.role)].value_or(glm::dvec3(0)), pose[mark.role]));
+        }
+        for (const StrokeMark& mark : StrokeMarks()) {
+          const glm::dvec3 found = frame.directions[Index(mark.to)].value_or(glm::dvec3(1, 0, 0));
+          worst_rad = std::max(worst_rad, AngleBetween(found, LimbOf(pose, mark)));
+        }
+        return std::pair(worst_m, worst_rad);
+      };
+      EXPECT_LT(worst(true).first, 1e-9) << count << " cameras, " << wrong;
+      EXPECT_LT(worst(true).second, 1e-6) << count << " cameras, " << wrong;
+      EXPECT_GT(worst(false).first, 0.02) << "the control";
+      EXPECT_GT(worst(false).second, Radians(2)) << "the control";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace etude

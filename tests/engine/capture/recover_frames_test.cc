@@ -18,7 +18,7 @@ RecoverOptions With(const char* solver) { return {.solver = FindIkSolver(solver)
 TEST(RecoverFrames, GivesAPoseOfTheModelBackAndHoldsItWhereNothingIsSeen) {
   const BodyPose pose = ModelPose();
   const std::vector<std::optional<LimbObservation>> seen = {Observe(pose), std::nullopt};
-  const auto recovered = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  const auto recovered = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("ccd"));
   ASSERT_TRUE(recovered[0]);
   EXPECT_FALSE(recovered[1]);
   for (Role role : AllRoles()) {
@@ -35,7 +35,7 @@ TEST(RecoverFrames, GivesAPoseOfTheModelBackAndHoldsItWhereNothingIsSeen) {
 TEST(HoldFrames, ShowsTheFirstSkeletonBeforeItAndTheLastOneAfterIt) {
   const std::vector<std::optional<LimbObservation>> seen = {std::nullopt, Observe(ModelPose(0)), std::nullopt,
                                                             Observe(ModelPose(1)), std::nullopt};
-  const auto recovered = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  const auto recovered = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("ccd"));
   const auto held = HoldFrames(recovered);
   const int shown[] = {1, 1, 1, 3, 3};
   for (int k = 0; k < 5; ++k) EXPECT_EQ(held[k].pose.joints, recovered[shown[k]]->pose.joints) << k;
@@ -55,16 +55,17 @@ TEST(RecoverFrames, StartsMarkedFramesFromTheirPicturesAndOthersFromTheLastFrame
                       }};
   const std::vector<std::optional<LimbObservation>> seen = {Observe(ModelPose(0)), Observe(ModelPose(1)),
                                                             Observe(ModelPose(2))};
-  const auto frames = RecoverFrames({.lengths = {}, .seen = seen, .marked = {true, false, true}}, {.solver = &idle});
+  const auto frames =
+      RecoverFrames({.body = PaperBody({}), .seen = seen, .marked = {true, false, true}}, {.solver = &idle});
   EXPECT_EQ(frames[1]->state.angles, frames[0]->state.angles);
   EXPECT_NE(frames[2]->state.angles, frames[1]->state.angles);
   EXPECT_LT(glm::distance(frames[1]->pose[Role::kLeftFoot], ModelPose(1)[Role::kLeftFoot]), 1e-9)
       << "the root is always where it was seen";
   const std::vector<std::optional<LimbObservation>> with_gap = {seen[0], seen[1], std::nullopt, seen[2]};
   const auto after_gap =
-      RecoverFrames({.lengths = {}, .seen = with_gap, .marked = {true, true, false, false}}, {.solver = &idle});
+      RecoverFrames({.body = PaperBody({}), .seen = with_gap, .marked = {true, true, false, false}}, {.solver = &idle});
   EXPECT_EQ(after_gap[3]->state.angles, after_gap[1]->state.angles) << "of the last frame that was recovered";
-  const auto all_marked = RecoverFrames({.lengths = {}, .seen = seen}, {.solver = &idle});
+  const auto all_marked = RecoverFrames({.body = PaperBody({}), .seen = seen}, {.solver = &idle});
   EXPECT_NE(all_marked[1]->state.angles, all_marked[0]->state.angles);
 }
 
@@ -86,7 +87,7 @@ TEST(RecoverFrames, MakesASkeletonOfWhatThereIs) {
     const BodyPose pose = ModelPose(), next = ModelPose(0.05);
     const std::vector<std::optional<LimbObservation>> seen = {
         Observe(pose), Lacking(Observe(next), std::nullopt, mark.to), Lacking(Observe(next), mark.to, std::nullopt)};
-    const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("damped-least-squares"));
+    const auto frames = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("damped-least-squares"));
     for (std::size_t k = 0; k < 3; ++k) {
       ASSERT_TRUE(frames[k]) << RoleName(mark.to);
       for (Role role : AllRoles()) {
@@ -100,7 +101,7 @@ TEST(RecoverFrames, MakesASkeletonOfWhatThereIs) {
 TEST(RecoverFrames, CountsNoErrorAtAnEndThatWasNotSeen) {
   const std::vector<std::optional<LimbObservation>> seen = {
       Observe(ModelPose()), Lacking(Observe(ModelPose(0.1)), Role::kLeftHand, std::nullopt)};
-  const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  const auto frames = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("ccd"));
   EXPECT_EQ(frames[0]->errors.size(), 4u);
   EXPECT_EQ(frames[1]->errors.size(), 3u);
 }
@@ -113,7 +114,7 @@ TEST(RecoverFrames, BeginsAsAStandingBodyWhereNothingElseIsKnown) {
   only_a_foot.ends[Role::kRightFoot] = {0.4, 0, 0.2};
   only_a_foot.lacks_end[Index(Role::kRightFoot)] = false;
   const std::vector<std::optional<LimbObservation>> seen = {nothing, only_a_foot, nothing};
-  const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("damped-least-squares"));
+  const auto frames = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("damped-least-squares"));
   EXPECT_FALSE(frames[0]) << "nothing tells where the body is";
   ASSERT_TRUE(frames[1] && frames[2]);
   const BodyPose standing = ToBodyPose(MakeBodyTree({}), StandingState(MakeBodyTree({})));
@@ -128,7 +129,7 @@ TEST(RecoverFrames, LeavesOutWhatNoBodyFits) {
   LimbObservation broken = Observe(ModelPose());
   broken.directions[Index(Role::kHead)] = glm::dvec3(0);
   const std::vector<std::optional<LimbObservation>> seen = {broken, Observe(ModelPose())};
-  const auto frames = RecoverFrames({.lengths = {}, .seen = seen}, With("ccd"));
+  const auto frames = RecoverFrames({.body = PaperBody({}), .seen = seen}, With("ccd"));
   EXPECT_FALSE(frames[0]);
   EXPECT_TRUE(frames[1]);
 }

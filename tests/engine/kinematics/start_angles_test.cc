@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/kinematics/body_tree.h"
+#include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/solvers/ccd.h"
 #include "tests/engine/kinematics/observed_tree.h"
 
@@ -105,7 +106,7 @@ TEST(StartAngles, InverseKinematicsThenBringsTheEndsBackToWhereTheyWereSeen) {
     LimbObservation seen = Disturb(Observe(truth), trial, 0, 4);
     const BodyPose fixed = *FixLimbLengths(seen, {});
     const TreeState start = *FindStartState(tree, fixed, tree.limits);
-    const IkProblem problem = MakeImageProblem(tree, seen, start);
+    const IkProblem problem = MakeImageProblem(PaperBody({}), seen, start);
     IkOptions options;
     options.weights = WeightRule::kAdaptivePower;
     options.max_iterations = 300;

@@ -15,10 +15,10 @@ namespace etude {
 namespace {
 
 using enum Role;
+using testing::BodyAtRest;
 using ::testing::ElementsAre;
 using testing::ExpectNear;
 using ::testing::HasSubstr;
-using testing::RestBody;
 
 Skeleton Without(Skeleton skeleton, const std::string& name) {
   const int gone = skeleton.Find(name);
@@ -104,7 +104,7 @@ TEST(JointMap, ComposesTipsThatTheFileHasAtUnbelievableDistances) {
   ASSERT_TRUE(map) << ToString(map.error());
   EXPECT_THAT(map->composed, ElementsAre(kLeftHand, kRightHand, kHead));
   // In the person's own proportions they come to where the end sites were.
-  const BodyPose body = RestBody(mass, *map);
+  const BodyPose body = BodyAtRest(mass, *map);
   ExpectNear(body[kLeftHand], {90, 137, 0});
   ExpectNear(body[kRightHand], {-90, 137, 0});
   ExpectNear(body[kHead], {0, 165, 0});
@@ -196,7 +196,7 @@ TEST(JointMap, ComposesFeetForwardAndASpineHalfWayWhenThereAreNone) {
   const auto map = FindJointMap(bare, "bare.bvh");
   ASSERT_TRUE(map) << ToString(map.error());
   EXPECT_THAT(map->composed, ElementsAre(kSpine, kLeftFoot, kRightFoot));
-  const BodyPose body = RestBody(bare, *map);
+  const BodyPose body = BodyAtRest(bare, *map);
   ExpectNear(body[kLeftFoot], {9, 5, 18});
   ExpectNear(body[kSpine], {0, 117.5, 0});
 }
@@ -248,7 +248,7 @@ TEST(JointMap, FindsThePersonWhoseRestPoseIsFoldedUp) {
   ExpectNear(body[kLeftAnkle], {9, 5, 0});
   ExpectNear(body[kLeftFoot], {9, 0, 18});
   // The control: at rest it really is folded, the ankle is nowhere near the floor.
-  EXPECT_GT(RestBody(folded.skeleton, *map)[kLeftAnkle].y, 40);
+  EXPECT_GT(BodyAtRest(folded.skeleton, *map)[kLeftAnkle].y, 40);
 }
 
 TEST(JointMap, KeepsTheHipCentreMidwayWhenTheHipsThemselvesMove) {
@@ -294,7 +294,7 @@ TEST(JointMap, FindsThePersonAmongTheNodesOfAGltf) {
   const Skeleton nodes = AsGltfNodes(testing::PersonSkeleton(), 0.01);
   const auto map = FindJointMap(nodes, "person.glb");
   ASSERT_TRUE(map) << ToString(map.error());
-  testing::ExpectThePersonsPlaces(RestBody(nodes, *map), 0.01);
+  testing::ExpectThePersonsPlaces(BodyAtRest(nodes, *map), 0.01);
   EXPECT_NE((*map)[kLeftShoulder].joint, nodes.Find("LeftArm")) << "that is the mesh";
 }
 
@@ -308,7 +308,7 @@ TEST(JointMap, ComposesPointsInTheFrameOfTurnedAndScaledJoints) {
   const auto map = FindJointMap(nodes, "bare.glb");
   ASSERT_TRUE(map) << ToString(map.error());
   EXPECT_THAT(map->composed, ElementsAre(kShoulderCentre, kLeftHand, kRightHand, kLeftFoot, kRightFoot, kHead));
-  const BodyPose body = RestBody(nodes, *map);
+  const BodyPose body = BodyAtRest(nodes, *map);
   ExpectNear(body[kLeftHand], {0.90, 1.37, 0});
   ExpectNear(body[kRightFoot], {-0.09, 0.05, 0.18});
   ExpectNear(body[kShoulderCentre], {0, 1.37, 0});
@@ -321,7 +321,7 @@ TEST(JointMap, ComposesPointsOfJointsWithoutSizeOnTheJointItself) {
   person.joints[person.Find("LeftHand")].rest.scale = {0, 0, 0};
   const auto map = FindJointMap(person, "person.glb");
   ASSERT_TRUE(map) << ToString(map.error());
-  ExpectNear(RestBody(person, *map)[kLeftHand], {72, 137, 0});
+  ExpectNear(BodyAtRest(person, *map)[kLeftHand], {72, 137, 0});
 }
 
 TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
@@ -335,8 +335,8 @@ TEST(JointMap, TakesFeetThatHangFromControlsInsteadOfTheLegs) {
   const auto map = FindJointMap(rig, "rig.glb");
   ASSERT_TRUE(map) << ToString(map.error());
   EXPECT_THAT(map->composed, ElementsAre(kLeftFoot, kRightFoot)) << "what hangs from a control is no foot";
-  ExpectNear(RestBody(rig, *map)[kLeftAnkle], {9, 5, 0});
-  ExpectNear(RestBody(rig, *map)[kLeftFoot], {9, 5, 18});
+  ExpectNear(BodyAtRest(rig, *map)[kLeftAnkle], {9, 5, 0});
+  ExpectNear(BodyAtRest(rig, *map)[kLeftFoot], {9, 5, 18});
   // The control: another leg is no control.
   Skeleton crossed = testing::PersonSkeleton();
   crossed.joints[crossed.Find("RightFoot")].parent = crossed.Find("LeftLeg");
@@ -360,8 +360,8 @@ TEST(JointMap, TakesTaughtJointsBeforeAnyName) {
   const TaughtRoles better{{{kLeftElbow, {"Hoof", {}}}, {kRightAnkle, {"Wheel", {}}}, {kHead, {"Head", {}}}}};
   const auto map = FindJointMap(horse, "horse.bvh", &better);
   ASSERT_TRUE(map) << ToString(map.error());
-  ExpectNear(RestBody(horse, *map)[kLeftElbow], {47, 137, 0});
-  ExpectNear(RestBody(horse, *map)[kHead], {0, 150, 0});
+  ExpectNear(BodyAtRest(horse, *map)[kLeftElbow], {47, 137, 0});
+  ExpectNear(BodyAtRest(horse, *map)[kHead], {0, 150, 0});
 }
 
 TEST(JointMap, RefusesATaughtHeadOrSpineThatIsPartOfALimb) {

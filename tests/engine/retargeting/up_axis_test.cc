@@ -10,7 +10,7 @@ namespace {
 
 BodyPose Standing() {
   const Skeleton person = testing::PersonSkeleton();
-  return testing::RestBody(person, *FindJointMap(person, "person.bvh"));
+  return testing::BodyAtRest(person, *FindJointMap(person, "person.bvh"));
 }
 
 BodyPose Turned(BodyPose pose, double radians, const glm::dvec3& axis, const glm::dvec3& shift = {}) {

@@ -5,8 +5,10 @@
 #include <filesystem>
 
 #include "bench/files/files.h"
+#include "bench/recordings/capture_extras.h"
 #include "reports/films/canvas.h"
 #include "reports/films/capture_panel.h"
+#include "reports/films/capture_plate.h"
 #include "reports/films/cast.h"
 #include "reports/films/coach_panel.h"
 #include "reports/films/encoder.h"
@@ -143,6 +145,34 @@ TEST(CapturePanel, DrawsTheSkeletonOverThePersonAndKeepsBothInThePicture) {
   EXPECT_GT(lowest - highest, pixels.height / 2);
   EXPECT_GT(highest, 0);
   EXPECT_LT(lowest, pixels.height - 1);
+}
+
+// The example's capture, with a moment of which every stage is kept.
+std::optional<Picture> PlateOf(const std::vector<CaptureExtras::Moment>& moments, Renderer& renderer) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  Recording& recording = run.recordings.back().recording;
+  auto extras = ReadCaptureExtras(recording.extras_json);
+  extras->moments = moments;
+  recording.extras_json = WriteCaptureExtras(*extras);
+  return DrawPlate(*CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered")), renderer);
+}
+
+TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
+  auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  EXPECT_FALSE(PlateOf({}, **renderer)) << "a recording that keeps none";
+  const CaptureExtras::Moment early{.frame = 0, .fixed = {}, .marks = {{{{300, 100}, {340, 300}, {255, 0, 0}}}, {}}};
+  CaptureExtras::Moment late = early, unmarked = early;
+  late.frame = 17;
+  unmarked.marks[0].clear();
+  const auto one = PlateOf({early}, **renderer), two = PlateOf({early, late}, **renderer);
+  ASSERT_TRUE(one && two);
+  EXPECT_EQ(one->width, two->width);
+  EXPECT_EQ((two->height - one->height) * 5, (one->height - 28) * 2) << "two rows more than five: one for each camera";
+  EXPECT_NE(one->png, PlateOf({unmarked}, **renderer)->png) << "marks are drawn";
+  EXPECT_NE(one->png, PlateOf({late}, **renderer)->png);
+  EXPECT_THAT(one->caption, HasSubstr("figures 5.3 to 5.15"));
 }
 
 TEST(Encoder, GivesTheSameBytesForTheSamePictures) {

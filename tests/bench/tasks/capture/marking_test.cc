@@ -85,6 +85,24 @@ TEST_F(MarkingTest, TheFirstOfTwoMarksAsTheOnlyOneDoes) {
   EXPECT_GE(compared, 4);
 }
 
+TEST_F(MarkingTest, TrueJointsAreMarkedExactlyWhereThePictureShowsThem) {
+  const Marking marking = MarkingBy(1, 5);
+  const Marks marks = marking.MarkTrueJoints(0, picture(), FrontCamera(), StandingBody());
+  int strokes = 0;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (!marks.strokes[i]) continue;
+    ++strokes;
+    EXPECT_EQ(marks.strokes[i]->a, *Project(FrontCamera(), StandingBody()[StrokeMarks()[i].from]));
+    EXPECT_EQ(marks.strokes[i]->b, *Project(FrontCamera(), StandingBody()[StrokeMarks()[i].to]));
+  }
+  EXPECT_GE(strokes, 11);
+  const Mask nobody(picture().labels.width, picture().labels.height);
+  const Marks unseen =
+      marking.MarkTrueJoints(0, {picture().labels, picture().colours, nobody}, FrontCamera(), StandingBody());
+  for (const auto& stroke : unseen.strokes) EXPECT_FALSE(stroke) << "nobody was cut out";
+  for (const auto& disc : unseen.effectors) EXPECT_FALSE(disc);
+}
+
 TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
   StudioOptions options;
   options.mark_every = 3;

@@ -1,0 +1,189 @@
+#include "engine/capture/fit_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/base/unit_vector.h"
+#include "engine/kinematics/euler.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
+
+namespace etude {
+namespace {
+
+const glm::dvec3 kAlong(0, 0, 1);         // every limb, in its own frame
+constexpr double kStraight = Radians(5);  // elbows and knees nearer to straight tell no plane
+constexpr double kNowhere = 1e-9;         // metres
+
+bool IsFinite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// The turn about the unit vector `axis` that brings all `from` nearest to `to`, which are seen from the same point.
+double BestTwist(const glm::dvec3& axis, const std::vector<glm::dvec3>& from, const std::vector<glm::dvec3>& to) {
+  double cosine = 0, sine = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const glm::dvec3 across = from[i] - glm::dot(from[i], axis) * axis;
+    cosine += glm::dot(across, to[i]);
+    sine += glm::dot(axis, glm::cross(from[i], to[i]));
+  }
+  return std::hypot(cosine, sine) > kNowhere ? std::atan2(sine, cosine) : 0;
+}
+
+glm::dvec3 AnglesOf(const glm::dmat3& R_JL, int dof_count) {
+  if (dof_count == 3) return AnglesXyz(R_JL);
+  const glm::dvec3& z_J = R_JL[2];
+  if (dof_count == 1) return {std::atan2(-z_J.y, z_J.z), 0, 0};
+  return {std::atan2(-z_J.y, z_J.z), std::asin(std::clamp(z_J.x, -1.0, 1.0)), 0};
+}
+
+IkOptions ExactSteps() {
+  IkOptions options;
+  options.max_iterations = 40;
+  options.position_goal = 1e-7;
+  return options;
+}
+
+}  // namespace
+
+PoseTargets TargetsAt(const BodyPose& pose) {
+  PoseTargets targets{.places = pose, .weights = {}};
+  targets.weights.fill(1);
+  return targets;
+}
+
+PoseFitter::PoseFitter(const CaptureBody& body) : body_(body), tree_(body.tree), children_(tree_.joints.size()) {
+  tree_.effectors.clear();
+  for (const Role role : AllRoles()) {
+    TreePoint point = body.roles[Index(role)];
+    // Where a limb begins is a point of the one before.
+    while (point.joint > 0 && glm::length(point.p_LQ) < kNowhere) {
+      const TreeJoint& joint = tree_.joints[point.joint];
+      point = {joint.parent, joint.p_PJ};
+    }
+    if (point.joint == 0) continue;
+    tree_.effectors.push_back({RoleName(role), point.joint, point.p_LQ});
+    effector_roles_.push_back(role);
+  }
+  for (std::size_t i = 1; i < tree_.joints.size(); ++i)
+    children_[tree_.joints[i].parent].push_back(static_cast<int>(i));
+}
+
+void PoseFitter::AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond,
+                         const PoseTargets& wanted, std::vector<Aim>& aims) const {
+  bool is_met = false;
+  for (std::size_t e = 0; e < effector_roles_.size(); ++e) {
+    if (tree_.effectors[e].joint != beyond || wanted.weights[Index(effector_roles_[e])] <= 0) continue;
+    aims.push_back({effector_roles_[e], p_LJ + R_LJ * tree_.effectors[e].p_LE, beyond == limb});
+    is_met = beyond != limb;
+  }
+  if (is_met) return;
+  for (const int child : children_[beyond]) {
+    const TreeJoint& joint = tree_.joints[child];
+    const bool is_seen = std::ranges::any_of(aims, [&](const Aim& aim) {
+      return aim.is_on_limb && glm::distance(aim.p_LQ, p_LJ + R_LJ * joint.p_PJ) < 1e-6;
+    });
+    // Limbs beyond a known joint tell nothing of this one.
+    if (!is_seen) AddAims(limb, p_LJ + R_LJ * joint.p_PJ, R_LJ * joint.R_PJ, child, wanted, aims);
+  }
+}
+
+// The axes of a limb from which the way to a known joint leads over others that bend: the two sides of a triangle whose
+// third is the distance to that joint. It bends as at rest; a straight way, such as a back's, bends as backs do.
+glm::dmat3 PoseFitter::BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
+                                   const glm::dvec3& back_W) const {
+  glm::dvec3 p_LT(0);  // the limb's own end on that way
+  for (int beyond = body_.roles[Index(aim.role)].joint; beyond > 0 && beyond != limb;) {
+    p_LT = tree_.joints[beyond].p_PJ;
+    beyond = tree_.joints[beyond].parent;
+  }
+  const double own = glm::length(p_LT), rest = glm::distance(p_LT, aim.p_LQ), whole = glm::length(to_W);
+  if (own < kNowhere || rest < kNowhere || whole < kNowhere) return R_WL;
+  const double cosine = (own * own + whole * whole - rest * rest) / (2 * own * whole);
+  const glm::dvec3 along = to_W / whole;
+  glm::dvec3 side = R_WL * p_LT;
+  side -= glm::dot(side, along) * along;
+  if (glm::length(side) < 0.02 * own) side = back_W - glm::dot(back_W, along) * along;
+  const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+  const glm::dvec3 wanted = std::cos(angle) * along + std::sin(angle) * UnitOr(side, glm::dvec3(0));
+  return SmallestRotation(glm::normalize(R_WL * p_LT), UnitOr(wanted, along)) * R_WL;
+}
+
+// R_WL of a limb that begins at p_WL.
+glm::dmat3 PoseFitter::TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ,
+                                   const PoseTargets& wanted) const {
+  std::vector<Aim> aims;
+  AddAims(limb, glm::dvec3(0), glm::dmat3(1), limb, wanted, aims);
+  if (aims.empty()) return R_WJ;
+  // Points of the limb itself first; of those the farthest.
+  const auto main = std::ranges::max_element(
+      aims, {}, [](const Aim& aim) { return std::pair(aim.is_on_limb, glm::length(aim.p_LQ)); });
+  const glm::dvec3 from = UnitOr(R_WJ * main->p_LQ, R_WJ * kAlong);
+  const glm::dvec3 to = UnitOr(wanted.places[main->role] - p_WL, from);
+  glm::dmat3 R_WL = SmallestRotation(from, to) * R_WJ;
+  const auto twist = std::ranges::find(body_.twists, limb, &CaptureBody::Twist::joint);
+  if (twist != body_.twists.end()) {
+    const glm::dvec3 upper = wanted.places[twist->middle] - wanted.places[twist->upper];
+    const glm::dvec3 lower = wanted.places[twist->lower] - wanted.places[twist->middle];
+    const glm::dvec3 normal = twist->bends * glm::cross(upper, lower);
+    const bool is_known = wanted.weights[Index(twist->upper)] > 0 && wanted.weights[Index(twist->lower)] > 0;
+    if (is_known && glm::length(normal) > std::sin(kStraight) * glm::length(upper) * glm::length(lower)) {
+      const glm::dvec3 x = UnitNormalPart(normal, R_WL[2]);
+      return {x, glm::cross(R_WL[2], x), R_WL[2]};
+    }
+    return R_WL;
+  }
+  if (!main->is_on_limb) {
+    return BendTowards(limb, *main, wanted.places[main->role] - p_WL, R_WL, -Facing(wanted.places));
+  }
+  std::vector<glm::dvec3> now, then;
+  for (const Aim& aim : aims) {
+    now.push_back(R_WL * aim.p_LQ);
+    then.push_back(wanted.places[aim.role] - p_WL);
+  }
+  return AxisRotation(to, BestTwist(to, now, then)) * R_WL;
+}
+
+TreeState PoseFitter::Point(const PoseTargets& wanted) const {
+  TreeState state{wanted.places[Role::kLeftFoot], AxisRotation({0, 1, 0}, Heading(wanted.places)),
+                  std::vector<double>(tree_.limits.size(), 0.0)};
+  std::vector<LimbFrame> limbs(tree_.joints.size());
+  limbs[0] = {state.root_position, state.root_frame};
+  for (std::size_t i = 1; i < limbs.size(); ++i) {
+    const TreeJoint& joint = tree_.joints[i];
+    const LimbFrame& X_WP = limbs[joint.parent];
+    const glm::dvec3 p_WL = X_WP.position + X_WP.axes * joint.p_PJ;
+    const glm::dmat3 R_WJ = X_WP.axes * joint.R_PJ;
+    const glm::dmat3 R_WL = TurnTowards(static_cast<int>(i), p_WL, R_WJ, wanted);
+    glm::dvec3 angles = AnglesOf(glm::transpose(R_WJ) * R_WL, joint.dof_count);
+    for (int axis = 0; axis < joint.dof_count; ++axis) {
+      angles[axis] = ClampAngle(angles[axis], tree_.limits[joint.first_dof + axis]);
+      state.angles[joint.first_dof + axis] = angles[axis];
+    }
+    limbs[i] = {p_WL, R_WJ * RotationXyz(angles)};
+  }
+  return state;
+}
+
+TreeState PoseFitter::Improve(const PoseTargets& wanted, const TreeState& state) const {
+  IkProblem problem{state, {}, tree_.limits};
+  for (const Role role : effector_roles_) {
+    EffectorTarget target;
+    target.position = wanted.places[role];
+    target.position_weight = wanted.weights[Index(role)];
+    target.axis_weights = glm::dvec3(0);
+    problem.targets.push_back(target);
+  }
+  IkSolution solution = SolveGaussNewton(tree_, problem, ExactSteps(), {});
+  TreeState found = state;
+  if (solution.status != IkStatus::kBadInput) found.angles = std::move(solution.angles);
+  return found;
+}
+
+std::optional<TreeState> PoseFitter::Fit(const PoseTargets& wanted) const {
+  if (wanted.weights[Index(Role::kLeftFoot)] <= 0) return std::nullopt;
+  for (const Role role : AllRoles()) {
+    if (wanted.weights[Index(role)] > 0 && !IsFinite(wanted.places[role])) return std::nullopt;
+  }
+  return Improve(wanted, Point(wanted));
+}
+
+}  // namespace etude

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/tree.h"
+#include "engine/motion/body.h"
+
+namespace etude {
+
+/// Where the twenty roles shall be, and how much each of them counts.
+struct PoseTargets {
+  BodyPose places;                           ///< in the world, metres
+  std::array<double, kRoleCount> weights{};  ///< 0: it is not known where the role is
+};
+
+/// Every role counts alike.
+PoseTargets TargetsAt(const BodyPose& pose);
+
+/// Finds poses of one body from the places of its joints. *(Ours.)* Two steps: from the root outwards every limb points
+/// to where the next known joints are, its twist from elbows and knees (`CaptureBody::Twist`); then Gauss–Newton steps
+/// bring all roles as near to their places as they can be at once, and leave angles that nothing tells of where the
+/// first step put them. A pose of the body comes back exactly, as far as its places say what it is.
+class PoseFitter {
+ public:
+  /// `body` must outlive this.
+  explicit PoseFitter(const CaptureBody& body);
+
+  /// The angles that minimise Σ weight · |place − role|², at least locally; the root stands at the place of the left
+  /// foot. Nothing when a place that counts is not finite, or the left foot's does not count.
+  std::optional<TreeState> Fit(const PoseTargets& wanted) const;
+  /// The same, beginning at a state of the body instead; its root is kept.
+  TreeState Improve(const PoseTargets& wanted, const TreeState& state) const;
+
+ private:
+  /// A known role that is met first on the way outwards, and where it is from a limb when all angles beyond are zero.
+  struct Aim {
+    Role role;
+    glm::dvec3 p_LQ{0};
+    bool is_on_limb = false;
+  };
+
+  TreeState Point(const PoseTargets& wanted) const;
+  void AddAims(int limb, const glm::dvec3& p_LJ, const glm::dmat3& R_LJ, int beyond, const PoseTargets& wanted,
+               std::vector<Aim>& aims) const;
+  glm::dmat3 BendTowards(int limb, const Aim& aim, const glm::dvec3& to_W, const glm::dmat3& R_WL,
+                         const glm::dvec3& back_W) const;
+  glm::dmat3 TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted) const;
+
+  const CaptureBody& body_;
+  KinematicTree tree_;  // with an effector for every role that the root does not hold
+  std::vector<Role> effector_roles_;
+  std::vector<std::vector<int>> children_;
+};
+
+}  // namespace etude

@@ -1,0 +1,384 @@
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "engine/base/angles.h"
+#include "engine/base/unit_vector.h"
+#include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/euler.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr double kSamePlace = 1e-6;     // metres
+constexpr double kShortestLimb = 1e-4;  // metres
+constexpr double kOffLine = 1e-4;       // metres
+// No end of a range is ever met: angles start within half a turn.
+constexpr double kFreely = 3 * kPi;
+// Of joints that no role shows.
+constexpr double kMostHidden = Radians(90);
+const glm::dvec3 kToTheRight(-1, 0, 0), kDownwards(0, -1, 0), kAhead(0, 0, 1);
+
+bool AreSame(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) < kSamePlace; }
+
+/// One rigid part of the body, in the rest pose: what turns with a joint of it.
+struct Part {
+  std::string name;
+  int parent = -1;
+  glm::dvec3 at{0};  ///< where it turns against its parent
+  bool is_left_out = false;
+};
+
+/// The rest body as parts, each of which leads somewhere. Part 0 is the pelvis.
+class Parts {
+ public:
+  explicit Parts(const RestBody& rest) : pelvis_(rest.roles[Index(kHipCentre)].joint) {
+    for (const RestBody::Joint& joint : rest.joints) all_.push_back({joint.name, joint.parent, joint.position});
+    for (const Role role : AllRoles()) carrier_[Index(role)] = rest.roles[Index(role)].joint;
+    places_ = rest.Pose();
+    all_[pelvis_].parent = -1;
+  }
+
+  /// Whether every role hangs on the pelvis.
+  bool HangTogether() const {
+    return std::ranges::all_of(AllRoles(), [&](Role role) { return IsBelowPelvis(carrier_[Index(role)]); });
+  }
+
+  void Simplify() {
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i].is_left_out = !IsBelowPelvis(static_cast<int>(i));
+    for (const Role hip : {kLeftHip, kRightHip}) JoinToPelvis(hip);
+    for (const Role role : AllRoles()) HandToParent(role);
+    while (LeaveOutOne() || HangHigherOne()) {
+    }
+  }
+
+  int pelvis() const { return pelvis_; }
+  std::size_t size() const { return all_.size(); }
+  const Part& operator[](int part) const { return all_[part]; }
+  int CarrierOf(Role role) const { return carrier_[Index(role)]; }
+  const BodyPose& places() const { return places_; }
+
+  std::vector<int> ChildrenOf(int part) const {
+    std::vector<int> children;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (!all_[i].is_left_out && all_[i].parent == part) children.push_back(static_cast<int>(i));
+    }
+    return children;
+  }
+
+  /// Where its other parts and roles are, its own joint left out.
+  std::vector<glm::dvec3> TipsOf(int part) const {
+    std::vector<glm::dvec3> tips;
+    for (const Role role : AllRoles()) {
+      if (carrier_[Index(role)] == part && !AreSame(places_[role], all_[part].at)) tips.push_back(places_[role]);
+    }
+    for (const int child : ChildrenOf(part)) {
+      if (!AreSame(all_[child].at, all_[part].at)) tips.push_back(all_[child].at);
+    }
+    return tips;
+  }
+
+ private:
+  bool IsBelowPelvis(int part) const {
+    while (part >= 0 && part != pelvis_) part = all_[part].parent;
+    return part == pelvis_;
+  }
+
+  void MoveAll(int from, int to) {
+    for (Part& part : all_) {
+      if (part.parent == from) part.parent = to;
+    }
+    for (int& carrier : carrier_) {
+      if (carrier == from) carrier = to;
+    }
+    all_[from].is_left_out = true;
+  }
+
+  // What lies between the pelvis and the part that turns about the hip.
+  void JoinToPelvis(Role hip) {
+    const int thigh = carrier_[Index(hip)];
+    const bool turns_there = AreSame(all_[thigh].at, places_[hip]);
+    for (int part = turns_there ? all_[thigh].parent : thigh; part >= 0 && part != pelvis_;) {
+      const int above = all_[part].parent;
+      MoveAll(part, pelvis_);
+      part = above;
+    }
+  }
+
+  // A joint is the end of the limb above it.
+  void HandToParent(Role role) {
+    int& carrier = carrier_[Index(role)];
+    while (carrier != pelvis_ && AreSame(all_[carrier].at, places_[role])) carrier = all_[carrier].parent;
+  }
+
+  // A part that leads nowhere, or has no length.
+  bool LeaveOutOne() {
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      const int part = static_cast<int>(i);
+      if (all_[i].is_left_out || part == pelvis_ || !TipsOf(part).empty()) continue;
+      MoveAll(part, all_[i].parent);
+      return true;
+    }
+    return false;
+  }
+
+  // A part that turns about the same point as the one that it hangs on may as well hang on the next.
+  bool HangHigherOne() {
+    for (Part& part : all_) {
+      if (part.is_left_out || part.parent < 0 || part.parent == pelvis_) continue;
+      if (!AreSame(part.at, all_[part.parent].at)) continue;
+      part.parent = all_[part.parent].parent;
+      return true;
+    }
+    return false;
+  }
+
+  int pelvis_;
+  std::vector<Part> all_;
+  std::array<int, kRoleCount> carrier_{};
+  BodyPose places_;
+};
+
+bool IsArm(Role role) {
+  constexpr std::array kArms = {kLeftShoulder,  kLeftElbow,  kLeftWrist,  kLeftHand,
+                                kRightShoulder, kRightElbow, kRightWrist, kRightHand};
+  return std::ranges::find(kArms, role) != kArms.end();
+}
+
+/// A limb in the rest pose.
+struct RestLimb {
+  glm::dvec3 from{0};  ///< where it turns in the tree
+  glm::dvec3 to{0};    ///< its main tip
+  std::vector<glm::dvec3> tips;
+  Role leads_to = kHipCentre;  ///< the first role that is met along it
+};
+
+/// Makes the tree of a body's parts.
+class Builder {
+ public:
+  explicit Builder(const Parts& parts) : parts_(parts), limb_of_(parts.size(), -1) {}
+
+  Result<CaptureBody> Build() {
+    AddRoot();
+    int below = -1;
+    for (int part = parts_.CarrierOf(kLeftFoot); part >= 0; part = parts_[part].parent) {
+      RETURN_IF_ERROR(AddClimbed(part, below));
+      below = part;
+    }
+    for (std::size_t limb = 1; limb < order_.size(); ++limb) {  // the list grows on the way
+      for (const int child : parts_.ChildrenOf(order_[limb])) {
+        if (limb_of_[child] < 0) RETURN_IF_ERROR(AddHanging(child));
+      }
+    }
+    PlaceRoles();
+    AddTwists();
+    AddEnds();
+    AddSkeleton();
+    return std::move(body_);
+  }
+
+ private:
+  void AddRoot() {
+    body_.tree.joints.push_back({.name = "left_toe"});
+    order_.push_back(-1);
+    rest_axes_.push_back(glm::dmat3(1));
+  }
+
+  // From the toe up to the pelvis: a limb begins where the one below it ends.
+  Result<void> AddClimbed(int part, int below) {
+    RestLimb limb;
+    limb.from = below < 0 ? parts_.places()[kLeftFoot] : parts_[below].at;
+    limb.tips = parts_.TipsOf(part);
+    if (part == parts_.pelvis()) {
+      limb.to = parts_.places()[kRightHip];
+    } else {
+      limb.to = parts_[part].at;
+      limb.tips.push_back(limb.to);
+    }
+    return Add(part, below < 0 ? 0 : limb_of_[below], limb);
+  }
+
+  Result<void> AddHanging(int part) {
+    RestLimb limb{.from = parts_[part].at, .to = parts_[part].at, .tips = parts_.TipsOf(part)};
+    for (const glm::dvec3& tip : limb.tips) {
+      if (glm::distance(tip, limb.from) > glm::distance(limb.to, limb.from)) limb.to = tip;
+    }
+    limb.leads_to = FirstRoleBelow(part);
+    return Add(part, limb_of_[parts_[part].parent], limb);
+  }
+
+  Role FirstRoleBelow(int part) const {
+    std::vector<int> next{part};
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      for (const Role role : AllRoles()) {
+        if (parts_.CarrierOf(role) == next[i]) return role;
+      }
+      const std::vector<int> children = parts_.ChildrenOf(next[i]);
+      next.insert(next.end(), children.begin(), children.end());
+    }
+    return kHipCentre;  // of a part that leads nowhere, which there is none of
+  }
+
+  Result<void> Add(int part, int parent, const RestLimb& limb) {
+    if (!(glm::distance(limb.from, limb.to) > kShortestLimb)) {
+      return Fail({}, "'{}' of the body at rest has no length", parts_[part].name);
+    }
+    TreeJoint joint{.name = {}, .parent = parent};
+    const glm::dmat3 R_WL = RestAxes(part, limb);
+    joint.p_PJ = glm::transpose(rest_axes_[parent]) * (limb.from - OriginOf(parent));
+    joint.R_PJ = glm::transpose(rest_axes_[parent]) * NeutralAxes(limb, R_WL);
+    joint.first_dof = body_.tree.dof_count();
+    joint.dof_count = DofsOf(part, limb);
+    const double most = IsHidden(part, limb.from) ? kMostHidden : kFreely;
+    for (int dof = 0; dof < joint.dof_count; ++dof) body_.tree.limits.push_back({-most, most});
+    limb_of_[part] = static_cast<int>(body_.tree.joints.size());
+    body_.tree.joints.push_back(joint);
+    order_.push_back(part);
+    rest_axes_.push_back(R_WL);
+    origins_.push_back(limb.from);
+    return {};
+  }
+
+  glm::dvec3 OriginOf(int limb) const { return limb == 0 ? parts_.places()[kLeftFoot] : origins_[limb - 1]; }
+
+  // Z along the limb. X points right; of arms it is the axis about which elbows bend, of the pelvis forward.
+  glm::dmat3 RestAxes(int part, const RestLimb& limb) const {
+    const glm::dvec3 z = glm::normalize(limb.to - limb.from);
+    const glm::dvec3 wanted = part == parts_.pelvis() ? kAhead
+                              : IsArm(limb.leads_to)  ? glm::cross(z, kAhead)
+                                                      : kToTheRight;
+    glm::dvec3 x = wanted - glm::dot(wanted, z) * z;
+    constexpr double kAlong = 0.1;
+    if (glm::length(x) < kAlong) x = kAhead - glm::dot(kAhead, z) * z;
+    if (glm::length(x) < kAlong) x = kDownwards - glm::dot(kDownwards, z) * z;
+    x = glm::normalize(x);
+    return {x, glm::cross(z, x), z};
+  }
+
+  // The limb's axes when its angles are zero. Euler angles are singular where a limb points along X: for an upper arm
+  // that is forward and out, and back and in behind the trunk, which is rarer than to hang, to point aside or forward.
+  glm::dmat3 NeutralAxes(const RestLimb& limb, const glm::dmat3& R_WL) const {
+    if (limb.leads_to != kLeftElbow && limb.leads_to != kRightElbow) return R_WL;
+    const double back = limb.leads_to == kLeftElbow ? -1 : 1;
+    const glm::dvec3 x = glm::normalize(kToTheRight + back * kAhead);
+    return {x, glm::cross(kDownwards, x), kDownwards};
+  }
+
+  int DofsOf(int part, const RestLimb& limb) const {
+    const bool is_branched = parts_.ChildrenOf(part).size() > 1 || part == parts_.pelvis();
+    const glm::dvec3 z = glm::normalize(limb.to - limb.from);
+    const bool is_line = std::ranges::all_of(
+        limb.tips, [&](const glm::dvec3& tip) { return glm::length(glm::cross(tip - limb.from, z)) < kOffLine; });
+    const bool is_climbed_shank = AreSame(limb.from, parts_.places()[kLeftAnkle]);
+    const bool bends_below = limb.leads_to == kLeftElbow || limb.leads_to == kRightElbow || limb.leads_to == kRightKnee;
+    return is_branched || !is_line || is_climbed_shank || bends_below ? 3 : 2;
+  }
+
+  // Whether no role shows how it bends.
+  bool IsHidden(int part, const glm::dvec3& from) const {
+    if (part == parts_.pelvis()) return false;
+    return std::ranges::none_of(parts_.places().joints, [&](const glm::dvec3& place) { return AreSame(place, from); });
+  }
+
+  TreePoint PointAt(const glm::dvec3& place, int part) const {
+    const int limb = limb_of_[part];
+    return {limb, glm::transpose(rest_axes_[limb]) * (place - OriginOf(limb))};
+  }
+
+  bool Holds(int part, const glm::dvec3& place) const {
+    if (AreSame(parts_[part].at, place)) return true;
+    return std::ranges::any_of(parts_.TipsOf(part), [&](const glm::dvec3& tip) { return AreSame(tip, place); });
+  }
+
+  void PlaceRoles() {
+    for (const Role role : AllRoles()) {
+      body_.roles[Index(role)] = PointAt(parts_.places()[role], parts_.CarrierOf(role));
+      const auto parent = ParentOf(role);
+      if (!parent) continue;
+      const glm::dvec3& upper = parts_.places()[*parent];
+      body_.bones[Index(role)] = glm::distance(parts_.places()[role], upper);
+      body_.is_rigid[Index(role)] = Holds(parts_.CarrierOf(role), upper);
+    }
+    const BodyPose rest = parts_.places();
+    body_.lengths = MeasureLimbLengths(std::span(&rest, 1));
+  }
+
+  // Of the limbs that turn elbows and knees into the plane in which they bend.
+  void AddTwists() {
+    const auto add = [&](Role lower_joint, Role upper, Role middle, Role lower, double bends) {
+      const TreePoint& point = body_.roles[Index(lower_joint)];
+      body_.twists.push_back({point.joint, upper, middle, lower, bends});
+    };
+    add(kLeftElbow, kLeftShoulder, kLeftElbow, kLeftWrist, 1);
+    add(kRightElbow, kRightShoulder, kRightElbow, kRightWrist, 1);
+    add(kRightKnee, kRightHip, kRightKnee, kRightAnkle, -1);
+    add(kLeftAnkle, kLeftHip, kLeftKnee, kLeftAnkle, -1);
+  }
+
+  // Paper B's four; its root stands as the left foot was seen, this one is held there by that limb's direction.
+  void AddEnds() {
+    for (const Role role : {kRightFoot, kLeftHand, kRightHand, kHead}) AddEnd(role, true);
+    AddEnd(kLeftFoot, false);
+  }
+
+  void AddEnd(Role role, bool has_position) {
+    const glm::dvec3 outer = parts_.places()[role], inner = parts_.places()[*ParentOf(role)];
+    const int limb = limb_of_[parts_.CarrierOf(role)];
+    const bool is_climbed = AreSame(OriginOf(limb), outer);
+    const TreePoint end = PointAt(is_climbed ? inner : outer, parts_.CarrierOf(role));
+    const double aside = glm::length(glm::cross(end.p_LQ, glm::dvec3(0, 0, 1)));
+    const bool has_direction =
+        AreSame(OriginOf(limb), is_climbed ? outer : inner) && body_.is_rigid[Index(role)] && aside < kOffLine;
+    if (!has_position && !has_direction) return;
+    body_.tree.effectors.push_back({RoleName(role), limb, end.p_LQ});
+    body_.ends.push_back({role, has_position, has_direction, is_climbed ? -1.0 : 1.0});
+  }
+
+  void AddSkeleton() {
+    std::vector<int> joint_of(parts_.size(), -1);
+    std::vector<int> next{parts_.pelvis()};
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      const int part = next[i];
+      const int limb = limb_of_[part];
+      joint_of[part] = static_cast<int>(body_.skeleton.size());
+      const bool is_root = part == parts_.pelvis();
+      body_.skeleton.push_back({.name = parts_[part].name,
+                                .parent = is_root ? -1 : joint_of[parts_[part].parent],
+                                .offset = is_root ? glm::dvec3(0) : parts_[part].at - parts_[parts_[part].parent].at,
+                                .limb = limb,
+                                .R_LC = glm::transpose(rest_axes_[limb])});
+      const std::vector<int> children = parts_.ChildrenOf(part);
+      next.insert(next.end(), children.begin(), children.end());
+    }
+    body_.skeleton_root = PointAt(parts_[parts_.pelvis()].at, parts_.pelvis());
+    for (const Role role : {kHead, kLeftHand, kRightHand, kLeftFoot, kRightFoot}) {
+      const int part = parts_.CarrierOf(role);
+      body_.skeleton.push_back({.name = std::string(RoleName(role)) + "_end",
+                                .parent = joint_of[part],
+                                .offset = parts_.places()[role] - parts_[part].at,
+                                .limb = limb_of_[part],
+                                .R_LC = glm::transpose(rest_axes_[limb_of_[part]]),
+                                .is_end = true});
+    }
+  }
+
+  const Parts& parts_;
+  CaptureBody body_;
+  std::vector<int> limb_of_;           // of each part
+  std::vector<int> order_;             // of each limb: its part
+  std::vector<glm::dmat3> rest_axes_;  // of each limb: R_WL at rest
+  std::vector<glm::dvec3> origins_;    // of each limb but the first: where it begins at rest
+};
+
+}  // namespace
+
+Result<CaptureBody> FittedBody(const RestBody& rest) {
+  Parts parts(rest);
+  if (!parts.HangTogether()) return Fail({}, "a part of the body does not hang on its pelvis");
+  parts.Simplify();
+  return Builder(parts).Build();
+}
+
+}  // namespace etude

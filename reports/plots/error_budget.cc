@@ -1,0 +1,96 @@
+#include "reports/plots/error_budget.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "reports/plots/axis.h"
+#include "reports/plots/panel.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+
+namespace etude {
+namespace {
+
+constexpr double kBarStep = 24, kBarHeight = 12, kStageNames = 120;
+
+/// One bar of the waterfall, from the error before it to the error after it.
+struct Bar {
+  std::string name;
+  double from = 0, to = 0;
+  const BudgetShare* share = nullptr;  ///< nothing of the first bar and the last
+};
+
+std::vector<Bar> BarsOf(const ErrorBudget& budget, double scale) {
+  std::vector<Bar> bars{{budget.method, 0, budget.total * scale}};
+  double left = budget.total;
+  for (const BudgetShare& share : budget.shares) {
+    bars.push_back({share.stage, left * scale, (left - share.mean) * scale, &share});
+    left -= share.mean;
+  }
+  bars.push_back({"what is left", 0, budget.rest * scale});
+  return bars;
+}
+
+std::string Describe(const ErrorBudget& budget, const MetricWords& words) {
+  std::string text = fmt::format("“{}”: {}{}, mean of {} worlds.", budget.method,
+                                 FormatNumber(budget.total * words.scale), words.suffix, budget.worlds);
+  for (const BudgetShare& share : budget.shares) {
+    text += fmt::format(" {}: {}", share.stage, FormatNumber(share.mean * words.scale));
+    if (share.ci_low && share.ci_high) {
+      text += fmt::format(" ({} to {})", FormatNumber(*share.ci_low * words.scale),
+                          FormatNumber(*share.ci_high * words.scale));
+    }
+    text += ".";
+  }
+  return text + fmt::format(" What is left: {}.", FormatNumber(budget.rest * words.scale));
+}
+
+std::string BarSvg(const Bar& bar, double y, const Axis& axis, double scale) {
+  const double low = std::min(axis.At(bar.from), axis.At(bar.to)), high = std::max(axis.At(bar.from), axis.At(bar.to));
+  std::string svg = PanelText(kStageNames - 6, y + kBarHeight - 2, bar.name, "end", 22);
+  svg += fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>",
+                     bar.share == nullptr ? "budget whole"
+                     : bar.to > bar.from  ? "budget worse"
+                                          : "budget",
+                     low, y, std::max(1.0, high - low), kBarHeight);
+  if (bar.share == nullptr || !bar.share->ci_low) return svg;
+  const double middle = y + 0.5 * kBarHeight;
+  return svg + fmt::format("<path class=\"budget-interval\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>",
+                           axis.At(bar.from - *bar.share->ci_low * scale), middle,
+                           axis.At(bar.from - *bar.share->ci_high * scale));
+}
+
+}  // namespace
+
+std::string ErrorBudgetHtml(const ErrorBudget& budget, const std::string& condition) {
+  const MetricWords words = WordsFor(budget.metric);
+  const std::vector<Bar> bars = BarsOf(budget, words.scale);
+  std::vector<double> values{0};
+  for (const Bar& bar : bars) {
+    values.push_back(bar.to);
+    if (bar.share == nullptr || !bar.share->ci_low) continue;
+    values.push_back(bar.from - *bar.share->ci_low * words.scale);
+    values.push_back(bar.from - *bar.share->ci_high * words.scale);
+  }
+  Axis axis = AxisAroundZero(values);
+  axis.from = kStageNames, axis.to = kPanelRight;
+  const double bottom = kBarStep * static_cast<double>(bars.size()) + 4;
+  std::string svg = BeginPanel(bottom + 18, Describe(budget, words)) + LyingGrid(axis, 0, bottom);
+  double y = 6;
+  for (const Bar& bar : bars) {
+    svg += BarSvg(bar, y, axis, words.scale);
+    y += kBarStep;
+  }
+  const std::string order =
+      budget.is_shapley
+          ? "Shapley values: what each stage saves, averaged over all orders in which stages are made true"
+          : "stages made true one after the other, from the top: another order may share otherwise";
+  return fmt::format(
+      "<figure><figcaption>What each stage costs in {}{}{}: {}. Means of {} worlds; lines are 95 % "
+      "intervals.</figcaption>{}</svg></figure>",
+      EscapeMarkup(words.label), condition.empty() ? "" : ", ", EscapeMarkup(condition), order, budget.worlds, svg);
+}
+
+}  // namespace etude
