@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/angles.h"
+
 namespace etude {
 namespace {
 
@@ -23,6 +25,22 @@ glm::dmat3 ToGlm(const Eigen::Matrix3d& m) {
     for (int column = 0; column < 3; ++column) result[column][row] = m(row, column);
   }
   return result;
+}
+
+// The sum over all pairs of successive limbs, and their number.
+double AngleErrorsDeg(const BodyPose& found, const BodyPose& truth, int& count) {
+  const auto angle = [](const BodyPose& pose, Role grandparent, const Bone& bone) {
+    const glm::dvec3 upper = pose[bone.parent] - pose[grandparent], lower = pose[bone.child] - pose[bone.parent];
+    return glm::dot(upper, upper) > 0 && glm::dot(lower, lower) > 0 ? Degrees(AngleBetween(upper, lower)) : 0.0;
+  };
+  double sum = 0;
+  for (const Bone& bone : AllBones()) {
+    const auto grandparent = ParentOf(bone.parent);
+    if (!grandparent) continue;
+    sum += std::abs(angle(found, *grandparent, bone) - angle(truth, *grandparent, bone));
+    ++count;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -65,6 +83,7 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
   assert(found.size() == truth.size() && !found.empty());
   constexpr double kNear_mm = 50, kAucEnd_mm = 200, kCmPerMetre = 100;
   PoseErrors sums;
+  int angles = 0;
   for (std::size_t f = 0; f < found.size(); ++f) {
     sums.frame_mpjpe_mm.push_back(FrameMpjpeMm(found[f], truth[f]));
     sums.mpjpe_mm += sums.frame_mpjpe_mm.back();
@@ -75,6 +94,7 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
       // The area under a step at `error_mm` is what lies right of it.
       sums.auc_200mm += std::max(0.0, 1 - error_mm / kAucEnd_mm);
     }
+    sums.joint_angle_error_deg += AngleErrorsDeg(found[f], truth[f], angles);
     for (const Bone& bone : AllBones()) {
       sums.bone_length_error_cm += kCmPerMetre * std::abs(BoneLength(found[f], bone) - BoneLength(truth[f], bone));
     }
@@ -87,7 +107,45 @@ PoseErrors ComparePoses(std::span<const BodyPose> found, std::span<const BodyPos
   means.pck_50mm /= joints;
   means.auc_200mm /= joints;
   means.bone_length_error_cm /= frames * static_cast<double>(AllBones().size());
+  means.joint_angle_error_deg /= angles;
   return means;
+}
+
+std::optional<double> MeanOfFlagged(std::span<const double> values, const std::vector<bool>& flags) {
+  assert(values.size() == flags.size());
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!flags[i]) continue;
+    sum += values[i];
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+std::optional<double> JerkErrorMps3(std::span<const BodyPose> found, std::span<const BodyPose> truth,
+                                    const std::vector<bool>& judged, double rate_hz) {
+  assert(found.size() == truth.size() && judged.size() == truth.size());
+  double sum = 0;
+  int count = 0;
+  for (std::size_t f = 0; f + 3 < found.size(); ++f) {
+    if (!judged[f] || !judged[f + 1] || !judged[f + 2] || !judged[f + 3]) continue;
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      const auto error = [&](std::size_t k) { return found[f + k].joints[i] - truth[f + k].joints[i]; };
+      sum += glm::length(error(3) - 3.0 * error(2) + 3.0 * error(1) - error(0));
+      ++count;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return rate_hz * rate_hz * rate_hz * sum / count;
+}
+
+double LimbLengthErrorMm(std::span<const double> found_m, std::span<const double> true_m) {
+  assert(found_m.size() == true_m.size() && !found_m.empty());
+  double sum = 0;
+  for (std::size_t i = 0; i < found_m.size(); ++i) sum += std::abs(found_m[i] - true_m[i]);
+  return kMmPerMetre * sum / static_cast<double>(found_m.size());
 }
 
 }  // namespace etude

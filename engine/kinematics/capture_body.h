@@ -10,17 +10,12 @@
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/tree.h"
+#include "engine/kinematics/tree_point.h"
 #include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 #include "engine/motion/rest_body.h"
 
 namespace etude {
-
-/// A point Q of a limb L of a tree.
-struct TreePoint {
-  int joint = 0;       ///< whose limb it is fixed to
-  glm::dvec3 p_LQ{0};  ///< metres
-};
 
 /// A body that a motion is captured with: a tree, and what its parts are to the observer.
 struct CaptureBody {

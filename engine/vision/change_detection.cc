@@ -164,7 +164,10 @@ Mask DetectChange(const ColourImage& background, const ColourImage& picture, Seg
 
 Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options) {
   const Mask changed = DetectChange(background, picture, options.segmenter, options.change);
-  return FillHoles(LargestComponent(changed), options.largest_hole);
+  const Mask person = options.pieces == PersonPieces::kLargest
+                          ? LargestComponent(changed)
+                          : LargeComponents(changed, options.smallest_piece, options.piece_reach);
+  return FillHoles(person, options.largest_hole);
 }
 
 }  // namespace etude

@@ -64,15 +64,29 @@ struct ChangeOptions {
 Mask DetectChange(const ColourImage& background, const ColourImage& picture, Segmenter segmenter,
                   const ChangeOptions& options = {});
 
+/// Which pieces of what changed are the person.
+enum class PersonPieces {
+  kLargest,  ///< the largest one alone (paper B)
+  /// *Ours*: the largest, and every one of some size beside it. Where a sleeve ends, or skin is of the wall's hue,
+  /// forearms and feet are pieces of their own, and the largest one has lost them; but so may be a shadow.
+  kLarge,
+};
+
 struct PersonOptions {
   Segmenter segmenter = Segmenter::kHue;
   ChangeOptions change;
+  PersonPieces pieces = PersonPieces::kLargest;
+  /// kLarge: pieces of fewer pixels are noise. 120 is a hand four metres away in a picture of 640 × 480.
+  int smallest_piece = 120;
+  /// kLarge: so far may the box about a piece be from that about the largest one, pixels: the length of a forearm
+  /// there.
+  int piece_reach = 40;
   /// Holes of at most this many pixels are filled; the gap between an arm and the trunk is larger.
   int largest_hole = 60;
 };
 
-/// The person in the picture (paper B, chapter 4): change detection, then the largest 8-connected
-/// component, then its small holes filled. All zero when nothing changed.
+/// The person in the picture (paper B, chapter 4): change detection, then the 8-connected component or components that
+/// `pieces` names, then their small holes filled. All zero when nothing changed.
 Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options);
 
 }  // namespace etude

@@ -90,9 +90,33 @@ void JoinRows(const RunsOfMask& found, Connectivity connectivity, Sets& sets) {
   }
 }
 
-}  // namespace
+// The first in scan order among equals; the number of pieces when no pixel is set.
+std::size_t IndexOfLargest(const Components& components) {
+  std::size_t largest = components.pieces.size();
+  int size = 0;
+  for (std::size_t i = 0; i < components.pieces.size(); ++i) {
+    if (!components.pieces[i].set || components.pieces[i].size <= size) continue;
+    largest = i;
+    size = components.pieces[i].size;
+  }
+  return largest;
+}
 
-namespace {
+// About the pixels of a piece; the last two just outside.
+struct Box {
+  int left, top, right, bottom;
+
+  void Include(const Run& run) {
+    left = std::min(left, run.begin);
+    right = std::max(right, run.end);
+    top = std::min(top, run.row);
+    bottom = std::max(bottom, run.row + 1);
+  }
+  bool IsWithin(int reach, const Box& other) const {
+    return left < other.right + reach && right > other.left - reach && top < other.bottom + reach &&
+           bottom > other.top - reach;
+  }
+};
 
 Components LabelRuns(RunsOfMask found, int width, int height, Connectivity connectivity) {
   Sets sets(found.runs.size());
@@ -110,18 +134,6 @@ Components LabelRuns(RunsOfMask found, int width, int height, Connectivity conne
     piece.touches_border |= run.row == 0 || run.row == height - 1 || run.begin == 0 || run.end == width;
   }
   return components;
-}
-
-/// The index of the largest piece of 1s, the first among equals; behind the last when there is none.
-std::size_t LargestOf(const Components& components) {
-  std::size_t largest = components.pieces.size();
-  int size = 0;
-  for (std::size_t i = 0; i < components.pieces.size(); ++i) {
-    if (!components.pieces[i].set || components.pieces[i].size <= size) continue;
-    largest = i;
-    size = components.pieces[i].size;
-  }
-  return largest;
 }
 
 /// The runs of the mask that has that piece of 1s alone.
@@ -148,10 +160,26 @@ Components LabelComponents(const Mask& mask, Connectivity connectivity) {
 
 Mask LargestComponent(const Mask& mask) {
   const Components components = LabelComponents(mask);
-  const std::size_t largest = LargestOf(components);
+  const std::size_t largest = IndexOfLargest(components);
   Mask result(mask.width, mask.height);
   for (const Run& run : components.runs) {
     if (run.piece == largest) Paint(run, 1, result);
+  }
+  return result;
+}
+
+Mask LargeComponents(const Mask& mask, int smallest, int reach) {
+  const Components components = LabelComponents(mask);
+  const std::size_t largest = IndexOfLargest(components);
+  Mask result(mask.width, mask.height);
+  if (largest == components.pieces.size()) return result;
+  std::vector<Box> boxes(components.pieces.size(), Box{mask.width, mask.height, 0, 0});
+  for (const Run& run : components.runs) boxes[run.piece].Include(run);
+  const Box& main = boxes[largest];
+  for (const Run& run : components.runs) {
+    const Components::Piece& piece = components.pieces[run.piece];
+    const bool is_part = run.piece == largest || (piece.size >= smallest && boxes[run.piece].IsWithin(reach, main));
+    if (piece.set && is_part) Paint(run, 1, result);
   }
   return result;
 }
@@ -168,7 +196,7 @@ Mask FillHoles(const Mask& mask, int largest_hole) {
 
 void KeepPerson(Mask& mask, int largest_hole) {
   const Components components = LabelComponents(mask);
-  const std::size_t largest = LargestOf(components);
+  const std::size_t largest = IndexOfLargest(components);
   for (const Run& run : components.runs) {
     if (run.piece != largest && components.pieces[run.piece].set) Paint(run, 0, mask);
   }

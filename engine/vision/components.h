@@ -36,6 +36,10 @@ Components LabelComponents(const Mask& mask, Connectivity connectivity = Connect
 /// The largest 8-connected piece of 1s alone; the first in scan order among equals; nothing from nothing.
 Mask LargestComponent(const Mask& mask);
 
+/// The largest 8-connected piece of 1s, and all others of at least `smallest` pixels whose boxes come within `reach`
+/// pixels of its box.
+Mask LargeComponents(const Mask& mask, int smallest, int reach);
+
 /// Sets the holes (4-connected pieces of 0s that do not touch the border) of at most `largest_hole` pixels.
 Mask FillHoles(const Mask& mask, int largest_hole);
 

@@ -38,6 +38,9 @@ PersonFinder::PersonFinder(const ColourImage& background, const PersonOptions& o
 
 Mask PersonFinder::Find(const ColourImage& picture) {
   Mask mask = Detect(picture);
+  if (options_.pieces == PersonPieces::kLarge) {
+    return FillHoles(LargeComponents(mask, options_.smallest_piece, options_.piece_reach), options_.largest_hole);
+  }
   KeepPerson(mask, options_.largest_hole);
   return mask;
 }

@@ -9,10 +9,11 @@ MAY_INCLUDE = {
     # engine/
     "engine/base": "",
     "engine/boards": "engine/base",
+    "engine/bundle_adjustment": "engine/base engine/cameras engine/kinematics",
     "engine/cameras": "engine/base engine/document",
     "engine/capture":
-        "engine/base engine/boards engine/cameras engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/vision",
+        "engine/base engine/boards engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers "
+        "engine/motion engine/smoothing engine/vision",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
@@ -24,6 +25,8 @@ MAY_INCLUDE = {
     "engine/motion": "engine/base",
     "engine/recognition": "engine/base engine/fuzzy engine/motion",
     "engine/retargeting": "engine/base engine/document engine/motion",
+    "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
+    "engine/smoothing": "",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
@@ -94,7 +97,7 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
-        "engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
+        "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "

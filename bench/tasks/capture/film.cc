@@ -73,6 +73,7 @@ class Crew {
 
 Marks Mark(Marking& marking, const PersonSource& source, const Crew& crew, std::size_t camera, std::size_t frame,
            const AnnotatedPicture& picture) {
+  if (source.for_silhouettes) return {};
   if (!source.has_true_marks) return marking.Mark(camera, frame, picture);
   return marking.MarkTrueJoints(frame, picture, crew.CameraOf(camera), crew.SeenPose(camera, frame));
 }
@@ -93,18 +94,26 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   Take take;
   std::vector<Digest> masks(sources.size()), marks(sources.size());
   std::vector<std::vector<MaskScore>> scores(sources.size());
+  const bool are_few = world.cameras.size() * world.truth.size() <= kMostSilhouettes;
+  const auto keeps_masks = [&](const PersonSource& source) {
+    return wants_masks || (source.for_silhouettes && are_few);
+  };
   std::vector<Marking> marking(sources.size(), Marking(options, world, key));
   for (const PersonSource& source : sources) {
     Observation& observation = take.observations.emplace_back();
     observation.source = source;
     observation.marks.resize(world.cameras.size());
-    if (wants_masks) observation.masks.resize(world.cameras.size());
+    if (keeps_masks(source)) observation.masks.resize(world.cameras.size());
   }
 
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     std::vector<PersonFinder> finders;
     for (const PersonSource& source : sources) {
-      finders.emplace_back(crew.backgrounds()[camera], PersonOptions{.segmenter = source.segmenter, .change = {}});
+      finders.emplace_back(
+          crew.backgrounds()[camera],
+          PersonOptions{.segmenter = source.segmenter,
+                        .change = {},
+                        .pieces = source.for_silhouettes ? PersonPieces::kLarge : PersonPieces::kLargest});
     }
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const Crew::Picture picture = crew.Shoot(camera, frame);
@@ -115,7 +124,7 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
         const Mask person = sources[i].is_truth ? picture.person : finders[i].Find(picture.colour);
         masks[i].Add(std::span<const std::uint8_t>(person.pixels));
         scores[i].push_back(ScoreMask(person, picture.person, picture.shadow));
-        if (wants_masks) observation.masks[camera].push_back(HalveMask(person));
+        if (keeps_masks(sources[i])) observation.masks[camera].push_back(HalveMask(person));
         observation.marks[camera].push_back(
             Mark(marking[i], sources[i], crew, camera, frame, {picture.labels, picture.colour, person}));
         AddMarks(observation.marks[camera].back(), marks[i]);

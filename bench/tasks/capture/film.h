@@ -1,6 +1,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -18,6 +19,9 @@ namespace etude {
 struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
   bool is_truth = false;
+  /// Cut out for methods that read silhouettes alone: every large piece belongs to the person, masks are kept, and
+  /// nobody marks the pictures.
+  bool for_silhouettes = false;
   bool has_true_marks = false;  ///< drawn by someone who knows where the joints are, where the picture shows them
   auto operator<=>(const PersonSource&) const = default;
 };
@@ -26,13 +30,16 @@ struct PersonSource {
 struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
-  std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for
+  std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for, or for silhouettes (`kMostSilhouettes`)
   MaskScore score;                        ///< mean over all pictures
   /// How two annotators agree, over all pictures; nothing when one marks alone.
   std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;
   std::string marks_digest;
 };
+
+/// Masks for silhouettes are kept of takes of at most so many pictures, all cameras together: 77 kB each.
+constexpr std::size_t kMostSilhouettes = 4000;
 
 struct Take {
   std::string pictures_digest;

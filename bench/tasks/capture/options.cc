@@ -84,6 +84,20 @@ FieldTable<StudioOptions> MakeConditionFields() {
   return made;
 }
 
+void CheckMethod(Fields& fields, CaptureMethod& method) {
+  const Oracle& oracle = method.oracle;
+  if (method.recovery == Recovery::kSilhouettes) {
+    if (oracle.marks || method.lengths == LengthSource::kMeasured) {
+      fields.Complain(fields.node().place,
+                      "'recovery: silhouettes' has no marks: neither the oracle marks, nor lengths "
+                      "measured from them");
+    }
+  }
+  if (method.recovery == Recovery::kIk || !(oracle.directions || oracle.points || oracle.start || oracle.ik)) return;
+  fields.Complain(fields.Raw("oracle")->place,
+                  "only 'recovery: ik' has the stages directions, points, start and ik: others see the pictures alone");
+}
+
 }  // namespace
 
 const FieldTable<StudioOptions>& CaptureConditionFields() {
@@ -105,9 +119,29 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("outliers", &Method::outliers, {{"keep", Outliers::kKeep}, {"reject", Outliers::kReject}},
                    "With three or more cameras: whether one that disagrees with the others about a mark is left out."),
          Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
-                   "The performer's own joints, or paper B's 29 degrees of freedom."),
-         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images."),
-         SweepsField(&Method::ik, "The solver's steps per frame, at most."),
+                   "The performer's own joints, or paper B's 29 degrees of freedom.")
+             .With("recovery", {"ik"}),
+         Key::Name(
+             "recovery", &Method::recovery,
+             {{"ik", Recovery::kIk},
+              {"ends", Recovery::kEnds},
+              {"bundle", Recovery::kBundle},
+              {"silhouettes", Recovery::kSilhouettes}},
+             "How pictures become poses: paper B's inverse kinematics; every joint triangulated from the strokes that "
+             "end there; bundle adjustment of paper B's body over the whole take; or, without a mark, a body fitted to "
+             "the silhouettes."),
+         Key::Name("start", &Method::start, {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
+                   "What is known of the first frame's pose: nothing, or every angle to 10°.")
+             .With("recovery", {"silhouettes"}),
+         Key::Name("smoothing", &Method::smoothing, {{"none", Smoothing::kNone}, {"rts", Smoothing::kRts}},
+                   "What is done to the joints of the whole take afterwards: nothing, or Rauch, Tung and Striebel's "
+                   "smoother.")
+             .With("recovery", {"ik", "ends", "bundle"}),
+         Key::Name("lengths", &Method::lengths,
+                   {{"known", LengthSource::kKnown}, {"measured", LengthSource::kMeasured}},
+                   "Whether the body is measured beforehand, or its limb lengths from the marks of a few frames."),
+         ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images.").With("recovery", {"ik"}),
+         SweepsField(&Method::ik, "The solver's steps per frame, at most.").With("recovery", {"ik"}),
          Key::Flags("oracle",
                     {{"calibration", OracleOf<&Oracle::calibration>},
                      {"segmentation", OracleOf<&Oracle::segmentation>},
@@ -117,8 +151,10 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                      {"lengths", OracleOf<&Oracle::lengths>},
                      {"start", OracleOf<&Oracle::start>},
                      {"ik", OracleOf<&Oracle::ik>}},
-                    "Stages replaced by the truth.")}};
-    const std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
+                    "Stages replaced by the truth.")},
+        CheckMethod};
+    std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
+    solver.front() = solver.front().With("recovery", {"ik"});
     made.fields.insert(made.fields.end(), solver.begin(), solver.end());
     return made;
   }();

@@ -36,9 +36,9 @@ struct StudioOptions {
   double calibration_measure_mm = 0;  ///< error of the target's measured places, standard deviation along each axis
   double calibration_noise_px = 0.5;
   double annotation_error_px = 2;
-  double limb_measure_mm = 0;  ///< error of every measured limb, standard deviation
-  int annotators = 1;          ///< people who mark the same pictures, each by themselves: 1 or 2
-  int mark_every = 1;          ///< the annotator marks every n-th frame; directions are interpolated in between
+  double limb_measure_mm = 0;        ///< error of every measured limb, standard deviation
+  int annotators = 1;                ///< people who mark the same pictures, each by themselves: 1 or 2
+  int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
   std::vector<double> moments = {};  ///< frames, counted from 1, of which a recording keeps every stage
 };
 
@@ -71,6 +71,33 @@ struct Oracle {
   bool ik = false;
 };
 
+/// How pictures become the poses of a body.
+enum class Recovery {
+  kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
+  kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
+  kBundle,  ///< "bundle": all marks of all frames explained at once by one body in smooth motion
+  /// "silhouettes": no marks; a body fitted to what was cut out, and followed from frame to frame (engine/silhouettes)
+  kSilhouettes,
+};
+
+/// What is done to the joints of a whole take.
+enum class Smoothing {
+  kNone,  ///< "none"
+  kRts,   ///< "rts": each joint's track by itself (Rauch, Tung and Striebel)
+};
+
+/// Where the limb lengths come from.
+enum class LengthSource {
+  kKnown,     ///< "known": measured on the performer beforehand (paper B)
+  kMeasured,  ///< "measured": from the marks of a few frames
+};
+
+/// What a method that follows silhouettes begins with.
+enum class SilhouetteStart {
+  kCold,  ///< "cold": the pictures alone
+  kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
+};
+
 /// A pipeline with its settings.
 struct CaptureMethod {
   std::string name;
@@ -81,6 +108,10 @@ struct CaptureMethod {
   BodyKind body = BodyKind::kFitted;
   const IkSolver* solver = DefaultIkSolver();
   IkOptions ik = IkBudget(100);
+  Recovery recovery = Recovery::kIk;
+  SilhouetteStart start = SilhouetteStart::kCold;
+  Smoothing smoothing = Smoothing::kNone;
+  LengthSource lengths = LengthSource::kKnown;
   Oracle oracle;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bench/tasks/capture/recovery.h"
+
 namespace etude {
 namespace {
 
@@ -17,20 +19,16 @@ Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method
   ASSIGN_OR_RETURN(const Take* take, stages.GetTake());
   const Observation& observation = ObservationBy(*take, PersonSourceOf(method));
   const MeasuredTake& measured = stages.GetMeasured(method, *cameras, observation);
-  ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetBody(method));
-  RecoverInputs inputs{.body = *body, .seen = measured.seen, .marked = stages.marked()};
-  if (method.oracle.start || method.oracle.ik) {
-    ASSIGN_OR_RETURN(const NearestPoses* nearest, stages.GetNearestPoses(method));
-    if (method.oracle.start) inputs.known_starts = *nearest;
-    if (method.oracle.ik) inputs.known_poses = *nearest;
-  }
-  return CaptureRun{.method = method,
-                    .cameras = *cameras,
-                    .take = *take,
-                    .observation = observation,
-                    .measured = measured,
-                    .body = *body,
-                    .frames = RecoverFrames(inputs, {.solver = method.solver, .ik = method.ik})};
+  CaptureRun run{.method = method,
+                 .cameras = *cameras,
+                 .take = *take,
+                 .observation = observation,
+                 .measured = measured,
+                 .body = {},
+                 .frames = {}};
+  ASSIGN_OR_RETURN(run.body, BodyFor(stages, run));
+  RETURN_IF_ERROR(Recover(stages, run));
+  return run;
 }
 
 }  // namespace etude

@@ -6,6 +6,7 @@
 #include "bench/tasks/capture/options.h"
 #include "bench/tasks/capture/stages.h"
 #include "engine/capture/recover_frames.h"
+#include "engine/kinematics/capture_body.h"
 
 namespace etude {
 
@@ -16,11 +17,12 @@ struct CaptureRun {
   const Take& take;
   const Observation& observation;
   const MeasuredTake& measured;
-  const CaptureBody& body;
+  CaptureBody body;  ///< of `frames`
   std::vector<std::optional<RecoveredFrame>> frames;
 };
 
-/// Runs one method in one world. Fails, saying why, when a camera cannot be calibrated or there is no renderer.
+/// Runs one method in one world. Fails, saying why, when a camera cannot be calibrated, there is no renderer, or no
+/// body can be made or measured.
 Result<CaptureRun> RunCapture(CaptureStages& stages, const CaptureMethod& method);
 
 }  // namespace etude

@@ -7,6 +7,8 @@
 #include "bench/metrics/share.h"
 #include "bench/tasks/capture/recording.h"
 #include "engine/base/digest.h"
+#include "engine/capture/take_body.h"
+#include "engine/kinematics/limb_lengths.h"
 
 namespace etude {
 namespace {
@@ -60,7 +62,14 @@ void ReportStages(const CaptureWorld& world, const CaptureRun& run, CellResult& 
   ReportMeasurements(world, run.measured, cell);
 }
 
-std::string ReasonForNoSkeleton(std::span<const FrameMeasurement> frames) {
+std::string ReasonForNoSkeleton(const CaptureRun& run) {
+  if (run.method.recovery == Recovery::kSilhouettes) {
+    return "no skeleton: in no frame do two cameras' pictures show anybody";
+  }
+  if (run.method.recovery != Recovery::kIk) {
+    return "no skeleton: no joint was ever marked in two pictures, or no body explains the marks";
+  }
+  const std::vector<FrameMeasurement>& frames = run.measured.frames;
   const bool has_end = std::ranges::any_of(frames, [](const FrameMeasurement& frame) {
     return std::ranges::any_of(frame.ends, [](const auto& end) { return end.has_value(); });
   });
@@ -85,23 +94,26 @@ constexpr std::array kStageMetrics = {"reprojection_rms_px",
                                       "triangulation_error_mm",
                                       "triangulation_coverage"};
 
-constexpr std::array kPoseMetrics = {"mpjpe_mm",  "mpjpe_before_ik_mm",   "pa_mpjpe_mm",      "pck_50mm",
-                                     "auc_200mm", "bone_length_error_cm", "position_error_cm"};
+constexpr std::array kPoseMetrics = {"mpjpe_mm",        "mpjpe_before_ik_mm",   "mpjpe_seen_mm",
+                                     "mpjpe_held_mm",   "pa_mpjpe_mm",          "pck_50mm",
+                                     "auc_200mm",       "bone_length_error_cm", "joint_angle_error_deg",
+                                     "jerk_error_mps3", "limb_length_error_mm", "position_error_cm"};
+constexpr const char* kNoIk = "the method has no inverse kinematics";
 
-/// The errors of final poses; those before inverse kinematics only where there were such.
-void ReportJointErrors(const PoseErrors& after, const PoseErrors* before, CellResult& cell) {
-  cell.Measure("mpjpe_mm", after.mpjpe_mm);
-  if (before != nullptr) {
-    cell.Measure("mpjpe_before_ik_mm", before->mpjpe_mm);
-  } else {
-    cell.Missing("mpjpe_before_ik_mm", kNoStages);
-  }
-  cell.Measure("pa_mpjpe_mm", after.pa_mpjpe_mm);
-  cell.Measure("pck_50mm", after.pck_50mm);
-  cell.Measure("auc_200mm", after.auc_200mm);
-  cell.Measure("bone_length_error_cm", after.bone_length_error_cm);
-  cell.series.push_back({"mpjpe_mm", "frame", after.frame_mpjpe_mm});
-  if (before != nullptr) cell.series.push_back({"mpjpe_before_ik_mm", "frame", before->frame_mpjpe_mm});
+/// The errors of final poses.
+void ReportJointErrors(const PoseErrors& errors, CellResult& cell) {
+  cell.Measure("mpjpe_mm", errors.mpjpe_mm);
+  cell.Measure("pa_mpjpe_mm", errors.pa_mpjpe_mm);
+  cell.Measure("pck_50mm", errors.pck_50mm);
+  cell.Measure("auc_200mm", errors.auc_200mm);
+  cell.Measure("bone_length_error_cm", errors.bone_length_error_cm);
+  cell.Measure("joint_angle_error_deg", errors.joint_angle_error_deg);
+  cell.series.push_back({"mpjpe_mm", "frame", errors.frame_mpjpe_mm});
+}
+
+void ReportJerk(const CaptureWorld& world, const std::vector<BodyPose>& poses, CellResult& cell) {
+  cell.MeasureOr("jerk_error_mps3", JerkErrorMps3(poses, world.truth, world.in_view, kJudgedRateHz),
+                 "no four successive frames are in view");
 }
 
 /// Those of one value per frame in which the performer was in view: no others are judged.
@@ -135,7 +147,55 @@ std::optional<double> MeanEffectorErrorCm(const std::vector<RecoveredFrame>& fra
   return of_frames / count;
 }
 
-void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& frames, CellResult& cell) {
+/// The frames of which some picture shows a mark.
+std::vector<bool> FramesSeen(const Observation& observation) {
+  std::vector<bool> seen(observation.marks.front().size());
+  for (const std::vector<Marks>& of_camera : observation.marks) {
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const Marks& marks = of_camera[k];
+      const bool has_mark = std::ranges::any_of(marks.strokes, [](const auto& stroke) { return stroke.has_value(); }) ||
+                            std::ranges::any_of(marks.effectors, [](const auto& disc) { return disc.has_value(); });
+      seen[k] = seen[k] || has_mark;
+    }
+  }
+  return seen;
+}
+
+/// The joint errors of frames with marks and of frames without, apart.
+void ReportSeen(const CaptureWorld& world, const Observation& observation, const PoseErrors& errors, CellResult& cell) {
+  const std::vector<bool> all_seen = FramesSeen(observation);
+  std::vector<bool> seen, held;  // of the frames in view
+  for (std::size_t k = 0; k < all_seen.size(); ++k) {
+    if (!world.in_view[k]) continue;
+    seen.push_back(all_seen[k]);
+    held.push_back(!all_seen[k]);
+  }
+  cell.MeasureOr("mpjpe_seen_mm", MeanOfFlagged(errors.frame_mpjpe_mm, seen), "no picture shows a mark");
+  cell.MeasureOr("mpjpe_held_mm", MeanOfFlagged(errors.frame_mpjpe_mm, held), "every frame has a mark in some picture");
+}
+
+void ReportLengths(const CaptureWorld& world, const CaptureRun& run, CellResult& cell) {
+  if (run.method.lengths == LengthSource::kKnown) {
+    cell.Missing("limb_length_error_mm", "the method is told the limb lengths");
+    return;
+  }
+  cell.Measure("limb_length_error_mm", LimbLengthErrorMm(ListOf(run.body.lengths), ListOf(world.person.lengths)));
+}
+
+void ReportIk(const CaptureWorld& world, const CaptureRun& run, const PoseErrors& before,
+              const std::vector<RecoveredFrame>& frames, CellResult& cell) {
+  if (run.method.recovery != Recovery::kIk) {
+    for (const char* id : {"mpjpe_before_ik_mm", "position_error_cm"}) cell.Missing(id, kNoIk);
+    return;
+  }
+  cell.Measure("mpjpe_before_ik_mm", before.mpjpe_mm);
+  cell.series.push_back({"mpjpe_before_ik_mm", "frame", before.frame_mpjpe_mm});
+  cell.MeasureOr("position_error_cm", MeanEffectorErrorCm(InView(world, frames)),
+                 "no end effector was seen in any frame in view");
+}
+
+void ReportPoses(const CaptureWorld& world, const CaptureRun& run, const std::vector<RecoveredFrame>& frames,
+                 CellResult& cell) {
   std::vector<BodyPose> fixed, poses;
   Digest lengths_digest, pose_digest;
   for (const RecoveredFrame& frame : frames) {
@@ -146,10 +206,12 @@ void ReportPoses(const CaptureWorld& world, const std::vector<RecoveredFrame>& f
   }
   cell.digests.emplace_back("lengths", lengths_digest.Hex());
   cell.digests.emplace_back("pose", pose_digest.Hex());
-  const PoseErrors before = JudgePoses(world, fixed);
-  ReportJointErrors(JudgePoses(world, poses), &before, cell);
-  cell.MeasureOr("position_error_cm", MeanEffectorErrorCm(InView(world, frames)),
-                 "no end effector was seen in any frame in view");
+  const PoseErrors errors = JudgePoses(world, poses);
+  ReportJointErrors(errors, cell);
+  ReportSeen(world, run.observation, errors, cell);
+  ReportJerk(world, poses, cell);
+  ReportLengths(world, run, cell);
+  ReportIk(world, run, JudgePoses(world, fixed), frames, cell);
 }
 
 /// Tells how many frames are in view, and how many of these have a skeleton; whether any has.
@@ -191,11 +253,11 @@ CellResult ScoreCaptureRun(const CaptureWorld& world, const CaptureRun& run, boo
   CellResult cell;
   ReportStages(world, run, cell);
   if (!ReportRecovered(world, run.frames, cell)) {
-    FailWithoutPoses(ReasonForNoSkeleton(run.measured.frames), cell);
+    FailWithoutPoses(ReasonForNoSkeleton(run), cell);
     return cell;
   }
   const std::vector<RecoveredFrame> frames = HoldFrames(run.frames);
-  ReportPoses(world, frames, cell);
+  ReportPoses(world, run, frames, cell);
   if (keeps_motion) {
     cell.recording = MakeRecording(world, run.take, run.observation, run.body, frames, run.method.name, moments);
   }
@@ -215,8 +277,12 @@ CellResult ScoreCaptureAnswer(const CaptureWorld& world, const CaptureAnswer& an
   Digest digest;
   for (const BodyPose& pose : poses) Add(pose, digest);
   cell.digests = {{"pose", digest.Hex()}};
-  ReportJointErrors(JudgePoses(world, poses), nullptr, cell);
-  cell.Missing("position_error_cm", kNoStages);
+  ReportJointErrors(JudgePoses(world, poses), cell);
+  ReportJerk(world, poses, cell);
+  for (const char* id :
+       {"mpjpe_before_ik_mm", "mpjpe_seen_mm", "mpjpe_held_mm", "limb_length_error_mm", "position_error_cm"}) {
+    cell.Missing(id, kNoStages);
+  }
   if (keeps_motion) cell.recording = MakeRecording(world, poses);
   cell.status = Status::kOk;
   cell.reason.clear();

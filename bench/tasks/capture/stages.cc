@@ -95,6 +95,7 @@ MeasuredTake MeasureTake(const MeasureInputs& inputs, const MeasureOptions& meas
   MeasuredTake take;
   take.frames = MeasureFrames(inputs, measure);
   take.seen = BridgeGaps(take.frames, bridge);
+  take.joints = MeasureJoints(inputs);
   Digest directions, points;
   for (const FrameMeasurement& frame : take.frames) {
     Add(frame.directions, directions);
@@ -198,7 +199,10 @@ Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& 
 }
 
 PersonSource PersonSourceOf(const CaptureMethod& method) {
-  PersonSource source{.segmenter = method.segmenter, .is_truth = false, .has_true_marks = method.oracle.marks};
+  PersonSource source{.segmenter = method.segmenter,
+                      .is_truth = false,
+                      .for_silhouettes = method.recovery == Recovery::kSilhouettes,
+                      .has_true_marks = method.oracle.marks};
   if (method.oracle.segmentation) {
     source.segmenter = Segmenter::kHue;
     source.is_truth = true;

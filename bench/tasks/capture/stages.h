@@ -13,6 +13,7 @@
 #include "bench/tasks/capture/world.h"
 #include "engine/capture/bridge_gaps.h"
 #include "engine/capture/measure_frames.h"
+#include "engine/capture/measure_joints.h"
 #include "engine/kinematics/capture_body.h"
 
 namespace etude {
@@ -29,6 +30,7 @@ struct CalibratedCameras {
 struct MeasuredTake {
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
+  std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
   std::string directions_digest, points_digest;
 };
 
@@ -45,6 +47,7 @@ class CaptureStages {
                 std::span<const PersonSource> sources, bool keeps_masks);
 
   const CaptureWorld& world() const { return world_; }
+  const WorldKey& key() const { return key_; }
   /// Which frames the annotator marks.
   const std::vector<bool>& marked() const { return marked_; }
   /// The renderer of this world; fails, saying why, when there can be none.

@@ -18,6 +18,17 @@ PoseErrors PoseErrorsOf(const Json& in, const char* found) {
   return ComparePoses(ReadMotion(in.at(found)).poses, ReadMotion(in.at("truth")).poses);
 }
 
+// Which of a list of 0 and 1 are `wanted`.
+std::vector<bool> FlagsOf(const Json& json, bool wanted) {
+  std::vector<bool> flags;
+  for (const Json& flag : json) flags.push_back((flag.get<int>() != 0) == wanted);
+  return flags;
+}
+
+std::optional<double> MpjpeWhereSeen(const Json& in, bool seen) {
+  return MeanOfFlagged(PoseErrorsOf(in, "found").frame_mpjpe_mm, FlagsOf(in.at("seen"), seen));
+}
+
 std::vector<Sighted> SightedThings(const Json& list) {
   std::vector<Sighted> things;
   for (const Json& thing : list) {
@@ -76,6 +87,22 @@ std::span<const Evaluator> CaptureEvaluators() {
       {"pck_50mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").pck_50mm; }},
       {"auc_200mm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").auc_200mm; }},
       {"bone_length_error_cm", [](const Json& in) -> Value { return PoseErrorsOf(in, "found").bone_length_error_cm; }},
+      {"joint_angle_error_deg",
+       [](const Json& in) -> Value { return PoseErrorsOf(in, "found").joint_angle_error_deg; }},
+      {"mpjpe_seen_mm", [](const Json& in) -> Value { return MpjpeWhereSeen(in, true); }},
+      {"mpjpe_held_mm", [](const Json& in) -> Value { return MpjpeWhereSeen(in, false); }},
+      {"jerk_error_mps3",
+       [](const Json& in) -> Value {
+         const BodyMotion found = ReadMotion(in.at("found"));
+         return JerkErrorMps3(found.poses, ReadMotion(in.at("truth")).poses, FlagsOf(in.at("in_view"), true),
+                              found.rate_hz);
+       }},
+      {"limb_length_error_mm",
+       [](const Json& in) -> Value {
+         const Json& lengths = in.at("lengths_m");
+         return LimbLengthErrorMm(lengths.at("found").get<std::vector<double>>(),
+                                  lengths.at("truth").get<std::vector<double>>());
+       }},
       {"limb_direction_error_deg",
        [](const Json& in) -> Value { return LimbDirectionErrorDeg(SightedThings(in.at("limbs"))).mean; }},
       {"limb_direction_coverage",

@@ -126,6 +126,17 @@ TEST(LargestComponent, DropsEverythingElse) {
       << "the first of equals";
 }
 
+TEST(LargeComponents, KeepsTheLargestAndWhatIsLargeAndNear) {
+  const Mask mask =
+      FromRows({"##........##", "............", "..####......", "..####..#...", "............", "##.........."});
+  const Mask expected =
+      FromRows({"##..........", "............", "..####......", "..####......", "............", "##.........."});
+  EXPECT_EQ(LargeComponents(mask, 2, 2).pixels, expected.pixels) << "one piece is small, one is far away";
+  EXPECT_EQ(LargeComponents(mask, 1, 20).pixels, mask.pixels);
+  EXPECT_EQ(LargeComponents(mask, 100, 20).pixels, LargestComponent(mask).pixels);
+  EXPECT_EQ(LargeComponents(Mask(3, 2), 1, 1).pixels, Mask(3, 2).pixels);
+}
+
 TEST(FillHoles, FillsSmallHolesAndLeavesLargeOnesAndOpenBays) {
   const Mask mask = FromRows({
       "#######....",

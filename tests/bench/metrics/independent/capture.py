@@ -74,6 +74,39 @@ def bone_length_error(given):
                         for a, b in zip(lengths(p), lengths(t))])
 
 
+def joint_angle_error(given):
+    def bend(upper, lower):
+        return common.degrees(angle(upper, lower)) if any(upper) and any(lower) else 0
+
+    def bends(pose):
+        return [bend(minus(pose[j], pose[BONES[j]]), minus(pose[k], pose[j])) for k, j in BONES.items() if j in BONES]
+    return common.mean([abs(a - b) for p, t in zip(frames_of(given["found"]), frames_of(given["truth"]))
+                        for a, b in zip(bends(p), bends(t))])
+
+
+def mpjpe_where(given, seen):
+    errors = joint_errors_mm(frames_of(given["found"]), frames_of(given["truth"]))
+    return common.mean(flat([frame for frame, flag in zip(errors, given["seen"], strict=True) if flag == seen]))
+
+
+def jerk_error(given):
+    rate = given["found"].get("rate_hz", 30)
+    found, truth = frames_of(given["found"]), frames_of(given["truth"])
+    jerks = []
+    for f in range(len(found) - 3):
+        if 0 in given["in_view"][f:f + 4]:
+            continue
+        for role in ROLES:
+            off = [minus(found[f + k][role], truth[f + k][role]) for k in range(4)]
+            jerks.append(common.norm([d - 3 * c + 3 * b - a for a, b, c, d in zip(*off)]) * rate ** 3)
+    return common.mean(jerks)
+
+
+def limb_length_error(given):
+    lengths = given["lengths_m"]
+    return common.mean([common.MM * abs(a - b) for a, b in zip(lengths["found"], lengths["truth"], strict=True)])
+
+
 def measured_error(things, error):
     return common.mean([error(thing["found"], thing["truth"]) for thing in things if thing["found"] and thing["truth"]])
 
@@ -129,6 +162,11 @@ METRICS = {
     "pck_50mm": lambda g: joint_share(g, lambda error: error < PCK_MM),
     "auc_200mm": lambda g: joint_share(g, lambda error: max(0, 1 - error / AUC_MM)),
     "bone_length_error_cm": bone_length_error,
+    "joint_angle_error_deg": joint_angle_error,
+    "mpjpe_seen_mm": lambda g: mpjpe_where(g, 1),
+    "mpjpe_held_mm": lambda g: mpjpe_where(g, 0),
+    "jerk_error_mps3": jerk_error,
+    "limb_length_error_mm": limb_length_error,
     "limb_direction_error_deg": limb_direction_error,
     "limb_direction_coverage": lambda g: coverage(g["limbs"]),
     "triangulation_error_mm": triangulation_error,

@@ -109,6 +109,33 @@ TEST(CaptureTask, SetsItsClocksByTheMarks) {
   EXPECT_GT(*ValueOf(cells[0], "triangulation_error_mm"), 10) << "three frames apart";
 }
 
+TEST(CaptureTask, RecoversTheSameMarksInOtherWaysToo) {
+  const auto task = Make(
+      "duration_s: 0.3\nmethods:\n- {name: ik, body: paper}\n- {name: ends, recovery: ends}\n"
+      "- {name: smooth, recovery: ends, smoothing: rts}\n- {name: bundle, recovery: bundle}\n"
+      "- {name: measured, recovery: bundle, lengths: measured}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, kKey, 5);
+  for (const CellResult& cell : cells) {
+    ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
+    EXPECT_EQ(DigestOf(cell, "marks"), DigestOf(cells[0], "marks"));
+    EXPECT_LT(*ValueOf(cell, "mpjpe_mm"), 100);
+    EXPECT_TRUE(ValueOf(cell, "mpjpe_seen_mm"));
+    EXPECT_FALSE(ValueOf(cell, "mpjpe_held_mm")) << "every frame is marked";
+  }
+  EXPECT_FALSE(ValueOf(cells[1], "mpjpe_before_ik_mm")) << "there is no inverse kinematics";
+  EXPECT_LT(*ValueOf(cells[2], "jerk_error_mps3"), 0.5 * *ValueOf(cells[1], "jerk_error_mps3"));
+  EXPECT_LT(*ValueOf(cells[3], "bone_length_error_cm"), *ValueOf(cells[1], "bone_length_error_cm"));
+  EXPECT_FALSE(ValueOf(cells[3], "limb_length_error_mm")) << "lengths are known";
+  EXPECT_LT(*ValueOf(cells[4], "limb_length_error_mm"), 60);
+}
+
+TEST(CaptureTask, RefusesTheTruthOfStagesThatAMethodHasNot) {
+  const auto task = Make("methods:\n- {name: ends, recovery: ends, oracle: [directions]}\n");
+  ASSERT_FALSE(task);
+  EXPECT_THAT(ToString(task.error()), HasSubstr("recovery: ik"));
+}
+
 TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
   const std::string methods = "methods:\n- {name: a, calibration: dlt-normalised, oracle: [segmentation]}\n";
   const auto errors = [&](const std::string& condition) {
@@ -141,6 +168,25 @@ TEST(CaptureTask, MakesASkeletonOfWhatIsMarkedAndSaysHowLittleThatWas) {
   EXPECT_TRUE(ValueOf(cells[0], "mpjpe_mm"));
 }
 
+TEST(CaptureTask, FollowsSilhouettesWithoutAMark) {
+  const auto task = Make(
+      "duration_s: 0.2\nmethods:\n- {name: near, recovery: silhouettes, start: near}\n"
+      "- {name: cold, recovery: silhouettes}\n- {name: strokes}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, kKey, 3, true), again = RunWorld(**task, kKey, 3, true);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(cells[i].status, Status::kOk) << cells[i].reason;
+    EXPECT_EQ(cells[i].digests, again[i].digests);
+    EXPECT_EQ(ValueOf(cells[i], "frames_recovered"), 1);
+    EXPECT_LT(*ValueOf(cells[i], "mpjpe_mm"), 60);
+    EXPECT_FALSE(ValueOf(cells[i], "mpjpe_before_ik_mm")) << "there is no inverse kinematics";
+    EXPECT_FALSE(ValueOf(cells[i], "limb_direction_error_deg")) << "no limb was marked";
+    EXPECT_TRUE(cells[i].recording);
+  }
+  EXPECT_EQ(DigestOf(cells[0], "pictures"), DigestOf(cells[2], "pictures"));
+  EXPECT_FALSE(Make("methods:\n- {name: a, start: near}\n")) << "strokes start from nothing";
+}
+
 TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
   CaptureWorld world;
   world.truth.resize(2);
@@ -150,8 +196,11 @@ TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
   const Take take;
   const Observation observation{};
   const CaptureBody body = PaperBody({});
-  const MeasuredTake measured{
-      .frames = std::vector<FrameMeasurement>(2), .seen = {}, .directions_digest = "", .points_digest = ""};
+  const MeasuredTake measured{.frames = std::vector<FrameMeasurement>(2),
+                              .seen = {},
+                              .joints = {},
+                              .directions_digest = "",
+                              .points_digest = ""};
   const CaptureRun run{.method = method,
                        .cameras = cameras,
                        .take = take,

@@ -1,0 +1,395 @@
+#include "engine/bundle_adjustment/adjust_bundle.h"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <memory>
+
+namespace etude {
+namespace {
+
+constexpr int kPositionSize = 3, kTurnSize = 4;  // of a root's parameter blocks; a turn is a quaternion w, x, y, z
+
+/// One frame's parameters, which Ceres changes, and the body in the pose that they make.
+struct FrameVariables {
+  std::array<double, kPositionSize> position{};
+  std::array<double, kTurnSize> turn{};
+  std::vector<double> angles;
+  PlacedPoints placed;
+
+  explicit FrameVariables(const TreeState& state)
+      : position{state.root_position.x, state.root_position.y, state.root_position.z}, angles(state.angles) {
+    const glm::dquat q = glm::normalize(glm::quat_cast(state.root_frame));
+    turn = {q.w, q.x, q.y, q.z};
+  }
+
+  TreeState State() const {
+    const glm::dquat q = glm::normalize(glm::dquat(turn[0], turn[1], turn[2], turn[3]));
+    return {{position[0], position[1], position[2]}, glm::mat3_cast(q), angles};
+  }
+};
+
+/// All that Ceres changes.
+struct Variables {
+  MeasurableBody body;  // with the lengths it had in the last evaluation
+  std::vector<double> lengths;
+  std::vector<FrameVariables> frames;
+};
+
+/// Places the body in every frame before Ceres asks for residuals, each of which needs a part of one frame's.
+class PlaceEveryFrame final : public ceres::EvaluationCallback {
+ public:
+  explicit PlaceEveryFrame(Variables& variables) : variables_(variables) {}
+
+  void PrepareForEvaluation(bool wants_jacobians, bool) override {
+    if (variables_.lengths != variables_.body.lengths) {
+      variables_.body = WithLengths(variables_.body, variables_.lengths);
+    }
+    for (FrameVariables& frame : variables_.frames) {
+      PlacePoints(variables_.body, frame.State(), wants_jacobians, frame.placed);
+    }
+  }
+
+ private:
+  Variables& variables_;
+};
+
+/// Writes rows of Jacobians: what a residual gains when a point moves, spread over the parameters that move the point.
+class PointGains {
+ public:
+  /// `first_block`: of the frame's three (position, turn, angles); `length_block`: −1 when lengths are fixed.
+  PointGains(const FrameVariables& frame, int point, double** jacobians, int first_block, int length_block)
+      : frame_(frame),
+        gains_(frame.placed.gains_of(point)),
+        jacobians_(jacobians),
+        first_(first_block),
+        length_block_(length_block) {}
+
+  /// Adds to row `row` of the residuals a residual that gains `along`·(the point's move).
+  void Add(int row, const glm::dvec3& along) const {
+    const auto gain = [&](int column) { return glm::dot(along, gains_[column]); };
+    if (double* block = jacobians_[first_]) {
+      for (int k = 0; k < kPositionSize; ++k) block[row * kPositionSize + k] += gain(k);
+    }
+    if (double* block = jacobians_[first_ + 1]) AddTurn(block + row * kTurnSize, gain(3), gain(4), gain(5));
+    const int angles = static_cast<int>(frame_.angles.size());
+    if (double* block = jacobians_[first_ + 2]) {
+      for (int k = 0; k < angles; ++k) block[row * angles + k] += gain(6 + k);
+    }
+    if (length_block_ < 0 || jacobians_[length_block_] == nullptr) return;
+    const int lengths = frame_.placed.columns - 6 - angles;
+    for (int k = 0; k < lengths; ++k) jacobians_[length_block_][row * lengths + k] += gain(6 + angles + k);
+  }
+
+ private:
+  // Ceres's QuaternionManifold turns by twice its tangent d, q ↦ (cos|d|, sin|d| d/|d|) q, and multiplies what stands
+  // here by the derivative of q, whose columns are orthonormal: so here stands 2 · gain times its transpose.
+  void AddTurn(double* cell, double gx, double gy, double gz) const {
+    const auto& [w, x, y, z] = frame_.turn;
+    cell[0] += 2 * (-x * gx - y * gy - z * gz);
+    cell[1] += 2 * (w * gx + z * gy - y * gz);
+    cell[2] += 2 * (-z * gx + w * gy + x * gz);
+    cell[3] += 2 * (y * gx - x * gy + w * gz);
+  }
+
+  const FrameVariables& frame_;
+  const glm::dvec3* gains_;
+  double** jacobians_;
+  const int first_, length_block_;
+};
+
+void ClearJacobians(const ceres::CostFunction& cost, double** jacobians) {
+  const auto& sizes = cost.parameter_block_sizes();
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (jacobians[i] != nullptr) std::fill_n(jacobians[i], sizes[i] * cost.num_residuals(), 0.0);
+  }
+}
+
+// H (p, 1) without the division.
+glm::dvec3 Homogeneous(const ProjectionMatrix& matrix, const glm::dvec3& p) {
+  glm::dvec3 uvw;
+  for (int k = 0; k < 3; ++k) {
+    const auto& h = matrix.h[k];
+    uvw[k] = h[0] * p.x + h[1] * p.y + h[2] * p.z + h[3];
+  }
+  return uvw;
+}
+
+/// Two rows W with WᵀW = Λ: those of the upper triangle of Cholesky's factors, which Λ of rank 1 has too.
+std::array<glm::dvec2, 2> RootOf(const glm::dmat2& information) {
+  const double a = std::sqrt(std::max(0.0, information[0][0]));
+  const double b = a > 0 ? information[1][0] / a : 0;
+  const double c = std::sqrt(std::max(0.0, information[1][1] - b * b));
+  return {glm::dvec2(a, b), glm::dvec2(0, c)};
+}
+
+/// The reprojection error of one mark in standard deviations. Blocks: position, turn, angles, and the lengths if they
+/// change.
+class MarkCost final : public ceres::CostFunction {
+ public:
+  MarkCost(const BundleMark& mark, const Variables& variables, bool adjusts_lengths)
+      : mark_(mark),
+        root_(RootOf(mark.information)),
+        frame_(variables.frames[mark.frame]),
+        length_block_(adjusts_lengths ? 3 : -1) {
+    set_num_residuals(2);
+    *mutable_parameter_block_sizes() = {kPositionSize, kTurnSize, static_cast<int>(frame_.angles.size())};
+    if (adjusts_lengths) mutable_parameter_block_sizes()->push_back(static_cast<int>(variables.lengths.size()));
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    const glm::dvec3 uvw = Homogeneous(mark_.matrix, frame_.placed.positions[mark_.point]);
+    constexpr double kNearestDepth = 1e-3;  // metres
+    if (!(uvw.z > kNearestDepth)) return false;
+    const glm::dvec2 pixel(uvw.x / uvw.z, uvw.y / uvw.z), error = pixel - mark_.pixel;
+    for (int k = 0; k < 2; ++k) residuals[k] = glm::dot(root_[k], error);
+    if (jacobians == nullptr) return true;
+    ClearJacobians(*this, jacobians);
+    const auto& h = mark_.matrix.h;
+    const auto row_of = [&](int k) {
+      const auto gain = [&](int axis) { return (h[k][axis] - pixel[k] * h[2][axis]) / uvw.z; };
+      return glm::dvec3(gain(0), gain(1), gain(2));
+    };
+    const glm::dvec3 du = row_of(0), dv = row_of(1);
+    const PointGains gains(frame_, mark_.point, jacobians, 0, length_block_);
+    for (int k = 0; k < 2; ++k) gains.Add(k, root_[k].x * du + root_[k].y * dv);
+    return true;
+  }
+
+ private:
+  const BundleMark& mark_;
+  const std::array<glm::dvec2, 2> root_;
+  const FrameVariables& frame_;
+  const int length_block_;
+};
+
+constexpr std::array<double, 3> kSecondDifference = {1, -2, 1};
+
+/// The second difference of some points over three frames, in usual sizes. Blocks: position, turn, angles of each.
+class PointAcceleration final : public ceres::CostFunction {
+ public:
+  PointAcceleration(const FrameVariables* first, std::span<const int> points, double usual, int lengths)
+      : frames_{first, first + 1, first + 2}, points_(points), usual_(usual), length_block_(lengths > 0 ? 9 : -1) {
+    set_num_residuals(3 * static_cast<int>(points.size()));
+    for (int i = 0; i < 3; ++i) {
+      for (const int size : {kPositionSize, kTurnSize, static_cast<int>(first->angles.size())}) {
+        mutable_parameter_block_sizes()->push_back(size);
+      }
+    }
+    if (lengths > 0) mutable_parameter_block_sizes()->push_back(lengths);
+  }
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    if (jacobians != nullptr) ClearJacobians(*this, jacobians);
+    for (int row = 0; row < num_residuals(); ++row) residuals[row] = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      for (int f = 0; f < 3; ++f) {
+        const double share = kSecondDifference[f] / usual_;
+        const glm::dvec3& p = frames_[f]->placed.positions[points_[i]];
+        for (int k = 0; k < 3; ++k) residuals[3 * i + k] += share * p[k];
+        if (jacobians == nullptr) continue;
+        const PointGains gains(*frames_[f], points_[i], jacobians, 3 * f, length_block_);
+        for (int k = 0; k < 3; ++k) {
+          glm::dvec3 along(0);
+          along[k] = share;
+          gains.Add(3 * static_cast<int>(i) + k, along);
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  const std::array<const FrameVariables*, 3> frames_;
+  const std::span<const int> points_;
+  const double usual_;
+  const int length_block_;
+};
+
+/// Likewise of all angles. Blocks: the angles of each frame.
+class AngleAcceleration final : public ceres::CostFunction {
+ public:
+  AngleAcceleration(int angles, double usual) : angles_(angles), usual_(usual) {
+    set_num_residuals(angles);
+    *mutable_parameter_block_sizes() = {angles, angles, angles};
+  }
+
+  bool Evaluate(double const* const* q, double* residuals, double** jacobians) const override {
+    for (int k = 0; k < angles_; ++k) residuals[k] = (q[0][k] - 2 * q[1][k] + q[2][k]) / usual_;
+    if (jacobians == nullptr) return true;
+    ClearJacobians(*this, jacobians);
+    for (int f = 0; f < 3; ++f) {
+      for (int k = 0; jacobians[f] != nullptr && k < angles_; ++k) {
+        jacobians[f][k * angles_ + k] = kSecondDifference[f] / usual_;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const int angles_;
+  const double usual_;
+};
+
+/// How far angles lie beyond their limits, in deviations.
+class BeyondLimits final : public ceres::CostFunction {
+ public:
+  BeyondLimits(std::span<const AngleRange> limits, double deviation) : limits_(limits), deviation_(deviation) {
+    set_num_residuals(static_cast<int>(limits.size()));
+    *mutable_parameter_block_sizes() = {static_cast<int>(limits.size())};
+  }
+
+  bool Evaluate(double const* const* q, double* residuals, double** jacobians) const override {
+    if (jacobians != nullptr) ClearJacobians(*this, jacobians);
+    for (std::size_t k = 0; k < limits_.size(); ++k) {
+      const double beyond = q[0][k] - std::clamp(q[0][k], limits_[k].lower, limits_[k].upper);
+      residuals[k] = beyond / deviation_;
+      if (jacobians != nullptr && jacobians[0] != nullptr && beyond != 0) {
+        jacobians[0][k * limits_.size() + k] = 1 / deviation_;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const std::span<const AngleRange> limits_;
+  const double deviation_;
+};
+
+std::unique_ptr<ceres::LossFunction> MakeLoss(const BundleOptions& options) {
+  switch (options.loss) {
+    case RobustLoss::kHuber:
+      return std::make_unique<ceres::HuberLoss>(options.loss_scale);
+    case RobustLoss::kCauchy:
+      return std::make_unique<ceres::CauchyLoss>(options.loss_scale);
+    case RobustLoss::kNone:
+      break;
+  }
+  return nullptr;
+}
+
+/// The sum of squares, which owns its terms.
+class Sum {
+ public:
+  Sum(const BundleInputs& inputs, const BundleOptions& options, Variables& variables)
+      : options_(options),
+        variables_(variables),
+        loss_(MakeLoss(options)),
+        place_(variables),
+        problem_(Borrow(place_)) {
+    for (FrameVariables& frame : variables_.frames) {
+      problem_.AddParameterBlock(frame.turn.data(), kTurnSize, &quaternion_);
+    }
+    for (const BundleMark& mark : inputs.marks) AddMark(mark);
+    for (FrameVariables& frame : variables_.frames) {
+      Add<BeyondLimits>({frame.angles.data()}, inputs.body.tree.limits, options_.limit_deviation);
+    }
+    if (options_.smoothness) AddSmoothness(*options_.smoothness);
+  }
+
+  ceres::Problem& problem() { return problem_; }
+
+ private:
+  static ceres::Problem::Options Borrow(PlaceEveryFrame& place) {
+    ceres::Problem::Options borrow;
+    borrow.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    borrow.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    borrow.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    borrow.evaluation_callback = &place;
+    return borrow;
+  }
+
+  template <typename Cost, typename... Arguments>
+  void Add(std::vector<double*> blocks, const Arguments&... arguments) {
+    costs_.push_back(std::make_unique<Cost>(arguments...));
+    problem_.AddResidualBlock(costs_.back().get(), nullptr, blocks);
+  }
+
+  std::vector<double*> BlocksOf(std::span<FrameVariables> frames) {
+    std::vector<double*> blocks;
+    for (FrameVariables& frame : frames) {
+      blocks.insert(blocks.end(), {frame.position.data(), frame.turn.data(), frame.angles.data()});
+    }
+    if (options_.adjusts_lengths) blocks.push_back(variables_.lengths.data());
+    return blocks;
+  }
+
+  void AddMark(const BundleMark& mark) {
+    FrameVariables& frame = variables_.frames[mark.frame];
+    PlacePoints(variables_.body, frame.State(), false, frame.placed);
+    constexpr double kNearestDepth = 0.1;  // metres
+    if (!(Homogeneous(mark.matrix, frame.placed.positions[mark.point]).z > kNearestDepth)) return;
+    costs_.push_back(std::make_unique<MarkCost>(mark, variables_, options_.adjusts_lengths));
+    problem_.AddResidualBlock(costs_.back().get(), loss_.get(), BlocksOf({&frame, 1}));
+  }
+
+  void AddSmoothness(const BundleSmoothness& smoothness) {
+    const double per_frame = 1 / (smoothness.rate_hz * smoothness.rate_hz);
+    const int lengths = options_.adjusts_lengths ? static_cast<int>(variables_.lengths.size()) : 0;
+    for (std::size_t k = 0; k + 2 < variables_.frames.size(); ++k) {
+      FrameVariables* first = &variables_.frames[k];
+      Add<PointAcceleration>(BlocksOf({first, 3}), first, smoothness.points, per_frame * smoothness.acceleration,
+                             lengths);
+      Add<AngleAcceleration>({first[0].angles.data(), first[1].angles.data(), first[2].angles.data()},
+                             variables_.body.tree.dof_count(), per_frame * smoothness.angle_acceleration);
+    }
+  }
+
+  const BundleOptions& options_;
+  Variables& variables_;
+  const std::unique_ptr<ceres::LossFunction> loss_;
+  ceres::QuaternionManifold quaternion_;
+  std::vector<std::unique_ptr<ceres::CostFunction>> costs_;
+  PlaceEveryFrame place_;
+  ceres::Problem problem_;
+};
+
+ceres::Solver::Options SolverOptions(const BundleOptions& options) {
+  ceres::Solver::Options solver;
+  solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+  // Eigen's sparse Cholesky is scalar code, which neither a BLAS nor the sizes of caches have a say in.
+  solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
+  solver.max_num_iterations = options.max_iterations;
+  solver.function_tolerance = options.smallest_decrease;
+  solver.gradient_tolerance = 0;
+  solver.parameter_tolerance = 0;
+  solver.max_solver_time_in_seconds = std::numeric_limits<double>::max();
+  solver.num_threads = 1;
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
+}  // namespace
+
+BundleSolution AdjustBundle(const BundleInputs& inputs, const BundleOptions& options) {
+  FLAGS_minloglevel = google::GLOG_FATAL;  // what Ceres has to say is in its summary
+  Variables variables{inputs.body, inputs.body.lengths, {}};
+  for (const TreeState& state : inputs.start) {
+    assert(state.angles.size() == inputs.body.tree.limits.size());
+    variables.frames.emplace_back(state);
+  }
+  BundleSolution solution;
+  solution.lengths = inputs.body.lengths;
+  solution.states.assign(inputs.start.begin(), inputs.start.end());
+  if (variables.frames.empty()) return solution;
+  Sum sum(inputs, options, variables);
+  ceres::Solver::Summary summary;
+  ceres::Solve(SolverOptions(options), &sum.problem(), &summary);
+  if (!summary.IsSolutionUsable()) return solution;
+  solution.is_solved = true;
+  solution.first_cost = summary.initial_cost;
+  solution.last_cost = summary.final_cost;
+  solution.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  solution.lengths = variables.lengths;
+  for (std::size_t i = 0; i < variables.frames.size(); ++i) solution.states[i] = variables.frames[i].State();
+  return solution;
+}
+
+}  // namespace etude

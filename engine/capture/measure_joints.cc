@@ -1,0 +1,248 @@
+#include "engine/capture/measure_joints.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/kinematics/limb_lengths.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// What one picture says of one joint, all its marks together.
+struct JointSighting {
+  Sighting sighting;
+  glm::dmat2 information{0};
+};
+
+// Of each role: one sighting per picture that shows it.
+using FrameSightings = std::array<std::vector<JointSighting>, kRoleCount>;
+
+FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const MarkErrors& errors) {
+  FrameSightings sightings;
+  for (std::size_t camera = 0; camera < inputs.cameras.size(); ++camera) {
+    std::array<glm::dmat2, kRoleCount> information{};
+    std::array<glm::dvec2, kRoleCount> weighted{};
+    for (const MarkedJoint& joint : MarkedJointsOf(inputs.marks[camera][frame], errors)) {
+      information[Index(joint.role)] += joint.information;
+      weighted[Index(joint.role)] += joint.information * joint.pixel;
+    }
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      if (!(glm::determinant(information[i]) > 0)) continue;
+      const glm::dvec2 pixel = glm::inverse(information[i]) * weighted[i];
+      sightings[i].push_back({{inputs.cameras[camera], pixel}, information[i]});
+    }
+  }
+  return sightings;
+}
+
+/// The sum of squares Σ rᵀ Λ r about one place: its normal matrix and the step to its minimum.
+struct NormalEquations {
+  glm::dmat3 information{0};
+  glm::dvec3 right{0};
+};
+
+std::optional<NormalEquations> NormalEquationsAt(std::span<const JointSighting> sightings, const glm::dvec3& p_WQ) {
+  NormalEquations sum;
+  for (const JointSighting& seen : sightings) {
+    const auto pixel = Project(seen.sighting.matrix, p_WQ);
+    if (!pixel) return std::nullopt;
+    const auto& h = seen.sighting.matrix.h;
+    const double depth = h[2][0] * p_WQ.x + h[2][1] * p_WQ.y + h[2][2] * p_WQ.z + h[2][3];
+    glm::dmat3x2 gains;  // of u and v, column by column for x, y, z
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 2; ++k) gains[axis][k] = (h[k][axis] - (*pixel)[k] * h[2][axis]) / depth;
+    }
+    const glm::dmat2x3 transposed = glm::transpose(gains);
+    sum.information += transposed * seen.information * gains;
+    sum.right += transposed * (seen.information * (seen.sighting.pixel - *pixel));
+  }
+  return sum;
+}
+
+std::optional<PointMeasurement> TriangulateJoint(std::span<const JointSighting> sightings) {
+  std::vector<Sighting> plain;
+  for (const JointSighting& seen : sightings) plain.push_back(seen.sighting);
+  const TriangulatedPoint linear = Triangulate(plain);
+  if (linear.status != PointStatus::kOk) return std::nullopt;
+  glm::dvec3 place = linear.position;
+  constexpr int kSteps = 5;
+  for (int i = 0; i < kSteps; ++i) {
+    const auto sum = NormalEquationsAt(sightings, place);
+    if (!sum) return std::nullopt;
+    place += glm::inverse(sum->information) * sum->right;
+  }
+  const auto sum = NormalEquationsAt(sightings, place);
+  if (!sum || !std::isfinite(glm::length(place)) || !(glm::determinant(sum->information) > 0)) return std::nullopt;
+  return PointMeasurement{place, sum->information};
+}
+
+bool IsMeasured(const PointMeasurement& measurement) { return measurement.information != glm::dmat3(0); }
+
+// The track of one joint from measured place to measured place.
+std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional<glm::dvec3>> track) {
+  std::vector<std::optional<glm::dvec3>> bridged(track.begin(), track.end());
+  std::optional<std::size_t> before;
+  for (std::size_t k = 0; k < track.size(); ++k) {
+    if (!track[k]) continue;
+    for (std::size_t i = before ? *before + 1 : 0; i < k; ++i) {
+      if (!before) {
+        bridged[i] = track[k];
+      } else {
+        const double share = static_cast<double>(i - *before) / static_cast<double>(k - *before);
+        bridged[i] = glm::mix(*track[*before], *track[k], share);
+      }
+    }
+    before = k;
+  }
+  for (std::size_t i = before ? *before + 1 : track.size(); i < track.size(); ++i) bridged[i] = track[*before];
+  return bridged;
+}
+
+// What a single picture says: the joint lies on its line of sight.
+std::optional<PointMeasurement> OnSightLine(const JointSighting& seen, const glm::dvec3& near_W) {
+  const auto line = SightLineOf(seen.sighting);
+  if (!line) return std::nullopt;
+  const glm::dvec3 place = NearestOn(*line, near_W);
+  const auto sum = NormalEquationsAt({&seen, 1}, place);
+  if (!sum) return std::nullopt;
+  constexpr double kDepthError = 0.15;  // metres *(ours)*: neighbours say no better how far away it is
+  const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
+  return PointMeasurement{place, sum->information + depth};
+}
+
+std::vector<PointMeasurement> TrackOf(std::span<const JointMeasurements> measured, std::size_t role) {
+  std::vector<PointMeasurement> track;
+  for (const JointMeasurements& frame : measured) track.push_back(frame.joints[role]);
+  return track;
+}
+
+SmoothedTrack SmoothLikeliest(std::span<const PointMeasurement> track, double rate_hz) {
+  PointMotion motion{.frame_s = 1 / rate_hz};
+  motion.acceleration_density = LikeliestAccelerationDensity(track, motion);
+  return SmoothTrack(track, motion);
+}
+
+// The usual variance of a joint's triangulated place along one axis, m²; of several frames the middle one.
+std::optional<double> UsualVariance(std::span<const JointMeasurements> measured, std::size_t role) {
+  std::vector<double> variances;
+  for (const JointMeasurements& frame : measured) {
+    if (!frame.is_triangulated[role]) continue;
+    const glm::dmat3 covariance = glm::inverse(frame.joints[role].information);
+    variances.push_back((covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3);
+  }
+  if (variances.empty()) return std::nullopt;
+  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
+  std::nth_element(variances.begin(), middle, variances.end());
+  return *middle;
+}
+
+// From right to left across the body, as far as hips or shoulders tell.
+std::optional<glm::dvec3> AcrossOf(const SomeJoints& joints) {
+  std::optional<glm::dvec3> across;
+  for (const auto& [left, right] : {std::pair(kLeftHip, kRightHip), std::pair(kLeftShoulder, kRightShoulder)}) {
+    if (!joints[Index(left)] || !joints[Index(right)]) continue;
+    across = across.value_or(glm::dvec3(0)) + *joints[Index(left)] - *joints[Index(right)];
+  }
+  return across;
+}
+
+double YawOf(const glm::dvec3& across) { return std::atan2(-across.z, across.x); }
+
+}  // namespace
+
+std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const MarkErrors& errors) {
+  assert(inputs.cameras.size() >= 2 && inputs.marks.size() == inputs.cameras.size());
+  const std::size_t count = inputs.marks[0].size();
+  std::vector<FrameSightings> sightings;
+  std::vector<JointMeasurements> measured(count);
+  for (std::size_t k = 0; k < count; ++k) sightings.push_back(SightingsOf(inputs, k, errors));
+  for (std::size_t role = 0; role < kRoleCount; ++role) {
+    std::vector<std::optional<glm::dvec3>> track(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto joint = TriangulateJoint(sightings[k][role]);
+      if (!joint) continue;
+      measured[k].joints[role] = *joint;
+      measured[k].is_triangulated[role] = true;
+      track[k] = joint->position;
+    }
+    const auto bridged = BridgeTrack(track);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (track[k] || !bridged[k] || sightings[k][role].empty()) continue;
+      measured[k].joints[role] = OnSightLine(sightings[k][role].front(), *bridged[k]).value_or(PointMeasurement{});
+    }
+  }
+  return measured;
+}
+
+std::vector<SomeJoints> BridgeJoints(std::span<const JointMeasurements> measured) {
+  std::vector<SomeJoints> joints(measured.size());
+  for (std::size_t role = 0; role < kRoleCount; ++role) {
+    std::vector<std::optional<glm::dvec3>> track;
+    for (const JointMeasurements& frame : measured) {
+      track.push_back(IsMeasured(frame.joints[role]) ? std::optional(frame.joints[role].position) : std::nullopt);
+    }
+    const auto bridged = BridgeTrack(track);
+    for (std::size_t k = 0; k < measured.size(); ++k) joints[k][role] = bridged[k];
+  }
+  return joints;
+}
+
+std::vector<SomeJoints> SmoothJoints(std::span<const JointMeasurements> measured, double rate_hz) {
+  std::vector<SomeJoints> joints(measured.size());
+  for (std::size_t role = 0; role < kRoleCount; ++role) {
+    const std::vector<PointMeasurement> track = TrackOf(measured, role);
+    if (std::ranges::none_of(track, IsMeasured)) continue;
+    const SmoothedTrack smooth = SmoothLikeliest(track, rate_hz);
+    for (std::size_t k = 0; k < measured.size(); ++k) joints[k][role] = smooth.positions[k];
+  }
+  return joints;
+}
+
+std::optional<BodyPose> CompleteJoints(const SomeJoints& joints, const BodyPose& like) {
+  SomeJoints placed = joints;
+  const auto middle = [&](Role role, Role a, Role b, double share) {
+    const auto &from = placed[Index(a)], &to = placed[Index(b)];
+    if (from && to) placed[Index(role)] = glm::mix(*from, *to, share);
+  };
+  middle(kHipCentre, kLeftHip, kRightHip, 0.5);
+  if (!placed[Index(kShoulderCentre)]) middle(kShoulderCentre, kLeftShoulder, kRightShoulder, 0.5);
+  middle(kSpine, kHipCentre, kShoulderCentre, kSpineShare);
+  if (std::ranges::none_of(placed, [](const auto& joint) { return joint.has_value(); })) return std::nullopt;
+
+  const auto across = AcrossOf(joints);
+  const glm::dvec3 like_across = like[kLeftHip] - like[kRightHip];
+  const FloorMove turn{.yaw = across ? YawOf(*across) - YawOf(like_across) : 0};
+  const auto limb = [&](const Bone& bone) { return turn.Apply(like[bone.child] - like[bone.parent]); };
+  for (std::size_t round = 0; round < kRoleCount; ++round) {  // a place spreads by one limb in each
+    for (const Bone& bone : AllBones()) {
+      auto &parent = placed[Index(bone.parent)], &child = placed[Index(bone.child)];
+      if (parent && !child) child = *parent + limb(bone);
+      if (child && !parent) parent = *child - limb(bone);
+    }
+  }
+  BodyPose pose;
+  for (std::size_t i = 0; i < kRoleCount; ++i) pose.joints[i] = *placed[i];
+  return pose;
+}
+
+std::vector<BodyPose> SmoothPoses(std::span<const std::optional<BodyPose>> poses,
+                                  std::span<const JointMeasurements> measured, double rate_hz) {
+  assert(poses.size() == measured.size());
+  std::vector<BodyPose> smooth(poses.size());
+  constexpr double kUnknownVariance = 0.02 * 0.02;  // m²: of a joint that was never triangulated *(ours)*
+  for (std::size_t role = 0; role < kRoleCount; ++role) {
+    const double variance = UsualVariance(measured, role).value_or(kUnknownVariance);
+    std::vector<PointMeasurement> track(poses.size());
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      if (poses[k]) track[k] = {poses[k]->joints[role], glm::dmat3(1 / variance)};
+    }
+    const SmoothedTrack of_role = SmoothLikeliest(track, rate_hz);
+    for (std::size_t k = 0; k < poses.size(); ++k) smooth[k].joints[role] = of_role.positions[k];
+  }
+  return smooth;
+}
+
+}  // namespace etude

@@ -1,0 +1,219 @@
+#include "engine/silhouettes/fit_silhouettes.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/silhouettes/pixel_scale.h"
+#include "engine/silhouettes/turns.h"
+
+namespace etude {
+namespace {
+
+// How the two ends of one capsule move in one picture, by coordinate: the columns of δ of SilhouetteResidual, only for
+// the coordinates that move its limb.
+struct CapsuleMotion {
+  std::vector<int> coordinates;
+  std::vector<std::array<double, 6>> columns;
+};
+
+class Linearisation {
+ public:
+  Linearisation(const SilhouetteBody& body, int size)
+      : body_(body), gradient_(Eigen::VectorXd::Zero(size)), hessian_(Eigen::MatrixXd::Zero(size, size)) {}
+
+  // Adds what one picture says: residuals gathered by capsule first, each capsule's six numbers turned into coordinates
+  // then, because there are far fewer capsules than residuals.
+  void Add(const std::vector<SilhouetteResidual>& residuals, const TreeFrames& frames, const ProjectionMatrix& matrix,
+           const SilhouetteCostOptions& options) {
+    using Six = Eigen::Matrix<double, 6, 1>;
+    using SixBySix = Eigen::Matrix<double, 6, 6>;
+    std::vector<Six> gradients(body_.flesh.size(), Six::Zero());
+    std::vector<SixBySix> hessians(body_.flesh.size(), SixBySix::Zero());
+    for (const SilhouetteResidual& residual : residuals) {
+      const Eigen::Map<const Six> slopes(residual.slopes.data());
+      const double weight = LossOf(residual, options).weight;
+      gradients[residual.capsule] += weight * residual.value * slopes;
+      hessians[residual.capsule] += weight * slopes * slopes.transpose();
+    }
+    const PixelScale camera(matrix);
+    for (std::size_t i = 0; i < body_.flesh.size(); ++i) {
+      if (hessians[i].isZero(0)) continue;
+      MoveCapsule(body_.flesh[i], frames, camera);
+      const std::size_t count = motion_.coordinates.size();
+      for (std::size_t j = 0; j < count; ++j) {
+        const Eigen::Map<const Six> column_j(motion_.columns[j].data());
+        const Six projected = hessians[i] * column_j;
+        const int at_j = motion_.coordinates[j];
+        gradient_[at_j] += gradients[i].dot(column_j);
+        for (std::size_t k = 0; k <= j; ++k) {
+          const double product = projected.dot(Eigen::Map<const Six>(motion_.columns[k].data()));
+          const int at_k = motion_.coordinates[k];
+          hessian_(at_j, at_k) += product;
+          if (at_j != at_k) hessian_(at_k, at_j) += product;
+        }
+      }
+    }
+  }
+
+  // (value / spread)² of one coordinate.
+  void AddSquare(int coordinate, double value, double spread) {
+    gradient_[coordinate] += value / (spread * spread);
+    hessian_(coordinate, coordinate) += 1 / (spread * spread);
+  }
+
+  const Eigen::VectorXd& gradient() const { return gradient_; }
+  const Eigen::MatrixXd& hessian() const { return hessian_; }
+
+ private:
+  void MoveCapsule(const FleshCapsule& flesh, const TreeFrames& frames, const PixelScale& camera) {
+    assert(flesh.a.joint == flesh.b.joint);
+    motion_.coordinates.clear();
+    motion_.columns.clear();
+    const glm::dvec3 p_WA = PlaceOf(flesh.a, frames), p_WB = PlaceOf(flesh.b, frames);
+    const PixelScale::Slopes at_a = camera.SlopesAt(p_WA), at_b = camera.SlopesAt(p_WB);
+    const auto add = [&](int coordinate, const glm::dvec3& moves_a, const glm::dvec3& moves_b) {
+      motion_.coordinates.push_back(coordinate);
+      motion_.columns.push_back({glm::dot(at_a.u, moves_a), glm::dot(at_a.v, moves_a),
+                                 flesh.radius_a * glm::dot(at_a.pixels_per_metre, moves_a), glm::dot(at_b.u, moves_b),
+                                 glm::dot(at_b.v, moves_b), flesh.radius_b * glm::dot(at_b.pixels_per_metre, moves_b)});
+    };
+    const auto add_turn = [&](int coordinate, const glm::dvec3& axis, const glm::dvec3& about) {
+      add(coordinate, glm::cross(axis, p_WA - about), glm::cross(axis, p_WB - about));
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      glm::dvec3 unit(0);
+      unit[axis] = 1;
+      add(axis, unit, unit);
+      add_turn(3 + axis, unit, frames.joints[0].position);
+    }
+    for (int j = flesh.a.joint; j >= 0; j = body_.tree.joints[j].parent) {
+      const TreeJoint& joint = body_.tree.joints[j];
+      for (int dof = joint.first_dof; dof < joint.first_dof + joint.dof_count; ++dof) {
+        add_turn(kRootDofs + dof, frames.dof_axes[dof], frames.joints[j].position);
+      }
+    }
+  }
+
+  const SilhouetteBody& body_;
+  CapsuleMotion motion_;
+  Eigen::VectorXd gradient_;
+  Eigen::MatrixXd hessian_;
+};
+
+// Every square that is not a picture's: value and spread of coordinate i.
+template <typename Take>
+void ForEachPrior(const SilhouetteBody& body, const TreeState& state, const PosePrior* prior, Take take) {
+  for (std::size_t i = 0; i < state.angles.size(); ++i) {
+    take(kRootDofs + static_cast<int>(i), state.angles[i] - body.habits[i].angle, body.habits[i].spread);
+  }
+  if (prior == nullptr) return;
+  const glm::dvec3 moved = state.root_position - prior->near.root_position;
+  const glm::dvec3 turned = TurnOf(state.root_frame * glm::transpose(prior->near.root_frame));
+  for (int axis = 0; axis < 3; ++axis) {
+    take(axis, moved[axis], prior->place_m);
+    take(3 + axis, turned[axis], prior->turn_rad);
+  }
+  for (std::size_t i = 0; i < state.angles.size(); ++i) {
+    take(kRootDofs + static_cast<int>(i), state.angles[i] - prior->near.angles[i], prior->angle_rad);
+  }
+}
+
+Linearisation LineariseAt(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
+                          const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
+  Linearisation linear(body, kRootDofs + body.tree.dof_count());
+  ComputeFrames(body.tree, state, workspace.frames);
+  for (const SilhouetteView& view : views) {
+    ProjectFlesh(body, workspace.frames, view.matrix, workspace.flesh);
+    workspace.residuals.clear();
+    AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
+    linear.Add(workspace.residuals, workspace.frames, view.matrix, options);
+  }
+  ForEachPrior(body, state, prior,
+               [&](int coordinate, double value, double spread) { linear.AddSquare(coordinate, value, spread); });
+  return linear;
+}
+
+// Angles at a limit that the step would push beyond it.
+std::vector<bool> Held(const KinematicTree& tree, const TreeState& state, const Eigen::VectorXd& gradient) {
+  std::vector<bool> held(gradient.size(), false);
+  for (std::size_t i = 0; i < state.angles.size(); ++i) {
+    const double downhill = -gradient[kRootDofs + static_cast<Eigen::Index>(i)];
+    const AngleRange& range = tree.limits[i];
+    held[kRootDofs + i] =
+        (state.angles[i] <= range.lower && downhill < 0) || (state.angles[i] >= range.upper && downhill > 0);
+  }
+  return held;
+}
+
+Eigen::VectorXd Step(const Linearisation& linear, const std::vector<bool>& held, double damping) {
+  Eigen::MatrixXd h = linear.hessian();
+  Eigen::VectorXd g = linear.gradient();
+  constexpr double kLeast = 1e-6;
+  for (Eigen::Index i = 0; i < g.size(); ++i) {
+    h(i, i) += damping * h(i, i) + kLeast;
+    if (!held[i]) continue;
+    h.row(i).setZero();
+    h.col(i).setZero();
+    h(i, i) = 1;
+    g[i] = 0;
+  }
+  return -h.llt().solve(g);
+}
+
+}  // namespace
+
+SilhouetteFit CostOf(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& state,
+                     const PosePrior* prior, const SilhouetteCostOptions& options, FitWorkspace& workspace) {
+  SilhouetteFit fit{.state = state};
+  ComputeFrames(body.tree, state, workspace.frames);
+  for (const SilhouetteView& view : views) {
+    ProjectFlesh(body, workspace.frames, view.matrix, workspace.flesh);
+    workspace.residuals.clear();
+    AppendResiduals(workspace.flesh, *view.silhouette, options, workspace.residuals);
+    for (const SilhouetteResidual& residual : workspace.residuals) fit.picture_cost += LossOf(residual, options).loss;
+  }
+  fit.cost = fit.picture_cost;
+  ForEachPrior(body, state, prior,
+               [&](int, double value, double spread) { fit.cost += value * value / (spread * spread); });
+  return fit;
+}
+
+NormalEquations NormalEquationsAt(const SilhouetteBody& body, std::span<const SilhouetteView> views,
+                                  const TreeState& state, const PosePrior* prior, const SilhouetteCostOptions& options,
+                                  FitWorkspace& workspace) {
+  const Linearisation linear = LineariseAt(body, views, state, prior, options, workspace);
+  return {{linear.gradient().begin(), linear.gradient().end()},
+          {linear.hessian().data(), linear.hessian().data() + linear.hessian().size()}};
+}
+
+SilhouetteFit FitSilhouettes(const SilhouetteBody& body, std::span<const SilhouetteView> views, const TreeState& start,
+                             const PosePrior* prior, const FitOptions& options, FitWorkspace& workspace) {
+  constexpr double kFirstDamping = 1e-2, kGrows = 4, kShrinks = 0.3, kMostDamping = 1e6;
+  SilhouetteFit fit = CostOf(body, views, start, prior, options.cost, workspace);
+  double damping = kFirstDamping;
+  while (fit.iterations < options.max_iterations && damping < kMostDamping) {
+    const Linearisation linear = LineariseAt(body, views, fit.state, prior, options.cost, workspace);
+    const std::vector<bool> held = Held(body.tree, fit.state, linear.gradient());
+    bool is_better = false;
+    while (!is_better && fit.iterations < options.max_iterations && damping < kMostDamping) {
+      ++fit.iterations;
+      const Eigen::VectorXd step = Step(linear, held, damping);
+      SilhouetteFit trial =
+          CostOf(body, views, Moved(body.tree, fit.state, {step.data(), static_cast<std::size_t>(step.size())}), prior,
+                 options.cost, workspace);
+      is_better = trial.cost < fit.cost;
+      damping = is_better ? damping * kShrinks : damping * kGrows;
+      if (!is_better) continue;
+      const bool is_last = fit.cost - trial.cost < options.enough * fit.cost;
+      trial.iterations = fit.iterations;
+      fit = std::move(trial);
+      if (is_last) return fit;
+    }
+  }
+  return fit;
+}
+
+}  // namespace etude

@@ -1,0 +1,367 @@
+#include "engine/silhouettes/track_silhouettes.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/cameras/triangulation.h"
+#include "engine/silhouettes/lost_limbs.h"
+#include "engine/silhouettes/thickness.h"
+#include "engine/silhouettes/turns.h"
+
+namespace etude {
+namespace {
+
+using Fits = std::vector<std::optional<SilhouetteFit>>;
+
+// Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near
+// it.
+constexpr double kWideReach = 3;  // times that of the options
+constexpr int kCoarseSteps = 8, kFineSteps = 12;
+constexpr std::size_t kFollowedAnchors = 2;
+constexpr double kSpeedKept = 0.6;  // of the last frame's change, what the next is foretold to have
+
+double Squared(double x) { return x * x; }
+
+// How far apart two poses are for a path of them: squares over the changes expected.
+double Jump(const TreeState& a, const TreeState& b, const TrackOptions& options) {
+  const glm::dvec3 moved = a.root_position - b.root_position;
+  const glm::dvec3 turned = TurnOf(a.root_frame * glm::transpose(b.root_frame));
+  double jump = glm::dot(moved, moved) / Squared(options.place_change_m) +
+                glm::dot(turned, turned) / Squared(options.angle_change);
+  for (std::size_t i = 0; i < a.angles.size(); ++i) {
+    jump += Squared((a.angles[i] - b.angles[i]) / options.angle_change);
+  }
+  return jump;
+}
+
+class Tracker {
+ public:
+  Tracker(const SilhouetteBody& body, const SilhouetteTake& take, const TrackOptions& options)
+      : body_(body), take_(take), options_(options), frame_count_(take.silhouettes[0].size()) {
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      std::vector<SilhouetteView>& views = views_.emplace_back();
+      for (std::size_t c = 0; c < take.cameras.size(); ++c) {
+        const Silhouette& silhouette = take.silhouettes[c][k];
+        if (silhouette.area > 0) views.push_back({take.cameras[c], &silhouette});
+      }
+    }
+    wide_ = {.cost = options.cost, .max_iterations = kCoarseSteps};
+    wide_.cost.outline_reach_px *= kWideReach;
+    wide_.cost.inside_reach_px *= kWideReach;
+    fine_ = {.cost = options.cost, .max_iterations = kFineSteps};
+  }
+
+  SilhouetteTrack Run() {
+    Fits fits(frame_count_);
+    bool is_first = true;
+    for (const Anchor& anchor : ChooseAnchors()) {
+      Fits followed = FollowBothWays(anchor);
+      followed = Better(followed, Retraced(followed));
+      fits = is_first ? std::move(followed) : Better(fits, followed);
+      is_first = false;
+    }
+    if (is_first) return {body_, std::move(fits)};
+    for (int i = 0; i < options_.thickness_passes; ++i) {
+      FitThickness(fits);
+      Refit(fits);
+    }
+    for (int i = 0; i < options_.repairs; ++i) {
+      Repair(fits);
+      Smooth(fits);
+    }
+    return {body_, std::move(fits)};
+  }
+
+ private:
+  struct Anchor {
+    std::size_t frame = 0;
+    SilhouetteFit fit;
+  };
+
+  bool Shows(std::size_t frame) const { return views_[frame].size() >= 2; }
+
+  SilhouetteFit Fit(std::size_t frame, const TreeState& start, const PosePrior* prior, bool is_far) {
+    TreeState from = start;
+    if (is_far) from = FitSilhouettes(body_, views_[frame], start, prior, wide_, workspace_).state;
+    return FitSilhouettes(body_, views_[frame], from, prior, fine_, workspace_);
+  }
+
+  PosePrior PriorNear(const TreeState& state) const {
+    return {state, options_.place_change_m, options_.angle_change, options_.angle_change};
+  }
+
+  std::optional<Anchor> KnownAnchor() {
+    if (!take_.start) return std::nullopt;
+    for (std::size_t frame = 0; frame < frame_count_; ++frame) {
+      if (!Shows(frame)) continue;
+      const PosePrior prior{*take_.start, options_.start_place_m, options_.start_angle, options_.start_angle};
+      return Anchor{frame, Fit(frame, *take_.start, &prior, true)};
+    }
+    return std::nullopt;
+  }
+
+  // Where the middles of the silhouettes meet; nothing when their lines of sight do not.
+  std::optional<glm::dvec3> FindMiddle(std::size_t frame) const {
+    std::vector<Sighting> sightings;
+    for (const SilhouetteView& view : views_[frame]) sightings.push_back({view.matrix, view.silhouette->centre});
+    const TriangulatedPoint middle = Triangulate(sightings);
+    if (middle.status != PointStatus::kOk) return std::nullopt;
+    return middle.position;
+  }
+
+  // The body as it may stand there, from every side and in a few postures, the likeliest first.
+  std::vector<SilhouetteFit> Guesses(std::size_t frame) {
+    constexpr int kHeadings = 8;
+    std::vector<SilhouetteFit> fits;
+    const std::optional<glm::dvec3> middle = FindMiddle(frame);
+    if (!middle) return fits;
+    for (int i = 0; i < kHeadings; ++i) {
+      for (TreeState start : Postures(body_)) {
+        start.root_position = *middle;
+        start.root_frame = RotationBy({0, 2 * kPi * i / kHeadings, 0}) * start.root_frame;
+        fits.push_back(FitSilhouettes(body_, views_[frame], start, nullptr, wide_, workspace_));
+      }
+    }
+    std::ranges::stable_sort(fits, {}, &SilhouetteFit::cost);
+    return fits;
+  }
+
+  // Of the guesses at one moment the best one and the best that faces another way, with their limbs looked for.
+  std::vector<Anchor> AnchorsAt(std::size_t frame) {
+    constexpr double kAnotherWay = Radians(100);
+    constexpr std::size_t kMostAnchors = 3;
+    std::vector<Anchor> anchors;
+    for (const SilhouetteFit& guess : Guesses(frame)) {
+      const bool is_new = std::ranges::all_of(anchors, [&](const Anchor& other) {
+        return glm::length(TurnOf(guess.state.root_frame * glm::transpose(other.fit.state.root_frame))) > kAnotherWay;
+      });
+      if (!is_new) continue;
+      SilhouetteFit fit = Fit(frame, guess.state, nullptr, false);
+      fit = WithLimbsFound(frame, fit, nullptr);
+      anchors.push_back({frame, std::move(fit)});
+      if (anchors.size() == kMostAnchors) break;
+    }
+    return anchors;
+  }
+
+  // Mean cost of the frames about an anchor that its body can be followed through.
+  double TrialCost(const Anchor& anchor) {
+    const std::size_t reach = options_.trial_frames;
+    const std::size_t first = anchor.frame < reach ? 0 : anchor.frame - reach;
+    const std::size_t last = std::min(anchor.frame + reach, frame_count_ - 1);
+    Fits fits(frame_count_);
+    fits[anchor.frame] = anchor.fit;
+    Follow(anchor.frame, last, fits);
+    Follow(anchor.frame, first, fits);
+    double sum = 0;
+    int count = 0;
+    for (std::size_t k = first; k <= last; ++k) {
+      if (!fits[k]) continue;
+      sum += fits[k]->cost;
+      ++count;
+    }
+    return sum / count;
+  }
+
+  // Where the take is followed from: the known start, and what was found in the pictures, the likeliest first.
+  std::vector<Anchor> ChooseAnchors() {
+    std::vector<Anchor> anchors = FindAnchors();
+    if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
+    if (anchors.size() > kFollowedAnchors) anchors.resize(kFollowedAnchors);
+    return anchors;
+  }
+
+  std::vector<Anchor> FindAnchors() {
+    std::vector<std::size_t> shown;
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      if (Shows(k)) shown.push_back(k);
+    }
+    std::vector<std::pair<double, Anchor>> tried;
+    const std::size_t count = std::min<std::size_t>(options_.anchors, shown.size());
+    for (std::size_t i = 0; i < count; ++i) {
+      for (Anchor& anchor : AnchorsAt(shown[(2 * i + 1) * shown.size() / (2 * count)])) {
+        const double cost = TrialCost(anchor);
+        tried.emplace_back(cost, std::move(anchor));
+      }
+    }
+    std::ranges::stable_sort(tried, {}, [](const auto& one) { return one.first; });
+    std::vector<Anchor> anchors;
+    for (auto& [cost, anchor] : tried) anchors.push_back(std::move(anchor));
+    return anchors;
+  }
+
+  SilhouetteFit WithLimbsFound(std::size_t frame, const SilhouetteFit& fit, const PosePrior* prior) {
+    SilhouetteFit best = fit;
+    for (const SilhouetteBody::Limb& limb : body_.limbs) {
+      for (const TreeState& start : LimbPlaces(body_, views_[frame], best.state, limb, wide_.cost)) {
+        SilhouetteFit trial = Fit(frame, start, prior, false);
+        if (trial.cost < best.cost) best = std::move(trial);
+      }
+    }
+    return best;
+  }
+
+  // Fits the frames after `from` up to `to`, or before it down to `to`, each from the one before.
+  void Follow(std::size_t from, std::size_t to, Fits& fits) {
+    const int step = to >= from ? 1 : -1;
+    TreeState last = fits[from]->state, before_last = last;
+    for (std::size_t k = from; k != to;) {
+      k += step;
+      if (!Shows(k)) continue;
+      const TreeState foretold = Extrapolated(before_last, last, kSpeedKept);
+      const PosePrior prior = PriorNear(foretold);
+      const bool still = CostOf(body_, views_[k], last, &prior, wide_.cost, workspace_).cost <
+                         CostOf(body_, views_[k], foretold, &prior, wide_.cost, workspace_).cost;
+      fits[k] = Fit(k, still ? last : foretold, &prior, true);
+      before_last = std::move(last);
+      last = fits[k]->state;
+    }
+  }
+
+  Fits FollowBothWays(const Anchor& anchor) {
+    Fits fits(frame_count_);
+    fits[anchor.frame] = anchor.fit;
+    Follow(anchor.frame, frame_count_ - 1, fits);
+    Follow(anchor.frame, 0, fits);
+    return fits;
+  }
+
+  // The same take followed in the other direction of time: from each end to the other.
+  Fits Retraced(const Fits& fits) {
+    const auto first = std::ranges::find_if(fits, [](const auto& fit) { return fit.has_value(); });
+    const auto last = std::find_if(fits.rbegin(), fits.rend(), [](const auto& fit) { return fit.has_value(); });
+    Fits forwards(frame_count_), backwards(frame_count_);
+    const auto begin = static_cast<std::size_t>(first - fits.begin());
+    const std::size_t end = frame_count_ - 1 - static_cast<std::size_t>(last - fits.rbegin());
+    forwards[begin] = *first;
+    Follow(begin, end, forwards);
+    backwards[end] = *last;
+    Follow(end, begin, backwards);
+    return Better(forwards, backwards);
+  }
+
+  // Frame by frame the one or the other, such that costs and jumps together are least (Viterbi).
+  Fits Better(const Fits& a, const Fits& b) const {
+    Fits kept(frame_count_);
+    std::vector<std::size_t> shown;
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      if (a[k] && b[k]) shown.push_back(k);
+    }
+    if (shown.empty()) return kept;
+    const auto of = [&](std::size_t i, int which) -> const SilhouetteFit& { return *(which == 0 ? a : b)[shown[i]]; };
+    std::vector<std::array<int, 2>> came_from(shown.size());
+    std::array<double, 2> costs = {of(0, 0).picture_cost, of(0, 1).picture_cost};
+    for (std::size_t i = 1; i < shown.size(); ++i) {
+      std::array<double, 2> next{};
+      for (int which = 0; which < 2; ++which) {
+        std::array<double, 2> through{};
+        for (int from = 0; from < 2; ++from) {
+          through[from] = costs[from] + Jump(of(i - 1, from).state, of(i, which).state, options_);
+        }
+        came_from[i][which] = through[1] < through[0];
+        next[which] = through[came_from[i][which]] + of(i, which).picture_cost;
+      }
+      costs = next;
+    }
+    int which = costs[1] < costs[0];
+    for (std::size_t i = shown.size(); i-- > 0;) {
+      kept[shown[i]] = of(i, which);
+      which = came_from[i][which];
+    }
+    return kept;
+  }
+
+  void FitThickness(const Fits& fits) {
+    ThicknessEstimate estimate(body_);
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      if (fits[k]) estimate.Add(views_[k], fits[k]->state, options_.cost, workspace_);
+    }
+    body_ = estimate.Apply();
+  }
+
+  void Refit(Fits& fits) {
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      if (fits[k]) fits[k] = Fit(k, fits[k]->state, nullptr, false);
+    }
+  }
+
+  // What the neighbours on both sides, or the only one there is, foretell of a frame.
+  std::optional<TreeState> Between(const Fits& fits, std::size_t k) const {
+    const bool before = k > 0 && fits[k - 1], after = k + 1 < frame_count_ && fits[k + 1];
+    if (before && after) return MeanState(fits[k - 1]->state, fits[k + 1]->state);
+    if (before) return fits[k - 1]->state;
+    if (after) return fits[k + 1]->state;
+    return std::nullopt;
+  }
+
+  // What a frame costs that has lost nothing.
+  double UsualCost(const Fits& fits) const {
+    std::vector<double> costs;
+    for (const auto& fit : fits) {
+      if (fit) costs.push_back(fit->picture_cost);
+    }
+    if (costs.empty()) return 0;
+    const auto usual = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 5);
+    std::ranges::nth_element(costs, usual);
+    return *usual;
+  }
+
+  // Looks for the limbs of every few of the frames that cost far more than most, follows what was found through the
+  // others, in one direction of time and the other, and keeps what makes the better path.
+  void Repair(Fits& fits) {
+    constexpr int kFollowed = 4;
+    const double too_much = options_.lost * UsualCost(fits);
+    for (const int step : {1, -1}) {
+      Fits repaired = fits;
+      int followed = kFollowed;
+      for (std::size_t i = 0; i < frame_count_; ++i) {
+        const std::size_t k = step > 0 ? i : frame_count_ - 1 - i;
+        if (!fits[k] || fits[k]->picture_cost <= too_much) {
+          followed = kFollowed;
+          continue;
+        }
+        if (++followed > kFollowed) {
+          repaired[k] = WithLimbsFound(k, *fits[k], nullptr);
+          followed = 0;
+        } else if (const auto& last = repaired[k - static_cast<std::size_t>(step)]) {
+          const PosePrior prior = PriorNear(last->state);
+          repaired[k] = Fit(k, last->state, &prior, true);
+        }
+      }
+      fits = Better(fits, repaired);
+    }
+  }
+
+  void Smooth(Fits& fits) {
+    for (const bool odd : {false, true}) {
+      for (std::size_t k = odd; k < frame_count_; k += 2) {
+        const std::optional<TreeState> between = Between(fits, k);
+        if (!fits[k] || !between) continue;
+        const PosePrior prior{*between, 0.5 * options_.place_change_m, 0.5 * options_.angle_change,
+                              0.5 * options_.angle_change};
+        SilhouetteFit own = Fit(k, fits[k]->state, &prior, false), theirs = Fit(k, *between, &prior, false);
+        fits[k] = theirs.cost < own.cost ? std::move(theirs) : std::move(own);
+      }
+    }
+  }
+
+  SilhouetteBody body_;
+  const SilhouetteTake& take_;
+  const TrackOptions& options_;
+  const std::size_t frame_count_;
+  std::vector<std::vector<SilhouetteView>> views_;  // of each frame, of the cameras that show somebody
+  FitOptions wide_, fine_;
+  FitWorkspace workspace_;
+};
+
+}  // namespace
+
+SilhouetteTrack TrackSilhouettes(const SilhouetteBody& body, const SilhouetteTake& take, const TrackOptions& options) {
+  assert(take.cameras.size() >= 2 && take.silhouettes.size() == take.cameras.size());
+  return Tracker(body, take, options).Run();
+}
+
+}  // namespace etude

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/base/image.h"
+#include "engine/cameras/camera.h"
+#include "engine/kinematics/tree.h"
+#include "engine/silhouettes/silhouette_body.h"
+
+namespace etude {
+
+/// The mask that a pinhole camera would make of capsules, by rays: a pixel is set when the line of sight through its
+/// centre comes nearer to some capsule's axis than its radius there. Shares nothing with the code under test but the
+/// body's description.
+inline Mask RayCast(const SilhouetteBody& body, const TreeState& state, const Camera& camera, double thickness = 1) {
+  const TreeFrames frames = ComputeFrames(body.tree, state);
+  Mask mask(camera.intrinsics.width, camera.intrinsics.height);
+  const Intrinsics& in = camera.intrinsics;
+  const glm::dmat3 R_WC = glm::transpose(camera.R_CW);
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      const glm::dvec3 ray = glm::normalize(R_WC * glm::dvec3((x + 0.5 - in.cx) / in.fx, (y + 0.5 - in.cy) / in.fy, 1));
+      for (const FleshCapsule& flesh : body.flesh) {
+        const auto place = [&](const TreePoint& point) {
+          return frames.joints[point.joint].position + frames.joints[point.joint].axes * point.p_LQ - camera.p_WC;
+        };
+        const glm::dvec3 a = place(flesh.a), b = place(flesh.b);
+        constexpr int kSteps = 12;  // spheres along the axis
+        for (int i = 0; i <= kSteps && !mask.At(x, y); ++i) {
+          const double t = static_cast<double>(i) / kSteps;
+          const glm::dvec3 centre = a + t * (b - a);
+          const double radius = thickness * (flesh.radius_a + t * (flesh.radius_b - flesh.radius_a));
+          const double along = glm::dot(centre, ray);
+          if (along > 0 && glm::dot(centre, centre) - along * along < radius * radius) mask.At(x, y) = 1;
+        }
+      }
+    }
+  }
+  return mask;
+}
+
+/// Cameras around the middle, 3.8 m away, at different heights.
+inline std::vector<Camera> CamerasAround(const std::vector<double>& angles_deg) {
+  std::vector<Camera> cameras;
+  for (std::size_t i = 0; i < angles_deg.size(); ++i) {
+    const double angle = angles_deg[i] * 3.14159265358979 / 180;
+    const glm::dvec3 p_WC(3.8 * std::sin(angle), i % 2 == 0 ? 1.0 : 2.2, 3.8 * std::cos(angle));
+    cameras.push_back(
+        LookAt({.width = 240, .height = 180, .fx = 225, .fy = 225, .cx = 120, .cy = 90}, p_WC, glm::dvec3(0, 0.95, 0)));
+  }
+  return cameras;
+}
+
+}  // namespace etude

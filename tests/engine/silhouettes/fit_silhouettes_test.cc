@@ -1,0 +1,208 @@
+#include "engine/silhouettes/fit_silhouettes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/base/angles.h"
+#include "engine/silhouettes/fit_joints.h"
+#include "engine/silhouettes/turns.h"
+#include "tests/engine/silhouettes/capsule_picture.h"
+
+namespace etude {
+namespace {
+
+// Standing with one arm raised sideways, the other bent, one knee bent.
+TreeState Posed(const SilhouetteBody& body, double phase = 0) {
+  TreeState state = StandingState(body.tree);
+  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
+  const auto set = [&](int joint, int axis, double degrees) {
+    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
+  };
+  set(body.limbs[0].upper, 1, -60 + 10 * std::sin(phase));
+  set(body.limbs[1].upper, 0, 40 + 25 * std::sin(phase));
+  set(body.limbs[1].lower, 0, 70 + 20 * std::cos(phase));
+  set(body.limbs[3].upper, 0, 40 + 20 * std::cos(phase));
+  set(body.limbs[3].lower, 0, -60);
+  state.root_position = {0.05 * std::sin(phase), 0.95, 0};
+  return state;
+}
+
+double MeanError(const BodyPose& a, const BodyPose& b) {
+  double sum = 0;
+  for (const Role role : AllRoles()) sum += glm::distance(a[role], b[role]);
+  return sum / kRoleCount;
+}
+
+// A frame that cameras see of a body.
+struct Shown {
+  std::vector<Camera> cameras;
+  std::vector<Silhouette> silhouettes;
+
+  Shown(const SilhouetteBody& body, const TreeState& state, const std::vector<double>& angles_deg, double thickness = 1)
+      : cameras(CamerasAround(angles_deg)) {
+    for (const Camera& camera : cameras) {
+      silhouettes.push_back(MakeSilhouette(RayCast(body, state, camera, thickness), {.spacing = 2}));
+    }
+  }
+
+  std::vector<SilhouetteView> Views() const {
+    std::vector<SilhouetteView> views;
+    for (std::size_t i = 0; i < cameras.size(); ++i) views.push_back({MatrixOf(cameras[i]), &silhouettes[i]});
+    return views;
+  }
+};
+
+// Pictures are small, 17 mm a pixel where the body is, and show the very body that is fitted: outlines err by a pixel.
+SilhouetteCostOptions SmallPictures() { return {.sigma_px = 1, .outline_reach_px = 8, .inside_reach_px = 22}; }
+
+std::vector<double> Scatter(int size, double by) {
+  std::vector<double> steps(size);
+  for (int i = 0; i < size; ++i) steps[i] = by * std::sin(12.9898 * (i + 1));
+  for (int i = 0; i < 3; ++i) steps[i] *= 0.3;  // metres
+  return steps;
+}
+
+TEST(FitSilhouettes, GradientIsThatOfTheCost) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const TreeState truth = Posed(body);
+  const Shown shown(body, truth, {-40, 40});
+  const int size = kRootDofs + body.tree.dof_count();
+  const TreeState at = Moved(body.tree, truth, Scatter(size, 0.1));
+  const PosePrior prior{truth, 0.1, 0.2, 0.2};
+  // A loss that is nearly a square, so that its slope is weight times residual.
+  SilhouetteCostOptions options = SmallPictures();
+  options.outline_reach_px = options.inside_reach_px = 1e5;
+  FitWorkspace workspace;
+  const auto views = shown.Views();
+  const NormalEquations found = NormalEquationsAt(body, views, at, &prior, options, workspace);
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < size; ++i) {
+    std::vector<double> step(size, 0.0);
+    const auto cost = [&](double by) {
+      step[i] = by;
+      return CostOf(body, views, Moved(body.tree, at, step), &prior, options, workspace).cost;
+    };
+    // The gradient is that of half the cost. Nearest pieces change where outlines cross: not everywhere smooth.
+    EXPECT_NEAR(found.gradient[i], (cost(kStep) - cost(-kStep)) / (4 * kStep),
+                2e-3 * std::abs(found.gradient[i]) + 0.05)
+        << "coordinate " << i;
+  }
+}
+
+TEST(FitSilhouettes, SlopesOfAProjectedCapsuleAreThoseOfItsDistance) {
+  const ProjectedCapsule capsule{true, {10, 20}, {40, 35}, 6, 3};
+  constexpr double kStep = 1e-6;
+  for (const glm::dvec2 pixel : {glm::dvec2(30, 10), glm::dvec2(2, 15), glm::dvec2(47, 41), glm::dvec2(24, 28)}) {
+    const SilhouetteResidual at = DistanceTo(capsule, pixel);
+    for (int i = 0; i < 6; ++i) {
+      const auto moved = [&](double by) {
+        ProjectedCapsule other = capsule;
+        double* const values[] = {&other.a.x, &other.a.y, &other.radius_a, &other.b.x, &other.b.y, &other.radius_b};
+        *values[i] += by;
+        return DistanceTo(other, pixel).value;
+      };
+      EXPECT_NEAR(at.slopes[i], (moved(kStep) - moved(-kStep)) / (2 * kStep), 1e-6) << i;
+    }
+  }
+}
+
+TEST(FitSilhouettes, DistanceToAConeIsTheLeastToTheCirclesAlongIt) {
+  const ProjectedCapsule capsule{true, {10, 20}, {40, 35}, 9, 3};
+  for (const glm::dvec2 pixel : {glm::dvec2(30, 10), glm::dvec2(2, 15), glm::dvec2(47, 41), glm::dvec2(24, 28)}) {
+    double least = 1e9;
+    for (int i = 0; i <= 20000; ++i) {
+      const double t = i / 20000.0;
+      least = std::min(least, glm::distance(pixel, glm::mix(capsule.a, capsule.b, t)) - std::lerp(9.0, 3.0, t));
+    }
+    EXPECT_NEAR(DistanceTo(capsule, pixel).value, least, 1e-6);
+  }
+}
+
+TEST(FitSilhouettes, FindsABodyThatAnotherRasteriserDrew) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const TreeState truth = Posed(body);
+  const Shown shown(body, truth, {-40, 40, 160});
+  const TreeState start = Moved(body.tree, truth, Scatter(kRootDofs + body.tree.dof_count(), 0.08));
+  FitWorkspace workspace;
+  SilhouetteCostOptions wide = SmallPictures();
+  wide.outline_reach_px *= 5;
+  wide.inside_reach_px *= 5;
+  const auto views = shown.Views();
+  const SilhouetteFit near =
+      FitSilhouettes(body, views, start, nullptr, {.cost = wide, .max_iterations = 30}, workspace);
+  const SilhouetteFit fit =
+      FitSilhouettes(body, views, near.state, nullptr, {.cost = SmallPictures(), .max_iterations = 30}, workspace);
+  const BodyPose wanted = ToBodyPose(body, truth);
+  EXPECT_GT(MeanError(ToBodyPose(body, start), wanted), 0.04);
+  EXPECT_LT(MeanError(ToBodyPose(body, fit.state), wanted), 0.02);
+}
+
+TEST(FitSilhouettes, IsNotFooledByOtherMasks) {
+  // The control: silhouettes of nobody's body. The pose comes out wrong, and costs many times what a right one does.
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const TreeState truth = Posed(body);
+  const Shown right(body, truth, {-40, 40, 160});
+  TreeState elsewhere = truth;
+  elsewhere.root_frame = RotationBy({0, 0, Radians(90)}) * truth.root_frame;
+  const Shown wrong(body, elsewhere, {-40, 40, 160});
+  FitWorkspace workspace;
+  const FitOptions options{.cost = SmallPictures(), .max_iterations = 30};
+  const SilhouetteFit good = FitSilhouettes(body, right.Views(), truth, nullptr, options, workspace);
+  const SilhouetteFit bad = FitSilhouettes(body, wrong.Views(), truth, nullptr, options, workspace);
+  EXPECT_GT(bad.picture_cost, 5 * good.picture_cost);
+  EXPECT_GT(MeanError(ToBodyPose(body, bad.state), ToBodyPose(body, truth)), 0.1);
+}
+
+TEST(FitSilhouettes, DoesNotDependOnTheOrderOfCameras) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const TreeState truth = Posed(body);
+  const Shown shown(body, truth, {-40, 40, 160});
+  auto views = shown.Views();
+  const TreeState start = Moved(body.tree, truth, Scatter(kRootDofs + body.tree.dof_count(), 0.08));
+  FitWorkspace workspace;
+  const FitOptions options{.cost = SmallPictures()};
+  const BodyPose one = ToBodyPose(body, FitSilhouettes(body, views, start, nullptr, options, workspace).state);
+  std::ranges::reverse(views);
+  const BodyPose other = ToBodyPose(body, FitSilhouettes(body, views, start, nullptr, options, workspace).state);
+  EXPECT_LT(MeanError(one, other), 1e-6);
+}
+
+TEST(FitSilhouettes, KeepsAnglesWithinTheirLimits) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const Shown shown(body, Posed(body), {-40, 40});
+  TreeState start = StandingState(body.tree);
+  start.root_position = {0, 0.95, 0};
+  FitWorkspace workspace;
+  const SilhouetteFit fit = FitSilhouettes(body, shown.Views(), start, nullptr, {.cost = SmallPictures()}, workspace);
+  for (std::size_t i = 0; i < fit.state.angles.size(); ++i) {
+    EXPECT_GE(fit.state.angles[i], body.tree.limits[i].lower);
+    EXPECT_LE(fit.state.angles[i], body.tree.limits[i].upper);
+  }
+}
+
+TEST(FitJoints, GivesAPoseOfTheBodyBack) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  for (const double phase : {0.0, 1.5, 3.0}) {
+    TreeState truth = Posed(body, phase);
+    truth.root_frame = RotationBy({0, 2 + phase, 0}) * truth.root_frame;
+    const BodyPose wanted = ToBodyPose(body, truth);
+    const BodyPose found = ToBodyPose(body, FitJoints(body, TargetsOf(wanted, 1e-4)));
+    EXPECT_LT(MeanError(found, wanted), 1e-3);
+  }
+}
+
+TEST(FitJoints, FillsInWhatNobodyKnows) {
+  const SilhouetteBody body = MakeSilhouetteBody({});
+  const BodyPose wanted = ToBodyPose(body, Posed(body));
+  JointTargets targets = TargetsOf(wanted, 1e-3);
+  for (const Role role : {Role::kLeftElbow, Role::kSpine, Role::kRightHand}) targets[Index(role)].reset();
+  const BodyPose found = ToBodyPose(body, FitJoints(body, targets));
+  EXPECT_LT(glm::distance(found[Role::kLeftWrist], wanted[Role::kLeftWrist]), 5e-3);
+  EXPECT_LT(glm::distance(found[Role::kLeftElbow], wanted[Role::kLeftElbow]), 5e-2);
+}
+
+}  // namespace
+}  // namespace etude
