@@ -3,11 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 
@@ -28,13 +30,17 @@ Result<FuzzySystem> FuzzySystemOf(const Condition& condition, const SourceTexts&
   });
 }
 
-/// The text of the sensor file that a condition names; "" when it names none, or a preset.
-Result<std::string> SensorTextOf(const Condition& condition, const SourceTexts& texts) {
-  const Node* named = condition.node.Find(kSensorKey);
-  if (named == nullptr || named->kind != Node::Kind::kScalar || !IsSensorFile(named->scalar)) return std::string();
-  const auto text = texts.find(named->scalar);
-  if (text == texts.end()) return Fail(named->place, "the text of '{}' is missing", named->scalar);
-  return text->second;
+/// The texts of the sensor file and the calibration file that a condition names, by key.
+Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const SourceTexts& texts) {
+  std::map<std::string, std::string> named_texts;
+  for (const auto& [key, is_file] : {std::pair{kSensorKey, &IsSensorFile}, std::pair{kRigFileKey, &IsRigFile}}) {
+    const Node* named = condition.node.Find(key);
+    if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
+    const auto text = texts.find(named->scalar);
+    if (text == texts.end()) return Fail(named->place, "the text of '{}' is missing", named->scalar);
+    named_texts[key] = text->second;
+  }
+  return named_texts;
 }
 
 /// One task per condition. The task reads its own keys from the condition's mapping; what neither it nor
@@ -50,8 +56,8 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, c
     Fields fields(condition.node, "a scenario of task " + scenario.task);
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
     ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(condition, texts));
-    ASSIGN_OR_RETURN(auto sensor_text, SensorTextOf(condition, texts));
-    TaskInput input{fields, built_in, clips, std::move(fuzzy), std::move(sensor_text)};
+    ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, texts));
+    TaskInput input{fields, built_in, clips, std::move(fuzzy), std::move(named_texts)};
     ASSIGN_OR_RETURN(auto task, FindTaskKind(scenario.task)->make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));

@@ -8,6 +8,7 @@
 #include "bench/files/files.h"
 #include "bench/run/manifest.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
@@ -36,11 +37,12 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Likewise of the fuzzy systems and sensor files that its conditions name. What is no text is refused when the tasks
-/// are made.
+/// Likewise of the fuzzy systems, sensor files and calibration files that its conditions name. What is no text is
+/// refused when the tasks are made.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
-    for (const auto& [key, is_file] : {std::pair{kFuzzyKey, &IsFuzzyFile}, std::pair{kSensorKey, &IsSensorFile}}) {
+    for (const auto& [key, is_file] : {std::pair{kFuzzyKey, &IsFuzzyFile}, std::pair{kSensorKey, &IsSensorFile},
+                                       std::pair{kRigFileKey, &IsRigFile}}) {
       const Node* named = condition.node.Find(key);
       if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
       if (auto kept = KeepText(named->scalar, texts); !kept) {

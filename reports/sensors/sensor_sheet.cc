@@ -15,6 +15,13 @@ constexpr double kRowHeight = kRowTitle + kPictureHeight + kCaption + kGap;
 
 Paint PaintOf(const Rgb8& colour) { return {colour.r / 255.0, colour.g / 255.0, colour.b / 255.0, 1}; }
 
+// The largest box of the picture's shape in the middle of another.
+Box Inside(const ColourImage& picture, const Box& box) {
+  const double scale = std::min(box.width / picture.width, box.height / picture.height);
+  const double width = scale * picture.width, height = scale * picture.height;
+  return {box.x + (box.width - width) / 2, box.y + (box.height - height) / 2, width, height};
+}
+
 void DrawMarks(Canvas& canvas, const SheetPicture& shown, const Box& box) {
   const glm::dvec2 scale{box.width / shown.picture.width, box.height / shown.picture.height};
   const Box picture{0, 0, static_cast<double>(shown.picture.width), static_cast<double>(shown.picture.height)};
@@ -36,10 +43,10 @@ void DrawRow(Canvas& canvas, const SheetRow& row, double y) {
   canvas.DrawText({kMargin, y + 17}, row.title, kRowSize, kInk, canvas.width() - 2 * kMargin, true);
   double x = kMargin;
   for (const SheetPicture& shown : row.pictures) {
-    const Box box{x, y + kRowTitle, kPictureWidth, kPictureHeight};
+    const Box box = Inside(shown.picture, {x, y + kRowTitle, kPictureWidth, kPictureHeight});
     canvas.DrawImage(shown.picture, box);
     DrawMarks(canvas, shown, box);
-    canvas.DrawText({x, box.y + box.height + 15}, shown.caption, kCaptionSize, kSoftInk, kPictureWidth);
+    canvas.DrawText({x, y + kRowTitle + kPictureHeight + 15}, shown.caption, kCaptionSize, kSoftInk, kPictureWidth);
     x += kPictureWidth + kGap;
   }
 }

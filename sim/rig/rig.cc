@@ -44,6 +44,8 @@ std::vector<Stand> StandsOf(const RigOptions& options) {
     case RigShape::kCorners:
       for (const double angle_deg : {-45, 45, 135, -135}) add(angle_deg);
       break;
+    case RigShape::kFile:
+      break;
   }
   return stands;
 }
@@ -87,6 +89,27 @@ Camera SetUp(const Stand& stand, const glm::dvec3& middle, double distance, Rand
   return LookAt({}, foot + glm::dvec3(0, height, 0), middle + glm::dvec3(aim_x, aim_y, 0) + aside);
 }
 
+// The point that is nearest to all optical axes; where they are parallel, some metres ahead.
+glm::dvec3 CommonMiddle(std::span<const Camera> cameras) {
+  constexpr double kAhead = 3;          // metres
+  constexpr double kHintWeight = 1e-3;  // decides only what axes leave open
+  glm::dmat3 normal(0);
+  glm::dvec3 right(0);
+  for (const Camera& camera : cameras) {
+    const glm::dvec3 axis = glm::transpose(camera.R_CW)[2];
+    const glm::dmat3 across = glm::dmat3(1) - glm::outerProduct(axis, axis);
+    normal += across + kHintWeight * glm::dmat3(1);
+    right += across * camera.p_WC + kHintWeight * (camera.p_WC + kAhead * axis);
+  }
+  return glm::inverse(normal) * right;
+}
+
+std::vector<Camera> MovedTo(const glm::dvec3& middle, std::vector<Camera> cameras) {
+  const glm::dvec3 way = middle - CommonMiddle(cameras);
+  for (Camera& camera : cameras) camera.p_WC += glm::dvec3(way.x, 0, way.z);
+  return cameras;
+}
+
 }  // namespace
 
 glm::dvec3 MiddleOnFloor(std::span<const BodyPose> motion) {
@@ -103,6 +126,7 @@ glm::dvec3 MiddleOnFloor(std::span<const BodyPose> motion) {
 
 std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const BodyPose> motion, const WorldKey& key) {
   const glm::dvec3 middle = MiddleOnFloor(motion);
+  if (options.shape == RigShape::kFile) return MovedTo(middle, options.own);
   std::vector<Camera> cameras;
   for (const Stand& stand : StandsOf(options)) {
     RandomStream random(key, fmt::format("capture/camera-{}/place", cameras.size()));

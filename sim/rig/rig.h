@@ -15,6 +15,7 @@ enum class RigShape {
   kStereo,   ///< "stereo": a pair side by side in front, both axes parallel
   kRing,     ///< "ring": evenly about the performer, the first one in front
   kCorners,  ///< "corners": four, in the corners of a square about the performer
+  kFile,     ///< "file": somebody's own, as they were calibrated
 };
 
 struct RigOptions {
@@ -25,9 +26,10 @@ struct RigOptions {
   /// direction of a limb parallel to the line between them, and a performer who faces two has hips, shoulders and
   /// stretched arms there: so heights differ.
   std::vector<double> heights_m = {1.0, 2.2};
-  double distance_m = 3.8;  ///< from the middle of where the performer moves, as far as the room allows
-  double baseline_m = 0.6;  ///< kStereo: between the two
-  int cameras = 4;          ///< kRing: how many
+  double distance_m = 3.8;       ///< from the middle of where the performer moves, as far as the room allows
+  double baseline_m = 0.6;       ///< kStereo: between the two
+  int cameras = 4;               ///< kRing: how many
+  std::vector<Camera> own = {};  ///< kFile: metres, Y up
 };
 
 constexpr std::size_t kMostCameras = 8;
@@ -35,7 +37,8 @@ constexpr std::size_t kMostCameras = 8;
 /// The cameras of a studio, set up by hand for a take: fitted to the room (none stands in or behind its back wall) and
 /// to the motion. They look at the middle of where the performer moves; a camera that would lose a part of the
 /// performer takes a wider lens, to 94° (half of the usual focal length), and what leaves the picture then is out of
-/// view. Nobody sets up a tripod to the centimetre: every camera has dice of its own.
+/// view. Nobody sets up a tripod to the centimetre: every camera has dice of its own. A rig of one's own is moved along
+/// the floor as a whole, its cameras' common middle to that of the motion, and left as it is otherwise.
 /// @param motion at least one pose, metres, Y up
 std::vector<Camera> SetUpCameras(const RigOptions& options, std::span<const BodyPose> motion, const WorldKey& key);
 

@@ -5,7 +5,7 @@
 namespace etude {
 
 /// The key of a task that senses skeletons: a preset or a sensor file (docs/sensor.md). Whoever makes the task opens
-/// what it names, and gives the text as TaskInput::sensor_text.
+/// what it names, and gives the text in TaskInput::texts.
 constexpr const char* kSensorKey = "sensor";
 
 /// Whether a reference names a file, and not a preset.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,8 +78,9 @@ struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
-  FuzzySystem fuzzy = {};        ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
-  std::string sensor_text = {};  ///< of the file that its key `sensor` names (sensor_key.h)
+  FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
+  /// Of the other files that its keys name, by key (sensor_key.h, rig_key.h).
+  std::map<std::string, std::string> texts = {};
 };
 
 /// A kind of question that can be asked: one entry per folder of bench/tasks.

@@ -1,5 +1,6 @@
 #include "bench/tasks/capture/options.h"
 
+#include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/capture/camera_fields.h"
 
 namespace etude {
@@ -34,9 +35,16 @@ FieldTable<StudioOptions> MakeConditionFields() {
            {{"angles", RigShape::kAngles},
             {"stereo", RigShape::kStereo},
             {"ring", RigShape::kRing},
-            {"corners", RigShape::kCorners}},
-           "How the cameras stand about the performer: at given angles, side by side in front, evenly around, or in "
-           "four corners."),
+            {"corners", RigShape::kCorners},
+            {"file", RigShape::kFile}},
+           "How the cameras stand about the performer: at given angles, side by side in front, evenly around, in four "
+           "corners, or as your own were calibrated."),
+       Key{{kRigFileKey, TextKind("a calibration file"), "(none)",
+            "Your own cameras, two to eight: what `etude calibrate` writes, OpenCV's YAML, Pose2Sim's or Anipose's "
+            "TOML, "
+            "Qualisys' XML. The rig is moved as a whole to where the performer is."},
+           [](Fields& condition, Options&) { condition.Raw(kRigFileKey); }}
+           .With("rig", {"file"}),
        Key::Numbers("camera_angles_deg", InRig<&RigOptions::angles_deg>, {2, kMostCameras}, "two to eight of -180…180",
                     {-180, 180}, "Where they stand: 0 = in front, positive = to the performer's left.")
            .With("rig", {"angles"}),

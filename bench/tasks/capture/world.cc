@@ -139,7 +139,9 @@ CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& c
   world.brightness = MakeBrightness(options, world.truth.size(), key);
   world.cameras = SetUpCameras(options.rig, world.truth, key);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
-    world.cameras[i].distortion = LensOf(options.camera, world.cameras[i], i, key);
+    // One's own cameras have their own, unless a scenario wants another.
+    const Distortion wanted = LensOf(options.camera, world.cameras[i], i, key);
+    if (!wanted.IsNone()) world.cameras[i].distortion = wanted;
   }
   world.in_view = FramesInView(world.cameras, world.truth);
   world.stage_options = StageOptionsOf(options, key);

@@ -132,7 +132,7 @@ Result<SkeletonSensorOptions> SensorOf(const TaskInput& input) {
     return Fail(named->place, "'{}' must be v1, v2 or a sensor file, found {}", kSensorKey, Describe(*named));
   }
   if (const auto preset = FindSensorPreset(named->scalar)) return *preset;
-  return ReadSensorFile(input.sensor_text, named->scalar);
+  return ReadSensorFile(input.texts.at(kSensorKey), named->scalar);
 }
 
 Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {

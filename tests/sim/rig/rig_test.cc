@@ -125,5 +125,39 @@ TEST(FramesInView, NeedsTheWholeBodyInTwoPictures) {
   EXPECT_FALSE(IsInPicture(cameras[0], reaching)) << "one hand above the picture";
 }
 
+TEST(SetUpCameras, MovesAnOwnRigAlongTheFloorAsAWholeAndLeavesItAsItIs) {
+  // Three cameras whose axes meet at (7, 1.1, −3).
+  const glm::dvec3 middle(7, 1.1, -3);
+  RigOptions options{.shape = RigShape::kFile};
+  for (const glm::dvec3& from : {glm::dvec3(3, 1, 0), glm::dvec3(-2, 2, 2.5), glm::dvec3(0, 0.5, 4)}) {
+    options.own.push_back(LookAt({.width = 320, .height = 200, .fx = 300, .fy = 310}, middle + from, middle));
+  }
+  options.own[1].distortion.k1 = -0.1;
+  const std::vector<BodyPose> motion = Walk({-1, 0, 2}, {1, 0, 2});
+  const glm::dvec3 wanted = MiddleOnFloor(motion);
+  const std::vector<Camera> cameras = SetUpCameras(options, motion, Trial(0));
+  ASSERT_EQ(cameras.size(), 3u);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const glm::dvec3 way = cameras[i].p_WC - options.own[i].p_WC;
+    EXPECT_NEAR(way.x, wanted.x - middle.x, 0.01);
+    EXPECT_EQ(way.y, 0) << "the floor stays where it is";
+    EXPECT_NEAR(way.z, wanted.z - middle.z, 0.01);
+    EXPECT_EQ(cameras[i].R_CW, options.own[i].R_CW);
+    EXPECT_EQ(cameras[i].intrinsics.fy, 310);
+    EXPECT_EQ(cameras[i].distortion, options.own[i].distortion);
+    EXPECT_NEAR(glm::distance(cameras[i].p_WC, cameras[0].p_WC),
+                glm::distance(options.own[i].p_WC, options.own[0].p_WC), 1e-12);
+  }
+}
+
+TEST(SetUpCameras, FindsAPlaceBeforeAnOwnRigWhoseAxesNeverMeet) {
+  const Camera left = LookAt({}, {-0.3, 1, 10}, {-0.3, 1, 0}), right = LookAt({}, {0.3, 1, 10}, {0.3, 1, 0});
+  const std::vector<BodyPose> still = Walk({0, 0, 0}, {0, 0, 0});
+  for (const Camera& camera : SetUpCameras({.shape = RigShape::kFile, .own = {left, right}}, still, Trial(0))) {
+    EXPECT_NEAR(DistanceOf(camera, MiddleOnFloor(still)), std::hypot(3, 0.3), 0.02);
+    EXPECT_TRUE(std::ranges::all_of(FramesInView(std::vector{camera, camera}, still), [](bool seen) { return seen; }));
+  }
+}
+
 }  // namespace
 }  // namespace etude

@@ -5,6 +5,7 @@
 
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/score.h"
+#include "engine/cameras/pose2sim_file.h"
 #include "engine/document/node.h"
 #include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
@@ -17,11 +18,11 @@ using testing::HasSubstr;
 
 const WorldKey kKey{.suite_seed = 3, .scenario = "capture-test", .trial = 0};
 
-Result<std::unique_ptr<Task>> Make(const std::string& yaml) {
+Result<std::unique_ptr<Task>> Make(const std::string& yaml, const std::map<std::string, std::string>& texts = {}) {
   ASSIGN_OR_RETURN(const auto node, ParseYaml(yaml, "test.yaml"));
   ASSIGN_OR_RETURN(const auto clips, LoadClips({"builtin:boxing"}, {}));
   Fields condition(node, "a test");
-  TaskInput input{condition, node.Find("methods")->items, clips};
+  TaskInput input{condition, node.Find("methods")->items, clips, {}, texts};
   auto task = MakeCaptureTaskKind().make(input);
   if (task && !condition.ok()) return tl::unexpected(condition.Finish().error());
   return task;
@@ -233,6 +234,36 @@ TEST(CaptureTask, RecordsWhatAVideoAndABvhFileNeed) {
   const auto clip = ReadBvh(extras->bvh, "a.bvh");
   ASSERT_TRUE(clip) << ToString(clip.error());
   EXPECT_EQ(clip->frames.size(), 3u);
+}
+
+TEST(CaptureTask, FilmsWithOnesOwnCameras) {
+  const std::string yaml =
+      "duration_s: 0.1\nrig: file\nrig_file: mine.toml\nmethods:\n- {name: a, oracle: [calibration]}\n";
+  const Intrinsics in{.width = 400, .height = 300, .fx = 380, .fy = 380, .cx = 200, .cy = 150};
+  std::vector<NamedCamera> mine;
+  for (const double x : {-2.0, 2.0, 3.0})
+    mine.push_back({fmt::format("c{}", mine.size()), LookAt(in, {x, 1 + 0.3 * x, 3}, {0, 1, 0})});
+  const auto task = Make(yaml, {{"rig_file", WritePose2SimCalibration(mine)}});
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, kKey, 1, true);
+  ASSERT_EQ(cells[0].status, Status::kOk) << cells[0].reason;
+  const auto extras = ReadCaptureExtras(cells[0].recording->extras_json);
+  ASSERT_TRUE(extras);
+  ASSERT_EQ(extras->views.size(), 3u);
+  EXPECT_EQ(extras->views[1].truth.intrinsics.width, 400);
+  EXPECT_NEAR(extras->views[2].truth.p_WC.y, 1.9, 1e-9);
+
+  const auto refusal = [&](const std::vector<NamedCamera>& cameras) {
+    const auto refused = Make(yaml, {{"rig_file", WritePose2SimCalibration(cameras)}});
+    return refused ? std::string() : ToString(refused.error());
+  };
+  EXPECT_THAT(refusal({mine[0]}), HasSubstr("has 1 cameras; allowed: 2 to 8"));
+  std::vector<NamedCamera> huge = mine;
+  huge[1].camera.intrinsics.width = 5000;
+  EXPECT_THAT(refusal(huge), HasSubstr("camera 'c1' of 'mine.toml' takes pictures of 5000 × 300"));
+  const auto nameless = Make("rig: file\nmethods:\n- {name: a}\n");
+  ASSERT_FALSE(nameless);
+  EXPECT_THAT(ToString(nameless.error()), HasSubstr("needs 'rig_file'"));
 }
 
 TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
