@@ -43,9 +43,9 @@ struct SilhouetteBody {
 };
 
 /// A generic adult of these limb lengths: rooted at the hip centre, which is free to move and turn; the back bends in
-/// two places, each shoulder is borne by a collar bone. The flesh is that of an average clothed adult (girths after
-/// C. C. Gordon et al., 2012 Anthropometric Survey of U.S. Army Personnel, rounded, and a centimetre of clothes on the
-/// trunk), scaled by what the lengths say of the stature. Of the person in the pictures it knows nothing but `lengths`.
+/// two places, each shoulder is borne by a collar bone. The flesh is that of an average clothed adult (girths *ours*:
+/// round figures for a grown person, no table's, and a centimetre of clothes on the trunk), scaled by what the lengths
+/// say of the stature. Of the person in the pictures it knows nothing but `lengths`.
 SilhouetteBody MakeSilhouetteBody(const LimbLengths& lengths);
 
 glm::dvec3 PlaceOf(const TreePoint& point, const TreeFrames& frames);
