@@ -4,7 +4,6 @@
 #include "cli/capture_command.h"
 #include "cli/validators.h"
 #include "engine/keypoints/landmarks.h"
-#include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 namespace {
@@ -17,8 +16,10 @@ constexpr const char* kCaptureExamples =
     "pictures for each film). Each entry's name begins with its film's: cam01.mp4, cam01_json/.\n\n"
     "Lenses are undone; persons are matched over cameras and time; each point comes from all cameras that agree on "
     "it,\n"
-    "weighed by confidence; gaps up to --longest-gap are bridged; limb lengths are medians of what was seen; inverse\n"
-    "kinematics gives joint angles. --person 2 asks for the one seen second most.\n\n"
+    "weighed by confidence; gaps up to --longest-gap are bridged; bones are as long as in the median of what was\n"
+    "seen; inverse kinematics brings all joints as near to their points as the bones allow, and a table tells how "
+    "near.\n"
+    "--person 2 asks for the one seen second most.\n\n"
     "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose or Qualisys. Films are\n"
     "matched to its cameras by name (cam01.mp4 is cam_01), or in the order of --cameras. Films of other sizes than "
     "the\n"
@@ -29,12 +30,6 @@ constexpr const char* kCaptureExamples =
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
     "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
     "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6";
-
-std::vector<std::string> SolverNames() {
-  std::vector<std::string> names;
-  for (const IkSolver& solver : AllIkSolvers()) names.emplace_back(solver.name);
-  return names;
-}
 
 }  // namespace
 
@@ -71,9 +66,6 @@ void DefineCapture(CLI::App& app, Action& action) {
       ->add_option("--outlier", options->outlier_px,
                    "A keypoint further than this from where the others say is left out, px (0: 3 % of the picture)")
       ->check(NumberWithin(0, 10000, "distance in px"))
-      ->capture_default_str();
-  command->add_option("--solver", options->solver, "Of inverse kinematics")
-      ->check(CLI::IsMember(SolverNames()))
       ->capture_default_str();
   command->add_flag("--overwrite", options->overwrite, "Replace files that are there");
   command->footer(kCaptureExamples);

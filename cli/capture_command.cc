@@ -139,7 +139,7 @@ Result<void> ReadPeople(const CaptureCommandOptions& options, FilmedView& view) 
 }
 
 RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views) {
-  RecoverPersonOptions recover{.rate_hz = views.front().facts.rate_hz, .match = {}, .triangulate = {}, .capture = {}};
+  RecoverPersonOptions recover{.rate_hz = views.front().facts.rate_hz, .match = {}, .triangulate = {}};
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.longest_gap_s = options.longest_gap_s;
@@ -151,9 +151,6 @@ RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, cons
     longest_side = std::max<double>({longest_side, static_cast<double>(in.width), static_cast<double>(in.height)});
   }
   recover.triangulate.robust.outlier_px = options.outlier_px > 0 ? options.outlier_px : kOutlierShare * longest_side;
-  recover.capture.recover.solver = FindIkSolver(options.solver);
-  recover.capture.bridge.longest_gap =
-      std::max(1, static_cast<int>(std::lround(options.longest_gap_s * recover.rate_hz)));
   return recover;
 }
 
@@ -198,6 +195,19 @@ void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& v
       kCmPerMetre * l.shank, kCmPerMetre * l.thigh, kCmPerMetre * l.trunk, kCmPerMetre * l.upper_arm,
       kCmPerMetre * l.forearm, kCmPerMetre * l.hip_width, kCmPerMetre * l.shoulder_width);
   if (person.held > 0) fmt::print("{} frames show too little and hold the last pose\n", person.held);
+}
+
+/// How far the joints of what is written are from the points that they were fitted to.
+void PrintFit(const RecoveredPerson& person) {
+  const MarkerMotion skeleton = JointMarkers(person.motion);
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  std::vector<MarkerAgreement> rows = CompareMarkers(skeleton, points);
+  rows.push_back(CompareAllMarkers(skeleton, points));
+  fmt::print("\nDistance of the skeleton's joints to the triangulated points, mm:\n{:<16}{:>8}{:>8}\n", "", "median",
+             "p95");
+  for (const MarkerAgreement& row : rows) {
+    if (row.frames > 0) fmt::print("{:<16}{:>8.1f}{:>8.1f}\n", row.name, row.median_mm, row.p95_mm);
+  }
 }
 
 /// One column of the table: some cameras, and how near their points come to the reference.
@@ -331,6 +341,7 @@ Result<void> Capture(const CaptureCommandOptions& options) {
   ASSIGN_OR_RETURN(const RecoveredPerson person, Recover(all, recover));
   PrintPeople(person, views);
   PrintReport(person, views);
+  PrintFit(person);
   const std::string name = fs::path(options.output).stem().string();
   RETURN_IF_ERROR(WriteFileAtomically(options.output, BytesOf(person, format, name)));
   fmt::print("written: {}\n", options.output);

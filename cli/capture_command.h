@@ -19,7 +19,6 @@ struct CaptureCommandOptions {
   std::string layout;                ///< a name of KeypointLayouts(), "" = by the count
   std::string fit = "none";          ///< letterbox, stretch, crop
   std::vector<std::string> cameras;  ///< of the rig, one for each film; empty: by the films' names
-  std::string solver = "gauss-newton";
   int person = 1;
   double smooth_hz = 0;
   double longest_gap_s = 0.5;

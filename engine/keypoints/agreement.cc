@@ -30,6 +30,12 @@ std::vector<double> Distances(const MarkerMotion& motion, const MarkerMotion& re
   return distances;
 }
 
+MarkerMotion NamedByRole(double rate_hz) {
+  MarkerMotion motion{.rate_hz = rate_hz, .names = {}, .frames = {}};
+  for (const Role role : AllRoles()) motion.names.emplace_back(RoleName(role));
+  return motion;
+}
+
 }  // namespace
 
 MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
@@ -45,6 +51,21 @@ MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
     for (const std::size_t i : seen) places.push_back(frame[i]);
   }
   return motion;
+}
+
+MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
+  MarkerMotion motion = NamedByRole(rate_hz);
+  for (const LandmarkPlaces& frame : frames) {
+    const RoleVectors joints = JointsOf(frame);
+    motion.frames.emplace_back(joints.begin(), joints.end());
+  }
+  return motion;
+}
+
+MarkerMotion JointMarkers(const BodyMotion& motion) {
+  MarkerMotion markers = NamedByRole(motion.rate_hz);
+  for (const BodyPose& pose : motion.poses) markers.frames.emplace_back(pose.joints.begin(), pose.joints.end());
+  return markers;
 }
 
 std::vector<MarkerAgreement> CompareMarkers(const MarkerMotion& motion, const MarkerMotion& reference) {

@@ -6,11 +6,16 @@
 
 #include "engine/formats/trc.h"
 #include "engine/keypoints/keypoint_motion.h"
+#include "engine/motion/body.h"
 
 namespace etude {
 
 /// The places of landmarks as markers that carry their names; those never seen are left out.
 MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
+
+/// The joints that landmarks tell of (`JointsOf`), and those of a motion, as markers that carry their roles' names.
+MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
+MarkerMotion JointMarkers(const BodyMotion& motion);
 
 /// How far two recordings of one marker are apart.
 struct MarkerAgreement {

@@ -35,19 +35,6 @@ constexpr SideRoles kSideRoles[] = {{Role::kLeftShoulder, Role::kLeftElbow, Role
 constexpr double kHandOfForearm = 0.72;
 constexpr double kFootLength = 0.18;
 
-/// A direction and what it points from and to.
-struct Limb {
-  Role from, to;
-};
-constexpr Limb kLimbs[] = {{Role::kShoulderCentre, Role::kHead},      {Role::kLeftShoulder, Role::kLeftElbow},
-                           {Role::kLeftElbow, Role::kLeftWrist},      {Role::kLeftWrist, Role::kLeftHand},
-                           {Role::kRightShoulder, Role::kRightElbow}, {Role::kRightElbow, Role::kRightWrist},
-                           {Role::kRightWrist, Role::kRightHand},     {Role::kLeftHip, Role::kLeftKnee},
-                           {Role::kLeftKnee, Role::kLeftAnkle},       {Role::kLeftAnkle, Role::kLeftFoot},
-                           {Role::kRightHip, Role::kRightKnee},       {Role::kRightKnee, Role::kRightAnkle},
-                           {Role::kRightAnkle, Role::kRightFoot}};
-constexpr Role kEnds[] = {Role::kLeftFoot, Role::kRightFoot, Role::kLeftHand, Role::kRightHand, Role::kHead};
-
 /// Where the body faces: normal to the hips' line and the trunk, level.
 std::optional<glm::dvec3> FacingOf(const RoleVectors& joints) {
   const auto &left = joints[Index(Role::kLeftHip)], &right = joints[Index(Role::kRightHip)];
@@ -182,54 +169,6 @@ RoleVectors JointsOf(const LandmarkPlaces& marks) {
     }
   }
   return joints;
-}
-
-std::vector<KnownMeasurement> MeasurementsOf(std::span<const LandmarkPlaces> frames) {
-  std::vector<KnownMeasurement> known;
-  for (const LandmarkPlaces& landmarks : frames) {
-    const RoleVectors joints = JointsOf(landmarks);
-    RoleVectors ends, directions;
-    for (const Role role : kEnds) ends[Index(role)] = joints[Index(role)];
-    for (const Limb& limb : kLimbs) {
-      const auto &from = joints[Index(limb.from)], &to = joints[Index(limb.to)];
-      constexpr double kShortest = 1e-3;
-      if (from && to && glm::distance(*from, *to) > kShortest) {
-        directions[Index(limb.to)] = glm::normalize(*to - *from);
-      }
-    }
-    known.push_back({ends, directions});
-  }
-  return known;
-}
-
-std::optional<LimbLengths> MedianLengths(std::span<const LandmarkPlaces> frames) {
-  std::array<std::vector<double>, 10> seen;
-  for (const LandmarkPlaces& landmarks : frames) {
-    const RoleVectors joints = JointsOf(landmarks);
-    const auto add = [&](std::size_t which, Role a, Role b) {
-      const auto &p = joints[Index(a)], &q = joints[Index(b)];
-      if (p && q) seen[which].push_back(glm::distance(*p, *q));
-    };
-    for (const SideRoles& r : kSideRoles) {
-      add(0, r.ankle, r.foot);
-      add(1, r.knee, r.ankle);
-      add(2, r.hip, r.knee);
-      add(7, r.shoulder, r.elbow);
-      add(8, r.elbow, r.wrist);
-      add(9, r.wrist, r.hand);
-    }
-    add(3, Role::kLeftHip, Role::kRightHip);
-    add(4, Role::kHipCentre, Role::kShoulderCentre);
-    add(5, Role::kShoulderCentre, Role::kHead);
-    add(6, Role::kLeftShoulder, Role::kRightShoulder);
-  }
-  std::array<double, 10> median{};
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    if (seen[i].empty()) return std::nullopt;
-    median[i] = MedianOf(seen[i]);
-  }
-  return LimbLengths{median[0], median[1], median[2], median[3], median[4],
-                     median[5], median[6], median[7], median[8], median[9]};
 }
 
 }  // namespace etude

@@ -10,7 +10,6 @@
 #include "engine/cameras/robust_triangulation.h"
 #include "engine/capture/measure_frames.h"
 #include "engine/keypoints/match_people.h"
-#include "engine/kinematics/limb_lengths.h"
 
 namespace etude {
 
@@ -47,11 +46,5 @@ void SmoothPoints(std::span<LandmarkPlaces> frames, double rate_hz, double cutof
 /// the forearm at 0.72 of its length; without a face, the head goes on from the trunk at half of its length; without
 /// toes, a foot is 0.18 m ahead of its ankle and a little down.
 RoleVectors JointsOf(const LandmarkPlaces& landmarks);
-
-/// What `CaptureMotion` is told of every frame: ends and directions of the limbs.
-std::vector<KnownMeasurement> MeasurementsOf(std::span<const LandmarkPlaces> frames);
-
-/// Median over all frames and both sides of every limb that was seen. Nothing when some limb never was.
-std::optional<LimbLengths> MedianLengths(std::span<const LandmarkPlaces> frames);
 
 }  // namespace etude

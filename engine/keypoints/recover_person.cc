@@ -4,18 +4,19 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/keypoints/fit_person.h"
 #include "engine/kinematics/capture_body.h"
 
 namespace etude {
 namespace {
 
-Result<CapturedMotion> Capture(std::span<const ProjectionMatrix> matrices, const RecoveredPerson& person,
-                               const CaptureOptions& options) {
-  const std::vector<KnownMeasurement> known = MeasurementsOf(person.landmarks);
-  const std::vector<std::vector<Marks>> marks(matrices.size(), std::vector<Marks>(known.size()));
-  const CaptureInputs inputs{.pictures = {.cameras = matrices, .marks = marks, .known = known},
-                             .body = PaperBody(person.lengths)};
-  return CaptureMotion(inputs, options);
+/// Every frame: those without a state show the last one before, leading ones the first. At least one has a state.
+std::vector<TreeState> HoldStates(std::span<const std::optional<TreeState>> states) {
+  const auto first = std::ranges::find_if(states, [](const auto& state) { return state.has_value(); });
+  assert(first != states.end());
+  std::vector<TreeState> held;
+  for (const auto& state : states) held.push_back(state ? *state : held.empty() ? **first : held.back());
+  return held;
 }
 
 }  // namespace
@@ -60,17 +61,16 @@ Result<RecoveredPerson> RecoverPerson(std::span<const Camera> cameras, std::span
   person.landmarks = TriangulatePerson(matrices, wanted, options.triangulate, &person.report);
   BridgePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.longest_gap_s * options.rate_hz)));
   if (options.cutoff_hz > 0) SmoothPoints(person.landmarks, options.rate_hz, options.cutoff_hz);
-  const auto lengths = MedianLengths(person.landmarks);
-  if (!lengths) return Fail({}, "a limb is never seen by two cameras: its length is not known");
-  person.lengths = *lengths;
-  ASSIGN_OR_RETURN(const CapturedMotion captured, Capture(matrices, person, options.capture));
-  const auto recovered = std::ranges::count_if(captured.frames, [](const auto& frame) { return frame.has_value(); });
-  if (recovered == 0) return Fail({}, "no frame shows enough of the person");
-  person.held = captured.frames.size() - static_cast<std::size_t>(recovered);
-  const std::vector<RecoveredFrame> frames = HoldFrames(captured.frames);
-  person.clip = ToClip(PaperBody(person.lengths), frames, options.rate_hz, "capture");
+  ASSIGN_OR_RETURN(const CaptureBody body, MedianBody(person.landmarks));
+  person.lengths = body.lengths;
+  const auto states = FitPerson(body, person.landmarks);
+  const auto fitted = std::ranges::count_if(states, [](const auto& state) { return state.has_value(); });
+  if (fitted == 0) return Fail({}, "no frame shows enough of the person");
+  person.held = states.size() - static_cast<std::size_t>(fitted);
+  const std::vector<TreeState> held = HoldStates(states);
+  person.clip = ToClip(body, held, options.rate_hz, "capture");
   person.motion.rate_hz = options.rate_hz;
-  for (const RecoveredFrame& frame : frames) person.motion.poses.push_back(frame.pose);
+  for (const TreeState& state : held) person.motion.poses.push_back(ToBodyPose(body, state));
   return person;
 }
 

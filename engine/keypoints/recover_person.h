@@ -6,8 +6,9 @@
 
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
-#include "engine/capture/capture_motion.h"
 #include "engine/keypoints/keypoint_motion.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/motion/body.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
@@ -19,7 +20,6 @@ struct RecoverPersonOptions {
   std::size_t person = 0;      ///< which of those found, the one seen most first
   double longest_gap_s = 0.5;  ///< longer ones are not bridged
   double cutoff_hz = 0;        ///< places are smoothed below this; 0: not at all
-  CaptureOptions capture;      ///< its solver is needed
 };
 
 /// A person out of several cameras' keypoints.
@@ -37,8 +37,8 @@ struct RecoveredPerson {
 SeenPeople UndistortPeople(const Camera& camera, SeenPeople people);
 
 /// From the keypoints of everybody to the motion of one person: MatchPeople, TriangulatePerson, BridgePoints,
-/// SmoothPoints, lengths by MedianLengths, then CaptureMotion with what the points say. Fails when nobody is seen by
-/// two cameras, there are not so many people, or some limb never was seen.
+/// SmoothPoints, then the person's own body (MedianBody) and its poses (FitPerson). Fails when nobody is seen by two
+/// cameras, there are not so many people, or some limb never was seen.
 /// @param cameras at least two
 /// @param people of each camera, as many frames, in the pixels of its picture
 Result<RecoveredPerson> RecoverPerson(std::span<const Camera> cameras, std::span<const SeenPeople> people,

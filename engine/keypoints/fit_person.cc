@@ -1,0 +1,97 @@
+#include "engine/keypoints/fit_person.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/capture/fit_pose.h"
+#include "engine/capture/measure_joints.h"
+#include "engine/kinematics/limb_lengths.h"
+#include "engine/kinematics/start_angles.h"
+#include "engine/motion/rest_body.h"
+
+namespace etude {
+namespace {
+
+constexpr std::ptrdiff_t kLeastJoints = 8;
+constexpr double kUnseen = 0.01;  // the weight of a joint that was completed
+constexpr int kRootSteps = 3;     // twenty bring joints nearer by one percent more
+
+std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a, Role b) {
+  std::vector<double> lengths;
+  for (const RoleVectors& joints : frames) {
+    const auto &p = joints[Index(a)], &q = joints[Index(b)];
+    if (p && q) lengths.push_back(glm::distance(*p, *q));
+  }
+  if (lengths.empty()) return std::nullopt;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone& bone) {
+  // No landmark is the spine's: it shares the trunk.
+  const bool is_below = bone.child == Role::kSpine, is_above = bone.parent == Role::kSpine;
+  if (!is_below && !is_above) return MedianDistance(frames, bone.parent, bone.child);
+  const auto trunk = MedianDistance(frames, Role::kHipCentre, Role::kShoulderCentre);
+  if (!trunk) return std::nullopt;
+  return (is_below ? kSpineShare : 1 - kSpineShare) * *trunk;
+}
+
+PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
+  PoseTargets wanted{.places = completed, .weights = {}};
+  for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
+  return wanted;
+}
+
+/// The root stands at the left toe's place, whose errors then are the whole body's: in turn it moves by the mean of
+/// what all joints are off, and the angles follow.
+TreeState MoveRoot(const CaptureBody& body, const PoseFitter& fitter, const PoseTargets& wanted, TreeState state) {
+  for (int step = 0; step < kRootSteps; ++step) {
+    const BodyPose pose = ToBodyPose(body, state);
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      sum += wanted.weights[i] * (wanted.places.joints[i] - pose.joints[i]);
+      weights += wanted.weights[i];
+    }
+    state.root_position += sum / weights;
+    state = fitter.Improve(wanted, state);
+  }
+  return state;
+}
+
+}  // namespace
+
+Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
+  std::vector<RoleVectors> joints;
+  for (const LandmarkPlaces& landmarks : frames) joints.push_back(JointsOf(landmarks));
+  // Only the lengths of its bones count.
+  BodyPose straight;
+  for (const Bone& bone : AllBones()) {
+    const auto length = MedianBone(joints, bone);
+    if (!length) return Fail({}, "no frame shows how far {} is from {}", RoleName(bone.child), RoleName(bone.parent));
+    straight[bone.child] = straight[bone.parent] + glm::dvec3(0, *length, 0);
+  }
+  return FittedBody(RestBodyOf({&straight, 1}));
+}
+
+std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames) {
+  const PoseFitter fitter(body);
+  BodyPose like = ToBodyPose(body, StandingState(body.tree));
+  std::vector<std::optional<TreeState>> states;
+  for (const LandmarkPlaces& landmarks : frames) {
+    const RoleVectors joints = JointsOf(landmarks);
+    states.emplace_back();
+    if (std::ranges::count_if(joints, [](const auto& joint) { return joint.has_value(); }) < kLeastJoints) continue;
+    const std::optional<BodyPose> completed = CompleteJoints(joints, like);
+    if (!completed) continue;
+    const PoseTargets wanted = TargetsOf(joints, *completed);
+    const std::optional<TreeState> pointed = fitter.Fit(wanted);
+    if (!pointed) continue;
+    states.back() = MoveRoot(body, fitter, wanted, *pointed);
+    like = ToBodyPose(body, *states.back());
+  }
+  return states;
+}
+
+}  // namespace etude
