@@ -39,7 +39,8 @@ void DefineCapture(CLI::App& app, Action& action) {
   command->add_option("films", options->films, "A film of each camera, all begun at the same moment")->required();
   command->add_option("--rig", options->rig, "The calibrated cameras")->required();
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);  // films may follow
   auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
   command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
       ->excludes(keypoints);

@@ -144,6 +144,18 @@ class Capture(EtudeCase):
         self.assertRegex(beside, r"LWrist +0\.0 +0\.0 +0\.0 +0\.0\n")
         self.assertIn("agreement, not error", beside)
 
+        # On exact keypoints of a body that keeps its lengths the skeleton's joints lie on their points.
+        self.assertRegex(result.stdout, r"left_knee +0\.0 +0\.0\n")
+        self.assertRegex(result.stdout, r"\nall +0\.0 +0\.[0-9]\n")
+
+    def test_names_cameras_before_or_after_the_films(self):
+        self.calibrate()
+        for i, arguments in enumerate((["--cameras", "left,middle,right", *self.films],
+                                       [*self.films, "--cameras", "left,middle,right"])):
+            result = self.etude("capture", "--rig", self.rig, *arguments, "--keypoints", self.keypoints, "-o",
+                                self.folder / f"{i}.csv")
+            self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_draws_the_skeleton_over_the_films(self):
         self.calibrate()
         film = self.folder / "overlay.mp4"
