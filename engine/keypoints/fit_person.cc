@@ -40,6 +40,8 @@ std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone
 PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};
   for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
+  // Where the trunk is seen shorter than its bones nobody sees which way it bends: it stays nearly straight.
+  if (joints[Index(Role::kHipCentre)] && joints[Index(Role::kShoulderCentre)]) wanted.weights[Index(Role::kSpine)] = 1;
   return wanted;
 }
 

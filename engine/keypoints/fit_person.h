@@ -18,8 +18,9 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames);
 
 /// The angles and the root's place in every frame that bring all joints of the body as near as they can be to where
 /// landmarks say they are (`JointsOf`): Σ weight · |place − joint|² is least, at least locally. Joints that a frame
-/// lacks hang as they did in the frame before, and weigh a hundredth. Nothing for frames that tell of fewer than eight
-/// joints. *(Ours.)*
+/// lacks hang as they did in the frame before, and weigh a hundredth; the spine, which no landmark shows, lies on the
+/// line from hips to shoulders and weighs one, since else the trunk would bend any way where it is seen shorter.
+/// Nothing for frames that tell of fewer than eight joints. *(Ours.)*
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames);
 
 }  // namespace etude

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "engine/base/angles.h"
 #include "tests/engine/keypoints/walkers.h"
@@ -92,6 +92,21 @@ TEST(FitPerson, NoOtherPoseNearbyIsNearerToNoisyPoints) {
         EXPECT_GT(SquaresOff(body, other, frames[k]), least) << k << ", axis " << axis;
       }
     }
+  }
+}
+
+TEST(FitPerson, ATrunkThatIsSeenShorterDoesNotBuckle) {
+  const CaptureBody body = MedianBody(Walk(0)).value();
+  std::vector<LandmarkPlaces> frames = Walk(0);
+  for (LandmarkPlaces& frame : frames) {
+    for (const Landmark hip : {Landmark::kLeftHip, Landmark::kRightHip}) *frame[Index(hip)] += glm::dvec3(0, 0.01, 0);
+  }
+  for (const auto& state : FitPerson(body, frames)) {
+    ASSERT_TRUE(state);
+    const BodyPose pose = ToBodyPose(body, *state);
+    const glm::dvec3 lower = glm::normalize(pose[Role::kSpine] - pose[Role::kHipCentre]);
+    const glm::dvec3 upper = glm::normalize(pose[Role::kShoulderCentre] - pose[Role::kSpine]);
+    EXPECT_GT(glm::dot(lower, upper), std::cos(Radians(4)));
   }
 }
 
