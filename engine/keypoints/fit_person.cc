@@ -37,6 +37,18 @@ std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone
   return (is_below ? kSpineShare : 1 - kSpineShare) * *trunk;
 }
 
+/// Readers of clips look for a joint that is called the head, and BVH ends each branch by an end without a name.
+void NameHead(CaptureBody& body) {
+  const auto head = std::ranges::find(body.skeleton, "head_end", &CaptureBody::ClipJoint::name);
+  if (head == body.skeleton.end()) return;
+  CaptureBody::ClipJoint end = *head;
+  end.parent = static_cast<int>(head - body.skeleton.begin());
+  end.offset = glm::dvec3(0);
+  head->name = "head";
+  head->is_end = false;
+  body.skeleton.push_back(end);
+}
+
 PoseTargets TargetsOf(const RoleVectors& joints, const BodyPose& completed) {
   PoseTargets wanted{.places = completed, .weights = {}};
   for (std::size_t i = 0; i < kRoleCount; ++i) wanted.weights[i] = joints[i] ? 1 : kUnseen;
@@ -74,7 +86,9 @@ Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames) {
     if (!length) return Fail({}, "no frame shows how far {} is from {}", RoleName(bone.child), RoleName(bone.parent));
     straight[bone.child] = straight[bone.parent] + glm::dvec3(0, *length, 0);
   }
-  return FittedBody(RestBodyOf({&straight, 1}));
+  ASSIGN_OR_RETURN(CaptureBody body, FittedBody(RestBodyOf({&straight, 1})));
+  NameHead(body);
+  return body;
 }
 
 std::vector<std::optional<TreeState>> FitPerson(const CaptureBody& body, std::span<const LandmarkPlaces> frames) {

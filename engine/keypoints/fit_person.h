@@ -12,8 +12,8 @@
 namespace etude {
 
 /// The body of a person: every bone between two joints as long as it is in the median of the frames that show both,
-/// left and right by themselves; the spine at `kSpineShare` of the trunk (`FittedBody`). Fails, naming the joint, when
-/// no frame shows some bone.
+/// left and right by themselves; the spine at `kSpineShare` of the trunk (`FittedBody`). The head is a joint of its
+/// clip. Fails, naming the joint, when no frame shows some bone.
 Result<CaptureBody> MedianBody(std::span<const LandmarkPlaces> frames);
 
 /// The angles and the root's place in every frame that bring all joints of the body as near as they can be to where

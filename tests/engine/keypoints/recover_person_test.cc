@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "engine/base/angles.h"
 #include "engine/keypoints/agreement.h"
@@ -174,16 +175,18 @@ TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
   EXPECT_LT(skeleton.p95_mm, points.p95_mm);
 }
 
-TEST(RecoverPerson, WritesTheClipWhereTheJointsAre) {
+TEST(RecoverPerson, ItsClipHasTheJointsWhereTheMotionHas) {
   const std::vector<Camera> cameras = FourCameras();
   const auto person = RecoverPerson(cameras, OneWalker(cameras, 2), Options());
   ASSERT_TRUE(person) << ToString(person.error());
-  const int knee = person->clip.skeleton.Find("left_knee");
-  ASSERT_GE(knee, 0);
   std::vector<GlobalTransform> globals;
-  for (std::size_t k = 0; k < kFrames; ++k) {
-    ComputeGlobals(person->clip.skeleton, person->clip.frames[k], globals);
-    EXPECT_LT(glm::distance(globals[knee].position, person->motion.poses[k][Role::kLeftKnee]), 1e-9);
+  for (const Role role : {Role::kLeftKnee, Role::kRightAnkle, Role::kLeftElbow, Role::kRightWrist, Role::kHead}) {
+    const int joint = person->clip.skeleton.Find(std::string(RoleName(role)));
+    ASSERT_GE(joint, 0) << RoleName(role);
+    for (std::size_t k = 0; k < kFrames; ++k) {
+      ComputeGlobals(person->clip.skeleton, person->clip.frames[k], globals);
+      EXPECT_LT(glm::distance(globals[joint].position, person->motion.poses[k][role]), 1e-9) << RoleName(role);
+    }
   }
 }
 
