@@ -18,9 +18,9 @@ struct ScenarioSetup {
   std::string name;  ///< a file may hold several scenarios
   std::uint64_t seed = 1;
   int trials = 1;
-  std::vector<std::string> clips;  ///< references; the scenario's own, or those of --clips
-  std::string joint_map;           ///< a key of SuiteSetup::sources, "" = none
-  std::string digest;              ///< of the texts that the scenario stands in
+  std::vector<std::string> clips;          ///< references; the scenario's own, or those of --clips
+  std::string joint_map;                   ///< a key of SuiteSetup::sources, "" = none
+  std::string digest;                      ///< of the texts that the scenario stands in
   std::vector<NamedClips> libraries = {};  ///< the scenario's own, and those of --library
 };
 
@@ -72,7 +72,7 @@ class PreparedScenario {
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
   std::map<std::string, ClipLibrary> libraries_;  ///< by name
-  std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
+  std::vector<std::unique_ptr<Task>> tasks_;      ///< one per condition
 };
 
 /// Reads the scenario, loads its clips and makes its tasks; every complaint about a scenario, its

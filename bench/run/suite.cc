@@ -59,7 +59,9 @@ Result<void> CheckThatClipsAreUsed(const std::vector<std::string>& paths, const 
   for (const std::string& path : paths) {
     ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({path}));
     const bool used = std::ranges::any_of(files, [&](const std::string& file) { return with_clips.contains(file); });
-    if (!used) return Fail({path, 0, 0}, "has no use for --clips or --library: no task of its scenarios makes its worlds of clips");
+    if (!used)
+      return Fail({path, 0, 0},
+                  "has no use for --clips or --library: no task of its scenarios makes its worlds of clips");
   }
   return {};
 }
@@ -123,7 +125,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     for (Scenario& scenario : scenarios) {
       const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
       for (const NamedClips& library : libraries) {
-        if (std::ranges::find(scenario.libraries, library.name, &NamedClips::name) == scenario.libraries.end()) continue;
+        if (std::ranges::find(scenario.libraries, library.name, &NamedClips::name) == scenario.libraries.end())
+          continue;
         return Fail({file, 0, 0}, "--library: scenario {} has a library '{}' of its own", scenario.name, library.name);
       }
       if (uses_clips) AddLibraries(libraries, scenario);
@@ -140,7 +143,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       if (uses_clips) with_clips.insert(file);
       const bool replaced = !options.clips.empty() && uses_clips;
       if (replaced && !scenario.libraries.empty()) {
-        return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one", scenario.name);
+        return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one",
+                    scenario.name);
       }
       // Clips of no library are not loaded where there are libraries.
       const std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
@@ -153,7 +157,8 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     }
     suite.sources.merge(texts);
   }
-  if (!options.clips.empty() || !options.libraries.empty()) RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
+  if (!options.clips.empty() || !options.libraries.empty())
+    RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
   return suite;
 }
 

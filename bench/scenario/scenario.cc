@@ -121,11 +121,11 @@ const FieldTable<Scenario>& ScenarioFields() {
        {{"libraries",
          {"a mapping of names to lists as of `clips`", R"({"type":"object"})"},
          "(none)",
-         "Instead of `clips`: every condition once for each, its worlds made of those clips alone; `etude run --library` "
+         "Instead of `clips`: every condition once for each, its worlds made of those clips alone; `etude run "
+         "--library` "
          "adds some."},
-        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
-          AddLibraries(ReadLibraries(fields, kind), s);
-        })},
+        when_right(
+            [](Fields& fields, Scenario& s, const TaskKind& kind) { AddLibraries(ReadLibraries(fields, kind), s); })},
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",

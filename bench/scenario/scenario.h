@@ -55,9 +55,9 @@ struct Scenario {
   std::string name;
   std::string question;
   std::string task;
-  std::vector<std::string> clips;  ///< references as written
+  std::vector<std::string> clips;     ///< references as written
   std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition once for each
-  std::string joint_map;           ///< file that teaches the joints of the clips (docs/clips.md), "" = none
+  std::string joint_map;              ///< file that teaches the joints of the clips (docs/clips.md), "" = none
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;

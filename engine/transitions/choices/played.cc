@@ -140,6 +140,24 @@ double ExcessCm(const JoinWindow& window, const std::vector<BodyPose>& played, c
   return 100 * worst;
 }
 
+double SquaredOff(const BodyPose& a, const BodyPose& b) {
+  double sum = 0;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    const glm::dvec3 off = a.joints[j] - b.joints[j];
+    sum += glm::dot(off, off);
+  }
+  return sum / kRoleCount;
+}
+
+/// How far the frames shown are from the nearer of both motions' own, summed over time, centimetres × seconds.
+double InventedCmSeconds(const JoinWindow& window, const std::vector<BodyPose>& played) {
+  double sum = 0;
+  for (int f = 1; f < window.Frames(); ++f) {
+    sum += std::sqrt(std::min(SquaredOff(played[f], window.old[f]), SquaredOff(played[f], window.next[f])));
+  }
+  return 100 * sum / window.rate_hz;
+}
+
 /// A transition that was played.
 struct PlayedWay {
   FramePair pair;
@@ -179,7 +197,8 @@ class Rehearsal {
     const JoinWindow window = Shortened(windows_[way.number], way.frames);
     std::vector<BodyPose> played = PlayMinimumJerk(window, way.fades);
     if (with_feet) PlantFeet(window, played);
-    return Time(way) + ExcessCm(window, played, own_[way.number]) / options_.excess_per_s;
+    return Time(way) + ExcessCm(window, played, own_[way.number]) / options_.excess_per_s +
+           InventedCmSeconds(window, played) / options_.invented_per_s;
   }
 
   /// A way whose time alone costs more than the best is not played.
@@ -231,6 +250,8 @@ const SettingTable<PlayedOptions>& PlayedSettings() {
   static const SettingTable<PlayedOptions> kSettings(
       {{"excess_per_s", &PlayedOptions::excess_per_s, 0.01, 1000,
         "How much acceleration beyond the clips' own, in centimetres per frame², weighs as much as a second of time."},
+       {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
+        "How far from both clips, in centimetres over a second, weighs as much as a second of time."},
        {"least_play_s", &PlayedOptions::least_play_s, 0, 60,
         "What must be left of the wanted clip to play, in seconds; its front half may always be entered."}});
   return kSettings;

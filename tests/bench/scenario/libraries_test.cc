@@ -6,8 +6,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string kTransitions =
-    "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
+const std::string kTransitions = "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
 
 std::vector<std::string> Labels(const Scenario& scenario) {
   std::vector<std::string> labels;
