@@ -13,6 +13,7 @@
 #include "engine/transitions/choices/direct.h"
 #include "engine/transitions/choices/explain.h"
 #include "engine/transitions/joins/planted_feet.h"
+#include "engine/transitions/joins/splice.h"
 
 namespace etude {
 namespace {
@@ -67,10 +68,7 @@ std::vector<BodyPose> FramesFrom(const BodyMotion& clip, int first, int count) {
 
 BodyPose FrameBeforeIn(const BodyMotion& clip, int frame) {
   if (frame > 0) return clip.poses[frame - 1];
-  BodyPose before = clip.poses[0];
-  if (clip.poses.size() < 2) return before;
-  for (std::size_t j = 0; j < kRoleCount; ++j) before.joints[j] = 2.0 * before.joints[j] - clip.poses[1].joints[j];
-  return before;
+  return clip.poses.size() > 1 ? FrameBefore(clip.poses[0], clip.poses[1]) : clip.poses[0];
 }
 
 /// The window of a pair as the join planted-feet would have it.
