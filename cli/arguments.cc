@@ -68,6 +68,8 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       ->excludes(shard_option, overwrite, resume);
   CLI::Option* from = command->add_option("--from", options->from, "Repeat the run that this manifest.json describes");
   for (CLI::Option* option : world_options) from->excludes(option);
+  from->excludes(command->add_option("--library", options->libraries,
+                                     "NAME=CLIPS: a library beside the scenarios', every condition once more for it"));
   command->callback([=, &action] {
     action = [=] {
       if (options->scenarios.empty() == options->from.empty()) {

@@ -40,6 +40,7 @@ Result<Rehearsal> ReadRehearsal(const std::string& file, std::optional<int> tria
   rehearsal.setup.name = scenario.name;
   rehearsal.setup.trials = trials.value_or(scenario.trials);
   rehearsal.setup.clips = scenario.clips;
+  rehearsal.setup.libraries = scenario.libraries;
   return rehearsal;
 }
 

@@ -40,6 +40,7 @@ Result<std::vector<FinishedScenario>> LoadScenarios(const fs::path& path) {
     const auto named = std::ranges::find(parsed, setup.name, &Scenario::name);
     if (named == parsed.end()) return Fail(place, "'{}' holds no scenario '{}'", setup.file, setup.name);
     named->trials = setup.trials;
+    AddLibraries(setup.libraries, *named);
     if (suite.scored) {
       RETURN_IF_ERROR(AddScoredMethod(*suite.scored, *named));
     }

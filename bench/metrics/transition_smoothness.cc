@@ -117,16 +117,20 @@ bool IsNatural(std::optional<double> jump_cm, std::vector<double> natural_jumps_
 }
 
 double FootSlideCmps(const BodyMotion& motion, int point) {
-  assert(point + 1 < static_cast<int>(motion.poses.size()));
+  return FootSlideCmps(motion.poses, point, point + static_cast<int>(motion.rate_hz), motion.rate_hz);
+}
+
+double FootSlideCmps(std::span<const BodyPose> poses, int first, int last, double rate_hz) {
+  assert(first + 1 < static_cast<int>(poses.size()));
   constexpr double kHeight = 0.025;  // metres: a foot this high counts no more
-  const int end = std::min(point + static_cast<int>(motion.rate_hz), static_cast<int>(motion.poses.size()) - 1);
+  const int end = std::min(last, static_cast<int>(poses.size()) - 1);
   double sum = 0;
   int samples = 0;
-  for (int frame = point; frame < end; ++frame) {
+  for (int frame = first; frame < end; ++frame) {
     for (Role foot : {Role::kLeftFoot, Role::kRightFoot}) {
-      const glm::dvec3& here = motion.poses[frame][foot];
-      const glm::dvec3 step = motion.poses[frame + 1][foot] - here;
-      const double speed = kCm * motion.rate_hz * std::sqrt(step.x * step.x + step.z * step.z);
+      const glm::dvec3& here = poses[frame][foot];
+      const glm::dvec3 step = poses[frame + 1][foot] - here;
+      const double speed = kCm * rate_hz * std::sqrt(step.x * step.x + step.z * step.z);
       sum += speed * std::clamp(2.0 - std::exp2(here.y / kHeight), 0.0, 1.0);
       ++samples;
     }

@@ -104,6 +104,9 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
     return scenario.scenario().name == row->scenario;
   });
   if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
+  if (!prepared->setup().libraries.empty()) {
+    return Fail({folder, 0, 0}, "scenario {} is about libraries, whose cells cannot be packed", row->scenario);
+  }
   SuiteSetup suite = whole.suite;
   ASSIGN_OR_RETURN(auto clips, PackClips(prepared->clips()));
   if (suite.scored && row->method == suite.scored->name) {

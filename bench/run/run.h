@@ -18,6 +18,7 @@ struct RunOptions {
   std::optional<std::uint64_t> seed;   ///< else each scenario's own, else 1
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
+  std::vector<std::string> libraries;  ///< NAME=CLIPS, beside the scenarios' libraries; one name may stand repeatedly
   std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
   std::string output;                  ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;              ///< replace a folder that already holds a run

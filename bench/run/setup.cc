@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -45,8 +46,9 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
 
 /// One task per condition. The task reads its own keys from the condition's mapping; what neither it nor
 /// the scenario knows is refused here.
-Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, const ClipLibrary& clips,
-                                                     const SourceTexts& texts) {
+Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
+    const Scenario& scenario, const std::function<const ClipLibrary&(const Condition&)>& clips_of,
+    const SourceTexts& texts) {
   std::vector<Node> built_in;
   for (const MethodEntry& method : scenario.methods) {
     if (method.exec.empty()) built_in.push_back(method.node);
@@ -57,7 +59,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(const Scenario& scenario, c
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
     ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(condition, texts));
     ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, texts));
-    TaskInput input{fields, built_in, clips, std::move(fuzzy), std::move(named_texts)};
+    TaskInput input{fields, built_in, clips_of(condition), std::move(fuzzy), std::move(named_texts)};
     ASSIGN_OR_RETURN(auto task, FindTaskKind(scenario.task)->make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));
@@ -95,6 +97,9 @@ Json EncodeSetup(const SuiteSetup& setup) {
                          {"clips", scenario.clips},
                          {"joint_map", scenario.joint_map},
                          {"digest", scenario.digest}});
+    for (const NamedClips& library : scenario.libraries) {
+      scenarios.back()["libraries"].push_back({{"name", library.name}, {"clips", library.clips}});
+    }
   }
   Json sources = Json::object();
   for (const auto& [file, text] : setup.sources) sources[file] = text;
@@ -117,6 +122,10 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
                                  scenario.at("seed").get<std::uint64_t>(), scenario.at("trials").get<int>(),
                                  scenario.at("clips").get<std::vector<std::string>>(), scenario.value("joint_map", ""),
                                  scenario.at("digest").get<std::string>()});
+      for (const Json& library : scenario.value("libraries", Json::array())) {
+        setup.scenarios.back().libraries.push_back(
+            {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
+      }
     }
     if (json.contains("scored")) {
       const Json& scored = json.at("scored");
@@ -136,6 +145,7 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   PreparedScenario prepared;
   prepared.scenario_ = std::move(*named);
   prepared.scenario_.trials = setup.trials;
+  AddLibraries(setup.libraries, prepared.scenario_);
   OpenOptions how;
   if (!setup.joint_map.empty()) {
     const auto text = suite.sources.find(setup.joint_map);
@@ -144,9 +154,15 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
     how.roles = std::move(roles);
   }
   ASSIGN_OR_RETURN(auto clips, LoadClips(setup.clips, {setup.file, 0, 0}, how));
+  for (const NamedClips& library : setup.libraries) {
+    ASSIGN_OR_RETURN(auto own, LoadClips(library.clips, {setup.file, 0, 0}, how));
+    clips.clips.insert(clips.clips.end(), own.clips.begin(), own.clips.end());
+    prepared.libraries_.emplace(library.name, std::move(own));
+  }
   prepared.clips_ = std::make_unique<ClipLibrary>(std::move(clips));
   prepared.setup_ = setup;
-  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, *prepared.clips_, suite.sources));
+  const auto clips_of = [&](const Condition& condition) -> const ClipLibrary& { return prepared.ClipsOf(condition); };
+  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources));
   prepared.tasks_ = std::move(tasks);
   if (suite.scored) {
     RETURN_IF_ERROR(AddScoredMethod(*suite.scored, prepared.scenario_));
@@ -194,7 +210,7 @@ Row PreparedScenario::IdentityOf(int condition, int trial, std::size_t method) c
   row.condition = scenario_.conditions[condition].swept;
   row.trial = trial;
   if (!clips.empty()) row.clip = clips.front();
-  row.units = UnitsOf(clips, scenario_.unit, *clips_);
+  row.units = UnitsOf(clips, scenario_.unit, ClipsOf(scenario_.conditions[condition]));
   row.method = scenario_.methods[method].name;
   return row;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,9 +18,10 @@ struct ScenarioSetup {
   std::string name;  ///< a file may hold several scenarios
   std::uint64_t seed = 1;
   int trials = 1;
-  std::vector<std::string> clips;  ///< references; the scenario's own, or those of --clips
-  std::string joint_map;           ///< a key of SuiteSetup::sources, "" = none
-  std::string digest;              ///< of the texts that the scenario stands in
+  std::vector<std::string> clips;          ///< references; the scenario's own, or those of --clips
+  std::string joint_map;                   ///< a key of SuiteSetup::sources, "" = none
+  std::string digest;                      ///< of the texts that the scenario stands in
+  std::vector<NamedClips> libraries = {};  ///< the scenario's own, and those of --library
 };
 
 /// A method whose answers are known already (etude score).
@@ -45,6 +47,7 @@ class PreparedScenario {
  public:
   const ScenarioSetup& setup() const { return setup_; }
   const Scenario& scenario() const { return scenario_; }
+  /// Those of all libraries, where there are any.
   const ClipLibrary& clips() const { return *clips_; }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
@@ -61,10 +64,15 @@ class PreparedScenario {
  private:
   friend Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup);
 
+  const ClipLibrary& ClipsOf(const Condition& condition) const {
+    return condition.library.empty() ? *clips_ : libraries_.at(condition.library);
+  }
+
   ScenarioSetup setup_;
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
-  std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
+  std::map<std::string, ClipLibrary> libraries_;  ///< by name
+  std::vector<std::unique_ptr<Task>> tasks_;      ///< one per condition
 };
 
 /// Reads the scenario, loads its clips and makes its tasks; every complaint about a scenario, its

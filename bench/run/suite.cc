@@ -7,6 +7,7 @@
 
 #include "bench/files/files.h"
 #include "bench/run/manifest.h"
+#include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
 #include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -58,9 +59,27 @@ Result<void> CheckThatClipsAreUsed(const std::vector<std::string>& paths, const 
   for (const std::string& path : paths) {
     ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({path}));
     const bool used = std::ranges::any_of(files, [&](const std::string& file) { return with_clips.contains(file); });
-    if (!used) return Fail({path, 0, 0}, "has no use for --clips: no task of its scenarios makes its worlds of clips");
+    if (!used)
+      return Fail({path, 0, 0},
+                  "has no use for --clips or --library: no task of its scenarios makes its worlds of clips");
   }
   return {};
+}
+
+/// Of "NAME=CLIPS" each; those of one name together.
+Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string>& options) {
+  std::vector<NamedClips> libraries;
+  for (const std::string& option : options) {
+    const std::size_t equals = option.find('=');
+    const std::string name = option.substr(0, equals);
+    if (equals == std::string::npos || equals + 1 == option.size() || !IsPlainName(name)) {
+      return Fail({}, "--library '{}': allowed: NAME=CLIPS, such as dance='mocap/*.bvh'", option);
+    }
+    auto known = std::ranges::find(libraries, name, &NamedClips::name);
+    if (known == libraries.end()) known = libraries.insert(known, {name, {}});
+    known->clips.push_back(option.substr(equals + 1));
+  }
+  return libraries;
 }
 
 }  // namespace
@@ -90,6 +109,7 @@ Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string
 
 Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   ASSIGN_OR_RETURN(const auto files, FindScenarioFiles(options.scenarios));
+  ASSIGN_OR_RETURN(const auto libraries, ReadLibraryOptions(options.libraries));
   SuiteSetup suite;
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
@@ -99,10 +119,17 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   for (const std::string& file : files) {
     SourceTexts texts;
     RETURN_IF_ERROR(ReadSources(file, texts));
-    ASSIGN_OR_RETURN(const auto scenarios, ParseScenarios(file, texts));
+    ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(file, texts));
     Digest digest;
     for (const auto& [path, text] : texts) digest.Add(text);
-    for (const Scenario& scenario : scenarios) {
+    for (Scenario& scenario : scenarios) {
+      const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
+      for (const NamedClips& library : libraries) {
+        if (std::ranges::find(scenario.libraries, library.name, &NamedClips::name) == scenario.libraries.end())
+          continue;
+        return Fail({file, 0, 0}, "--library: scenario {} has a library '{}' of its own", scenario.name, library.name);
+      }
+      if (uses_clips) AddLibraries(libraries, scenario);
       const auto [other, is_new] = file_of_name.emplace(scenario.name, file);
       if (!is_new) {
         return Fail({file, 0, 0}, "a scenario named '{}' stands in {} already", scenario.name, other->second);
@@ -113,18 +140,25 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
         return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
                     scenario.conditions.size(), scenario.methods.size(), trials, kMostCells);
       }
-      const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
       if (uses_clips) with_clips.insert(file);
       const bool replaced = !options.clips.empty() && uses_clips;
+      if (replaced && !scenario.libraries.empty()) {
+        return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one",
+                    scenario.name);
+      }
+      // Clips of no library are not loaded where there are libraries.
+      const std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
       const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
       RETURN_IF_ERROR(KeepText(joint_map, suite.sources));
       RETURN_IF_ERROR(KeepNamedFiles(scenario, suite.sources));
       suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
-                                 replaced ? options.clips : scenario.clips, joint_map, digest.Hex()});
+                                 scenario.libraries.empty() ? clips : std::vector<std::string>{}, joint_map,
+                                 digest.Hex(), scenario.libraries});
     }
     suite.sources.merge(texts);
   }
-  if (!options.clips.empty()) RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
+  if (!options.clips.empty() || !options.libraries.empty())
+    RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
   return suite;
 }
 

@@ -41,6 +41,25 @@ void ReadFilmedMethods(Fields& video, const Scenario& scenario, RecordingSelecti
   selection.methods = read.empty() ? names : read;
 }
 
+std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
+  const Node* libraries = fields.Raw("libraries");
+  if (libraries == nullptr) return {};
+  if (!kind.uses_clips) fields.Complain(libraries->place, "'libraries' has no use in task " + kind.name);
+  if (fields.Raw("clips") != nullptr) fields.Complain(libraries->place, "'libraries' stands in the place of 'clips'");
+  if (libraries->kind != Node::Kind::kMapping || libraries->entries.empty()) {
+    fields.Complain(libraries->place, "'libraries' must map names to lists of clips, found " + Describe(*libraries));
+    return {};
+  }
+  std::vector<NamedClips> read;
+  for (const Node::Entry& entry : libraries->entries) {
+    const auto clips = AsTexts(entry.value);
+    if (!IsPlainName(entry.key)) fields.Complain(entry.place, "'" + entry.key + "' is no plain name of a library");
+    if (!clips) fields.Complain(clips.error().place, clips.error().message);
+    read.push_back({entry.key, clips.value_or(std::vector<std::string>{})});
+  }
+  return read;
+}
+
 SamplingUnit ReadUnit(Fields& fields, const TaskKind& kind) {
   std::vector<std::string> names;
   for (SamplingUnit unit : kind.units) names.emplace_back(SamplingUnitName(unit));
@@ -99,6 +118,14 @@ const FieldTable<Scenario>& ScenarioFields() {
          "{}",
          "One condition for every combination of values."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.conditions = ReadSweep(fields, kind); })},
+       {{"libraries",
+         {"a mapping of names to lists as of `clips`", R"({"type":"object"})"},
+         "(none)",
+         "Instead of `clips`: every condition once for each, its worlds made of those clips alone; `etude run "
+         "--library` "
+         "adds some."},
+        when_right(
+            [](Fields& fields, Scenario& s, const TaskKind& kind) { AddLibraries(ReadLibraries(fields, kind), s); })},
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",
@@ -139,6 +166,25 @@ const FieldTable<Scenario>& ScenarioFields() {
 std::span<const KeyInfo> CommonScenarioKeys() {
   static const std::vector<KeyInfo> keys = ScenarioFields().Describe();
   return keys;
+}
+
+void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario) {
+  std::vector<Condition> once;  // the conditions of one library, without its name
+  for (Condition condition : scenario.conditions) {
+    if (condition.library != scenario.conditions.front().library) continue;
+    if (!condition.library.empty()) condition.swept.erase(condition.swept.begin());
+    once.push_back(std::move(condition));
+  }
+  for (const NamedClips& library : libraries) {
+    if (std::ranges::find(scenario.libraries, library.name, &NamedClips::name) != scenario.libraries.end()) continue;
+    if (scenario.libraries.empty()) scenario.conditions.clear();
+    scenario.libraries.push_back(library);
+    for (Condition condition : once) {
+      condition.library = library.name;
+      condition.swept.insert(condition.swept.begin(), {"library", library.name});
+      scenario.conditions.push_back(std::move(condition));
+    }
+  }
 }
 
 std::vector<std::string> MethodNames(const Scenario& scenario) {

@@ -13,10 +13,17 @@
 
 namespace etude {
 
+/// Clips that belong together, such as a user's dances: worlds are made of one such library at a time.
+struct NamedClips {
+  std::string name;
+  std::vector<std::string> clips;  ///< references as written
+};
+
 /// One value of each swept parameter, and the scenario's mapping with those values put in.
 struct Condition {
-  std::vector<SweptValue> swept;  ///< empty when nothing is swept
+  std::vector<SweptValue> swept;  ///< empty when nothing is swept; a library's name first, where there are any
   Node node;
+  std::string library = {};  ///< whose clips its worlds are made of; "" = the scenario's
 };
 
 /// Which cells keep their motions for videos.
@@ -48,8 +55,9 @@ struct Scenario {
   std::string name;
   std::string question;
   std::string task;
-  std::vector<std::string> clips;  ///< references as written
-  std::string joint_map;           ///< file that teaches the joints of the clips (docs/clips.md), "" = none
+  std::vector<std::string> clips;     ///< references as written
+  std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition once for each
+  std::string joint_map;              ///< file that teaches the joints of the clips (docs/clips.md), "" = none
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;
@@ -64,6 +72,10 @@ struct Scenario {
 };
 
 std::vector<std::string> MethodNames(const Scenario& scenario);
+
+/// Adds those of `libraries` whose names the scenario does not know: all of its conditions once more for each. A
+/// scenario without libraries has those alone from then on.
+void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario);
 
 /// The texts of scenario files and of all that they include, by path: what a manifest keeps of them.
 using SourceTexts = std::map<std::string, std::string>;

@@ -33,7 +33,8 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/motion engine/transitions/base engine/transitions/search",
     "engine/transitions/choices":
         "engine/base engine/fuzzy engine/motion engine/transitions/base engine/transitions/bridge_frames "
-        "engine/transitions/in_betweens engine/transitions/library engine/transitions/search",
+        "engine/transitions/in_betweens engine/transitions/joins engine/transitions/library "
+        "engine/transitions/search",
     "engine/transitions/in_betweens":
         "engine/base engine/motion engine/transitions/base engine/transitions/bridge_frames",
     "engine/transitions/joins": "engine/base engine/motion engine/transitions/base",

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kMostBetween = 300;  // ten seconds
 constexpr std::size_t kMostThrough = 16;
 constexpr std::size_t kLongestExcuse = 300;
+constexpr Range kJoins_s{0, 5};
 constexpr double kLimbTolerance = 0.02;  // metres
 
 Result<void> CheckLimbs(const BodyPose& pose, const BodyProportions& character, const std::string& path) {
@@ -84,6 +85,10 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   if (between) answer.segments.push_back(*std::move(between));
   answer.segments.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
+  if (fields.Has("join_s")) {
+    answer.segments.back().wish = JoinWish{.blend_s = fields.Number("join_s", kJoins_s)};
+    answer.segments.back().wish->fades = fields.Boolean("fades", false);
+  }
   answer.matched = fields.Boolean("matched", false);
   return answer;
 }

@@ -5,6 +5,7 @@
 
 #include "bench/metrics/dimensionless_jerk.h"
 #include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 
 namespace etude {
@@ -23,7 +24,14 @@ constexpr std::array kTransitionMetrics = {"jump_cm",
                                            "ldlj",
                                            "wait_s",
                                            "fuzzy_distance",
-                                           "in_between"};
+                                           "in_between",
+                                           "settle_s",
+                                           "strange_cm_s",
+                                           "join_slide_cmps",
+                                           "live",
+                                           "skipped_s",
+                                           "calm_natural_share",
+                                           "clean_share"};
 constexpr std::array kMatchingMetrics = {"direct_match", "matching_share", "false_smooth_share"};
 
 /// What played from the request on, until the wanted clip did.
@@ -40,9 +48,8 @@ std::vector<int> PointFrames(const Splice& splice) {
   return frames;
 }
 
-}  // namespace
-
-void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result) {
+/// What is measured at the transition points. Returns whether the transition is natural there.
+bool ScorePoints(const TransitionOutcome& outcome, const Stage& stage, CellResult& result) {
   const Splice& splice = outcome.splice;
   const TransitionSmoothness smoothness = MeasureTransitions(splice.motion, PointFrames(splice));
   result.Measure("jump_cm", smoothness.jump_cm);
@@ -50,7 +57,8 @@ void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellR
   result.Measure("rotation_step_change_deg", smoothness.rotation_step_change_deg);
   result.Measure("jerk_peak_mps3", smoothness.jerk_peak_mps3);
   std::vector<double> nature = NaturalJumpsOf(stage, outcome.request.from, outcome.request.to);
-  result.Measure("natural_share", IsNatural(smoothness.jump_cm, std::move(nature)) ? 1 : 0);
+  const bool natural = IsNatural(smoothness.jump_cm, std::move(nature));
+  result.Measure("natural_share", natural ? 1 : 0);
 
   double pose_gap = 0, velocity_gap = 0, foot_slide = 0;
   for (const PlacedPoint& point : splice.points) {
@@ -75,6 +83,48 @@ void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellR
   result.Measure("wait_s", WaitSeconds(StaysOf(outcome.record), splice.motion.rate_hz));
   result.Measure("fuzzy_distance", WorstDistance(outcome.record).value);
   result.Measure("in_between", outcome.record.segments.size() > 2 ? 1 : 0);
+  return natural;
+}
+
+JoinView ViewOf(const TransitionOutcome& outcome, const Stage& stage) {
+  const Splice& splice = outcome.splice;
+  const Segment& playing = outcome.record.segments.front();
+  const int first = splice.points.front().frame;
+  return {.shown = splice.motion.poses,
+          .left = stage.library.motions[playing.clip].poses,
+          .wanted = splice.wanted,
+          .request = first - (playing.last - playing.first),
+          .first = first,
+          .last = splice.points.back().frame,
+          .rate_hz = splice.motion.rate_hz};
+}
+
+/// What is measured over the whole join.
+void ScoreJoin(const TransitionOutcome& outcome, const Stage& stage, bool natural, CellResult& result) {
+  const JoinView view = ViewOf(outcome, stage);
+  const double limit = CalmerLimitCm(stage, outcome.request.from, outcome.request.to);
+  const CleanMeasures clean{.natural = natural,
+                            .calmly_natural = IsCalmlyNatural(view, limit),
+                            .slide_cmps = JoinSlideCmps(view),
+                            .strange_cm_s = StrangeCmSeconds(view, stage.real_frames),
+                            .live = Liveness(view),
+                            .own_slide_cmps = std::max(stage.natural_slides_cmps[outcome.request.from],
+                                                       stage.natural_slides_cmps[outcome.request.to]),
+                            .settle_s = SettleSeconds(view)};
+  result.MeasureOr("settle_s", clean.settle_s, "the wanted clip was never reached");
+  result.Measure("strange_cm_s", clean.strange_cm_s);
+  result.Measure("join_slide_cmps", clean.slide_cmps);
+  result.Measure("live", clean.live);
+  result.Measure("skipped_s", SkippedSeconds(outcome.record.segments.back().first, view.rate_hz));
+  result.Measure("calm_natural_share", clean.calmly_natural ? 1 : 0);
+  result.Measure("clean_share", IsClean(clean) ? 1 : 0);
+}
+
+}  // namespace
+
+void ScoreTransition(const TransitionOutcome& outcome, const Stage& stage, CellResult& result) {
+  const bool natural = ScorePoints(outcome, stage, result);
+  ScoreJoin(outcome, stage, natural, result);
 }
 
 void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result) {
@@ -94,7 +144,8 @@ std::vector<std::string> TransitionMetrics() {
 }
 
 std::optional<double> TransitionFailureValue(std::string_view metric) {
-  return metric == "natural_share" ? std::optional(0.0) : std::nullopt;
+  const bool is_share = metric == "natural_share" || metric == "calm_natural_share" || metric == "clean_share";
+  return is_share ? std::optional(0.0) : std::nullopt;
 }
 
 void MeasureNoWay(CellResult& result) {

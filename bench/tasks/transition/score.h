@@ -22,10 +22,10 @@ void ScoreMatching(const std::optional<MatchTally>& tally, CellResult& result);
 /// The ids of all of them, in the order in which they are measured.
 std::vector<std::string> TransitionMetrics();
 
-/// What a method without a transition is credited with (Task::ValueOfFailure): 0 of `natural_share`, which is a share
-/// of all cells. A transition that never came was not natural; left out of the count, a method could raise its share by
-/// giving up where it is hard. Nothing for the rest: no number of centimetres stands for a jump that was not made,
-/// and 0 of `false_smooth` would be praise.
+/// What a method without a transition is credited with (Task::ValueOfFailure): 0 of `natural_share` and the other
+/// shares of all cells. A transition that never came was not natural; left out of the count, a method could raise its
+/// share by giving up where it is hard. Nothing for the rest: no number of centimetres stands for a jump that was not
+/// made, and 0 of `false_smooth` would be praise.
 std::optional<double> TransitionFailureValue(std::string_view metric);
 
 /// Those of ScoreTransition in a world in which no way was found.

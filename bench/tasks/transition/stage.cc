@@ -36,6 +36,10 @@ std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
   return jumps;
 }
 
+double CalmerLimitCm(const Stage& stage, int from, int to) {
+  return std::min(NaturalLimitCm(stage.natural_jumps_cm[from]), NaturalLimitCm(stage.natural_jumps_cm[to]));
+}
+
 Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
   Stage stage;
   stage.fuzzy = rules.fuzzy;
@@ -53,7 +57,12 @@ Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
                       .weights = rules.fuzzy.weights};
   const BodyProportions proportions = MakeBodyProportions(PoseOf(Controls{}), kJudgedHipHeight);
   stage.library = MakeLibrary(std::move(names), clips, proportions, tags, rules.tween);
-  for (const BodyMotion& motion : stage.library.motions) stage.natural_jumps_cm.push_back(NaturalJumpsCm(motion));
+  for (const BodyMotion& motion : stage.library.motions) {
+    stage.natural_jumps_cm.push_back(NaturalJumpsCm(motion));
+    const int last = static_cast<int>(motion.poses.size()) - 1;
+    stage.natural_slides_cmps.push_back(last > 0 ? FootSlideCmps(motion.poses, 0, last, motion.rate_hz) : 0);
+  }
+  stage.real_frames = RealFrames(stage.library.motions);
   CastClips(library, rules.asks_for_acts, stage);
   return stage;
 }

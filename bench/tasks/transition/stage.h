@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bench/clips/clip_library.h"
+#include "bench/metrics/transition_join.h"
 #include "engine/fuzzy/fuzzy_system.h"
 #include "engine/transitions/library/library.h"
 
@@ -25,9 +26,11 @@ struct Stage {
   MotionLibrary library;                ///< its names are as rows and videos show them
   std::vector<std::string> identities;  ///< equal for equal clips: what opens the clip
   std::vector<std::vector<double>> natural_jumps_cm;
-  FuzzySystem fuzzy;         ///< by which they are tagged
-  std::vector<int> playing;  ///< the clips that play when another is asked for: all, unless acts are
-  std::vector<int> wanted;   ///< those that are asked for
+  std::vector<double> natural_slides_cmps;  ///< foot slide over each clip
+  RealFrames real_frames;                   ///< of all clips
+  FuzzySystem fuzzy;                        ///< by which they are tagged
+  std::vector<int> playing;                 ///< the clips that play when another is asked for: all, unless acts are
+  std::vector<int> wanted;                  ///< those that are asked for
 };
 
 /// Shorter clips have no unbroken window of eleven frames to be judged by.
@@ -36,6 +39,8 @@ constexpr int kShortestClip = 13;
 /// What a transition between these two clips is compared with, in centimetres (docs/metrics.md): the clips asked for
 /// set the standard, not one played in between.
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to);
+/// The limit of the calmer of the two: the smaller of both clips' own.
+double CalmerLimitCm(const Stage& stage, int from, int to);
 
 Stage SetStage(const ClipLibrary& library, const StageRules& rules = {});
 

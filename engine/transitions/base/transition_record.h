@@ -24,17 +24,24 @@ enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kIn
 /// "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
+/// How a choice that has tried would have the clips joined.
+struct JoinWish {
+  double blend_s = 0;  ///< seconds until the new motion is shown alone
+  bool fades = false;  ///< the old motion goes on while it fades out; else what it was off from the new one dies away
+};
+
 /// A run of frames that is shown: of a clip, or made by the method itself.
 ///
 /// The first segment's `first` is the frame shown at the request. Of every later one, frame `first` counts as one with
 /// the last frame shown: it is laid on it (yaw, x, z) and the next is shown after it.
 struct Segment {
   static constexpr int kOwnFrames = -1;
-  int clip = kOwnFrames;      ///< of the library
-  int first = 0;              ///< index into the clip, or into `own`
-  int last = 0;               ///< the last frame shown
-  std::vector<BodyPose> own;  ///< only of kOwnFrames
-  bool in_place = false;      ///< `own` stands where it is to be shown: it is not laid on anything
+  int clip = kOwnFrames;              ///< of the library
+  int first = 0;                      ///< index into the clip, or into `own`
+  int last = 0;                       ///< the last frame shown
+  std::vector<BodyPose> own;          ///< only of kOwnFrames
+  std::optional<JoinWish> wish = {};  ///< of the join into it
+  bool in_place = false;              ///< `own` stands where it is to be shown: it is not laid on anything
 };
 
 /// What became of a pair of frames that a choice looked at.

@@ -7,6 +7,7 @@
 #include "engine/transitions/choices/abrupt.h"
 #include "engine/transitions/choices/fuzzy_bridge.h"
 #include "engine/transitions/choices/matching.h"
+#include "engine/transitions/choices/played.h"
 #include "engine/transitions/choices/through_standing.h"
 #include "engine/transitions/choices/unbroken.h"
 
@@ -68,6 +69,10 @@ std::span<const Choice> Table() {
                                                  "the frames with the least point-cloud distance (Kovar 2002)", false),
       Ranked<PlanMotionMatching, MotionMatchingSettings>(
           "motion-matching", "the frames where hands, feet and hips are and move most alike (Clavet 2016)", false),
+      Choice{.name = "played",
+             .description = "the frames and length whose transition, played, costs least time and acceleration",
+             .settings = PlayedSettings().Describe(),
+             .plan = PlanWith<PlanPlayed, PlayedSettings>},
       Choice{.name = "through-standing",
              .description = "at once, by a standing pose into the clip's first frame",
              .plan = PlanBy<PlanThroughStanding>},

@@ -6,10 +6,8 @@
 #include "engine/transitions/joins/limb_turn.h"
 
 namespace etude {
-namespace {
 
-/// `share` of the way from one pose to another; the limbs have the lengths of `to`.
-BodyPose Between(const BodyPose& from, const BodyPose& to, double share) {
+BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share) {
   BodyPose pose;
   pose[Role::kHipCentre] = glm::mix(from[Role::kHipCentre], to[Role::kHipCentre], share);
   for (const Bone& bone : AllBones()) {
@@ -19,8 +17,6 @@ BodyPose Between(const BodyPose& from, const BodyPose& to, double share) {
   }
   return pose;
 }
-
-}  // namespace
 
 const SettingTable<CrossfadeOptions>& CrossfadeSettings() {
   static const SettingTable<CrossfadeOptions> kSettings({{"blend_s", &CrossfadeOptions::blend_s, 0, 5,
@@ -36,7 +32,7 @@ Blend Crossfade(const JoinInput& input, const CrossfadeOptions& options) {
   return [old = std::move(old), blend_frames](const BodyPose& target, int frames) {
     if (frames >= blend_frames) return target;
     const std::size_t shown = std::min(static_cast<std::size_t>(frames), old.size());
-    return Between(old[shown - 1], target, Smoothstep(0, blend_frames, frames));
+    return PoseBetween(old[shown - 1], target, Smoothstep(0, blend_frames, frames));
   };
 }
 

@@ -4,6 +4,9 @@
 
 namespace etude {
 
+/// `share` of the way from one pose to another, limb by limb; the limbs have the lengths of `to`.
+BodyPose PoseBetween(const BodyPose& from, const BodyPose& to, double share);
+
 struct CrossfadeOptions {
   /// Seconds until the new motion is shown alone. Ours. Longer ones hide wider gaps, and show poses of neither clip for
   /// longer; 0 is a cut.

@@ -5,6 +5,8 @@
 #include "engine/base/named.h"
 #include "engine/transitions/joins/crossfade.h"
 #include "engine/transitions/joins/inertialise.h"
+#include "engine/transitions/joins/minimum_jerk.h"
+#include "engine/transitions/joins/planted_feet.h"
 
 namespace etude {
 namespace {
@@ -35,6 +37,15 @@ std::span<const Join> Table() {
            .description = "what was off dies away like a critically damped spring (Holden 2020)",
            .settings = SpringSettings().Describe(),
            .begin = BeginWith<InertialiseSpring, SpringSettings>},
+      Join{.name = "minimum-jerk",
+           .description = "what was off dies away along the quintic of least jerk, whatever its velocity",
+           .settings = MinimumJerkSettings().Describe(),
+           .begin = BeginWith<MinimumJerk, MinimumJerkSettings>},
+      Join{.name = "planted-feet",
+           .description = "the same, and each foot goes from the old motion's path to the new one's in a step",
+           .settings = MinimumJerkSettings().Describe(),
+           .begin = BeginWith<PlantedFeet, MinimumJerkSettings>,
+           .align = AlignOnPlantedFeet},
   };
   return kJoins;
 }

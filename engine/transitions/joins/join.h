@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,6 +9,7 @@
 
 #include "engine/base/settings.h"
 #include "engine/motion/body.h"
+#include "engine/transitions/base/transition_record.h"
 
 namespace etude {
 
@@ -24,11 +26,17 @@ struct JoinInput {
   /// What the old motion would have shown next: so many frames, fewer where it ends. To be asked only while the join
   /// begins.
   std::function<std::vector<BodyPose>(std::size_t count)> continuation;
+  /// What the new motion has next after its frame at the point, likewise.
+  std::function<std::vector<BodyPose>(std::size_t count)> upcoming = {};
+  std::optional<JoinWish> wish = {};  ///< of the choice of frames; minimum-jerk and planted-feet follow it
   double rate_hz = kJudgedRateHz;
 };
 
 /// The frame to show, `frames` (≥ 1) after the transition point, from the new motion's frame there.
 using Blend = std::function<BodyPose(const BodyPose& target, int frames)>;
+
+/// How much motion after the point a join is aligned by, seconds.
+constexpr double kAlignedSeconds = 0.5;
 
 /// A way to put two clips together at a transition point, by the name scenario files call it. All limbs keep their
 /// lengths.
@@ -38,6 +46,9 @@ struct Join {
   std::vector<NumberSetting> settings = {};
   /// `values`: one per setting, in their order; none at all: the defaults.
   Blend (*begin)(const JoinInput& input, std::span<const double> values) = nullptr;
+  /// The move on the floor that lays the new motion onto the old one, from frames of both from the point on, one at
+  /// least each. Null: AlignOnFloor of the two frames of the point.
+  FloorMove (*align)(std::span<const BodyPose> old, std::span<const BodyPose> next, double rate_hz) = nullptr;
 };
 
 /// Paper A's cut first.

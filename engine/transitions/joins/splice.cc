@@ -1,5 +1,6 @@
 #include "engine/transitions/joins/splice.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -16,6 +17,7 @@ std::span<const BodyPose> FramesOf(const Segment& segment, std::span<const BodyM
 struct PlacedSegment {
   std::span<const BodyPose> frames;
   int first = 0;
+  bool is_own = false;  // made by the choice
   FloorMove place;
   Blend blend;
 
@@ -34,7 +36,25 @@ struct PlacedSegment {
     }
     return next;
   }
+  /// The motion's own frames after `frame`, at most `count`.
+  std::vector<BodyPose> Own(int frame, std::size_t count) const {
+    std::vector<BodyPose> next;
+    for (std::size_t f = frame + 1; f < frames.size() && next.size() < count; ++f) {
+      next.push_back(At(static_cast<int>(f)));
+    }
+    return next;
+  }
 };
+
+/// Where a segment is laid that follows `old` at its frame `left`. What a choice made itself is made to begin there.
+FloorMove Lay(const Join& join, const PlacedSegment& old, int left, const PlacedSegment& next, double rate_hz) {
+  if (join.align == nullptr || next.is_own) return AlignOnFloor(next.frames[next.first], old.At(left));
+  const std::size_t count = static_cast<std::size_t>(rate_hz * kAlignedSeconds);
+  std::vector<BodyPose> going = old.Own(left, count);
+  going.insert(going.begin(), old.At(left));
+  return join.align(going, next.frames.subspan(next.first).first(std::min(count + 1, next.frames.size() - next.first)),
+                    rate_hz);
+}
 
 }  // namespace
 
@@ -59,8 +79,12 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
     const int left = segments[i - 1].last, entered = segments[i].first;
     assert(entered < segments[i].last);
     const std::span<const BodyPose> frames = FramesOf(segments[i], clips);
-    PlacedSegment next{.frames = frames, .first = entered, .place = {}, .blend = {}};
-    if (!segments[i].in_place) next.place = AlignOnFloor(frames[entered], old.At(left));
+    PlacedSegment next{.frames = frames,
+                       .first = entered,
+                       .is_own = segments[i].clip == Segment::kOwnFrames,
+                       .place = {},
+                       .blend = {}};
+    if (!segments[i].in_place) next.place = Lay(join, old, left, next, rate_hz);
     // Of the clips themselves, not of the joined motion: the gap at the point measures the choice of frames alone.
     const PlacedPoint point{.frame = static_cast<int>(shown.size()) - 1,
                             .leaving_before = old.Before(left),
@@ -72,12 +96,16 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
         .shown = {point.frame > 0 ? shown[point.frame - 1] : point.leaving_before, shown[point.frame]},
         .target = {next.Before(entered), point.arriving},
         .continuation = [&](std::size_t count) { return old.After(left, count); },
+        .upcoming = [&](std::size_t count) { return next.Own(entered, count); },
+        .wish = segments[i].wish,
         .rate_hz = rate_hz};
     next.blend = join.begin(input, join_settings);
     for (int frame = entered + 1; frame <= segments[i].last; ++frame) shown.push_back(next.Shown(frame));
     splice.points.push_back(point);
     old = std::move(next);
   }
+  for (int frame = segments.back().first; frame <= segments.back().last; ++frame)
+    splice.wanted.push_back(old.At(frame));
   return splice;
 }
 

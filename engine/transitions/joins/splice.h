@@ -20,6 +20,9 @@ struct PlacedPoint {
 struct Splice {
   BodyMotion motion;
   std::vector<PlacedPoint> points;  ///< in order
+  /// The last segment's own frames from the one entered on, in the place where they are shown, without the join: the
+  /// first stands where the last point's frame does.
+  std::vector<BodyPose> wanted;
 };
 
 /// The frame before the first one, as if a motion had begun at a steady speed.

@@ -5,6 +5,7 @@
 #include "bench/metrics/dimensionless_jerk.h"
 #include "bench/metrics/matching.h"
 #include "bench/metrics/spectral_arc_length.h"
+#include "bench/metrics/transition_join.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "engine/fuzzy/distance.h"
 #include "tests/bench/metrics/evaluators.h"
@@ -119,6 +120,71 @@ Value ShareOfPairs(const Json& in, std::optional<double> (*share)(const MatchTal
   return tally ? share(*tally) : std::nullopt;
 }
 
+/// The motions that a JoinView looks at.
+struct JoinInputs {
+  explicit JoinInputs(const Json& in)
+      : shown(ReadMotion(in.at("shown"))),
+        left(ReadMotion(in.at("left"))),
+        wanted(ReadMotion(in.at("wanted"))),
+        request(in.at("request").get<int>()),
+        first(in.at("first").get<int>()),
+        last(in.at("last").get<int>()) {}
+
+  JoinView View() const {
+    return {.shown = shown.poses,
+            .left = left.poses,
+            .wanted = wanted.poses,
+            .request = request,
+            .first = first,
+            .last = last,
+            .rate_hz = shown.rate_hz};
+  }
+
+  BodyMotion shown, left, wanted;
+  int request, first, last;
+};
+
+Value OfJoin(const Json& in, double (*measure)(const JoinView&)) { return measure(JoinInputs(in.at("join")).View()); }
+
+std::vector<BodyMotion> ClipsOf(const Json& in) {
+  std::vector<BodyMotion> clips;
+  for (const Json& clip : in.at("clips")) clips.push_back(ReadMotion(clip));
+  return clips;
+}
+
+Value Settled(const Json& in) { return SettleSeconds(JoinInputs(in.at("join")).View()); }
+
+Value Strange(const Json& in) { return StrangeCmSeconds(JoinInputs(in.at("join")).View(), RealFrames(ClipsOf(in))); }
+
+Value CalmNatural(const Json& in) {
+  std::optional<double> limit;
+  for (const BodyMotion& clip : ClipsOf(in)) {
+    std::vector<double> jumps = NaturalJumpsCm(clip);
+    if (jumps.empty()) return std::nullopt;  // of another metric: too short to be judged by
+    const double own = NaturalLimitCm(std::move(jumps));
+    limit = std::min(limit.value_or(own), own);
+  }
+  if (!limit) return std::nullopt;
+  return IsCalmlyNatural(JoinInputs(in.at("join")).View(), *limit) ? 1 : 0;
+}
+
+Value Clean(const Json& in) {
+  const auto number = [&](const char* key) { return in.at(key).get<double>(); };
+  CleanMeasures measures{.natural = in.at("natural").get<bool>(),
+                         .calmly_natural = in.at("calmly_natural").get<bool>(),
+                         .slide_cmps = number("slide_cmps"),
+                         .strange_cm_s = number("strange_cm_s"),
+                         .live = number("live"),
+                         .own_slide_cmps = number("own_slide_cmps"),
+                         .settle_s = {}};
+  if (!in.at("settle_s").is_null()) measures.settle_s = number("settle_s");
+  return IsClean(measures) ? 1 : 0;
+}
+
+Value Skipped(const Json& in) {
+  return SkippedSeconds(in.at("entered_frame").get<int>(), in.at("rate_hz").get<double>());
+}
+
 Value InBetween(const Json& in) {
   if (in.at("legs").is_null()) return std::nullopt;
   return in.at("legs").get<int>() > 2 ? 1 : 0;
@@ -145,6 +211,13 @@ std::span<const Evaluator> TransitionEvaluators() {
       {"matching_share", [](const Json& in) { return ShareOfPairs(in, MatchingShare); }},
       {"false_smooth_share", [](const Json& in) { return ShareOfPairs(in, FalseSmoothShare); }},
       {"in_between", InBetween},
+      {"settle_s", Settled},
+      {"strange_cm_s", Strange},
+      {"join_slide_cmps", [](const Json& in) { return OfJoin(in, JoinSlideCmps); }},
+      {"live", [](const Json& in) { return OfJoin(in, Liveness); }},
+      {"skipped_s", Skipped},
+      {"calm_natural_share", CalmNatural},
+      {"clean_share", Clean},
   };
   return kAll;
 }

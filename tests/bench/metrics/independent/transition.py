@@ -217,7 +217,138 @@ def false_smooth_share(given):
     return sum(pair["pose_gap_cm"] > FALSE_SMOOTH_CM for pair in matching(given)) / len(matching(given))
 
 
+ARRIVED_CM = 5
+LIVE_FRAMES = 10
+LEAST_SPEED_MPS = 0.05
+VELOCITY_S = 0.1
+
+
+def worst_distance(a, b):
+    return common.worst([common.CM * distance(a[role], b[role]) for role in ROLES])
+
+
+def settled_frame(join):
+    shown, wanted = frames_of(join["shown"]), frames_of(join["wanted"])
+    off = [f for f in range(join["last"], len(shown))
+           if worst_distance(shown[f], wanted[f - join["last"]]) > ARRIVED_CM + 1e-12]
+    settled = max(off) + 1 if off else join["last"]
+    return settled if settled < len(shown) else None
+
+
+def join_end(join):
+    settled, last = settled_frame(join), len(frames_of(join["shown"])) - 1
+    return min(max(last if settled is None else settled, join["last"] + REACH), last)
+
+
+def rate_of(join):
+    return join["shown"].get("rate_hz", 30)
+
+
+def settle(given):
+    settled = settled_frame(given["join"])
+    return None if settled is None else (settled - given["join"]["request"]) / rate_of(given["join"])
+
+
+def seen_from_itself(frames, f, rate):
+    """Places, and movements within VELOCITY_S, of a body turned to face +Z above the origin."""
+    here, before = frames[f], frames[f - 1]
+    left = [sum(pair) for pair in zip(minus(here["left_hip"], here["right_hip"]),
+                                      minus(here["left_shoulder"], here["right_shoulder"]))]
+    facing = (-left[2], left[0])  # left × up, on the floor: (x, z)
+    size = math.hypot(*facing)
+    sine, cosine = (facing[0] / size, facing[1] / size) if size > 0 else (0, 1)
+
+    def turned(v):
+        return [cosine * v[0] - sine * v[2], v[1], sine * v[0] + cosine * v[2]]
+    hips = [here["hip_centre"][0], 0, here["hip_centre"][2]]
+    return {role: (turned(minus(here[role], hips)),
+                   turned([VELOCITY_S * rate * d for d in minus(here[role], before[role])])) for role in ROLES}
+
+
+def strange(given):
+    join = given["join"]
+    shown, rate = frames_of(join["shown"]), rate_of(join)
+    real = [seen_from_itself(clip, f, rate) for clip in map(frames_of, given["clips"]) for f in range(1, len(clip))]
+
+    def off(f):
+        own = seen_from_itself(shown, f, rate)
+        return min(common.CM * math.sqrt(common.mean(
+            [distance(own[r][0], other[r][0]) ** 2 + distance(own[r][1], other[r][1]) ** 2 for r in ROLES]))
+            for other in real)
+    return math.fsum(off(f) for f in range(join["first"] + 1, join_end(join) + 1)) / rate
+
+
+def join_slide(given):
+    join = given["join"]
+    frames, rate = frames_of(join["shown"]), rate_of(join)
+    end = min(max(join_end(join), join["last"] + int(rate)), len(frames) - 1)
+    speeds = []
+    for f in range(join["first"], end):
+        for foot in ("left_foot", "right_foot"):
+            here, there = frames[f][foot], frames[f + 1][foot]
+            speed = common.CM * rate * math.hypot(there[0] - here[0], there[2] - here[2])
+            speeds.append(speed * min(1, max(0, 2 - 2 ** (common.CM * here[1] / FOOT_HEIGHT_CM))))
+    return common.mean(speeds)
+
+
+def live(given):
+    join = given["join"]
+    frames, rate = frames_of(join["shown"]), int(rate_of(join))
+    speed = [common.mean([rate * distance(b[role], a[role]) for role in ROLES]) for a, b in zip(frames, frames[1:])]
+
+    def slowest(first, last):
+        own = speed[max(first, 0):max(last, 0)]
+        means = [common.mean(own[i:i + LIVE_FRAMES]) for i in range(len(own) - LIVE_FRAMES + 1)]
+        return min(means) if means else None
+    first = join["first"]
+    end = max(join_end(join), first + LIVE_FRAMES)
+    clips = [v for v in (slowest(first - rate, first), slowest(end, end + rate)) if v is not None]
+    own = slowest(first, end)
+    return 1 if own is None or not clips or min(clips) < LEAST_SPEED_MPS else min(1, own / min(clips))
+
+
+def skipped(given):
+    return given["entered_frame"] / given["rate_hz"]
+
+
+def limit_of(frames):
+    window = 2 * REACH + 1
+    jumps = sorted(common.worst([jump_at(frames, f) for f in range(first, first + window)])
+                   for first in range(1, len(frames) - window))
+    rank = NATURAL_QUANTILE * (len(jumps) - 1)
+    low = math.floor(rank)
+    high = min(low + 1, len(jumps) - 1)
+    return jumps[low] + (rank - low) * (jumps[high] - jumps[low])
+
+
+def calm_natural(given):
+    join = given["join"]
+    shown, left, wanted = (frames_of(join[key]) for key in ("shown", "left", "wanted"))
+    limit = min(limit_of(frames_of(clip)) for clip in given["clips"])
+
+    def own_jump(frames, f):
+        return jump_at(frames, f) if 1 <= f < len(frames) - 1 else 0
+
+    def excused(f):
+        return 1.25 * max(own_jump(wanted, f - join["last"]), own_jump(left, f))
+    return int(all(jump_at(shown, f) <= max(limit, 1, excused(f))
+                   for f in range(join["first"], join_end(join) + 1) if 1 <= f < len(shown) - 1))
+
+
+def clean(given):
+    settled = given["settle_s"]
+    return int(given["natural"] and given["calmly_natural"] and given["slide_cmps"] <= max(6, given["own_slide_cmps"]) and settled is not None
+               and settled <= 1.5 and given["strange_cm_s"] <= 10 and given["live"] >= 0.5)
+
+
 METRICS = {
+    "settle_s": settle,
+    "strange_cm_s": strange,
+    "join_slide_cmps": join_slide,
+    "live": live,
+    "skipped_s": skipped,
+    "calm_natural_share": calm_natural,
+    "clean_share": clean,
     "jump_cm": jump,
     "mean_joint_jump_cm": mean_jump,
     "rotation_step_change_deg": rotation_step_change,

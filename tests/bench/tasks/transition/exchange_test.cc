@@ -46,6 +46,10 @@ class TransitionExchange : public TransitionFixture {
                    {"enter_frame", record.segments.back().first},
                    {"join", join},
                    {"matched", choice.matches_poses && record.branch != Branch::kForced}};
+    if (const auto& wish = record.segments.back().wish) {
+      answer["join_s"] = wish->blend_s;
+      answer["fades"] = wish->fades;
+    }
     if (record.segments.size() == 2) return answer;
     EXPECT_EQ(record.segments.size(), 3u);
     const Segment &before = record.segments[0], &own = record.segments[1];
@@ -145,6 +149,7 @@ TEST_F(TransitionExchange, PlaysAClipOnTheWayLikeItsFramesPutBetween) {
   const int leave = request.request_frame + 1;
   const FloorMove place = AlignOnFloor(on_the_way[2], stage_.library.motions[request.from].poses[leave]);
   for (const auto& join : AllJoins()) {
+    if (join.align != nullptr) continue;  // lays clips by their feet, a method's own frames as they are
     const Json through = {{"leave_frame", leave},
                           {"enter_frame", 3},
                           {"join", join.name},

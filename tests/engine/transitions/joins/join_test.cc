@@ -50,14 +50,15 @@ TEST_P(EverySmoothJoin, TurnsOppositeLimbsAroundWithoutBreakingThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EverySmoothJoin,
-                         testing::Values("crossfade", "inertialised-quintic", "inertialised-spring"),
+                         testing::Values("crossfade", "inertialised-quintic", "inertialised-spring", "minimum-jerk",
+                                         "planted-feet"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::erase(name, '-');
                            return name;
                          });
 
-TEST(Joins, AreAllTestedHere) { EXPECT_EQ(AllJoins().size(), 1 + 3u); }
+TEST(Joins, AreAllTestedHere) { EXPECT_EQ(AllJoins().size(), 1 + 5u); }
 
 TEST(Joins, WithABlendEndExactlyInTheNewMotionAfterIt) {
   const BodyMotion cut = CutTogether();

@@ -1,0 +1,285 @@
+#include "engine/transitions/choices/played.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/transitions/choices/allowed_frames.h"
+#include "engine/transitions/choices/direct.h"
+#include "engine/transitions/choices/explain.h"
+#include "engine/transitions/joins/planted_feet.h"
+#include "engine/transitions/joins/splice.h"
+
+namespace etude {
+namespace {
+
+constexpr int kPairs = 12;
+constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0};
+constexpr std::size_t kPlayedWithFeet = 4;
+constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
+
+struct FramePair {
+  int leave = 0, enter = 0;
+};
+
+double SquaredDistance(const MotionFeatures& a, const MotionFeatures& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return sum;
+}
+
+/// For each part of the wait, the pair that is nearest; every few frames of the wanted clip are enough where it is
+/// long.
+std::vector<FramePair> NearestPairs(const MotionLibrary& library, const TransitionRequest& request,
+                                    const AllowedFrames& allowed) {
+  const auto &playing = library.features[request.from], &next = library.features[request.to];
+  const std::size_t stride = allowed.leave.size() * allowed.enter.size() / kMostCompared + 1;
+  const std::size_t parts = std::min<std::size_t>(kPairs, allowed.leave.size());
+  std::vector<FramePair> pairs;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const std::size_t begin = part * allowed.leave.size() / parts, end = (part + 1) * allowed.leave.size() / parts;
+    FramePair best{allowed.leave[begin], allowed.enter.front()};
+    double least = SquaredDistance(playing[best.leave], next[best.enter]);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t k = 0; k < allowed.enter.size(); k += stride) {
+        const double distance = SquaredDistance(playing[allowed.leave[i]], next[allowed.enter[k]]);
+        if (distance >= least) continue;
+        least = distance;
+        best = {allowed.leave[i], allowed.enter[k]};
+      }
+    }
+    pairs.push_back(best);
+  }
+  return pairs;
+}
+
+/// Frames of a clip from one on, that one included: `count` more, the last repeated where the clip ends.
+std::vector<BodyPose> FramesFrom(const BodyMotion& clip, int first, int count) {
+  std::vector<BodyPose> frames;
+  const int last = static_cast<int>(clip.poses.size()) - 1;
+  for (int f = first; f <= first + count; ++f) frames.push_back(clip.poses[std::min(f, last)]);
+  return frames;
+}
+
+BodyPose FrameBeforeIn(const BodyMotion& clip, int frame) {
+  if (frame > 0) return clip.poses[frame - 1];
+  return clip.poses.size() > 1 ? FrameBefore(clip.poses[0], clip.poses[1]) : clip.poses[0];
+}
+
+/// The window of a pair as the join planted-feet would have it.
+JoinWindow WindowOfPair(const MotionLibrary& library, const TransitionRequest& request, const FramePair& pair,
+                        int frames) {
+  const BodyMotion &playing = library.motions[request.from], &wanted = library.motions[request.to];
+  JoinWindow window{.shown = {FrameBeforeIn(playing, pair.leave), playing.poses[pair.leave]},
+                    .target_before = FrameBeforeIn(wanted, pair.enter),
+                    .old = FramesFrom(playing, pair.leave, frames),
+                    .next = FramesFrom(wanted, pair.enter, frames),
+                    .old_frames = std::min(static_cast<int>(playing.poses.size()) - 1 - pair.leave, frames),
+                    .next_frames = std::min(static_cast<int>(wanted.poses.size()) - 1 - pair.enter, frames),
+                    .rate_hz = playing.rate_hz};
+  const std::size_t aligned = static_cast<std::size_t>(kAlignedSeconds * window.rate_hz) + 1;
+  const auto head = [&](const BodyMotion& clip, int first) {
+    return std::span(clip.poses).subspan(first).first(std::min(aligned, clip.poses.size() - first));
+  };
+  const FloorMove place = AlignOnPlantedFeet(head(playing, pair.leave), head(wanted, pair.enter), window.rate_hz);
+  window.target_before = place.Apply(window.target_before);
+  for (BodyPose& pose : window.next) pose = place.Apply(pose);
+  return window;
+}
+
+JoinWindow Shortened(const JoinWindow& whole, int frames) {
+  JoinWindow window = whole;
+  window.old.resize(frames + 1);
+  window.next.resize(frames + 1);
+  window.old_frames = std::min(window.old_frames, frames);
+  window.next_frames = std::min(window.next_frames, frames);
+  return window;
+}
+
+glm::dvec3 SecondDifferenceOf(const BodyPose& before, const BodyPose& here, const BodyPose& after, std::size_t joint) {
+  return after.joints[joint] - 2.0 * here.joints[joint] + before.joints[joint];
+}
+
+/// By frame from the point on, and joint: the larger of both motions' own second differences, metres; of a motion that
+/// has ended none.
+using OwnAccelerations = std::vector<std::array<double, kRoleCount>>;
+
+OwnAccelerations OwnOf(const JoinWindow& window) {
+  OwnAccelerations own(window.next.size());
+  for (int f = 0; f < window.Frames(); ++f) {
+    const BodyPose& old_before = f > 0 ? window.old[f - 1] : window.shown.before;
+    const BodyPose& next_before = f > 0 ? window.next[f - 1] : window.target_before;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const auto size = [&](const BodyPose& before, const BodyPose& here, const BodyPose& after) {
+        return glm::length(SecondDifferenceOf(before, here, after, j));
+      };
+      own[f][j] = std::max(f < window.old_frames ? size(old_before, window.old[f], window.old[f + 1]) : 0,
+                           f < window.next_frames ? size(next_before, window.next[f], window.next[f + 1]) : 0);
+    }
+  }
+  return own;
+}
+
+/// The largest second difference of any joint beyond the motions' own, centimetres; none is 0.
+double ExcessCm(const JoinWindow& window, const std::vector<BodyPose>& played, const OwnAccelerations& own) {
+  double worst = 0;
+  for (int f = 0; f < window.Frames(); ++f) {
+    const BodyPose& before = f > 0 ? played[f - 1] : window.shown.before;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const double here = glm::length(SecondDifferenceOf(before, played[f], played[f + 1], j));
+      worst = std::max(worst, here - own[f][j]);
+    }
+  }
+  return 100 * worst;
+}
+
+double SquaredOff(const BodyPose& a, const BodyPose& b) {
+  double sum = 0;
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    const glm::dvec3 off = a.joints[j] - b.joints[j];
+    sum += glm::dot(off, off);
+  }
+  return sum / kRoleCount;
+}
+
+/// How far the frames shown are from the nearer of both motions' own, summed over time, centimetres × seconds.
+double InventedCmSeconds(const JoinWindow& window, const std::vector<BodyPose>& played) {
+  double sum = 0;
+  for (int f = 1; f < window.Frames(); ++f) {
+    sum += std::sqrt(std::min(SquaredOff(played[f], window.old[f]), SquaredOff(played[f], window.next[f])));
+  }
+  return 100 * sum / window.rate_hz;
+}
+
+/// A transition that was played.
+struct PlayedWay {
+  FramePair pair;
+  std::size_t number = 0;  ///< of the pair
+  int frames = 0;          ///< of the join
+  bool fades = false;      ///< JoinWish
+  double cost_s = 0;
+};
+
+bool IsBetterWay(const PlayedWay& a, const PlayedWay& b) {
+  return std::tuple(a.cost_s, a.number, a.frames, a.fades) < std::tuple(b.cost_s, b.number, b.frames, b.fades);
+}
+
+/// All that were worth playing, the best first.
+class Rehearsal {
+ public:
+  Rehearsal(const MotionLibrary& library, const TransitionRequest& request, const PlayedOptions& options,
+            const std::vector<FramePair>& pairs)
+      : request_(request), options_(options), rate_hz_(library.motions[request.from].rate_hz) {
+    const int longest = FramesOf(kLengths_s.back());
+    for (const FramePair& pair : pairs) {
+      windows_.push_back(WindowOfPair(library, request, pair, longest));
+      own_.push_back(OwnOf(windows_.back()));
+    }
+    PlayAll(pairs);
+    PlayBestWithFeet();
+  }
+
+  const std::vector<PlayedWay>& ways() const { return ways_; }
+
+ private:
+  int FramesOf(double seconds) const { return static_cast<int>(std::lround(seconds * rate_hz_)); }
+
+  double Time(const PlayedWay& way) const { return (way.pair.leave - request_.request_frame + way.frames) / rate_hz_; }
+
+  double Cost(const PlayedWay& way, bool with_feet) const {
+    const JoinWindow window = Shortened(windows_[way.number], way.frames);
+    std::vector<BodyPose> played = PlayMinimumJerk(window, way.fades);
+    if (with_feet) PlantFeet(window, played);
+    return Time(way) + ExcessCm(window, played, own_[way.number]) / options_.excess_per_s +
+           InventedCmSeconds(window, played) / options_.invented_per_s;
+  }
+
+  /// A way whose time alone costs more than the best is not played.
+  void PlayAll(const std::vector<FramePair>& pairs) {
+    std::vector<PlayedWay> open;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      for (double length : kLengths_s) {
+        const int frames = FramesOf(length);
+        // The wanted clip should be there before it ends.
+        if (frames > windows_[i].next_frames && length > kLengths_s.front()) break;
+        for (bool fades : {false, true}) {
+          open.push_back({.pair = pairs[i], .number = i, .frames = frames, .fades = fades});
+          open.back().cost_s = Time(open.back());
+        }
+      }
+    }
+    std::ranges::sort(open, IsBetterWay);
+    std::vector<double> costs;
+    for (PlayedWay& way : open) {
+      // As many as will be played with feet may cost more without them than the best does.
+      if (costs.size() >= kPlayedWithFeet) {
+        std::ranges::nth_element(costs, costs.begin() + kPlayedWithFeet - 1);
+        if (way.cost_s >= costs[kPlayedWithFeet - 1]) break;
+      }
+      way.cost_s = Cost(way, false);
+      costs.push_back(way.cost_s);
+      ways_.push_back(way);
+    }
+    std::ranges::sort(ways_, IsBetterWay);
+  }
+
+  void PlayBestWithFeet() {
+    if (ways_.size() > kPlayedWithFeet) ways_.resize(kPlayedWithFeet);
+    for (PlayedWay& way : ways_) way.cost_s = Cost(way, true);
+    std::ranges::sort(ways_, IsBetterWay);
+  }
+
+  const TransitionRequest& request_;
+  const PlayedOptions& options_;
+  const double rate_hz_;
+  std::vector<JoinWindow> windows_;
+  std::vector<OwnAccelerations> own_;
+  std::vector<PlayedWay> ways_;
+};
+
+}  // namespace
+
+const SettingTable<PlayedOptions>& PlayedSettings() {
+  static const SettingTable<PlayedOptions> kSettings(
+      {{"excess_per_s", &PlayedOptions::excess_per_s, 0.01, 1000,
+        "How much acceleration beyond the clips' own, in centimetres per frame², weighs as much as a second of time."},
+       {"invented_per_s", &PlayedOptions::invented_per_s, 0.01, 1'000'000,
+        "How far from both clips, in centimetres over a second, weighs as much as a second of time."},
+       {"least_play_s", &PlayedOptions::least_play_s, 0, 60,
+        "What must be left of the wanted clip to play, in seconds; its front half may always be entered."}});
+  return kSettings;
+}
+
+TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionRequest& request, const MatchRules& rules,
+                            const PlayedOptions& options) {
+  const AllowedFrames allowed = AllowedAnyFrames(library, request, options.least_play_s);
+  const Rehearsal rehearsal(library, request, options, NearestPairs(library, request, allowed));
+  const PlayedWay& best = rehearsal.ways().front();
+  TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
+  const JoinWish wish{.blend_s = best.frames / library.motions[request.from].rate_hz, .fades = best.fades};
+  record.segments.back().wish = wish;
+  record.pairs_seen = record.pairs_matched = allowed.Pairs();
+  record.cost_unit = "s";
+  std::vector<RankedPair> others;
+  const auto ranked = [](const PlayedWay& way) {
+    return RankedPair{way.pair.leave, way.pair.enter, true, way.cost_s, way.cost_s};
+  };
+  for (std::size_t i = 1; i < rehearsal.ways().size(); ++i) {
+    const PlayedWay& way = rehearsal.ways()[i];
+    const auto same = [&](const RankedPair& p) { return p.from == way.pair.leave && p.to == way.pair.enter; };
+    if (!same(ranked(best)) && std::ranges::none_of(others, same)) others.push_back(ranked(way));
+  }
+  record.candidates =
+      ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
+  record.why = fmt::format("least cost of the transitions played: {}, joined within {:.2f} s by {}, {:.2f} s in all",
+                           DescribePair(library, request, best.pair.leave, best.pair.enter), wish.blend_s,
+                           wish.fades ? "a fade" : "what was off dying away", best.cost_s);
+  return record;
+}
+
+}  // namespace etude

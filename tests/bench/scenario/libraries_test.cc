@@ -1,0 +1,47 @@
+#include "tests/bench/scenario/parse.h"
+
+namespace etude {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const std::string kTransitions = "scenario: s\nquestion: q\ntask: transition\nmethods: [{name: a}]\n";
+
+std::vector<std::string> Labels(const Scenario& scenario) {
+  std::vector<std::string> labels;
+  for (const Condition& condition : scenario.conditions) labels.push_back(ConditionLabel(condition.swept));
+  return labels;
+}
+
+TEST(Libraries, HaveEveryConditionOnceEach) {
+  const Scenario scenario = ParseOne(kTransitions +
+                                     "sweep: {threshold: [0.3, 0.4]}\n"
+                                     "libraries: {moves: ['builtin:*'], mine: [a.bvh, b.bvh]}\n");
+  EXPECT_THAT(Labels(scenario), ElementsAre("library=moves, threshold=0.3", "library=moves, threshold=0.4",
+                                            "library=mine, threshold=0.3", "library=mine, threshold=0.4"));
+  EXPECT_EQ(scenario.conditions[2].library, "mine");
+  EXPECT_THAT(scenario.libraries[1].clips, ElementsAre("a.bvh", "b.bvh"));
+}
+
+TEST(Libraries, CanBeAddedOnceToThoseOfTheScenarioAndToNone) {
+  const NamedClips extra[] = {{"mine", {"a.bvh"}}};
+  Scenario with = ParseOne(kTransitions + "libraries: {moves: ['builtin:*']}\n");
+  for (int again = 0; again < 2; ++again) AddLibraries(extra, with);
+  EXPECT_THAT(Labels(with), ElementsAre("library=moves", "library=mine"));
+  Scenario without = ParseOne(kTransitions + "clips: ['builtin:*']\nsweep: {threshold: [0.3, 0.4]}\n");
+  AddLibraries(extra, without);
+  EXPECT_THAT(Labels(without), ElementsAre("library=mine, threshold=0.3", "library=mine, threshold=0.4"));
+}
+
+TEST(Libraries, AreRefusedWhereTheyMakeNoSense) {
+  EXPECT_THAT(Complaint(kTransitions + "libraries: [a.bvh]\n"), HasSubstr("'libraries' must map names"));
+  EXPECT_THAT(Complaint(kTransitions + "libraries: {}\n"), HasSubstr("'libraries' must map names"));
+  EXPECT_THAT(Complaint(kTransitions + "clips: [a.bvh]\nlibraries: {mine: [a.bvh]}\n"),
+              HasSubstr("stands in the place of 'clips'"));
+  EXPECT_THAT(Complaint(kTransitions + "libraries: {'my own': [a.bvh]}\n"), HasSubstr("no plain name"));
+  EXPECT_THAT(Complaint(kHead + kMethods + "libraries: {mine: [a.bvh]}\n"), HasSubstr("has no use in task ik"));
+}
+
+}  // namespace
+}  // namespace etude

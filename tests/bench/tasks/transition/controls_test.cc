@@ -1,0 +1,170 @@
+// Ways to fool a yardstick, each beside what it fools: `clean_share` must credit none of them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "bench/metrics/transition_smoothness.h"
+#include "bench/tasks/transition/outcome.h"
+#include "bench/tasks/transition/score.h"
+#include "bench/tasks/transition/world.h"
+#include "engine/base/smoothstep.h"
+#include "engine/transitions/joins/crossfade.h"
+#include "engine/transitions/transition.h"
+#include "tests/bench/tasks/transition/transition_fixture.h"
+
+namespace etude {
+namespace {
+
+constexpr int kRequests = 60;
+
+class Controls : public TransitionFixture {
+ protected:
+  static const Stage& TheStage() {
+    static const Stage kStage = SetStage(EveryMove());
+    return kStage;
+  }
+
+  static TransitionOutcome Outcome(const TransitionRequest& request, TransitionRecord record, const char* join) {
+    TransitionOutcome outcome{
+        .request = request, .matched = false, .rules = {}, .record = std::move(record), .splice = {}};
+    outcome.splice = SpliceSegments(TheStage().library.motions, outcome.record.segments, *FindJoin(join));
+    return outcome;
+  }
+
+  static TransitionRecord Plan(const char* choice, const TransitionRequest& request) {
+    return FindChoice(choice)->plan(TheStage().library, request, {}, {});
+  }
+
+  /// The share of requests, of those that the way can answer, for which a metric counts 1; `make` may leave one out.
+  using Way = std::function<std::optional<TransitionOutcome>(const TransitionRequest&)>;
+  static double ShareOf(const char* metric, const Way& make) {
+    double sum = 0;
+    int count = 0;
+    for (int trial = 0; trial < kRequests; ++trial) {
+      const auto request = DrawRequest(TheStage(), Trial(trial));
+      if (!request) continue;
+      const auto outcome = make(*request);
+      if (!outcome) continue;
+      CellResult result = CellResult::Ended(Status::kOk, "");
+      ScoreTransition(*outcome, TheStage(), result);
+      sum += ValueOf(result, metric);
+      ++count;
+    }
+    EXPECT_GT(count, kRequests / 3) << "enough to judge by";
+    return sum / count;
+  }
+
+  /// At once into the wanted clip, what is shown of its frame k being `shown(k, the frame left, that frame)`.
+  static Way AtOnce(std::function<BodyPose(int, const TransitionOutcome&, const BodyPose&)> shown) {
+    return [shown](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
+      TransitionOutcome outcome = Outcome(request, Plan("now", request), "cut");
+      const int point = outcome.splice.points.front().frame;
+      BodyMotion motion = outcome.splice.motion;
+      for (int k = 1; point + k < static_cast<int>(motion.poses.size()); ++k) {
+        motion.poses[point + k] = shown(k, outcome, outcome.splice.wanted[k]);
+      }
+      outcome.splice.motion = std::move(motion);
+      return outcome;
+    };
+  }
+};
+
+TEST_F(Controls, UnbrokenMotionIsCleanAndSearchingWithFeetMostly) {
+  const auto by = [](const char* choice, const char* join) {
+    return [=](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
+      return Outcome(request, Plan(choice, request), join);
+    };
+  };
+  EXPECT_GE(ShareOf("clean_share", by("unbroken", "cut")), 0.85);
+  EXPECT_EQ(ShareOf("calm_natural_share", by("unbroken", "cut")), 1);
+  EXPECT_GE(ShareOf("clean_share", by("played", "planted-feet")), 0.75);
+  EXPECT_LE(ShareOf("clean_share", by("now", "cut")), 0.02);
+}
+
+TEST_F(Controls, FreezingAndThenFadingForThreeSecondsFoolsNaturalAloneAndIsNotClean) {
+  const Way freeze = AtOnce([](int k, const TransitionOutcome& outcome, const BodyPose& wanted) {
+    constexpr double kFrames = 90;
+    const BodyPose& frozen = outcome.splice.points.front().leaving;
+    // It comes to rest within a third of a second, so that even the freezing is smooth.
+    BodyPose resting = frozen;
+    const double reach = 5 * (1 - std::pow(1 - std::min(k / 10.0, 1.0), 3)) / 1.5;
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      resting.joints[j] += reach * (frozen.joints[j] - outcome.splice.points.front().leaving_before.joints[j]);
+    }
+    return PoseBetween(resting, wanted, Smootherstep(k / kFrames));
+  });
+  EXPECT_GE(ShareOf("natural_share", freeze), 0.8) << "what it fools";
+  EXPECT_LE(ShareOf("clean_share", freeze), 0.02);
+}
+
+TEST_F(Controls, ACrossfadeOfThreeSecondsIsNotClean) {
+  const Way fade = AtOnce([](int k, const TransitionOutcome& outcome, const BodyPose& wanted) {
+    const std::vector<BodyPose>& old = TheStage().library.motions[outcome.request.from].poses;
+    const std::size_t frame = std::min<std::size_t>(outcome.splice.points.front().frame + k, old.size() - 1);
+    return PoseBetween(old[frame], wanted, Smootherstep(k / 90.0));
+  });
+  EXPECT_GE(ShareOf("natural_share", fade), 0.7) << "what it fools";
+  EXPECT_LE(ShareOf("clean_share", fade), 0.05);
+}
+
+TEST_F(Controls, TeleportingWhereTheOldClipIsFastestIsNotClean) {
+  const Way teleport = [](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
+    const std::vector<double> jumps = SecondDifferencesCm(TheStage().library.motions[request.from]);
+    const auto begin = jumps.begin() + request.request_frame;
+    const auto end = begin + std::min<std::ptrdiff_t>(30, jumps.end() - begin - 1);
+    const int leave = static_cast<int>(std::max_element(begin, end) - jumps.begin());
+    TransitionRecord record = Plan("now", request);
+    record.segments.front().last = leave;
+    record.wait_s = WaitOf(record.segments, kJudgedRateHz);
+    return Outcome(request, std::move(record), "cut");
+  };
+  EXPECT_LE(ShareOf("clean_share", teleport), 0.02);
+}
+
+TEST_F(Controls, WaitingIsNotClean) {
+  // By a minute: the old clip again and again, then a join as good as they come.
+  const Way wait = [](const TransitionRequest& request) -> std::optional<TransitionOutcome> {
+    TransitionRequest patient = request;
+    patient.budget_s = 60;
+    TransitionRecord record = Plan("played", patient);
+    record.segments.front().last = TheStage().library.tagged[request.from].FrameCount() - 1;
+    if (record.segments.front().last - request.request_frame < 45) return std::nullopt;
+    return Outcome(request, std::move(record), "planted-feet");
+  };
+  EXPECT_EQ(ShareOf("clean_share", wait), 0);
+  CellResult never = CellResult::Ended(Status::kUnsolved, "it still waits");
+  MeasureNoWay(never);
+  EXPECT_EQ(ValueOf(never, "clean_share"), 0);
+  EXPECT_EQ(ValueOf(never, "calm_natural_share"), 0);
+}
+
+TEST_F(Controls, AWildClipDoesNotExcuseABreakInACalmOne) {
+  ClipLibrary clips = SmallLibrary();
+  BodyMotion& wild = clips.clips[1].motion;
+  for (std::size_t f = 0; f < wild.poses.size(); f += 2) {
+    for (Role role : {Role::kLeftHand, Role::kLeftWrist}) wild.poses[f][role].y += 0.3;
+  }
+  const Stage stage = SetStage(clips);
+  const TransitionRequest request{.from = 0, .request_frame = 40, .to = 1};
+  const TransitionOutcome cut{
+      .request = request,
+      .matched = false,
+      .rules = {},
+      .record = FindChoice("now")->plan(stage.library, request, {}, {}),
+      .splice = SpliceSegments(stage.library.motions, FindChoice("now")->plan(stage.library, request, {}, {}).segments,
+                               *FindJoin("cut"))};
+  EXPECT_GT(NaturalLimitCm(NaturalJumpsOf(stage, 0, 1)), 5 * CalmerLimitCm(stage, 0, 1));
+  CellResult result = CellResult::Ended(Status::kOk, "");
+  ScoreTransition(cut, stage, result);
+  EXPECT_EQ(ValueOf(result, "calm_natural_share"), 0);
+  EXPECT_EQ(ValueOf(result, "clean_share"), 0);
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,182 @@
+#include "engine/transitions/joins/planted_feet.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/transitions/base/alignment.h"
+#include "engine/transitions/joins/leg.h"
+#include "engine/transitions/joins/splice.h"
+#include "tests/engine/transitions/expect_pose.h"
+#include "tests/engine/transitions/joins/join_pictures.h"
+#include "tests/engine/transitions/test_clips.h"
+
+namespace etude {
+namespace {
+
+/// Stands on both feet, the left one `ahead` metres in front, the knees bent enough for it.
+BodyPose Stride(double ahead) {
+  BodyPose pose = StandingClip(1, 20).poses[0];
+  constexpr double kSink = 0.08;
+  for (glm::dvec3& joint : pose.joints) joint.y -= kSink;
+  double side = 0.5;
+  for (const LegRoles& leg : kLegs) {
+    const BodyPose rest = StandingClip(1, 20).poses[0];
+    const double thigh = glm::distance(rest[leg.hip], rest[leg.knee]);
+    const double shin = glm::distance(rest[leg.knee], rest[leg.ankle]);
+    const glm::dvec3 ankle = rest[leg.ankle] + glm::dvec3(0, 0, side * ahead);
+    const Leg solved = SolveLeg(pose[leg.hip], ankle, thigh, shin, {0, 0, 1});
+    pose[leg.knee] = solved.knee;
+    pose[leg.ankle] = solved.ankle;
+    pose[leg.foot] = solved.ankle + rest[leg.foot] - rest[leg.ankle];
+    side = -side;
+  }
+  const double floor = std::min(pose[Role::kLeftFoot].y, pose[Role::kRightFoot].y);
+  for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+  return pose;
+}
+
+BodyMotion Still(const BodyPose& pose, int frames) {
+  return {kJudgedRateHz, std::vector<BodyPose>(static_cast<std::size_t>(frames), pose)};
+}
+
+JoinWindow Window(const BodyPose& from, const BodyPose& to, int frames) {
+  JoinWindow window{.shown = {from, from}, .target_before = to, .old = {}, .next = {}};
+  window.old.assign(frames + 1, from);
+  window.next.assign(frames + 1, to);
+  window.old_frames = window.next_frames = frames;
+  return window;
+}
+
+TEST(FindFootContacts, SeesStepsAndDoesNotFlickerBetweenItsThresholds) {
+  const auto clip_of = [](auto&& height) {
+    BodyMotion motion = Still(Stride(0), 60);
+    for (int f = 0; f < 60; ++f) motion.poses[f][Role::kLeftFoot].y = height(f);
+    return motion;
+  };
+  const BodyMotion steps = clip_of([](int f) { return f >= 20 && f < 40 ? 0.2 : 0.0; });
+  const FootContacts contacts = FindFootContacts(steps.poses, 30);
+  for (int f = 0; f < 60; ++f) {
+    EXPECT_EQ(contacts[0][f], f < 19 || f >= 40) << f;  // frame 19 is already on its way up
+    EXPECT_TRUE(contacts[1][f]);
+  }
+  const BodyMotion wavers = clip_of([](int f) { return f % 10 < 5 ? 0.03 : 0.0425; });
+  int changes = 0;
+  const FootContacts steady = FindFootContacts(wavers.poses, 30);
+  for (int f = 1; f < 60; ++f) changes += steady[0][f] != steady[0][f - 1];
+  EXPECT_EQ(changes, 0) << "4.25 cm is above where a foot begins to stand, and below where it ends";
+}
+
+TEST(AlignOnPlantedFeet, LaysStandingFeetOntoEachOtherExactly) {
+  const BodyPose stride = Stride(0.3);
+  const FloorMove away{.yaw = 0.8, .x = 3, .z = -2};
+  const std::vector<BodyPose> old(10, stride), next(10, away.Apply(stride));
+  const FloorMove place = AlignOnPlantedFeet(old, next, 30);
+  ExpectSamePose(place.Apply(next[0]), stride, 1e-12);
+}
+
+TEST(AlignOnPlantedFeet, TrustsFeetThatStandMoreThanATrunkThatLeans) {
+  const BodyPose stride = Stride(0.3);
+  BodyPose leaning = stride;
+  for (const Role role : {Role::kLeftHip, Role::kRightHip, Role::kLeftShoulder, Role::kRightShoulder, Role::kHipCentre,
+                          Role::kSpine, Role::kShoulderCentre, Role::kHead}) {
+    leaning[role].x += 0.2;
+  }
+  const std::vector<BodyPose> old(16, stride), next(16, leaning);
+  const FloorMove by_feet = AlignOnPlantedFeet(old, next, 30);
+  const FloorMove by_hips = AlignOnFloor(leaning, stride);
+  EXPECT_NEAR(by_hips.x, -0.2, 1e-9) << "the control";
+  EXPECT_LT(std::abs(by_feet.x), 0.07);
+}
+
+TEST(PlanSteps, LetsFeetThatMustTravelGoOneAfterTheOther) {
+  const FootPlan plan = PlanSteps(Window(Stride(0.15), Stride(-0.15), 30));
+  for (const FootStep& step : plan) {
+    EXPECT_FALSE(step.keeps);
+    EXPECT_GT(step.lift, 0.02);
+    EXPECT_LT(step.begin, step.end);
+  }
+  EXPECT_TRUE(plan[0].end <= plan[1].begin || plan[1].end <= plan[0].begin);
+}
+
+TEST(PlanSteps, DoesNotLiftFeetThatStandWhereTheyShould) {
+  for (const FootStep& step : PlanSteps(Window(Stride(0.2), Stride(0.2), 15))) EXPECT_EQ(step.lift, 0);
+}
+
+TEST(PlantFeet, KeepsEachFootInItsPlaceUntilItsStepAndAfterIt) {
+  const BodyPose from = Stride(0.3), to = Stride(-0.3);
+  const JoinWindow window = Window(from, to, 24);
+  const FootPlan plan = PlanSteps(window);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, false);
+  PlantFeet(window, played);
+  for (std::size_t side = 0; side < kLegs.size(); ++side) {
+    for (int f = 0; f <= 24; ++f) {
+      const Role foot = kLegs[side].foot;
+      if (f <= plan[side].begin) {
+        EXPECT_LT(glm::distance(played[f][foot], from[foot]), 0.005) << f;
+      }
+      if (f >= plan[side].end) {
+        EXPECT_LT(glm::distance(played[f][foot], to[foot]), 0.005) << f;
+      }
+    }
+  }
+}
+
+TEST(PlantFeet, KeepsAllLimbsToTheLastDigits) {
+  const JoinWindow window = Window(Stride(0.4), FloorMove{.yaw = 0.7, .x = 0.5, .z = 0.1}.Apply(Stride(-0.2)), 20);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, true);
+  PlantFeet(window, played);
+  for (const BodyPose& pose : played) {
+    for (const Bone& bone : AllBones()) {
+      EXPECT_NEAR(BoneLength(pose, bone), BoneLength(window.next[0], bone), 1e-12) << RoleName(bone.child);
+    }
+  }
+}
+
+double SlideOf(const Splice& splice, int frames) {
+  double slide = 0;
+  const int point = splice.points.front().frame;
+  for (int f = point; f < point + frames; ++f) {
+    for (const LegRoles& leg : kLegs) {
+      const glm::dvec3 &here = splice.motion.poses[f][leg.foot], &next = splice.motion.poses[f + 1][leg.foot];
+      if (std::max(here.y, next.y) < 0.02) slide += std::hypot(next.x - here.x, next.z - here.z);
+    }
+  }
+  return slide;
+}
+
+TEST(PlantedFeet, DoesNotSlideWhereLimbsAloneDo) {
+  const BodyMotion clips[] = {Still(Stride(0.3), 60), Still(Stride(-0.3), 60)};
+  std::vector<Segment> way = Segments(19, 5, clips[1]);
+  way.back().wish = JoinWish{.blend_s = 0.8};
+  const double limbs = SlideOf(SpliceSegments(clips, way, *FindJoin("minimum-jerk")), 24);
+  const double feet = SlideOf(SpliceSegments(clips, way, *FindJoin("planted-feet")), 24);
+  EXPECT_GT(limbs, 0.3) << "the control slides";
+  EXPECT_LT(feet, 0.1 * limbs);
+}
+
+TEST(SolveLeg, IsTheLegItWasMeasuredFrom) {
+  const glm::dvec3 hip(0.1, 0.9, 0), knee(0.15, 0.5, 0.2), ankle(0.05, 0.1, 0.05);
+  const Leg leg =
+      SolveLeg(hip, ankle, glm::distance(hip, knee), glm::distance(knee, ankle), KneeOffset(hip, knee, ankle));
+  EXPECT_LT(glm::distance(leg.knee, knee), 1e-12);
+  EXPECT_LT(glm::distance(leg.ankle, ankle), 1e-12);
+}
+
+TEST(SolveLeg, KeepsItsLimbsAndItsDirectionWhereItCannotReach) {
+  const Leg far = SolveLeg({0, 1, 0}, {0, -1, 0}, 0.4, 0.35, {0, 0, 1});
+  EXPECT_NEAR(far.ankle.y, 0.25, 1e-9);
+  EXPECT_NEAR(glm::distance(far.knee, far.ankle), 0.35, 1e-12);
+  const Leg nowhere = SolveLeg({0, 1, 0}, {0, 1, 0}, 0.4, 0.35, {0, 0, 0});
+  EXPECT_NEAR(glm::distance(nowhere.knee, nowhere.ankle), 0.35, 1e-12);
+  EXPECT_NEAR(glm::distance(nowhere.knee, {0, 1, 0}), 0.4, 1e-9);
+}
+
+TEST(CarriedOffset, TurnsWithTheLeg) {
+  const glm::dvec3 carried = CarriedOffset({0, 0, 0.1}, {0, -1, 0}, {0, 0, 1});  // down to forwards, about x
+  EXPECT_LT(glm::distance(carried, glm::dvec3(0, 0.1, 0)), 1e-12);
+}
+
+}  // namespace
+}  // namespace etude
