@@ -108,8 +108,8 @@ class Scenarios(EtudeCase):
             refused = self.folder / "refused"
             result = self.etude("run", *paths, *clips, "-o", refused)
             self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertEqual(result.stderr, f"etude: {ik}: has no use for --clips: no task of its scenarios makes its "
-                                            "worlds of clips\n")
+            self.assertEqual(result.stderr, f"etude: {ik}: has no use for --clips or --library: no task of its "
+                                            "scenarios makes its worlds of clips\n")
             self.assertFalse(refused.exists())
 
     def test_the_list_of_methods_says_what_goes_with_what(self):

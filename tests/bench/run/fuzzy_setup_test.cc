@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
 #include "bench/run/setup.h"
 #include "bench/run/suite.h"
 #include "engine/fuzzy/fuzzy_system.h"
@@ -16,11 +17,8 @@ using ::testing::HasSubstr;
 /// A folder with a scenario that names `fuzzy`, gone when the test is.
 class FuzzySetup : public testing::Test {
  protected:
-  FuzzySetup() { std::filesystem::create_directories(folder_); }
-  ~FuzzySetup() override { std::filesystem::remove_all(folder_); }
-
   std::string Write(const std::string& name, const std::string& text) {
-    const std::string path = (folder_ / name).string();
+    const std::string path = (folder_.path() / name).string();
     EXPECT_TRUE(WriteFileAtomically(path, text));
     return path;
   }
@@ -34,7 +32,7 @@ class FuzzySetup : public testing::Test {
     return ReadSuite(options);
   }
 
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "etude_fuzzy_setup_test";
+  TemporaryFolder folder_ = *TemporaryFolder::Make("fuzzy-setup-test");
 };
 
 TEST_F(FuzzySetup, KeepsTheTextOfEveryNamedFileSoThatTheFileMayGo) {
