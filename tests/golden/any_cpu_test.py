@@ -51,8 +51,8 @@ scenarios:
                {name: cloud, choice: point-cloud, join: inertialised-spring}, {name: matching, choice: motion-matching},
                {name: standing, choice: through-standing, join: crossfade}, {name: end, choice: wait-for-end},
                {name: natural, choice: unbroken}]}
-  - {scenario: every-capture, task: capture, duration_s: 0.2, clips: ['builtin:boxing'], rig: ring, cameras: 3,
-     scene: 0.25, radial_distortion: -0.05, sync_offset_ms: 20, metrics: [mpjpe_mm], question: 'Same bytes?',
+  - {scenario: every-capture, task: capture, duration_s: 0.1, clips: ['builtin:boxing'], rig: ring, cameras: 3,
+     radial_distortion: -0.05, sync_offset_ms: 20, metrics: [mpjpe_mm], question: 'Same bytes?',
      methods: [{name: fitted, segmenter: hue-gated, outliers: reject, sync: estimated},
                {name: paper, segmenter: hue, body: paper, solver: ccd}, {name: refined, calibration: refined, segmenter: ratio},
                {name: ends, segmenter: rgb, recovery: ends, smoothing: rts}, {name: bundle, recovery: bundle},
