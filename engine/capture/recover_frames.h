@@ -44,13 +44,11 @@ struct RecoveredFrame {
 };
 
 /// From what was seen to a skeleton (paper B, chapter 3): limb lengths fixed, then every end effector brought back by
-/// the solver. Lengths of paper B's body are fixed as in its section 3.2 (`FixLimbLengths`), start angles found as
-/// in 3.3
-/// (`FindStartState`); another body is brought as near as it can be to all joints that ends and directions lead to
+/// the solver. Lengths of paper B's body are fixed as in its section 3.2 (`FixLimbLengths`), start angles found as in
+/// 3.3 (`FindStartState`); another body is brought as near as it can be to all joints that ends and directions lead to
 /// (`PoseFitter`), which does both. What an observation lacks comes from the last frame, or a standing body before
-/// there is one
-/// (`CompleteObservation`), and is no target. A frame without observation, or whose skeleton cannot be computed, stays
-/// empty, and so do frames that show no end before the first that does.
+/// there is one (`CompleteObservation`), and is no target. A frame without observation, or whose skeleton cannot be
+/// computed, stays empty, and so do frames that show no end before the first that does.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
 
 /// Every frame: an empty one shows the last skeleton before it, leading ones the first. At least one is not empty.

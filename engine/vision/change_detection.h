@@ -10,9 +10,8 @@
 namespace etude {
 
 enum class Segmenter {
-  /// "rgb": red, green and blue compared by themselves: what paper B, chapter 4, starts from, and leaves for the
-  /// shadows
-  /// that it takes for a person.
+  /// "rgb": red, green and blue compared by themselves: what paper B, chapter 4, starts from, and leaves because it
+  /// takes shadows for a person.
   kRgb,
   kHue,  ///< "hue": hues compared, nothing else (paper B, chapter 4)
   /// "hue-gated" (ours): compares hues only where both colours are far enough from grey to have one, else
@@ -23,8 +22,7 @@ enum class Segmenter {
   kRatio,
   /// "running": no picture of the empty room. Each pixel's background is a mean and a deviation that follow the film
   /// (Wren et al. 1997, Pfinder); who stands still becomes background, and where somebody stood at the beginning a
-  /// ghost
-  /// stays for a while. Only `PersonFinder` has it: it needs all pictures before.
+  /// ghost stays for a while. Only `PersonFinder` has it: it needs all pictures before.
   kRunning,
 };
 
