@@ -17,25 +17,25 @@ namespace etude {
 struct SessionOptions {
   People people = People::kMixed;
   int events = 10;
-  double fault_share = 0.5;        ///< the share of events with a fault, rounded to whole events
-  double two_faults = 0.25;        ///< the chance that an event with a fault has a second one
-  std::optional<double> severity;  ///< of every fault, in [0, 1]; else thrown evenly for each
-  std::vector<Fault> faults;       ///< those that may happen; none: all
-  double rest_s = 1.5;             ///< least pause between one event's window and the next first beat; at least 1
+  double fault_share = 0.5;             ///< the share of events with a fault, rounded to whole events
+  double two_faults = 0.25;             ///< the chance that an event with a fault has a second one
+  std::optional<double> severity = {};  ///< of every fault, in [0, 1]; else thrown evenly for each
+  std::vector<Fault> faults = {};       ///< those that may happen; none: all
+  double rest_s = 1.5;                  ///< least pause between one event's window and the next first beat; at least 1
 };
 
 /// One scripted performance of a move. All times are seconds from the session's first frame.
 struct SessionEvent {
-  std::string move;                 ///< asked for, and meant
-  std::vector<GradedFault> faults;  ///< none: performed as meant
-  std::string danced;               ///< the move that is truly danced, in whole or in part; empty: none at all
-  double start_s = 0;               ///< the first beat asked for
-  double end_s = 0;                 ///< the last beat, as this person dances it without a fault
-  Stray stray;                      ///< truth: from what was meant
-  Truth truth = Truth::kRight;      ///< what follows from `stray`
+  std::string move;                      ///< asked for, and meant
+  std::vector<GradedFault> faults = {};  ///< none: performed as meant
+  std::string danced;                    ///< the move that is truly danced, in whole or in part; empty: none at all
+  double start_s = 0;                    ///< the first beat asked for
+  double end_s = 0;                      ///< the last beat, as this person dances it without a fault
+  Stray stray;                           ///< truth: from what was meant
+  Truth truth = Truth::kRight;           ///< what follows from `stray`
   /// When the move's last key beat was performed, of right events only: from the choreography's clock and the person's,
   /// not from any pose.
-  std::optional<double> first_right_s;
+  std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
   /// The event is judged from its first beat to half a second after its last (docs/metrics.md).
