@@ -81,7 +81,7 @@ Payload TruthPayload(const DetectionWorld& world) {
   Json events = Json::array();
   for (const SessionEvent& event : world.session.events) {
     const FrameInterval window = WindowOf(event, world.stream);
-    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultName(event.fault)},
+    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultNames(event.faults)},
                  {"danced", event.danced}, {"begin_frame", window.begin}, {"end_frame", window.end}};
     if (event.first_right_s) told["first_right_s"] = *event.first_right_s;
     events.push_back(std::move(told));

@@ -50,9 +50,9 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
        Key::Number(
            "fault_share", [](auto& o) -> auto& { return o.session.fault_share; }, kShare,
            "Which share of them is performed wrong."),
-       Key::Number(
-           "skill", [](auto& o) -> auto& { return o.session.skill; }, kShare,
-           "The learner's: 1 is careful, at 0 every deviation is twice as large."),
+       Key::Name(
+           "people", [](auto& o) -> auto& { return o.session.people; }, PeopleNames(), FindPeople,
+           "Who dances; `mixed`: toddlers, school children, adults and experts, thrown."),
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),

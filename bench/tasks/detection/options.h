@@ -19,7 +19,7 @@ enum class OccluderKind { kNone, kTable, kChair, kPerson };
 ///
 ///     events: 8        # performances in one session
 ///     fault_share: 0.5 # of them are wrong
-///     skill: 1         # 1 = careful learner, 0 = sloppy
+///     people: mixed    # who dances: toddler, school-child, adult, expert, absent, or a mixture
 ///     noise: 1         # times every error of the sensor
 ///     sensor: v2       # which sensor: v1, v2 or a sensor file
 ///     turn_deg: 0      # how far the performer is turned away from the sensor

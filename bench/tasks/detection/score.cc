@@ -38,7 +38,7 @@ void AddPose(Digest& digest, const BodyPose& pose) {
 std::string SessionDigest(const Performance& session) {
   Digest digest;
   for (const SessionEvent& event : session.events) {
-    digest.Add(event.move).Add(event.danced).Add(FaultName(event.fault)).Add(event.start_s).Add(event.end_s);
+    digest.Add(event.move).Add(event.danced).Add(FaultNames(event.faults)).Add(event.start_s).Add(event.end_s);
     digest.Add(event.first_right_s.value_or(-1));
   }
   for (const BodyPose& pose : session.motion.poses) AddPose(digest, pose);
@@ -126,7 +126,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
     const SessionEvent& event = world.session.events[i];
     const Judgement& judgement = verdict.events[i];
     const FrameInterval window = WindowOf(event, world.stream);
-    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultName(event.fault)},
+    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultNames(event.faults)},
                                    {"danced", event.danced},  {"begin_frame", window.begin},
                                    {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},
                                    {"score", judgement.score}};

@@ -52,9 +52,10 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
   RandomStream plan_dice(key, "session-plan");
   RandomStream dance_dice(key, "session-dance");
   RandomStream place_dice(key, "sensor-place");
-  const SessionPlan plan = PlanSession(plan_dice, repertoire.moves, options.session);
+  const Person person = DrawPerson(key, options.session.people);
+  const SessionPlan plan = PlanSession(plan_dice, repertoire.moves, person, options.session);
   DetectionWorld world;
-  world.session = Perform(dance_dice, repertoire.moves, plan, options.session);
+  world.session = Perform(dance_dice, repertoire.moves, person, plan);
 
   // The distance at which Kinect's makers ask players to stand, roughly.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
