@@ -15,7 +15,7 @@ MAY_INCLUDE = {
         "engine/base engine/boards engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers "
         "engine/motion engine/smoothing engine/vision",
     "engine/coaching":
-        "engine/base engine/fuzzy engine/motion engine/recognition engine/transitions engine/transitions/base "
+        "engine/base engine/motion engine/recognition engine/transitions engine/transitions/base "
         "engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
@@ -55,7 +55,7 @@ MAY_INCLUDE = {
     "sim/choreography":
         "engine/base engine/coaching engine/document engine/fuzzy engine/motion sim/random",
     "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
-    "sim/music": "engine/base engine/motion sim/random",
+    "sim/music": "engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
