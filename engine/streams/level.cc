@@ -17,10 +17,6 @@ using enum Role;
 constexpr double kMostTilt = 30 * kPi / 180, kMostApart = 15 * kPi / 180;
 const glm::dvec3 kFileUp(0, 1, 0);
 
-double AngleBetween(const glm::dvec3& a, const glm::dvec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 double Percentile(std::vector<double> values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
