@@ -83,8 +83,9 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
       const auto value = NumberOf(words[i]);
       if (!value || std::abs(*value) > largest) {
         const int column = static_cast<int>(words[i].data() - line_start) + 1;
-        return Fail({file, line_number, column}, "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one",
-                    i + 1, Quote(words[i]), largest);
+        return Fail({file, line_number, column},
+                    "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),
+                    largest);
       }
       table.values.push_back(*value);
     }

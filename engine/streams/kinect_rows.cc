@@ -17,6 +17,7 @@ struct RowLayout {
   bool has_fourth;     ///< the fourth number of a joint may be its state
 };
 
+constexpr double kLargestClock = 1e18;
 constexpr std::size_t kV1Joints = kRoleCount, kV2Joints = kKinectV2JointCount;
 constexpr RowLayout kV1Layouts[] = {{3 * kV1Joints, kV1Joints, 0, 3, false},
                                     {3 * kV1Joints + 1, kV1Joints, 1, 3, false},
@@ -96,6 +97,17 @@ RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool
   return frame;
 }
 
+/// The row as a frame of the recording, its `index`th.
+Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
+                                 const StreamRecording& recording, std::size_t index) {
+  RecordedFrame frame = FrameOf(row, layout, recording.tells_states);
+  frame.line = place.line;
+  const double count = recording.tells_times ? row[0] : static_cast<double>(index);
+  if (std::isnan(count)) return Fail(std::move(place), "no time, although other rows tell one");
+  frame.time_s = count * recording.seconds_per_count;
+  return frame;
+}
+
 std::string ColumnsAllowed(StreamFormat format) {
   std::vector<std::string> counts;
   for (const RowLayout& layout : LayoutsOf(format)) counts.push_back(std::to_string(layout.columns));
@@ -108,7 +120,6 @@ bool HasColumnsOf(StreamFormat format, std::size_t columns) { return FindLayout(
 
 Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
                                        const StreamReading& reading) {
-  constexpr double kLargestClock = 1e18;
   ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kLargestClock));
   const RowLayout* layout = FindLayout(format, table.columns);
   if (layout == nullptr) {
@@ -121,14 +132,23 @@ Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string&
   recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
   const auto unit = recording.tells_times ? SecondsPerCount(table) : std::optional(1 / recording.rate_hz);
   if (!unit) return Fail({file, table.lines.front(), 1}, "a first column that is no clock and counts no frames");
+  recording.seconds_per_count = *unit;
   for (std::size_t t = 0; t < table.RowCount(); ++t) {
-    RecordedFrame& frame = recording.frames.emplace_back(FrameOf(table.Row(t), *layout, recording.tells_states));
-    frame.line = table.lines[t];
-    const double count = recording.tells_times ? table.Row(t)[0] : static_cast<double>(t);
-    if (std::isnan(count)) return Fail({file, frame.line, 1}, "no time, although other rows tell one");
-    frame.time_s = count * *unit;
+    ASSIGN_OR_RETURN(recording.frames.emplace_back(),
+                     TimedFrame(table.Row(t), {file, table.lines[t], 1}, *layout, recording, t));
   }
   return recording;
+}
+
+Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
+                                    std::size_t index) {
+  // After a heading, or a word in the row's place would be taken for one.
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kLargestClock));
+  const RowLayout* layout = FindLayout(recording.format, table.columns);
+  if (layout == nullptr || (layout->first == 0 && recording.tells_times)) {
+    return Fail({file, 1}, "{} numbers in a row, other than in the rows before", table.columns);
+  }
+  return TimedFrame(table.Row(0), {file, 1, 1}, *layout, recording, index);
 }
 
 }  // namespace etude

@@ -14,7 +14,7 @@ namespace {
 
 using enum Role;
 
-constexpr double kMostTilt = 30 * kPi / 180, kMostApart = 15 * kPi / 180;
+constexpr double kMostTilt = Radians(30), kMostApart = Radians(15);
 const glm::dvec3 kFileUp(0, 1, 0);
 
 double Percentile(std::vector<double> values, double share) {
@@ -104,7 +104,7 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
   }
   if (up && AngleBetween(*up, kFileUp) <= kMostTilt) {
     level.R_WF = Swing(*up, kFileUp);
-    level.tilt_deg = AngleBetween(*up, kFileUp) * 180 / kPi;
+    level.tilt_deg = Degrees(AngleBetween(*up, kFileUp));
   } else {
     level.up_by = StreamLevel::By::kNothing;
   }

@@ -12,10 +12,10 @@ namespace etude {
 struct StreamLevel {
   enum class By { kNothing, kFeet, kTrunk };
 
-  glm::dmat3 R_WF{1};        ///< rotates the file's directions into the world; about a horizontal axis only
-  double floor_m = 0;        ///< height of the floor after that rotation
-  double tilt_deg = 0;       ///< of that rotation
-  By up_by = By::kNothing;   ///< what told where up is
+  glm::dmat3 R_WF{1};       ///< rotates the file's directions into the world; about a horizontal axis only
+  double floor_m = 0;       ///< height of the floor after that rotation
+  double tilt_deg = 0;      ///< of that rotation
+  By up_by = By::kNothing;  ///< what told where up is
 
   glm::dvec3 Apply(const glm::dvec3& place) const { return R_WF * place - glm::dvec3(0, floor_m, 0); }
 };

@@ -44,24 +44,6 @@ std::size_t FirstRowColumns(std::string_view text) {
   return 0;
 }
 
-Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, const std::string& file,
-                                   const StreamReading& reading) {
-  switch (format) {
-    case StreamFormat::kEtudeCsv:
-      return ReadEtudeCsv(text, file, reading);
-    case StreamFormat::kTrc:
-      return ReadTrcStream(text, file);
-    case StreamFormat::kKinectV2:
-    case StreamFormat::kKinectV1:
-      return ReadKinectRows(text, file, format, reading);
-    case StreamFormat::kNtu:
-      return ReadNtuSkeleton(text, file, reading);
-    case StreamFormat::kAzureKinect:
-      return ReadAzureKinect(text, file, reading);
-  }
-  return Fail({file}, "no format");
-}
-
 Result<void> CheckRoles(const StreamRecording& recording, const std::string& file) {
   std::vector<std::string> missing;
   for (const Role role : AllRoles()) {
@@ -84,29 +66,6 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   return *middle;
-}
-
-/// Finds the unit by the trunk: 0.2 to 0.9 m from a toddler's to a tall adult's.
-Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
-  constexpr double kShortestTrunk = 0.15, kLongestTrunk = 0.95;
-  const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
-  const struct {
-    double metres;
-    std::string_view name;
-  } units[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
-  for (const auto& [metres, name] : units) {
-    if (!(trunk * metres >= kShortestTrunk && trunk * metres <= kLongestTrunk)) continue;
-    if (metres == 1) return {};
-    recording.remarks.push_back(fmt::format("places in {}", name));
-    for (RecordedFrame& frame : recording.frames) {
-      for (auto& place : frame.places) {
-        if (place) *place *= metres;
-      }
-    }
-    return {};
-  }
-  return Fail({file}, "a trunk of {:.3g} from hip centre to shoulder centre; allowed: {} to {} m, in m, cm or mm", trunk,
-              kShortestTrunk, kLongestTrunk);
 }
 
 /// No person is anywhere near so far from the sensor.
@@ -170,6 +129,47 @@ std::optional<StreamFormat> TellStreamFormat(std::string_view text) {
   return std::nullopt;
 }
 
+Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, const std::string& file,
+                                   const StreamReading& reading) {
+  switch (format) {
+    case StreamFormat::kEtudeCsv:
+      return ReadEtudeCsv(text, file, reading);
+    case StreamFormat::kTrc:
+      return ReadTrcStream(text, file);
+    case StreamFormat::kKinectV2:
+    case StreamFormat::kKinectV1:
+      return ReadKinectRows(text, file, format, reading);
+    case StreamFormat::kNtu:
+      return ReadNtuSkeleton(text, file, reading);
+    case StreamFormat::kAzureKinect:
+      return ReadAzureKinect(text, file, reading);
+  }
+  return Fail({file}, "no format");
+}
+
+Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
+  constexpr double kShortestTrunk = 0.15, kLongestTrunk = 0.95;  // a toddler's, a tall adult's
+  const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
+  const struct {
+    double metres;
+    std::string_view name;
+  } units[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
+  for (const auto& [metres, name] : units) {
+    if (!(trunk * metres >= kShortestTrunk && trunk * metres <= kLongestTrunk)) continue;
+    if (metres == 1) return {};
+    recording.remarks.push_back(fmt::format("places in {}", name));
+    recording.metres_per_unit = metres;
+    for (RecordedFrame& frame : recording.frames) {
+      for (auto& place : frame.places) {
+        if (place) *place *= metres;
+      }
+    }
+    return {};
+  }
+  return Fail({file}, "a trunk of {:.3g} from hip centre to shoulder centre; allowed: {} to {} m, in m, cm or mm",
+              trunk, kShortestTrunk, kLongestTrunk);
+}
+
 Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
                                             const StreamReading& reading) {
   if (text.size() > kLargestNumberText) {
@@ -179,8 +179,10 @@ Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::st
   if (!format) {
     const std::size_t columns = FirstRowColumns(text);
     const std::string found = columns == 0 ? "no rows of numbers" : fmt::format("{} numbers in its first row", columns);
-    return Fail({file, 1}, "no skeletons known here ({}); allowed: {}; a Kinect v2's rows have 75, 100 or 175 numbers, "
-                "a Kinect v1's 60, 61, 80 or 81", found, Join(StreamFormatNames()));
+    return Fail({file, 1},
+                "no skeletons known here ({}); allowed: {}; a Kinect v2's rows have 75, 100 or 175 numbers, "
+                "a Kinect v1's 60, 61, 80 or 81",
+                found, Join(StreamFormatNames()));
   }
   ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, text, file, reading));
   RETURN_IF_ERROR(CheckRoles(recording, file));

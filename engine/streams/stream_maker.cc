@@ -25,32 +25,21 @@ RecordedFrame Between(const RecordedFrame& a, const RecordedFrame& b, double par
   return frame;
 }
 
-RecordedFrame MirroredFrame(const RecordedFrame& frame) {
-  RecordedFrame mirrored = frame;
-  for (const Role role : AllRoles()) {
-    auto& place = mirrored.places[Index(role)];
-    place = frame.places[Index(Mirrored(role))];
-    if (place) place->x = -place->x;
-    mirrored.states[Index(role)] = frame.states[Index(Mirrored(role))];
-  }
-  return mirrored;
-}
-
 }  // namespace
 
 StreamMaker::StreamMaker(const StreamLevel& level, const StreamOptions& options, std::string file)
     : level_(level), options_(options), file_(std::move(file)) {}
 
 SensedFrame StreamMaker::Sensed(const RecordedFrame& frame) {
-  const RecordedFrame seen = options_.mirrors ? MirroredFrame(frame) : frame;
   SensedFrame sensed;
-  sensed.body_seen = ShowsBody(seen);
+  sensed.body_seen = ShowsBody(frame);
   for (const Role role : AllRoles()) {  // parents before their children
     SensedJoint& joint = sensed[role];
     auto& last = last_[Index(role)];
-    if (const auto& place = seen.places[Index(role)]) {
+    if (const auto& place = frame.places[Index(role)]) {
       last = level_.Apply(*place);
-      joint = {*last, seen.states[Index(role)]};
+      if (options_.reflects) last->x = -last->x;
+      joint = {*last, frame.states[Index(role)]};
     } else if (last) {
       joint.position = *last;
     } else if (const auto parent = ParentOf(role)) {
@@ -64,8 +53,9 @@ Result<void> StreamMaker::Add(const RecordedFrame& frame, std::vector<SensedFram
   if (!before_) {
     start_s_ = frame.time_s;
   } else if (frame.time_s <= before_->time_s || frame.time_s - before_->time_s > kLongestLoss) {
-    return Fail({file_, frame.line}, "time {:.6g} s after {:.6g} s; allowed: a clock that goes on, at most {} s at once",
-                frame.time_s, before_->time_s, kLongestLoss);
+    return Fail({file_, frame.line},
+                "time {:.6g} s after {:.6g} s; allowed: a clock that goes on, at most {} s at once", frame.time_s,
+                before_->time_s, kLongestLoss);
   }
   for (;; ++next_) {
     const double time = start_s_ + static_cast<double>(next_) / options_.rate_hz;
@@ -108,8 +98,7 @@ std::optional<double> FeetForward(const SkeletonStream& stream) {
     if (glm::length(forward) < 1e-6) continue;
     for (const auto& [ankle, toe] : {std::pair{kLeftAnkle, kLeftFoot}, std::pair{kRightAnkle, kRightFoot}}) {
       const glm::dvec3 foot = frame[toe].position - frame[ankle].position;
-      const bool is_seen =
-          frame[toe].state == TrackingState::kTracked && frame[ankle].state == TrackingState::kTracked;
+      const bool is_seen = frame[toe].state == TrackingState::kTracked && frame[ankle].state == TrackingState::kTracked;
       if (!is_seen || glm::length(foot) < 1e-6) continue;
       sum += glm::dot(glm::normalize(forward), glm::normalize(foot));
       ++feet;

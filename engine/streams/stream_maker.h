@@ -11,8 +11,8 @@
 namespace etude {
 
 struct StreamOptions {
-  bool levels = true;    ///< estimate gravity and floor of files that do not say; else take the file's
-  bool mirrors = false;  ///< exchange left and right: for recordings that were mirrored
+  bool levels = true;     ///< estimate gravity and floor of files that do not say; else take the file's
+  bool reflects = false;  ///< negate X: of files whose X axis runs the other way, so that bodies are mirrored
   double rate_hz = kJudgedRateHz;
 };
 
@@ -44,7 +44,7 @@ class StreamMaker {
 struct MadeStream {
   SkeletonStream stream;
   StreamLevel level;
-  double start_s = 0;  ///< the first frame's time by the file's own clock
+  double start_s = 0;           ///< the first frame's time by the file's own clock
   std::size_t lost_frames = 0;  ///< of the stream, in which nobody was seen
 };
 
@@ -52,8 +52,8 @@ struct MadeStream {
 Result<MadeStream> MakeStream(const StreamRecording& recording, const std::string& file,
                               const StreamOptions& options = {});
 
-/// Whether left and right seem exchanged: the feet point backwards, in the mean over the frames that show them, as in a
-/// mirrored recording. Straight ahead +1, backwards −1; nothing where no foot was seen.
+/// Whether feet point where the body faces, which left and right tell: straight ahead +1, in the mean over the frames
+/// that show them; backwards −1, as in a mirrored recording. Nothing where no foot was seen.
 std::optional<double> FeetForward(const SkeletonStream& stream);
 
 }  // namespace etude

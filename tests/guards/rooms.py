@@ -30,7 +30,7 @@ MAY_INCLUDE = {
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
-    "engine/streams": "engine/base engine/formats engine/motion engine/recognition",
+    "engine/streams": "engine/base engine/formats engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
