@@ -1,5 +1,7 @@
 #include "bench/scenario/methods.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
