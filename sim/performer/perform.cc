@@ -6,7 +6,6 @@
 #include "engine/base/angles.h"
 #include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/reach.h"
 #include "sim/choreography/stance.h"
 #include "sim/performer/session.h"
 
@@ -70,13 +69,8 @@ double EasedTime(double time, double length) {
 /// One event, ready to be danced.
 class Dance {
  public:
-  /// `looseness` scales the learner's deviations from the move as taught, the fault aside.
-  Dance(const SessionEvent& event, const Move& move, const Habit& habit, double looseness = 1)
-      : event_(event),
-        move_(move),
-        habit_(habit),
-        looseness_(looseness),
-        length_s_(move.beats * 60 / (move.tempo_bpm * event.tempo)) {}
+  Dance(const SessionEvent& event, const Move& move, const Habit& habit)
+      : event_(event), move_(move), habit_(habit), length_s_(event.end_s - event.start_s) {}
 
   /// How much of the body dances: 0 outside the event, 1 inside.
   double Weight(double time) const {
@@ -89,25 +83,26 @@ class Dance {
     const Controls ready = ReadyStance(), authored = move_.curves.At(beat);
     Controls danced;
     for (std::size_t i = 0; i < kControlCount; ++i) {
-      const double own = event_.amplitude * habit_.gains[i];
-      const double reach = event_.IsRight() ? 1 + looseness_ * (own - 1) : own;
-      danced.values[i] =
-          ready.values[i] + reach * (authored.values[i] - ready.values[i]) + looseness_ * habit_.offsets.values[i];
+      const double own = Amplitude() * habit_.gains[i];
+      danced.values[i] = ready.values[i] + own * (authored.values[i] - ready.values[i]) + habit_.offsets.values[i];
     }
     for (Side side : {Side::kLeft, Side::kRight}) {
       danced.Of(side, SideControl::kLegFree) = authored.Of(side, SideControl::kLegFree);
       danced.Of(side, SideControl::kElbow) = std::max(0.0, danced.Of(side, SideControl::kElbow));
     }
-    return event_.fault == Fault::kWrongSide ? Mirrored(danced) : danced;
+    return Has(Fault::kWrongSide) ? Mirrored(danced) : danced;
   }
 
  private:
-  double Start() const { return event_.start_s + event_.delay_s; }
+  bool Has(Fault fault) const {
+    return std::ranges::find(event_.faults, fault, &GradedFault::fault) != event_.faults.end();
+  }
+  double Amplitude() const { return Has(Fault::kAmplitude) ? 0.5 : 1; }
+  double Start() const { return event_.start_s; }
 
   const SessionEvent& event_;
   const Move& move_;
   const Habit& habit_;
-  double looseness_;
   double length_s_;
 };
 
@@ -126,45 +121,27 @@ BodyPose PoseAt(double time, const Habit& habit, std::span<const Dance> dances) 
   return PoseOf(controls);
 }
 
-/// Whether this dance alone passes through the key poses inside its event's window.
-bool IsSeenRight(const Dance& dance, const SessionEvent& event, const Move& asked, const Habit& habit) {
-  BodyMotion window;
-  const auto first = static_cast<std::size_t>(std::ceil(event.start_s * kJudgedRateHz));
-  const auto last = static_cast<std::size_t>(event.WindowEnd() * kJudgedRateHz);
-  for (std::size_t frame = first; frame <= last; ++frame) {
-    window.poses.push_back(PoseAt(static_cast<double>(frame) / kJudgedRateHz, habit, {&dance, 1}));
-  }
-  return FirstReached(asked.key_poses, window, 0, window.DurationSeconds()).has_value();
-}
-
-/// The event as this learner dances it. A right performance is right whatever the learner's habits:
-/// they are halved, then dropped, where they would miss a key pose.
-Dance MakeDance(const SessionEvent& event, const Move& danced, const Habit& habit) {
-  for (double looseness : {1.0, 0.5}) {
-    Dance dance(event, danced, habit, looseness);
-    if (!event.IsRight() || IsSeenRight(dance, event, danced, habit)) return dance;
-  }
-  return Dance(event, danced, habit, 0);
-}
-
 }  // namespace
 
-Performance Perform(RandomStream& random, std::span<const Move> moves, const SessionPlan& plan,
-                    const SessionOptions& options) {
-  const Habit habit = DrawHabit(random, 2 - std::clamp(options.skill, 0.0, 1.0));
+Performance Perform(RandomStream& random, std::span<const Move> moves, const Person& person, const SessionPlan& plan) {
+  const Habit habit = DrawHabit(random, 1);
   std::vector<Dance> dances;
   for (const SessionEvent& event : plan.events) {
-    if (event.fault != Fault::kSkipped) dances.push_back(MakeDance(event, FindMove(moves, event.danced), habit));
+    if (!event.danced.empty()) dances.emplace_back(event, FindMove(moves, event.danced), habit);
   }
 
-  Performance performance{.motion = {}, .events = plan.events};
+  Performance performance{.person = person, .motion = {}, .events = plan.events};
   const auto frames = static_cast<std::size_t>(std::ceil(plan.duration_s * kJudgedRateHz));
   for (std::size_t frame = 0; frame < frames; ++frame) {
     performance.motion.poses.push_back(PoseAt(static_cast<double>(frame) / kJudgedRateHz, habit, dances));
   }
   for (SessionEvent& event : performance.events) {
-    event.first_right_s =
-        FirstReached(FindMove(moves, event.move).key_poses, performance.motion, event.start_s, event.WindowEnd());
+    if (!event.faults.empty()) {
+      event.truth = Truth::kWrong;
+      continue;
+    }
+    const Move& move = FindMove(moves, event.move);
+    event.first_right_s = event.start_s + (event.end_s - event.start_s) * move.key_poses.back().beat / move.beats;
   }
   return performance;
 }
