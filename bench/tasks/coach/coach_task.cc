@@ -48,7 +48,7 @@ class CoachTaskWorld final : public TaskWorld {
     if (log.modes.empty()) return CellResult::Ended(Status::kFailed, "the session did not begin");
     CellResult result = CellResult::Ended(Status::kOk, "");
     ScoreCoaching(world_, shared_.stage, log, result);
-    if (keeps_motion_) result.recording = RecordCoaching(world_, shared_.stage, log);
+    if (keeps_motion_) result.recording = RecordCoaching(shared_.stage, log);
     return result;
   }
 

@@ -131,7 +131,8 @@ class SeatedLearner final : public Player {
     step["pose"] = EncodePose(shown.body);
     step["clip"] = shown.clip;
     step["clip_frame"] = shown.clip_frame;
-    step["text"] = shown.text;
+    step["say"] = shown.say;
+    step["hint"] = shown.hint;
     step["events"] = Json::array();
     for (const CoachRecord& record : shown.records) step["events"].push_back(EventName(record.event));
     if (complaint_.error()) return pose_;
@@ -146,19 +147,18 @@ class SeatedLearner final : public Player {
   }
   bool HasGivenUp() const override { return given_up_; }
 
-  std::vector<PerformanceTruth> TakeTest(double after_s, int performances) override {
-    std::vector<PerformanceTruth> truths;
+  std::vector<double> TakeTest(int performances_later) override {
+    std::vector<double> right;
     for (const Move& move : stage_.moves) {
-      for (int number = 0; number < performances && !complaint_.error(); ++number) {
-        const JsonPtr answer =
-            program_.Step({{"test", {{"move", move.name}, {"number", number}, {"after_s", after_s}}}});
-        if (answer == nullptr) return truths;
-        AnswerFields fields(*answer);
-        truths.push_back(TruthIn(fields));
-        complaint_.Note(fields.Finish());
-      }
+      if (complaint_.error()) break;
+      const JsonPtr answer = program_.Step({{"test", {{"move", move.name}, {"after", performances_later}}}});
+      if (answer == nullptr) break;
+      AnswerFields fields(*answer);
+      const PerformanceTruth truth = TruthIn(fields);
+      if (truth != PerformanceTruth::kGrey) right.push_back(truth == PerformanceTruth::kRight ? 1 : 0);
+      complaint_.Note(fields.Finish());
     }
-    return truths;
+    return right;
   }
 
  private:

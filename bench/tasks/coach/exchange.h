@@ -35,8 +35,8 @@ class SeatComplaint {
   std::optional<Error> error_;
 };
 
-/// A recogniser. Step: what the sensor reports, and, in the frame before a window opens or closes, what is asked for
-/// from the next frame on:
+/// A recogniser. Step: what the sensor reports, and, where a window opens or closes, what is asked for from this frame
+/// on:
 ///
 ///     {"pose": [x, y, z, …], "states": "tttiii…", "body_seen": true, "ask": {"move": "clap"}}     or "move": null
 ///
@@ -55,21 +55,20 @@ std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const Coa
 ///      "verdicts": [{"move": "clap", "repetition": 2, "verdict": "wrong", "mistake": "not reached", "evidence": 0.3}]}
 ///
 /// Answer: {"correct": true} interrupts the dance now, or as soon as there is one.
-std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage,
-                                               SeatComplaint& complaint);
+std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
 
 /// A learner. Step: what is on the screen and what was decided in this frame:
 ///
 ///     {"pose": [x, y, z, …], "mode": "dance", "clip": "dance", "clip_frame": 120, "move": "clap", "repetition": 3,
-///      "text": "both arms up", "events": ["wrong", "corrects"]}
+///      "say": "Watch!", "hint": "both arms up", "events": ["wrong", "corrects"]}
 ///
-/// Answer: its own next pose, in the world (the sensor stands before it, in the direction of +Z), how the performance is
-/// that it dances now (null: neither right nor wrong), and whether its patience has run out:
+/// Answer: its own next pose, in the world (the sensor stands before it, in the direction of +Z), how the performance
+/// is that it dances now (null: neither right nor wrong), and whether its patience has run out:
 ///
 ///     {"pose": [x, y, z, …], "right": true, "given_up": false}
 ///
-/// After the session, for every move so many times: {"test": {"move": "clap", "number": 0, "after_s": 600}}, answered
-/// by {"right": true}.
+/// After the session, for every move: {"test": {"move": "clap", "after": 20}}, so many performances' time later,
+/// answered by {"right": true}.
 std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
 
 }  // namespace etude

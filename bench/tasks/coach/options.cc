@@ -9,6 +9,8 @@
 namespace etude {
 namespace {
 
+constexpr Range kShare{0, 1};
+
 using Condition = CoachCondition;
 using Method = CoachMethod;
 
@@ -21,9 +23,8 @@ std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Part Options
   for (const Field<Part>& field : table.fields) {
     const bool named = std::ranges::find(keys, field.info.key) != keys.end();
     if (named != (keep == Keep::kThese)) continue;
-    fields.push_back({field.info, [field, part](Fields& mapping, Options& options) {
-                        field.read(mapping, options.*part);
-                      }});
+    fields.push_back(
+        {field.info, [field, part](Fields& mapping, Options& options) { field.read(mapping, options.*part); }});
   }
   return fields;
 }
@@ -55,7 +56,9 @@ std::vector<Field<Method>> PolicyFields() {
   std::vector<Key> fields = {Key::Name(
       "policy", [](auto& m) -> auto& { return m.policy.policy; }, PolicyNames(), FindPolicy,
       "When the coach interrupts.")};
-  Append(SettingFields<Method>("policy", AllPolicies(), [](auto& m) -> auto& { return m.policy.settings; }), fields);
+  Append(SettingFields<Method>(
+             "policy", AllPolicies(), [](auto& m) -> auto& { return m.policy.settings; }),
+         fields);
   fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
                              "Whose moments it corrects at: this policy's, in another person's session.")
                        .With("policy", {"yoked"}));
@@ -66,8 +69,9 @@ void CheckMethod(Fields& fields, Method& method) {
   const Node& node = fields.node();
   if (method.knows_truth != method.policy.policy->asks_truth) {
     const Node* named = node.Find(method.knows_truth ? "oracle" : "policy");
-    fields.Complain(named->place, "policy 'oracle' and 'oracle: [judgement]' go together: what is told the truth "
-                                  "competes with none");
+    fields.Complain(named->place,
+                    "policy 'oracle' and 'oracle: [judgement]' go together: what is told the truth "
+                    "competes with none");
   }
   if (method.partner->takes_moments) {
     fields.Complain(node.Find("partner")->place, "a yoked session cannot be another's partner");
@@ -95,13 +99,19 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
     std::vector<Key> fields = {
         Key::Name("song", &Condition::song, songs, "What is danced; it begins anew when it is over."),
         Key::Number("session_s", &Condition::session_s, {10, 1800}, "How long a session lasts.").Unit("seconds"),
-        Key::Name("learning", &Condition::learning, LearningLawNames(), FindLearningLaw,
-                  "The law by which the learner learns and forgets."),
-        Key::Number("test_performances", &Condition::test_performances, {1, 100},
-                    "How often every move of the song is danced in the test without a coach."),
-        Key::Number("test_after_s", &Condition::test_after_s, {0, 1e7},
-                    "How long after the session that test is; meanwhile some is forgotten.")
-            .Unit("seconds"),
+        Key::Name(
+            "learning", [](auto& c) -> auto& { return c.learner.law; }, LearningLawNames(), FindLearningLaw,
+            "The law by which the learner learns and forgets."),
+        Key::Number(
+            "guidance", [](auto& c) -> auto& { return c.learner.guidance; }, kShare,
+            "How much frequent feedback costs: 0 nothing; at 1 what is taught after every performance does not last."),
+        Key::Number(
+            "skill", [](auto& c) -> auto& { return c.learner.skill; }, kShare, "Where every skill starts.")
+            .WhenAbsent("(by the kind of people)"),
+        Key::Flag(
+            "gives_up", [](auto& c) -> auto& { return c.learner.gives_up; }, "Whether the learner's patience ends."),
+        Key::Number("test_after", &Condition::test_after, {0, 10000},
+                    "So many performances' time after the session what was kept is tested, without a coach."),
         Key::Number(
             "music_drift", [](auto& c) -> auto& { return c.music.drift; }, {-0.2, 0.2},
             "The music plays so much faster than its clock: 0.02 is 2 %."),
@@ -109,10 +119,12 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
             "stutters_per_min", [](auto& c) -> auto& { return c.music.stutters_per_min; }, {0, 60},
             "How often the music stands still."),
         Key::Number(
-            "stutter_s", [](auto& c) -> auto& { return c.music.stutter_s; }, {0, 5}, "For how long.").Unit("seconds")};
-    Append(FieldsOf(DetectionConditionFields(), &Condition::sight, Keep::kThese,
-                    {"people", "noise", "turn_deg", "sensor", "distance_m", "sensor_height_m", "occluder", "threshold"}),
-           fields);
+            "stutter_s", [](auto& c) -> auto& { return c.music.stutter_s; }, {0, 5}, "For how long.")
+            .Unit("seconds")};
+    Append(
+        FieldsOf(DetectionConditionFields(), &Condition::sight, Keep::kThese,
+                 {"people", "noise", "turn_deg", "sensor", "distance_m", "sensor_height_m", "occluder", "threshold"}),
+        fields);
     return FieldTable<Condition>{std::move(fields)};
   }();
   return table;
@@ -123,11 +135,11 @@ const FieldTable<CoachMethod>& CoachMethodFields() {
   static const FieldTable<Method> table = [] {
     std::vector<Key> fields =
         FieldsOf(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
-    fields.push_back(Key::Flags("oracle",
-                                {{"stream", [](Method& m) -> bool& { return m.sight.sees_truth; }},
-                                 {"judgement", &Method::knows_truth}},
-                                "What is replaced by the truth: the skeletons as danced instead of as sensed, or what is "
-                                "said of every performance (policy `oracle`)."));
+    fields.push_back(Key::Flags(
+        "oracle",
+        {{"stream", [](Method& m) -> bool& { return m.sight.sees_truth; }}, {"judgement", &Method::knows_truth}},
+        "What is replaced by the truth: the skeletons as danced instead of as sensed, or what is "
+        "said of every performance (policy `oracle`)."));
     Append(PolicyFields(), fields);
     Append(FieldsOf(TransitionMethodFields(), &Method::transition, Keep::kOthers, {"weights", "wait_s", "threshold"}),
            fields);

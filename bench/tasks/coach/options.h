@@ -5,7 +5,7 @@
 
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/transition/options.h"
-#include "engine/coaching/coach_options.h"
+#include "engine/coaching/coach.h"
 #include "engine/coaching/policy.h"
 #include "sim/music/music_clock.h"
 #include "sim/performer/learner.h"
@@ -22,10 +22,8 @@ namespace etude {
 struct CoachCondition {
   std::string song = "groove";
   double session_s = 180;
-  LearningLaw learning = LearningLaw::kExponential;
-  /// Performances of every move of the song in the test afterwards.
-  int test_performances = 4;
-  double test_after_s = 600;  ///< how long after the session the test is, in which some is forgotten
+  LearnerOptions learner;
+  int test_after = 20;  ///< so many performances' time after the session what was kept is tested
   MusicClockOptions music;
   DetectionOptions sight;  ///< who is there and how they are seen: its session's script is not read
 };

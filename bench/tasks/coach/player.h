@@ -28,8 +28,9 @@ class Player {
   virtual std::optional<PlayedPerformance> PerformanceOf(int repetition) const = 0;
   /// Whether patience has run out.
   virtual bool HasGivenUp() const = 0;
-  /// The test without a coach: every move of the dance in turn, so many times, some seconds after the session.
-  virtual std::vector<PerformanceTruth> TakeTest(double after_s, int performances) = 0;
+  /// The test without a coach, so many performances' time after the session: for every move of the dance the chance to
+  /// dance it without a fault; of a player who cannot say, 1 or 0, and no entry for what is neither.
+  virtual std::vector<double> TakeTest(int performances_later) = 0;
 };
 
 }  // namespace etude

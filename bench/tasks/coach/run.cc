@@ -29,9 +29,15 @@ SessionLog RunPartner(const ReadyCoach& ready, const CoachCondition& condition, 
                       const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
   const CoachWorld other = MakeCoachWorld(condition, {world.key.suite_seed, scenario, world.key.trial});
-  LearnerPlayer player(other, condition.learning, stage);
+  LearnerPlayer player(other, stage);
   const SessionParts parts{*ready.partner, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth};
   return RunSession(parts, other, player, nullptr);
+}
+
+bool AreAlike(const TransitionWay& a, const TransitionWay& b) {
+  return a.choice == b.choice && a.join == b.join && a.choice_settings == b.choice_settings &&
+         a.join_settings == b.join_settings && a.rules.threshold == b.rules.threshold && a.rules.pick == b.rules.pick &&
+         a.rules.within_class == b.rules.within_class;
 }
 
 /// The policy that the coach itself has: a program in that seat says when to correct, and so does a partner.
@@ -47,7 +53,7 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
   for (CoachMethod& method : methods) {
     ReadyCoach ready;
     for (const ReadyCoach& other : all) {
-      if (other.method.transition.way == method.transition.way) ready.transitions = other.transitions;
+      if (AreAlike(other.method.transition.way, method.transition.way)) ready.transitions = other.transitions;
     }
     if (!ready.transitions) {
       ready.transitions = std::make_shared<DanceTransitions>(*stage.library, method.transition.way);
@@ -77,7 +83,7 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
   if (seat == Seat::kRecogniser) seated_recogniser = MakeSeatedRecogniser(*program, stage, complaint);
   if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*program, stage, complaint);
   if (seat == Seat::kLearner) player = MakeSeatedLearner(*program, stage, complaint);
-  if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, condition.learning, stage);
+  if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
   if (ready.partner != nullptr) moments = std::make_unique<Moments>(RunPartner(ready, condition, stage, world));
 
   const SessionParts parts{*ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser,

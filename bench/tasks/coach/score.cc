@@ -92,7 +92,7 @@ Series TruthSeries(const SessionLog& log) {
 }  // namespace
 
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result) {
-  result.MeasureOr("retention", Retention(log.test), "no performance of the test was right or wrong");
+  result.MeasureOr("retention", Retention(log.test), "nothing in the test was right or wrong");
   const CoachedSession session = SessionOf(log);
   MeasureCorrections(session, result);
   result.MeasureOr("repetitions_until_right", RepetitionsUntilRight(TruthsByMove(log, stage.moves.size())),

@@ -12,7 +12,8 @@
 
 namespace etude {
 
-/// Every metric of a session, or why it has no value; digests of what was danced, sensed, decided and shown; and curves.
+/// Every metric of a session, or why it has no value; digests of what was danced, sensed, decided and shown; and
+/// curves.
 void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const SessionLog& log, CellResult& result);
 std::vector<std::string> CoachMetrics();
 

@@ -37,9 +37,10 @@ class Loop {
       PlayMusic();
       if (shown_.mode == CoachMode::kStandby) DanceAgain();
       ++frame_;
+      if (log_.given_up_at) break;  // who has given up is gone
     }
     log_.learner.poses.resize(static_cast<std::size_t>(frame_));
-    log_.test = player_.TakeTest(world_.test_after_s, world_.test_performances);
+    log_.test = player_.TakeTest(world_.test_after);
     return std::move(log_);
   }
 
@@ -97,6 +98,7 @@ class Loop {
       log_.records.push_back(std::move(record));
     }
     NoteAct();
+    NoteWords();
     if (shown_.asks) {
       open_ = shown_.open;
       opened_at_ = frame_ + 1;
@@ -146,6 +148,15 @@ class Loop {
     if (acts && !log_.corrections.empty() && !log_.corrections.back().act_frame) {
       log_.corrections.back().act_frame = frame_;
     }
+  }
+
+  void NoteWords() {
+    const bool same =
+        !log_.words.empty() && log_.words.back().say == shown_.say && log_.words.back().hint == shown_.hint;
+    if (same) return;
+    LoggedWords words{frame_, std::string(shown_.say), std::string(shown_.hint), {}};
+    if (shown_.picture != nullptr) words.picture = *shown_.picture;
+    log_.words.push_back(std::move(words));
   }
 
   /// The last frames before the transition points of a transition asked for in this frame.

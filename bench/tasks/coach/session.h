@@ -27,6 +27,13 @@ struct LoggedTransition {
   std::vector<int> seams;
 };
 
+/// What is written on the screen from a frame on.
+struct LoggedWords {
+  int begin_frame = 0;
+  std::string say, hint;
+  std::optional<BodyPose> picture;  ///< the key pose that the hint is about
+};
+
 /// All that a session came to.
 struct SessionLog {
   std::vector<CoachMode> modes;  ///< per frame
@@ -34,12 +41,13 @@ struct SessionLog {
   std::vector<GivenCorrection> corrections;
   std::vector<CoachRecord> records;  ///< frames count from the session's first
   std::vector<LoggedTransition> transitions;
-  std::vector<double> beat_errors_s;    ///< of the frames danced to music
-  BodyMotion coach;                     ///< as shown
-  BodyMotion learner;                   ///< as danced
-  SkeletonStream sensed;                ///< as the coach sees it, before its filter
-  std::optional<int> given_up_at;       ///< frame
-  std::vector<PerformanceTruth> test;   ///< afterwards, without a coach
+  std::vector<LoggedWords> words;      ///< whenever they change
+  std::vector<double> beat_errors_s;   ///< of the frames danced to music
+  BodyMotion coach;                    ///< as shown
+  BodyMotion learner;                  ///< as danced
+  SkeletonStream sensed;               ///< as the coach sees it, before its filter
+  std::optional<int> given_up_at;      ///< frame
+  std::vector<double> test;  ///< afterwards, without a coach (Player::TakeTest)
 
   int Frames() const { return static_cast<int>(modes.size()); }
 };
@@ -49,7 +57,7 @@ struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;
   FilterOptions filter;
-  bool sees_truth = false;    ///< the coach sees the learner as danced, not as sensed
+  bool sees_truth = false;  ///< the coach sees the learner as danced, not as sensed
 };
 
 /// What a session is asked from frame to frame by someone else than the coach's own policy: whether to correct now.

@@ -13,9 +13,8 @@ CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) 
   RandomStream place_dice(key, "sensor-place");
   const double thrown = place_dice.Uniform(kNearest, kFarthest);
   const DetectionOptions& sight = condition.sight;
-  const SensorPlace place{.distance = sight.distance_m.value_or(thrown),
-                          .turn = Radians(sight.turn_deg),
-                          .height = sight.sensor_height_m};
+  const SensorPlace place{
+      .distance = sight.distance_m.value_or(thrown), .turn = Radians(sight.turn_deg), .height = sight.sensor_height_m};
   CoachWorld world{.key = key,
                    .person = DrawPerson(key, sight.session.people),
                    .sensor = SkeletonSensorAt(place, sight.sensor.view),
@@ -23,8 +22,8 @@ CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) 
                    .occluders = {},
                    .music = condition.music,
                    .frames = static_cast<int>(std::lround(condition.session_s * kJudgedRateHz)),
-                   .test_after_s = condition.test_after_s,
-                   .test_performances = condition.test_performances};
+                   .learner = condition.learner,
+                   .test_after = condition.test_after};
   world.errors.strength = sight.noise;
   world.occluders = MakeOccluders(sight.occluder, place, static_cast<std::size_t>(world.frames));
   return world;

@@ -20,8 +20,8 @@ struct CoachWorld {
   Occluders occluders;
   MusicClockOptions music;
   int frames = 0;  ///< of the session
-  double test_after_s = 0;
-  int test_performances = 0;
+  LearnerOptions learner;
+  int test_after = 0;  ///< performances
 };
 
 /// `key`'s scenario must outlive the world.
