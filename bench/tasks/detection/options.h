@@ -5,7 +5,8 @@
 
 #include "bench/keys/field_table.h"
 #include "engine/recognition/filters.h"
-#include "engine/recognition/key_pose.h"
+#include "engine/recognition/recognise.h"
+#include "engine/recognition/recognisers.h"
 #include "sim/performer/session.h"
 #include "sim/skeleton_sensor/options.h"
 
@@ -32,21 +33,27 @@ struct DetectionOptions {
   std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  KeyPoseOptions recogniser;  ///< what methods begin with
+  std::optional<double> threshold;  ///< of methods that say none of their own
 };
 
 /// One way from stream to verdict.
 ///
-///     - {name: adaptive, filter: holt, recogniser: key-pose, weights: adaptive, threshold: 0.8}
+///     - {name: adaptive, filter: holt, recogniser: key-pose, weights: adaptive, threshold: 0.5}
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
   bool sees_truth = false;  ///< `oracle: [stream]`
-  KeyPoseOptions recogniser;
+  RecogniserOptions recogniser;
+  std::optional<double> threshold;  ///< else the recogniser's own
+  double refractory_s = DecisionOptions{}.refractory_s;
+
+  DecisionOptions Decision() const {
+    return {.threshold = threshold.value_or(recogniser.kind->threshold), .refractory_s = refractory_s};
+  }
 };
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
-/// `threshold` and `hold_frames` may stand in the condition for all methods, which makes these two sweepable.
+/// `threshold` may stand in the condition for all methods, which makes it sweepable.
 const FieldTable<DetectionMethod>& DetectionMethodFields();
 
 }  // namespace etude

@@ -13,14 +13,11 @@
 namespace etude {
 namespace {
 
-/// One performance at the taught tempo, and half a second for the slow.
-int SpanFrames(const Move& move) {
-  const double seconds = 60.0 * move.beats / move.tempo_bpm + 0.5;
-  return static_cast<int>(std::ceil(seconds * kJudgedRateHz));
-}
-
 TaughtMove Teach(const Move& move) {
-  TaughtMove taught{.name = move.name, .poses = {}, .span_frames = SpanFrames(move)};
+  constexpr double kForTheSlow = 0.5;  // seconds beyond one performance at the taught tempo
+  TaughtMove taught{.name = move.name,
+                    .span_s = 60.0 * move.beats / move.tempo_bpm + kForTheSlow,
+                    .examples = {StreamOf(move.motion)}};
   for (const KeyPose& key_pose : move.key_poses) {
     TaughtPose& pose = taught.poses.emplace_back();
     for (const KeyPose::Target& target : key_pose.targets) {
@@ -43,6 +40,12 @@ Repertoire RepertoireOf(const ClipLibrary& library) {
   }
   std::ranges::sort(repertoire.taught, {}, &TaughtMove::name);
   return repertoire;
+}
+
+std::size_t Repertoire::IndexOf(std::string_view move) const {
+  const TaughtMove* found = FindByName(taught, move);
+  assert(found != nullptr);
+  return static_cast<std::size_t>(found - taught.data());
 }
 
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key) {

@@ -110,7 +110,8 @@ struct BadScenario {
 TEST_F(DetectionTask, RefusesWhatItDoesNotKnowAndSaysWhatIsAllowed) {
   const std::vector<BadScenario> cases = {
       {"methods:\n  - {name: a, filter: hold}\n", "'holt'"},
-      {"methods:\n  - {name: a, recogniser: dtw}\n", "key-pose"},
+      {"methods:\n  - {name: a, recogniser: keypose}\n", "key-pose"},
+      {"methods:\n  - {name: a, beta_per_m: 2}\n", "one-euro"},
       {"methods:\n  - {name: a, weights: adaptiv}\n", "'adaptive'"},
       {"methods:\n  - {name: a, treshold: 0.5}\n", "threshold"},
       {"methods:\n  - {name: a, weights: fixed, inferred_weight: 0.5}\n", "inferred_weight"},

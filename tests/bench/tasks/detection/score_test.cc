@@ -38,7 +38,7 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong.
   verdict.events = {Called(33, 0.9), Called(39, 0.8), Called(std::nullopt, 0.4), Called(20, 0.6),
                     Called(std::nullopt, 0)};
-  verdict.alarms = {{"sway", 120}, {"boxing", 400}, {"boxing", 800}};
+  verdict.alarms = {{1, 120}, {0, 400}, {0, 800}};
 
   CellResult cell;
   ScoreSession(world, verdict, cell);
