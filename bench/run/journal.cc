@@ -72,7 +72,7 @@ Result<void> AddCell(const std::string& line, const Place& place, const Plan& pl
 
 }  // namespace
 
-Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, const SyncOptions& sync) {
+Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, const JournalLag& sync) {
   Journal journal(folder / kJournalFile,
                   ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644),
                   sync);
@@ -87,7 +87,7 @@ Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, 
   return journal;
 }
 
-Result<Journal> Journal::Continue(const fs::path& folder, const SyncOptions& sync) {
+Result<Journal> Journal::Continue(const fs::path& folder, const JournalLag& sync) {
   const fs::path path = folder / kJournalFile;
   Journal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC), sync);
   off_t end = ::lseek(journal.file_, 0, SEEK_END);

@@ -22,7 +22,7 @@ struct JournalHead {
 using CellTable = std::vector<std::optional<FinishedCell>>;
 
 /// How far behind the disk may be, at most: whichever comes first.
-struct SyncOptions {
+struct JournalLag {
   double seconds = 1;
   double mebibytes = 1;
 };
@@ -34,9 +34,9 @@ class Journal {
  public:
   /// Begins a journal.
   static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
-                               const SyncOptions& sync = {});
+                               const JournalLag& sync = {});
   /// Goes on with one that `ReadJournal` has read; a last line that was torn is cut off.
-  static Result<Journal> Continue(const std::filesystem::path& folder, const SyncOptions& sync = {});
+  static Result<Journal> Continue(const std::filesystem::path& folder, const JournalLag& sync = {});
   Journal(Journal&& other) noexcept;
   ~Journal();
 
@@ -47,13 +47,13 @@ class Journal {
   Result<void> Sync();
 
  private:
-  Journal(std::filesystem::path path, int file, const SyncOptions& sync)
+  Journal(std::filesystem::path path, int file, const JournalLag& sync)
       : path_(std::move(path)), file_(file), sync_(sync) {}
   Result<void> Write(const std::string& line);
 
   std::filesystem::path path_;
   int file_ = -1;
-  SyncOptions sync_;
+  JournalLag sync_;
   std::size_t unsynced_bytes_ = 0;
   Clock::time_point synced_at_ = Clock::now();
 };

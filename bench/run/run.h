@@ -26,7 +26,7 @@ struct RunOptions {
   bool resume = false;                 ///< go on with the run that the folder holds
   Shard shard;                         ///< run this part only
   int jobs = 0;                        ///< worker processes; 0 = one per processor
-  SyncOptions sync;                    ///< how far the disk may be behind
+  JournalLag sync;                     ///< how far the disk may be behind
   std::string command_line;            ///< for host.json
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
