@@ -88,9 +88,8 @@ std::optional<PlayedPerformance> LearnerPlayer::PerformanceOf(int repetition) co
   const int latest = latest_[static_cast<std::size_t>(repetition)];
   if (latest < 0) return std::nullopt;
   const auto performances = learner_.performances();
-  const auto found = std::find_if(performances.rbegin(), performances.rend(), [&](const LearnerPerformance& danced) {
-    return danced.repetition == latest;
-  });
+  const auto found = std::find_if(performances.rbegin(), performances.rend(),
+                                  [&](const LearnerPerformance& danced) { return danced.repetition == latest; });
   if (found == performances.rend()) return std::nullopt;
   return PlayedPerformance{TruthOf(found->event.truth), FaultNames(found->event.faults)};
 }

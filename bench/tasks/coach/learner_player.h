@@ -13,8 +13,8 @@ namespace etude {
 /// The simulated learner before the coach.
 ///
 /// They see the dance go on and dance to where it will be when they move, so that they are as late as their lag says;
-/// what they did not expect (the coach stops, shakes its head, shows the move) they act on later by as much as poses are
-/// asked for ahead.
+/// what they did not expect (the coach stops, shakes its head, shows the move) they act on later by as much as poses
+/// are asked for ahead.
 class LearnerPlayer final : public Player {
  public:
   /// Both must outlive this.

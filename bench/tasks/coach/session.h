@@ -41,13 +41,13 @@ struct SessionLog {
   std::vector<GivenCorrection> corrections;
   std::vector<CoachRecord> records;  ///< frames count from the session's first
   std::vector<LoggedTransition> transitions;
-  std::vector<LoggedWords> words;      ///< whenever they change
-  std::vector<double> beat_errors_s;   ///< of the frames danced to music
-  BodyMotion coach;                    ///< as shown
-  BodyMotion learner;                  ///< as danced
-  SkeletonStream sensed;               ///< as the coach sees it, before its filter
-  std::optional<int> given_up_at;      ///< frame
-  std::vector<double> test;  ///< afterwards, without a coach (Player::TakeTest)
+  std::vector<LoggedWords> words;     ///< whenever they change
+  std::vector<double> beat_errors_s;  ///< of the frames danced to music
+  BodyMotion coach;                   ///< as shown
+  BodyMotion learner;                 ///< as danced
+  SkeletonStream sensed;              ///< as the coach sees it, before its filter
+  std::optional<int> given_up_at;     ///< frame
+  std::vector<double> test;           ///< afterwards, without a coach (Player::TakeTest)
 
   int Frames() const { return static_cast<int>(modes.size()); }
 };
