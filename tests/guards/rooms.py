@@ -107,7 +107,7 @@ MAY_INCLUDE = {
         "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/coach":
-        "engine/base engine/coaching engine/motion engine/recognition engine/transitions engine/transitions/base "
+        "engine/base engine/coaching engine/motion engine/recognition "
         "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
         "bench/tasks/base bench/tasks/detection bench/tasks/transition",
     "bench/tasks/detection":

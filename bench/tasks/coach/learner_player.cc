@@ -9,7 +9,7 @@ namespace etude {
 namespace {
 
 /// Frames from what was on the screen to the pose that is asked for.
-constexpr double kAhead = static_cast<double>(SkeletonSensor::kAhead) + 1;
+constexpr double kFramesAhead = static_cast<double>(SkeletonSensor::kAhead) + 1;
 
 PerformanceTruth TruthOf(Truth truth) {
   if (truth == Truth::kGrey) return PerformanceTruth::kGrey;
@@ -20,7 +20,7 @@ PerformanceTruth TruthOf(Truth truth) {
 
 LearnerPlayer::LearnerPlayer(const CoachWorld& world, const CoachStage& stage)
     : stage_(stage),
-      learner_(world.key, world.person, stage.moves, world.learner),
+      learner_(world.key, world.person, stage.moves, *stage.showable, world.learner),
       latest_(stage.dance().repetitions.size(), -1) {}
 
 BodyPose LearnerPlayer::Next(const CoachOutput& shown) { return learner_.Step(SeenOf(shown)); }
@@ -41,8 +41,6 @@ Shown LearnerPlayer::SeenOf(const CoachOutput& shown) {
   } else if (shown.mode == CoachMode::kDemonstrate) {
     seen.act = Shown::Act::kDemonstrate;
     seen.move = MoveShownSlowly(shown.clip);
-  } else if (shown.mode == CoachMode::kPraise) {
-    seen.act = Shown::Act::kPraise;
   }
   return seen;
 }
@@ -51,7 +49,7 @@ Shown LearnerPlayer::SeenOf(const CoachOutput& shown) {
 void LearnerPlayer::SeeDance(const CoachOutput& shown, Shown& seen) {
   const double rate = last_frame_ ? std::clamp(shown.clip_frame - *last_frame_, 0.0, 2.0) : 1;
   last_frame_ = shown.clip_frame;
-  const double frame = shown.clip_frame + kAhead * rate;
+  const double frame = shown.clip_frame + kFramesAhead * rate;
   const int index = stage_.library->RepetitionAt(frame);
   if (index < 0) return;
   const Repetition& repetition = stage_.dance().repetitions[static_cast<std::size_t>(index)];
@@ -97,7 +95,7 @@ std::optional<PlayedPerformance> LearnerPlayer::PerformanceOf(int repetition) co
 std::vector<double> LearnerPlayer::TakeTest(int performances_later) {
   std::vector<double> chances;
   for (std::size_t move = 0; move < stage_.moves.size(); ++move) {
-    chances.push_back(learner_.RetainedChanceOfRight(static_cast<int>(move), performances_later));
+    chances.push_back(learner_.RetainedChanceOfRight(move, performances_later));
   }
   return chances;
 }

@@ -28,6 +28,7 @@ Result<CoachStage> SetCoachStage(const std::string& name) {
     stage.taught.push_back(TaughtOf(at_tempo));
     stage.moves.push_back(std::move(at_tempo));
   }
+  stage.showable = std::make_unique<ShowableFaults>(stage.moves);
   stage.natural_jumps_cm = NaturalJumpsCm(dance.motion);
   ASSIGN_OR_RETURN(auto library, DanceLibrary::Make(std::move(dance)));
   stage.library = std::make_unique<DanceLibrary>(std::move(library));

@@ -52,7 +52,8 @@ inline CoachMethod MethodOf(const std::string& policy, const std::string& recogn
 /// Dances exactly what the coach dances, at the very moment, but stands still in the repetitions named.
 class Mimic final : public Player {
  public:
-  explicit Mimic(const CoachStage& stage, std::vector<int> skipped = {}) : stage_(stage), skipped_(std::move(skipped)) {}
+  explicit Mimic(const CoachStage& stage, std::vector<int> skipped = {})
+      : stage_(stage), skipped_(std::move(skipped)) {}
 
   BodyPose Next(const CoachOutput& shown) override {
     const auto& poses = stage_.dance().motion.poses;

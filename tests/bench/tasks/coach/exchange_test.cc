@@ -107,16 +107,15 @@ TEST_P(WrongAnswers, AreRefusedWithTheirPlace) {
   EXPECT_EQ(program.steps, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Seats, WrongAnswers,
-    ::testing::Values(WrongAnswer{Seat::kRecogniser, R"({"asked": 2})", "asked: "},
-                      WrongAnswer{Seat::kRecogniser, R"({})", "asked"},
-                      WrongAnswer{Seat::kRecogniser, R"({"asked": 0, "spotted": [1]})", "spotted"},
-                      WrongAnswer{Seat::kRecogniser, R"({"asked": 0, "score": 1})", "score"},
-                      WrongAnswer{Seat::kPolicy, R"({"correct": 1})", "correct"},
-                      WrongAnswer{Seat::kPolicy, R"({"corect": true})", "corect"},
-                      WrongAnswer{Seat::kLearner, R"({"right": true})", "pose"},
-                      WrongAnswer{Seat::kLearner, R"({"pose": [1, 2]})", "pose"}));
+INSTANTIATE_TEST_SUITE_P(Seats, WrongAnswers,
+                         ::testing::Values(WrongAnswer{Seat::kRecogniser, R"({"asked": 2})", "asked: "},
+                                           WrongAnswer{Seat::kRecogniser, R"({})", "asked"},
+                                           WrongAnswer{Seat::kRecogniser, R"({"asked": 0, "spotted": [1]})", "spotted"},
+                                           WrongAnswer{Seat::kRecogniser, R"({"asked": 0, "score": 1})", "score"},
+                                           WrongAnswer{Seat::kPolicy, R"({"correct": 1})", "correct"},
+                                           WrongAnswer{Seat::kPolicy, R"({"corect": true})", "corect"},
+                                           WrongAnswer{Seat::kLearner, R"({"right": true})", "pose"},
+                                           WrongAnswer{Seat::kLearner, R"({"pose": [1, 2]})", "pose"}));
 
 /// Answers what a built-in follower does.
 TEST(Seats, ABuiltInRecogniserPutInItsSeatDecidesTheSame) {

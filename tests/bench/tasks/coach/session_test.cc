@@ -19,7 +19,8 @@ TEST(CoachSession, NeverCorrectsWhoDancesAsTaughtBeforeAPerfectSensor) {
       Mimic player(stage);
       const SessionLog log = SessionWith(ready, world, player);
       EXPECT_TRUE(log.corrections.empty()) << song;
-      for (const LoggedPerformance& performance : log.performances) EXPECT_TRUE(performance.judged.called_right) << song;
+      for (const LoggedPerformance& performance : log.performances)
+        EXPECT_TRUE(performance.judged.called_right) << song;
       performances += static_cast<int>(log.performances.size());
     }
   }
