@@ -38,7 +38,9 @@ class RecentCosts {
  public:
   explicit RecentCosts(std::size_t moves) : moves_(moves), costs_(moves * kKept, kUnaligned) {}
 
-  void Next() { std::fill_n(costs_.begin() + static_cast<std::ptrdiff_t>(++step_ % kKept * moves_), moves_, kUnaligned); }
+  void Next() {
+    std::fill_n(costs_.begin() + static_cast<std::ptrdiff_t>(++step_ % kKept * moves_), moves_, kUnaligned);
+  }
   void Lower(std::size_t move, double cost) {
     double& known = costs_[step_ % kKept * moves_ + move];
     known = std::min(known, cost);

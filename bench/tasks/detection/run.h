@@ -19,9 +19,13 @@ struct SessionVerdict {
 /// Filters what the sensor saw, or, for an oracle, how it was truly performed.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
-/// Lets the method's recogniser follow the whole session (it is told what is asked for when its window opens), then
-/// keeps the false alarms. `seen` must be what the method sees of the world.
-Result<SessionVerdict> JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                                    const Recogniser& recogniser, const DecisionOptions& decision);
+/// The evidence of the whole session: the recogniser is told what is asked for when its window opens.
+EvidenceTrace FollowSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
+                            const Recogniser& recogniser);
+
+/// What that evidence comes to: a judgement of every performance asked for, and the false alarms. `seen` must be what
+/// the method sees of the world.
+SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
+                            const Recogniser& recogniser, const DecisionOptions& decision);
 
 }  // namespace etude
