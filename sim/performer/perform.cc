@@ -7,25 +7,12 @@
 #include "engine/base/named.h"
 #include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
+#include "sim/performer/eased_time.h"
 #include "sim/performer/session.h"
 #include "sim/performer/sway.h"
 
 namespace etude {
 namespace {
-
-/// How long the way from the ready stance into a move takes, and back.
-constexpr double kBlendSeconds = 0.45;
-
-/// A performance's clock, seconds: runs with time between 0 and `length`, gathers way in the blend
-/// before, and comes to rest in the blend after, so that nothing starts or stops at a jerk.
-double EasedTime(double time, double length) {
-  if (time < 0) {
-    const double t = std::max(time, -kBlendSeconds) + kBlendSeconds;
-    return 0.5 * t * t / kBlendSeconds - 0.5 * kBlendSeconds;
-  }
-  if (time > length) return length - EasedTime(length - time, length);
-  return time;
-}
 
 /// One event, ready to be danced.
 class Dance {
@@ -35,8 +22,7 @@ class Dance {
         starts_s_(event.start_s + event.chance.lag_s),
         length_s_(event.end_s - starts_s_),
         late_s_(rendition_.Lateness() * length_s_) {
-    constexpr double kLeastVigour = 0.5;
-    vigour_ = std::max(kLeastVigour, std::exp(-rendition_.style().person().tiring * event.start_s / 60));
+    vigour_ = VigourAfter(rendition_.style().person(), event.start_s);
   }
 
   /// How much of the body dances: 0 outside the event, 1 inside.

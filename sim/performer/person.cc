@@ -131,6 +131,11 @@ Person DrawPerson(const WorldKey& key, People people) {
   return person;
 }
 
+double VigourAfter(const Person& person, double danced_s) {
+  constexpr double kLeast = 0.5;
+  return std::max(kLeast, std::exp(-person.tiring * danced_s / 60));
+}
+
 BodyDimensions DimensionsOf(double stature_m, double childhood) {
   constexpr double kCanonicalStature = 1.7;
   /// Of stature, at four years.

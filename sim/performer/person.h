@@ -66,6 +66,9 @@ struct Person {
 /// kind of toddler as of adult.
 Person DrawPerson(const WorldKey& key, People people);
 
+/// What is left of the amplitude after so many seconds of dancing: falls, but never below a half.
+double VigourAfter(const Person& person, double danced_s);
+
 /// The sizes of a body of this stature, metres. `childhood` is 0 for an adult's proportions, 1 for those of a child of
 /// four: shorter legs, a longer trunk, a larger head. Shares of stature: an adult's after Drillis and Contini (1966),
 /// as the canonical body's; a child's after Snyder et al., "Anthropometry of infants, children and youths to age 18"

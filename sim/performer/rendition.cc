@@ -75,7 +75,7 @@ Chance DrawChance(RandomStream& random, const Person& person) {
 }
 
 Rendition::Rendition(const Style& meant, const Chance& chance, std::vector<GradedFault> faults, const Style* instead)
-    : meant_(meant),
+    : meant_(&meant),
       instead_(instead),
       chance_(chance),
       offsets_(DrawWays(meant.person(), chance.ways)),
@@ -89,7 +89,7 @@ std::optional<GradedFault> Rendition::Find(Fault fault) const {
 }
 
 Controls Rendition::Meant(double share, double vigour) const {
-  return meant_.At(share * meant_.move().beats, vigour, offsets_);
+  return meant_->At(share * meant_->move().beats, vigour, offsets_);
 }
 
 Controls Rendition::Reordered(double share, double vigour) const {
@@ -108,14 +108,14 @@ Controls Rendition::Reordered(double share, double vigour) const {
 Controls Rendition::Danced(double share, double vigour) const {
   Controls danced = Meant(share, vigour);
   if (faults_.empty()) return danced;
-  const Controls rest = RestOf(meant_.person());
+  const Controls rest = RestOf(meant_->person());
   if (const auto order = Find(Fault::kWrongOrder)) {
     const double weight = First(share, order->severity);
     if (weight > 0) danced = Mix(danced, Reordered(share, vigour), weight);
   }
   if (const auto move = Find(Fault::kWrongMove)) {
     const double weight = First(share, move->severity);
-    if (weight > 0) danced = Mix(danced, instead_->At(share * meant_.move().beats, vigour, offsets_), weight);
+    if (weight > 0) danced = Mix(danced, instead_->At(share * meant_->move().beats, vigour, offsets_), weight);
   }
   if (const auto side = Find(Fault::kWrongSide)) {
     danced = Mix(danced, Mirrored(danced), First(share, side->severity));
@@ -147,14 +147,14 @@ double Rendition::MeantShare(double due) const {
 
 double Rendition::Lateness() const {
   const auto late = Find(Fault::kLate);
-  return late ? late->severity * kLateBeats / meant_.move().beats : 0;
+  return late ? late->severity * kLateBeats / meant_->move().beats : 0;
 }
 
 double Rendition::DancedShare(double due) const {
   const double late = due - Lateness();
   double share = MeantShare(late);
   if (const auto off = Find(Fault::kOffBeat); off && late > 0 && late < 1) {
-    const double most = std::min(kOffBeats / meant_.move().beats, kMostOff);
+    const double most = std::min(kOffBeats / meant_->move().beats, kMostOff);
     share += (off->choice < 0.5 ? 1 : -1) * off->severity * most * std::sin(kPi * late);
   }
   return share;
@@ -172,13 +172,13 @@ double Rendition::DueOf(double share) const {
 
 Stray Rendition::Strays() const {
   if (faults_.empty()) return {};
-  const BodyDimensions& body = meant_.person().body;
-  const Controls rest = RestOf(meant_.person());
+  const BodyDimensions& body = meant_->person().body;
+  const Controls rest = RestOf(meant_->person());
   const auto meant = [&](double share) { return PoseOf(Meant(share), body); };
   const auto danced = [&](double share) { return PoseOf(Mix(rest, Danced(share), Presence(share)), body); };
   return {.limb_deg = LimbStrayDeg(meant, danced),
           .timing_beats = TimingStrayBeats([&](double due) { return MeantShare(due); },
-                                           [&](double due) { return DancedShare(due); }, meant_.move().beats)};
+                                           [&](double due) { return DancedShare(due); }, meant_->move().beats)};
 }
 
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
@@ -193,6 +193,25 @@ bool CanShow(const GradedFault& fault, const Move& move, const Move* instead) {
     if (TruthOf({.limb_deg = LimbStrayDeg(shifted, mirrored)}) != Truth::kWrong) return false;
   }
   return TruthOf(rendition.Strays()) == Truth::kWrong;
+}
+
+ShowableFaults::ShowableFaults(std::span<const Move> moves) {
+  const auto choices = [](Fault fault) -> std::vector<double> {
+    if (fault == Fault::kLimbMissing) return {0.125, 0.375, 0.625, 0.875};
+    if (fault == Fault::kOffBeat) return {0.25, 0.75};
+    return {0};
+  };
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const Move* instead = moves.size() > 1 ? &moves[(i + 1) % moves.size()] : nullptr;
+    std::vector<GradedFault>& showable = faults_.emplace_back();
+    for (Fault fault : AllFaults()) {
+      if (fault == Fault::kWrongMove && instead == nullptr) continue;
+      for (double choice : choices(fault)) {
+        const GradedFault graded{fault, 1, choice};
+        if (CanShow(graded, moves[i], instead)) showable.push_back(graded);
+      }
+    }
+  }
 }
 
 }  // namespace etude

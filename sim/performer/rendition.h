@@ -29,7 +29,7 @@ class Rendition {
   /// `meant` and `instead` must outlive this. `instead` is what is danced in its place where a fault is kWrongMove.
   Rendition(const Style& meant, const Chance& chance, std::vector<GradedFault> faults, const Style* instead = nullptr);
 
-  const Style& style() const { return meant_; }
+  const Style& style() const { return *meant_; }
 
   /// The body at a share of the performance, without its faults and with them.
   Controls Meant(double share, double vigour = 1) const;
@@ -53,7 +53,7 @@ class Rendition {
   std::optional<GradedFault> Find(Fault fault) const;
   Controls Reordered(double share, double vigour) const;
 
-  const Style& meant_;
+  const Style* meant_;
   const Style* instead_;
   Chance chance_;
   SmoothOffsets offsets_;
@@ -64,5 +64,17 @@ class Rendition {
 /// truly wrong. A move that is its own mirror image half a performance later has no wrong side. `choice` as in
 /// GradedFault; `instead` for kWrongMove.
 bool CanShow(const GradedFault& fault, const Move& move, const Move* instead);
+
+/// What can go wrong with each of some moves: costly to find out (some milliseconds a move), the same for everybody.
+class ShowableFaults {
+ public:
+  explicit ShowableFaults(std::span<const Move> moves);
+
+  /// Of the i-th move, each at severity 1, once for every choice that it leaves open.
+  std::span<const GradedFault> Of(std::size_t move) const { return faults_[move]; }
+
+ private:
+  std::vector<std::vector<GradedFault>> faults_;
+};
 
 }  // namespace etude
