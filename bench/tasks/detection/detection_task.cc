@@ -80,9 +80,10 @@ class DetectionTaskWorld final : public TaskWorld {
 
   CellResult Score(const SessionVerdict& verdict) const {
     CellResult result = CellResult::Ended(Status::kOk, "");
-    ScoreSession(world_, verdict, result);
+    ScoreSession(world_, verdict, repertoire_, result);
     result.digests = world_digests_;
     for (auto& stage : VerdictDigests(verdict, repertoire_)) result.digests.push_back(std::move(stage));
+    result.series = PerformanceSeries(world_, verdict, repertoire_);
     result.series.push_back(ScoreSeries(world_, verdict));
     if (keeps_motion_) result.recording = RecordSession(world_, verdict, repertoire_);
     return result;

@@ -13,6 +13,9 @@ namespace etude {
 struct SessionVerdict {
   SkeletonStream filtered;
   std::vector<Judgement> events;  ///< one per event; frames count from its window's first
+  /// One per event: the move (Repertoire::taught) with the most evidence in its window. None at all: an answer from
+  /// outside, which names no moves.
+  std::vector<std::optional<std::size_t>> named = {};
   std::vector<Detection> alarms;  ///< false ones: by move (Repertoire::taught), then by time
 };
 
