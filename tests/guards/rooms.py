@@ -56,7 +56,7 @@ MAY_INCLUDE = {
     "sim/choreography":
         "engine/base engine/coaching engine/document engine/fuzzy engine/motion sim/random",
     "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
-    "sim/music": "engine/motion sim/random",
+    "sim/music": "engine/base engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
