@@ -1,4 +1,4 @@
-#include "cli/coach_lines.h"
+#include "reports/coach/coach_lines.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
