@@ -139,7 +139,7 @@ MAY_INCLUDE = {
     "reports/clips":
         "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
         "bench/files reports/films reports/words",
-    "reports/coach": "engine/base engine/coaching engine/motion bench/files",
+    "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/camera sim/character sim/render sim/sensors "
         "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
