@@ -26,7 +26,7 @@ MAY_INCLUDE = {
     "engine/kinematics": "engine/base engine/motion",
     "engine/kinematics/solvers": "engine/base engine/kinematics",
     "engine/motion": "engine/base",
-    "engine/recognition": "engine/base engine/fuzzy engine/motion",
+    "engine/recognition": "engine/base engine/document engine/fuzzy engine/motion",
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
