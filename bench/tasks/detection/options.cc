@@ -79,7 +79,7 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
             "The faults that may happen; none named: all."},
            [](Fields& condition, Options& o) {
              for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
-               o.session.faults.push_back(FindFault(name));
+               if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
              }
            }},
        Key::Number(
