@@ -31,6 +31,7 @@ MAY_INCLUDE = {
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
     "engine/streams": "engine/base engine/formats engine/recognition",
+    "engine/teaching": "engine/base engine/document engine/fuzzy engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
