@@ -46,11 +46,11 @@ enum class PlayerHint { kNone, kComeIntoView, kComeNearer, kStepBack };
 /// "", "come into view", "come nearer", "step back".
 std::string_view HintText(PlayerHint hint);
 
-/// What the music is to do, from the next frame on.
+/// What the music is to do.
 struct MusicCommand {
   enum class Kind { kNone, kPlayFrom, kPause };
   Kind kind = Kind::kNone;
-  double music_s = 0;  ///< of kPlayFrom
+  double music_s = 0;  ///< of kPlayFrom: what should be heard in this frame; on from there
 };
 
 /// The performance that the player is asked for: its window is open.
@@ -63,46 +63,54 @@ struct OpenWindow {
 /// What to show, and why.
 struct CoachOutput {
   CoachMode mode = CoachMode::kStandby;
-  BodyPose body;                      ///< of the coach, now
-  std::string_view clip;              ///< what it plays: "dance", an act's name, or "slow_" and the move's
-  double clip_frame = 0;              ///< of that clip; in a transition, that of the clip it leads into
+  BodyPose body;          ///< of the coach, now
+  std::string_view clip;  ///< what it plays: "dance", an act's name, "slow_" and a move's; in a transition the next
+  double clip_frame = 0;  ///< of that clip
   bool in_transition = false;         ///< between two clips, until the wanted one is entered
-  int repetition = -1;                ///< that the coach dances; −1: none
+  int repetition = -1;                ///< that the coach dances; -1: none
   std::optional<OpenWindow> open;     ///< what the player is asked for from the next frame on
   bool asks = false;                  ///< `open` is news: MoveFollower::Ask before the next frame
-  std::string_view text;              ///< a line for the player; lives as long as the dance
-  const BodyPose* picture = nullptr;  ///< the key pose asked for or shown, likewise
-  PlayerHint hint = PlayerHint::kNone;
+  std::string_view say;               ///< a line for the player; "" = nothing
+  std::string_view hint;              ///< the key pose asked for or shown, in words; lives as long as the dance
+  const BodyPose* picture = nullptr;  ///< the same as a picture, likewise
+  PlayerHint stand = PlayerHint::kNone;
   MusicCommand music;
   /// While it dances to music: how much later the dance is than the music, seconds; negative: earlier.
   std::optional<double> beat_error_s;
-  std::vector<CoachRecord> records;  ///< what was decided in this frame
+  std::vector<CoachRecord> records;  ///< what was decided in this frame, in order
 };
 
 /// Everything that a session has come to: plain values, to be copied at will.
 struct CoachState {
   std::int64_t frame = 0;
   CoachMode mode = CoachMode::kStandby;
+  std::int64_t mode_since = 0;  ///< frame
   Playback playback;
+
+  // The player.
   ClapState clap;
+  bool clap_waits = false;  ///< one was seen that nothing has come of yet
   StillnessState stillness;
+  std::int64_t idle_since = 0;  ///< the last frame in which somebody took part
+  PlayerHint stand = PlayerHint::kNone;
+  int stand_frames = 0;  ///< for how long another hint would have been given
 
   // The dance.
-  double rate = 1;      ///< frames of the dance per frame
-  int next_tag = 0;     ///< the next one to be handled
-  int next_window = 0;  ///< the next repetition whose window is to open
+  bool music_plays = false;
+  double rate = 1;  ///< frames of the dance per frame
+  int next_tag = 0;
+  int next_window = 0;  ///< the repetition whose window opens next
   std::optional<OpenWindow> open;
-  std::int64_t opened_at = 0;  ///< frame
-  int correcting = -1;         ///< the repetition that a correction goes back to
-  int corrections_here = 0;    ///< of the repetition danced, in a row
-  bool moment_waits = false;   ///< a moment came while there was nothing to interrupt
+  bool decided = false;       ///< the open window has come to right before its end
+  int correcting = -1;        ///< the repetition that was corrected last
+  int corrections_here = 0;   ///< how often, in a row
+  bool moment_waits = false;  ///< one came while there was nothing to interrupt
+  std::string_view say;
+  std::int64_t say_until = 0;  ///< frame
 
-  // What is remembered.
+  // What is remembered of this song.
   std::vector<MoveMemory> moves;  ///< of the dance
-  MoveMemory song;                ///< of all of them
-  std::int64_t idle_since = 0;    ///< the last frame with somebody taking part
-  PlayerHint hint = PlayerHint::kNone;
-  int hint_frames = 0;  ///< for how long another hint would have been given
+  MoveMemory song;                ///< all of them together
 };
 
 /// The next state, and what to show.

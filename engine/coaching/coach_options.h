@@ -17,7 +17,7 @@ struct CoachOptions {
   /// From so many mistakes in a row on the coach is puzzled instead of shaking its head.
   int puzzled_after = 3;
   /// So often at most one repetition is corrected before the dance goes on.
-  int most_corrections = 5;
+  int most_corrections = 3;
   /// Share of a song's judged performances that must be right for praise at its end.
   double praise_share = 0.8;
   /// A window in which the body moved less than this share of the time is stood through.

@@ -1,83 +1,43 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "engine/coaching/dance.h"
-#include "engine/transitions/library/library.h"
-#include "engine/transitions/transition.h"
+#include "engine/coaching/dance_transitions.h"
 
 namespace etude {
 
-/// A dance made ready for transitions, once for all who dance it: a library of its acts, its slow demonstrations, and,
-/// for each repetition, what is danced around it.
-class DanceLibrary {
- public:
-  /// Refuses what CheckDance does.
-  static Result<DanceLibrary> Make(Dance dance);
-
-  const Dance& dance() const { return dance_; }
-  const MotionLibrary& library() const { return library_; }
-
-  /// Clips of the library.
-  int ClipOfAct(std::string_view act) const;
-  int ClipOfSlow(int move) const;
-  /// What is left when a repetition is: from its first frame until a while after its end.
-  int ClipLeaving(int repetition) const;
-  /// What is entered when the dance goes back to a repetition: from a while before it to a while into it. The first
-  /// stands for the song's beginning, too.
-  int ClipReturning(int repetition) const;
-  /// The frame of the dance that is a library clip's first; only of the last two.
-  std::size_t DanceFrameOf(int clip) const;
-
- private:
-  Dance dance_;
-  MotionLibrary library_;
-  std::vector<std::size_t> dance_frames_;
-};
-
-/// A transition that was spliced: what is shown after the frame of the request, to the wanted clip's end.
-struct ShownPath {
-  int clip = 0;                  ///< of the library: the wanted one
-  std::vector<BodyPose> frames;  ///< in the place of the clip that was left
-  std::size_t entered = 0;       ///< the first of `frames` that belongs to the wanted clip
-  int first = 0;                 ///< the wanted clip's frame there
-  FloorMove place;               ///< where the wanted clip is shown
-  std::shared_ptr<const TransitionRecord> record;
-};
-
-/// Transitions within a dance by one way, each planned when it is first asked for and kept. What is answered does not
-/// depend on what was asked before; not for several threads at once.
-class DanceTransitions {
- public:
-  /// `library` must outlive this.
-  DanceTransitions(const DanceLibrary& library, TransitionWay way);
-
-  const Dance& dance() const { return library_.dance(); }
-  const DanceLibrary& library() const { return library_; }
-
-  /// From a frame of a clip into another clip. A way without a transition there (it says why) cuts.
-  std::shared_ptr<const ShownPath> Find(int from, int frame, int to) const;
-  /// The same from a clip that stands at `place`, into a clip that is to stand where it was authored.
-  std::shared_ptr<const ShownPath> FindHome(int from, int frame, const FloorMove& place, int to) const;
-
- private:
-  const DanceLibrary& library_;
-  TransitionWay way_;
-  mutable std::map<std::array<int, 3>, std::shared_ptr<const ShownPath>> paths_;
-};
-
-/// What is being played.
+/// What is being played: the dance itself, or a path (a transition and the clip it leads into).
 struct Playback {
-  std::shared_ptr<const ShownPath> path;  ///< a transition and the clip it leads into; null: the dance itself
-  std::size_t path_frame = 0;             ///< the frame of `path` that is shown
-  FloorMove place;                        ///< of the path
+  std::shared_ptr<const ShownPath> path;  ///< null: the dance
+  double path_frame = 0;                  ///< in the path and on in its clip, between two frames, too
+  FloorMove place;                        ///< where the path is laid
   double dance_frame = 0;                 ///< without a path
 };
+
+/// The clip that plays, and where in it; in a transition, the wanted one's first frame.
+struct PlayedClip {
+  int clip = 0;
+  double frame = 0;
+  bool in_transition = false;
+};
+
+/// Of a path: what its clip is, and where. `playback.path` must be one.
+PlayedClip PlayedOf(const Playback& playback, const DanceLibrary& library);
+/// The frame of the dance that is shown; −1: none.
+double DanceFrame(const Playback& playback, const DanceLibrary& library);
+/// The body that is shown.
+BodyPose ShownPose(const Playback& playback, const DanceLibrary& library);
+/// Whether a path has come to the end of its clip, or so many frames before it; never in a clip that loops.
+bool IsOver(const Playback& playback, const DanceLibrary& library, double before = 0);
+
+/// Whether it may be left: no join is under way, so that what is shown is the clip itself.
+bool IsSettled(const Playback& playback);
+
+/// Goes on by one frame; in the dance by `rate` of them. A path back to the dance ends in the dance.
+void Advance(Playback& playback, const DanceLibrary& library, double rate);
+/// Leaves what is played, which must be settled, for a clip, from the next frame on.
+void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions);
+/// Likewise for a clip that is to stand where it was authored.
+void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions);
 
 }  // namespace etude

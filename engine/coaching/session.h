@@ -9,8 +9,6 @@
 
 namespace etude {
 
-class LiveSight;
-
 /// What a session may be told beside what the sensor sees.
 struct SessionInput {
   std::optional<double> music_s = {};   ///< CoachInput's
@@ -41,10 +39,11 @@ class CoachSession {
   const CoachState& state() const { return state_; }
 
  private:
-  Parts parts_;
+  struct Eyes;
+
+  const Coach* coach_;
   CoachState state_;
-  std::unique_ptr<LiveSight> sight_;
-  std::unique_ptr<MoveFollower> follower_, mirror_follower_;
+  std::unique_ptr<Eyes> eyes_;
 };
 
 /// What the sensor would have seen in a mirror: left and right exchanged, x reversed.

@@ -3,7 +3,10 @@
 #include <algorithm>
 
 #include "engine/base/named.h"
+#include "engine/recognition/dtw.h"
+#include "engine/recognition/fuzzy_rules.h"
 #include "engine/recognition/key_pose.h"
+#include "engine/recognition/nearest.h"
 
 namespace etude {
 namespace {
@@ -67,14 +70,37 @@ Result<void> Check(const RecogniserKind& kind, std::span<const TaughtMove> taugh
 
 // A new recogniser is one row here. Its options, if it has any, are a struct in its own header.
 std::span<const RecogniserKind> AllRecognisers() {
-  static const std::vector<RecogniserKind> recognisers = {WithSettings<KeyPoseOptions>(
-      {.name = "key-pose", .description = "paper A's: the move's key poses, in their order", .needs_key_poses = true},
-      MakeKeyPoseRecogniser,
-      {{{"tolerance_scale", &KeyPoseOptions::tolerance_scale, 0.1, 5, "Times every tolerance of the key poses."},
-        {"pose_share", &KeyPoseOptions::pose_share, 0.01, 1,
-         "The weighted share of a key pose's angles that must be within their tolerances."},
-        {"hold_frames", &KeyPoseOptions::hold_frames, 1, 30,
-         "For how many frames in a row a key pose must be met."}}})};
+  static const std::vector<RecogniserKind> recognisers = {
+      WithSettings<KeyPoseOptions>(
+          {.name = "key-pose",
+           .description = "paper A's: the move's key poses, in their order",
+           .needs_key_poses = true},
+          MakeKeyPoseRecogniser,
+          {{{"tolerance_scale", &KeyPoseOptions::tolerance_scale, 0.1, 5, "Times every tolerance of the key poses."},
+            {"pose_share", &KeyPoseOptions::pose_share, 0.01, 1,
+             "The weighted share of a key pose's angles that must be within their tolerances."},
+            {"hold_frames", &KeyPoseOptions::hold_frames, 1, 30,
+             "For how many frames in a row a key pose must be met."}}}),
+      WithSettings<FuzzyRulesOptions>(
+          {.name = "fuzzy-rules",
+           .description = "paper A's fuzzy features: a rule for each key pose, and one for their order",
+           .needs_key_poses = true},
+          MakeFuzzyRulesRecogniser,
+          {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
+             "For how many frames in a row a rule must hold."}}}),
+      WithSettings<DtwOptions>(
+          {.name = "dtw",
+           .description = "dynamic time warping of joints to the taught examples",
+           .needs_examples = true},
+          MakeDtwRecogniser,
+          {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "The distance at which the evidence is one half."}}}),
+      {.name = "nearest",
+       .description =
+           "nearest neighbour of joints: examples against their mirror image, their half, other moves, standing",
+       .needs_examples = true,
+       .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
+         return MakeNearestRecogniser(taught, options.weights);
+       }}};
   return recognisers;
 }
 

@@ -15,8 +15,8 @@ MAY_INCLUDE = {
         "engine/base engine/boards engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers "
         "engine/motion engine/smoothing engine/vision",
     "engine/coaching":
-        "engine/base engine/motion engine/recognition engine/transitions engine/transitions/base "
-        "engine/transitions/library",
+        "engine/base engine/fuzzy engine/motion engine/recognition engine/transitions engine/transitions/base "
+        "engine/transitions/joins engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",

@@ -4,21 +4,27 @@
 
 namespace etude {
 
-MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
-                          const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
+MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
+                                   const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
   MotionLibrary library{.proportions = proportions,
                         .names = std::move(names),
-                        .motions = {},
+                        .motions = std::move(motions),
                         .tagged = {},
                         .features = {},
                         .in_betweens = {}};
-  library.motions.reserve(clips.size());
-  for (const BodyMotion& clip : clips) library.motions.push_back(PerformedBy(proportions, clip));
   library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
   library.features = ComputeMotionFeatures(library.motions);
   library.in_betweens =
       BuildInBetweens(library.tagged, {.weights = rules.weights, .threshold = kPaperThreshold, .tween = tween});
   return library;
+}
+
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
+                          const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
+  std::vector<BodyMotion> motions;
+  motions.reserve(clips.size());
+  for (const BodyMotion& clip : clips) motions.push_back(PerformedBy(proportions, clip));
+  return MakeLibraryOfOneBody(std::move(names), std::move(motions), proportions, rules, tween);
 }
 
 }  // namespace etude
