@@ -47,8 +47,13 @@ double RangeOf(const Track& track, std::size_t feature) {
   return Percentile(values, 0.95) - Percentile(values, 0.05);
 }
 
-/// The angles that make the move: those that change most, in the middle example. Of a move that hardly moves, the
-/// arms'.
+/// Angles that go together in a key pose.
+constexpr Feature kTogether[][4] = {{Feature::kRH, Feature::kLH, Feature::kRHE, Feature::kLHE},
+                                    {Feature::kRF, Feature::kRFK, Feature::kRF, Feature::kRFK},
+                                    {Feature::kLF, Feature::kLFK, Feature::kLF, Feature::kLFK}};
+
+/// The angles that make the move: those that change, in the middle example, and what goes with them. Of a move that
+/// hardly moves, the arms'.
 std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const TeachOptions& options) {
   std::array<double, kFeatureCount> ranges{};
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
@@ -56,17 +61,21 @@ std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const T
     for (const Track& track : tracks) of_examples.push_back(RangeOf(track, f));
     ranges[f] = Percentile(of_examples, 0.5);
   }
-  std::vector<std::size_t> order(kFeatureCount);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return ranges[a] > ranges[b]; });
-  const double least = std::max(options.least_range_deg, 0.5 * ranges[order.front()]);
-  std::vector<std::size_t> chosen;
-  for (const std::size_t f : order) {
-    if (ranges[f] >= least && chosen.size() < static_cast<std::size_t>(options.most_targets)) chosen.push_back(f);
-  }
-  if (!chosen.empty()) return chosen;
+  const double least = std::max(options.least_range_deg, 0.5 * *std::ranges::max_element(ranges));
+  std::array<bool, kFeatureCount> matters{};
+  for (std::size_t f = 0; f < kFeatureCount; ++f) matters[f] = ranges[f] >= least;
+  const bool is_still = std::ranges::none_of(matters, [](bool does) { return does; });
   const auto at = [](Feature feature) { return static_cast<std::size_t>(feature); };
-  return {at(Feature::kRH), at(Feature::kLH), at(Feature::kRHE), at(Feature::kLHE)};
+  for (const auto& together : kTogether) {
+    const bool moves = std::ranges::any_of(together, [&](Feature feature) { return matters[at(feature)]; });
+    const bool stands_in = is_still && &together == &kTogether[0];
+    for (const Feature feature : together) matters[at(feature)] = matters[at(feature)] || moves || stands_in;
+  }
+  std::vector<std::size_t> chosen;
+  for (std::size_t f = 0; f < kFeatureCount; ++f) {
+    if (matters[f]) chosen.push_back(f);
+  }
+  return chosen;
 }
 
 double Distance(const Angles& a, const Angles& b, std::span<const std::size_t> features) {

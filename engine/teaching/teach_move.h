@@ -11,11 +11,11 @@ namespace etude {
 
 /// How key poses and tolerances are found.
 struct TeachOptions {
-  /// An angle takes part in key poses when it changes by so much in the course of the move, degrees (Posture: its
-  /// scale), and by half as much as the one that changes most. Below it, sensors' noise would.
+  /// An angle makes key poses when it changes by so much in the course of the move, degrees (Posture: its scale), and
+  /// by half as much as the one that changes most. Below it, sensors' noise would. With one angle of an arm all four of
+  /// the arms are told, as A's poses do, because one arm that rises alone is another move than both; with one angle of
+  /// a leg both of that leg.
   double least_range_deg = 25;
-  /// At most so many angles make a key pose: those that change most. A's own poses have two to five.
-  int most_targets = 4;
   /// At most so many key poses: the pose farthest from the move's mean, then those farthest from the ones there are, as
   /// long as they are half as far apart as the first two.
   int most_poses = 3;
