@@ -31,6 +31,13 @@ const std::vector<Fault>& AllFaults() {
 
 std::string_view FaultName(Fault fault) { return kFaults[static_cast<std::size_t>(fault)].name; }
 
+const std::vector<std::string>& FaultNameList() {
+  static const std::vector<std::string> names = NamesOf(kFaults);
+  return names;
+}
+
+Fault FindFault(std::string_view name) { return ValueNamed(kFaults, name); }
+
 std::string FaultNames(const std::vector<GradedFault>& faults) {
   std::string names;
   for (const GradedFault& graded : faults) {

@@ -26,6 +26,7 @@ enum class Fault {
 struct GradedFault {
   Fault fault = Fault::kAmplitude;
   double severity = 1;  ///< in [0, 1]
+  double choice = 0;    ///< in [0, 1), settles what the fault leaves open: which limb, whether it hurries or drags
 };
 
 /// All faults, in the order of the enum.
@@ -33,6 +34,10 @@ const std::vector<Fault>& AllFaults();
 /// "amplitude", "wrong_side", "wrong_move", "skipped", "late", "off_beat", "limb_missing", "elbow_straight",
 /// "wrong_order", "stopped".
 std::string_view FaultName(Fault fault);
+/// The names of AllFaults().
+const std::vector<std::string>& FaultNameList();
+/// `name` must be one of FaultNameList().
+Fault FindFault(std::string_view name);
 /// "none", or the names joined by "+": "amplitude+late".
 std::string FaultNames(const std::vector<GradedFault>& faults);
 

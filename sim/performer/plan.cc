@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/named.h"
 #include "sim/performer/session.h"
 
 namespace etude {
@@ -12,11 +13,6 @@ namespace {
 template <typename T>
 void Shuffle(RandomStream& random, std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.IndexBelow(i)]);
-}
-
-template <typename T>
-const T& Pick(RandomStream& random, const std::vector<T>& items) {
-  return items[random.IndexBelow(items.size())];
 }
 
 /// Indices of moves, `count` of them: every move is asked once before any is asked again.
@@ -32,16 +28,30 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-void DrawFault(RandomStream& random, std::span<const Move> moves, SessionEvent& event) {
-  event.faults.push_back({Pick(random, std::vector{Fault::kAmplitude, Fault::kWrongMove, Fault::kSkipped}), 1});
-  const Fault fault = event.faults.front().fault;
-  if (fault == Fault::kWrongMove) event.danced = moves[random.IndexBelow(moves.size())].name;
-  if (fault == Fault::kSkipped) event.danced.clear();
+/// One more fault that the move can show, in another way than those it has; none when there is no such fault.
+void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
+  const Move& asked = *FindByName(moves, event.move);
+  std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
+  std::erase_if(left, [&](Fault fault) {
+    return std::ranges::find(event.faults, fault, &GradedFault::fault) != event.faults.end();
+  });
+  Shuffle(random, left);
+  const double severity = random.Uniform();
+  for (Fault fault : left) {
+    const GradedFault graded{fault, options.severity.value_or(severity), random.Uniform()};
+    const Move* instead = &moves[random.IndexBelow(moves.size())];
+    if (fault == Fault::kWrongMove && instead->name == asked.name) continue;
+    if (!CanShow(graded, asked, instead)) continue;
+    event.faults.push_back(graded);
+    if (fault == Fault::kWrongMove) event.danced = instead->name;
+    if (fault == Fault::kSkipped && graded.severity == 1) event.danced.clear();
+    return;
+  }
 }
 
 }  // namespace
 
-SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const Person&,
+SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const Person& person,
                         const SessionOptions& options) {
   assert(!moves.empty());
   const auto count = static_cast<std::size_t>(std::max(0, options.events));
@@ -60,8 +70,15 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
     SessionEvent event;
     event.move = event.danced = move.name;
     event.start_s = time;
-    event.end_s = time + move.beats * 60 / move.tempo_bpm;
-    if (is_fault[i]) DrawFault(random, moves, event);
+    event.chance = DrawChance(random, person);
+    event.end_s = time + event.chance.lag_s + move.beats * 60 / (move.tempo_bpm * event.chance.tempo);
+    if (person.kind == People::kAbsent) {
+      event.faults = {{Fault::kSkipped, 1, 0}};
+      event.danced.clear();
+    } else if (is_fault[i]) {
+      AddFault(random, moves, options, event);
+      if (random.Chance(options.two_faults)) AddFault(random, moves, options, event);
+    }
     time = event.WindowEnd() + std::max(options.rest_s, kLeastRest) + random.Uniform(0, 0.5);
     plan.events.push_back(std::move(event));
   }

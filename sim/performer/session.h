@@ -9,6 +9,7 @@
 #include "sim/choreography/move.h"
 #include "sim/performer/fault.h"
 #include "sim/performer/person.h"
+#include "sim/performer/rendition.h"
 #include "sim/performer/stray.h"
 #include "sim/random/stream.h"
 
@@ -30,7 +31,8 @@ struct SessionEvent {
   std::vector<GradedFault> faults = {};  ///< none: performed as meant
   std::string danced;                    ///< the move that is truly danced, in whole or in part; empty: none at all
   double start_s = 0;                    ///< the first beat asked for
-  double end_s = 0;                      ///< the last beat, as this person dances it without a fault
+  double end_s = 0;                      ///< the last beat, as this person means to dance it
+  Chance chance = {};                    ///< the luck of this performance
   Stray stray;                           ///< truth: from what was meant
   Truth truth = Truth::kRight;           ///< what follows from `stray`
   /// When the move's last key beat was performed, of right events only: from the choreography's clock and the person's,

@@ -49,10 +49,24 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
            "How many performances a session holds."),
        Key::Number(
            "fault_share", [](auto& o) -> auto& { return o.session.fault_share; }, kShare,
-           "Which share of them is performed wrong."),
+           "Which share of them has a fault; whether it is wrong is up to how bad the fault is."),
+       Key::Number(
+           "severity", [](auto& o) -> auto& { return o.session.severity; }, kShare,
+           "How bad every fault is: 0 changes nothing, 1 is as bad as it gets.")
+           .WhenAbsent("(thrown evenly for each)"),
+       Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
+            "The faults that may happen; none named: all."},
+           [](Fields& condition, Options& o) {
+             for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
+               o.session.faults.push_back(FindFault(name));
+             }
+           }},
+       Key::Number(
+           "two_faults", [](auto& o) -> auto& { return o.session.two_faults; }, kShare,
+           "The chance that a performance with a fault has a second one."),
        Key::Name(
            "people", [](auto& o) -> auto& { return o.session.people; }, PeopleNames(), FindPeople,
-           "Who dances; `mixed`: toddlers, school children, adults and experts, thrown."),
+           "Who dances, another person in every trial; `mixed`: toddlers, school children, adults and experts."),
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),

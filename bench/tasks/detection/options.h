@@ -18,8 +18,9 @@ enum class OccluderKind { kNone, kTable, kChair, kPerson };
 /// One condition of a detection scenario: who dances, and how well the sensor sees it.
 ///
 ///     events: 8        # performances in one session
-///     fault_share: 0.5 # of them are wrong
 ///     people: mixed    # who dances: toddler, school-child, adult, expert, absent, or a mixture
+///     fault_share: 0.5 # of them have a fault
+///     severity: 0.7    # of every fault; else thrown
 ///     noise: 1         # times every error of the sensor
 ///     sensor: v2       # which sensor: v1, v2 or a sensor file
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
