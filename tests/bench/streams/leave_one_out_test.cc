@@ -19,7 +19,7 @@ Recorded Record(int people, const std::vector<std::string>& names, int events) {
   for (const std::string& name : names) moves.push_back(*LoadBuiltinMove(name));
   Recorded recorded;
   for (int i = 0; i < people; ++i) {
-    const WorldKey key{.suite_seed = 5, .scenario = "left-out", .trial = static_cast<std::uint64_t>(i)};
+    const WorldKey key{.suite_seed = 5, .scenario = "left-out", .trial = i};
     RandomStream plan_dice(key, "session-plan"), dance_dice(key, "session-dance");
     const Person person = DrawPerson(key, People::kAdult);
     const SessionOptions options{.people = People::kAdult, .events = events, .fault_share = 0};
@@ -42,10 +42,15 @@ Recorded Record(int people, const std::vector<std::string>& names, int events) {
 
 const std::vector<std::string> kMoves = {"boxing", "clap", "robot", "side_kick", "stretch"};
 
+WatchOptions ByDtw() {
+  WatchOptions options;
+  options.recogniser.kind = FindRecogniser("dtw");
+  return options;
+}
+
 TEST(LeaveOnePersonOut, RecognisesPeopleByWhatOthersTaught) {
   const Recorded recorded = Record(5, kMoves, 10);
-  const auto out =
-      LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {.recogniser = {.kind = FindRecogniser("dtw")}});
+  const auto out = LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", ByDtw());
   ASSERT_TRUE(out) << ToString(out.error());
   EXPECT_EQ(out->people.size(), 5u);
   EXPECT_EQ(out->verdicts.size() + static_cast<std::size_t>(out->points.size()), recorded.parts.size());
@@ -60,8 +65,7 @@ TEST(LeaveOnePersonOut, LabelsThatMeanNothingAreGuessed) {
     const auto at = static_cast<std::size_t>(std::ranges::find(kMoves, part.move) - kMoves.begin());
     part.move = kMoves[(at + part.stream) % kMoves.size()];
   }
-  const auto out =
-      LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", {.recogniser = {.kind = FindRecogniser("dtw")}});
+  const auto out = LeaveOnePersonOut(recorded.streams, recorded.parts, "l.csv", ByDtw());
   ASSERT_TRUE(out) << ToString(out.error());
   EXPECT_LT(*Accuracy(out->nearest), 0.3);
   EXPECT_LT(*Accuracy(out->verdicts), 0.4);

@@ -73,7 +73,7 @@ TEST(PerformancesOf, AnActionPointIsTheTimeAroundIt) {
 }
 
 TEST(LoadStreams, AFolderPassesOverWhatIsNoneAndTellsWhatIsBroken) {
-  const auto folder = MakeTemporaryFolder("streams");
+  const auto folder = TemporaryFolder::Make("streams");
   ASSERT_TRUE(folder);
   BodyMotion motion;
   motion.poses.push_back(BodyPose{});
