@@ -13,6 +13,7 @@
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
 #include "cli/sensor_arguments.h"
+#include "cli/stream_arguments.h"
 #include "cli/train_arguments.h"
 #include "cli/validators.h"
 
@@ -289,6 +290,8 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineClip(app, action);
   DefineBridge(app, action);
   DefineTrain(app, action);
+  DefineTeach(app, action);
+  DefineRecognise(app, action);
   DefineSensor(app, action);
   DefineCalibrate(app, action);
   DefineCapture(app, action);

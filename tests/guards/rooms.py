@@ -31,6 +31,7 @@ MAY_INCLUDE = {
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
     "engine/streams": "engine/base engine/formats engine/recognition",
+    "engine/teaching": "engine/base engine/document engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
@@ -96,6 +97,8 @@ MAY_INCLUDE = {
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "sim/random bench/metrics bench/model",
+    "bench/streams":
+        "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
     "bench/tasks":
         "engine/base bench/tasks/base bench/tasks/capture bench/tasks/coach bench/tasks/detection bench/tasks/ik "
         "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
