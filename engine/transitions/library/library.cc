@@ -8,12 +8,10 @@ MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMo
                           const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
   MotionLibrary library{.proportions = proportions,
                         .names = std::move(names),
-                        .motions = {},
+                        .motions = PerformedBy(proportions, clips),
                         .tagged = {},
                         .features = {},
                         .in_betweens = {}};
-  library.motions.reserve(clips.size());
-  for (const BodyMotion& clip : clips) library.motions.push_back(PerformedBy(proportions, clip));
   library.tagged = TagClips(library.motions, proportions.standing_hip_height, rules);
   library.features = ComputeMotionFeatures(library.motions);
   library.in_betweens =
