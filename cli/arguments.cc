@@ -46,6 +46,12 @@ std::array<CLI::Option*, 4> AddWorldOptions(CLI::App& command, Options& options)
                              "Which joints of the clips play which roles (etude clip map writes such a file)")};
 }
 
+void AddUnsealed(CLI::App& command, Sealing& sealing) {
+  command.add_flag_callback(
+      "--unsealed", [&sealing] { sealing = Sealing::kIgnored; },
+      "Read a run although its folder was changed, and say so");
+}
+
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = Keep<RunOptions>();
   auto shard = Keep<std::string>();
@@ -63,6 +69,12 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
+  command->add_option("--sync-seconds", options->sync.seconds, "What is done is on the disk after so long at most")
+      ->check(NumberWithin(0, 3600, "time in s"))
+      ->capture_default_str();
+  command->add_option("--sync-mebibytes", options->sync.mebibytes, "… and after so much at most")
+      ->check(NumberWithin(0, 1024, "size in MiB"))
+      ->capture_default_str();
   auto dry_run = Keep<bool>(false);
   command->add_flag("--dry-run", *dry_run, "Only tell how long it would take, and what differences it could show")
       ->excludes(shard_option, overwrite, resume);
@@ -102,7 +114,9 @@ void DefineReport(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
   command->add_option("folder", *folder, "A result folder")->required();
   command->add_flag("--no-video", *no_video, "Leave the video out");
-  command->callback([=, &action] { action = [=] { return ReportCommand(*folder, !*no_video); }; });
+  auto sealing = Keep<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] { action = [=] { return ReportCommand(*folder, !*no_video, *sealing); }; });
 }
 
 void DefineReplay(CLI::App& app, Action& action) {
@@ -111,6 +125,7 @@ void DefineReplay(CLI::App& app, Action& action) {
     std::vector<std::string> cells;
     std::size_t sample = 0;
     int jobs = 0;
+    Sealing sealing = Sealing::kRequired;
   };
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
@@ -119,12 +134,14 @@ void DefineReplay(CLI::App& app, Action& action) {
   command->add_option("--sample", options->sample, "This many cells, drawn by the run's seed (default: all)")
       ->check(CLI::Range(1, 10'000'000))
       ->excludes(cell);
+  AddUnsealed(*command, options->sealing);
   command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
   command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));
   command->callback([=, &action] {
     action = [=] {
-      return ReplayCommand(options->target, options->cells, options->sample, options->pack_file, options->jobs);
+      return ReplayCommand(options->target, options->cells, options->sample, options->pack_file, options->jobs,
+                           options->sealing);
     };
   });
 }
@@ -148,6 +165,7 @@ void DefineGate(CLI::App& app, Action& action) {
   command->add_option("--trials", options->trials, "Self-test: worlds per condition (default: the scenario's)")
       ->check(CLI::Range(1, 1000000))
       ->needs(self_test);
+  AddUnsealed(*command, options->sealing);
   command->callback([=, &action] {
     action = [=] {
       if (options->target.empty() && !options->self_test) return Complain({{}, "etude gate needs a result folder"});
@@ -161,7 +179,9 @@ void DefineCompare(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("compare", "What differs between two runs of the same worlds");
   command->add_option("a", *a, "A result folder")->required();
   command->add_option("b", *b, "Another")->required();
-  command->callback([=, &action] { action = [=] { return CompareCommand(*a, *b); }; });
+  auto sealing = Keep<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] { action = [=] { return CompareCommand(*a, *b, *sealing); }; });
 }
 
 void DefineExport(CLI::App& app, Action& action) {

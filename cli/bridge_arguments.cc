@@ -34,7 +34,7 @@ void DefineBridge(CLI::App& app, Action& action) {
   const auto add = [&](CLI::Option* option) { check->excludes(option); };
   add(command->add_option("--to", options->to,
                           "Clips that every other one must lead into; they join the library (default: head_shake,\n"
-                          "wave and slow demonstrations, where they are among the clips)"));
+                          "wave, puzzled and slow demonstrations, where they are among the clips)"));
   add(command->add_option("--threshold", options->threshold, "Frames nearer than this match")
           ->check(NumberWithin(1e-6, 6, "threshold"))
           ->capture_default_str());

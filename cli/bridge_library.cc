@@ -21,10 +21,11 @@ Result<FuzzySystem> LoadFuzzySystem(const std::string& reference) {
   return OpenFuzzySystem(reference, {"--fuzzy", 0, 0}, [](const std::string& file) { return ReadWholeFile(file); });
 }
 
-/// Paper A, section 3.3: shaking the head, waving, a slow demonstration.
+/// Paper A, section 3.3: shaking the head, waving, a slow demonstration; and the puzzled act.
 bool IsCorrective(const std::string& source) {
   const std::string slow = "builtin:" + std::string(kSlowDemonstrationPrefix);
-  return source == "builtin:head_shake" || source == "builtin:wave" || source.starts_with(slow);
+  const bool is_act = source == "builtin:head_shake" || source == "builtin:wave" || source == "builtin:puzzled";
+  return is_act || source.starts_with(slow);
 }
 
 /// Clips in the order of their first mention, each once.

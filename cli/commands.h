@@ -6,6 +6,7 @@
 
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
+#include "bench/results/folder.h"
 #include "bench/run/run.h"
 
 namespace etude {
@@ -27,7 +28,7 @@ int MergeCommand(const MergeOptions& options);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or
 /// packs one into `pack_file`.
 int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
-                  const std::string& pack_file, int jobs);
+                  const std::string& pack_file, int jobs, Sealing sealing);
 /// What `etude gate` is asked.
 struct GateOptions {
   std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
@@ -37,6 +38,7 @@ struct GateOptions {
   int repetitions = 40;       ///< of the self-test: pairs of seeds
   std::optional<int> trials;  ///< of the self-test: worlds per condition, else the scenario's
   bool verdicts = false;      ///< of the self-test: measure the verdicts beyond a run's worlds instead
+  Sealing sealing = Sealing::kRequired;
 };
 /// `etude gate --self-test --verdicts`: the table of docs/results.md from so many samples of each design (exit 1 when a
 /// promise is broken).
@@ -44,7 +46,7 @@ int VerdictsCommand(int repetitions);
 /// `etude gate`: exit 0 pass, 1 regression or unmet expectation, 2 bad input, 3 incomplete.
 int GateCommand(const GateOptions& options);
 /// `etude compare A B`: what differs between two runs of the same worlds.
-int CompareCommand(const std::string& a, const std::string& b);
+int CompareCommand(const std::string& a, const std::string& b, Sealing sealing);
 /// `etude check-method [--task T] [--time S] [--memory MB] -- CMD…`: whether a program speaks the protocol of methods
 /// outside; exit 1 when it does not.
 int CheckMethodCommand(const std::vector<std::string>& command, const std::string& task, double time_s,
@@ -54,7 +56,7 @@ int ExportCommand(const ExportOptions& options);
 /// `etude score`: scores a folder of answers into a result folder.
 int ScoreCommand(const ScoreOptions& options);
 /// `etude report DIR`: writes DIR/report and DIR/video.
-int ReportCommand(const std::string& folder, bool with_video);
+int ReportCommand(const std::string& folder, bool with_video, Sealing sealing);
 
 enum class Listing { kMethods, kScenarios, kClips };
 /// `etude list …`: what can be named in a scenario.
@@ -75,6 +77,9 @@ enum class MetricsFormat {
 };
 /// `etude list metrics`.
 int ListMetricsCommand(MetricsFormat format);
+
+/// Says on standard error that a run was read although its folder is not as it was written.
+void TellUnsealed(const RunData& run);
 
 /// Prints a complaint the one way Etude does, and gives kUnusableInput.
 int Complain(const Error& error);

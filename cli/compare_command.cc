@@ -13,8 +13,9 @@ namespace etude {
 namespace {
 
 /// A whole run; one that is not whole cannot be paired world by world.
-Result<FinishedRun> LoadWholeRun(const std::string& folder) {
-  ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder));
+Result<FinishedRun> LoadWholeRun(const std::string& folder, Sealing sealing) {
+  ASSIGN_OR_RETURN(auto run, LoadFinishedRun(folder, sealing));
+  TellUnsealed(run.data);
   if (!run.incomplete.empty()) return Fail({folder, 0, 0}, "{}", run.incomplete.front());
   return run;
 }
@@ -31,10 +32,10 @@ std::string ScopeSentence(const FinishedRun& run) {
 
 }  // namespace
 
-int CompareCommand(const std::string& a, const std::string& b) {
-  const auto run_a = LoadWholeRun(a);
+int CompareCommand(const std::string& a, const std::string& b, Sealing sealing) {
+  const auto run_a = LoadWholeRun(a, sealing);
   if (!run_a) return Complain(run_a.error());
-  const auto run_b = LoadWholeRun(b);
+  const auto run_b = LoadWholeRun(b, sealing);
   if (!run_b) return Complain(run_b.error());
   Snapshot before = TakeSnapshot(*run_a), after = TakeSnapshot(*run_b);
   const std::vector<std::string> incomparable = DropIncomparable(before, after);

@@ -159,8 +159,9 @@ int SelfTest(const GateOptions& options) {
 int GateCommand(const GateOptions& options) {
   if (options.verdicts) return VerdictsCommand(options.repetitions);
   if (options.self_test) return SelfTest(options);
-  const auto run = LoadFinishedRun(options.target);
+  const auto run = LoadFinishedRun(options.target, options.sealing);
   if (!run) return Complain(run.error());
+  TellUnsealed(run->data);
   return options.update ? Update(options, *run) : Judge(options, *run);
 }
 

@@ -28,7 +28,7 @@ int ReplayFile(const std::string& file) {
 }  // namespace
 
 int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
-                  const std::string& pack_file, int jobs) {
+                  const std::string& pack_file, int jobs, Sealing sealing) {
   const Interrupt interrupt;
   std::error_code error;
   if (!std::filesystem::is_directory(target, error)) {
@@ -39,12 +39,16 @@ int ReplayCommand(const std::string& target, const std::vector<std::string>& cel
   }
   if (!pack_file.empty()) {
     if (cells.size() != 1) return Complain({{}, "--pack packs one cell: name it with --cell"});
-    if (auto packed = PackCell(target, cells.front(), pack_file); !packed) return Complain(packed.error());
+    if (auto packed = PackCell(target, cells.front(), pack_file, sealing); !packed) return Complain(packed.error());
     fmt::print("Packed into {}\nNext, anywhere: etude replay {}\n", pack_file, pack_file);
     return kSuccess;
   }
-  const auto checks =
-      ReplayRun({.folder = target, .cells = cells, .sample = sample, .jobs = jobs, .stop = interrupt.requested()});
+  const auto checks = ReplayRun({.folder = target,
+                                 .cells = cells,
+                                 .sample = sample,
+                                 .jobs = jobs,
+                                 .sealing = sealing,
+                                 .stop = interrupt.requested()});
   if (!checks) return Complain(checks.error());
   const auto same = std::count_if(checks->begin(), checks->end(), [](const CellCheck& check) { return check.same; });
   for (const CellCheck& check : *checks) {

@@ -6,9 +6,10 @@
 
 namespace etude {
 
-int ReportCommand(const std::string& folder, bool with_video) {
-  const auto run = LoadRun(folder);
+int ReportCommand(const std::string& folder, bool with_video, Sealing sealing) {
+  const auto run = LoadRun(folder, sealing);
   if (!run) return Complain(run.error());
+  TellUnsealed(*run);
   if (auto whole = CheckRowsAgainstSummary(folder, *run); !whole) return Complain(whole.error());
   const auto written = WriteReport(*run, folder, {.pictures = with_video});
   if (!written) return Complain(written.error());

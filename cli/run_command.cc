@@ -87,6 +87,10 @@ int Complain(const Error& error) {
   return kUnusableInput;
 }
 
+void TellUnsealed(const RunData& run) {
+  if (!run.unsealed.empty()) std::fputs(("etude: read unsealed: " + run.unsealed + "\n").c_str(), stderr);
+}
+
 int RunCommand(const RunOptions& given) {
   RunOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
@@ -96,6 +100,10 @@ int RunCommand(const RunOptions& given) {
   interrupt.reset();  // all is written
   if (!outcome) return Complain(outcome.error());
   const std::string folder = outcome->folder.string();
+  for (const int line : outcome->damaged_lines) {
+    Complain(
+        {{(outcome->folder / kJournalFile).string(), line, 0}, "was not as it had been written; its cell ran again"});
+  }
   if (outcome->stopped) {
     Complain({{},
               outcome->cells == 0

@@ -18,6 +18,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC 12 sees overlapping copies in std::string that are none (GCC bug 105651).
   add_compile_options(-Wno-restrict)
 endif()
+# A library that nothing is taken from is not loaded.
+add_link_options(-Wl,--as-needed)
 if(ETUDE_WERROR)
   add_compile_options(-Werror)
 endif()

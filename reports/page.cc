@@ -79,6 +79,7 @@ std::string Footer(const RunData& run) {
   entry("Seed", fmt::format("{}", run.seed));
   entry("Took", run.wall_seconds > 0 ? FormatNumber(run.wall_seconds) + " s" : "");
   entry("Machine", run.host);
+  entry("Unsealed", run.unsealed);
   entry("Command", run.command_line);
   html += "</dl><p>All tables as CSV and LaTeX: <code>report/tables/</code>";
   if (std::ranges::find(run.scenarios, "capture", &ScenarioSummary::task) != run.scenarios.end()) {

@@ -6,7 +6,6 @@
 #include "bench/files/files.h"
 #include "bench/finished_runs/finish_scenario.h"
 #include "bench/metrics/catalogue.h"
-#include "bench/results/folder.h"
 
 namespace etude {
 namespace {
@@ -61,7 +60,7 @@ bool WantsTimes(const FinishedScenario& scenario) { return !scenario.study.gate.
 
 }  // namespace
 
-Result<FinishedRun> LoadFinishedRun(const fs::path& folder) {
+Result<FinishedRun> LoadFinishedRun(const fs::path& folder, Sealing sealing) {
   FinishedRun run;
   std::error_code none;
   if (fs::exists(folder / kJournalFile, none)) {
@@ -69,7 +68,7 @@ Result<FinishedRun> LoadFinishedRun(const fs::path& folder) {
         fmt::format("the run did not come to its end, or is still under way ({} is there)", kJournalFile));
     return run;
   }
-  ASSIGN_OR_RETURN(run.data, LoadRun(folder));
+  ASSIGN_OR_RETURN(run.data, LoadRun(folder, sealing));
   ASSIGN_OR_RETURN(run.scenarios, LoadScenarios(folder / "manifest.json"));
   RETURN_IF_ERROR(CheckRows(run, {(folder / "cells.jsonl").string(), 0, 0}));
   if (run.data.cpu_seconds.empty() && std::any_of(run.scenarios.begin(), run.scenarios.end(), WantsTimes)) {

@@ -65,6 +65,14 @@ Result<std::string> ProblemLine(const std::string& id, const Json& content, cons
   return LinePayload("problem", id, content, files);
 }
 
+Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files) {
+  return LinePayload("begin", id, content, files);
+}
+
+Result<std::string> StepLine(const std::string& id, int number, const Json& content) {
+  return WriteJson({{"type", "step"}, {"id", id}, {"number", number}, {"step", content}});
+}
+
 Result<HelloReply> ReadHello(const std::string& line) {
   ASSIGN_OR_RETURN(const auto message, ReadMessageOfType(line, "hello"));
   if (!message.contains("protocol") || message["protocol"] != kProtocolVersion) {
@@ -93,6 +101,14 @@ Result<Json> ReadAnswer(const std::string& line, const std::string& id) {
     RETURN_IF_ERROR(TextOf(*message, "reason", line));
   } else if (!message->contains("answer") || !(*message)["answer"].is_object()) {
     return Fail({}, "its 'answer' has no object \"answer\": {}", Printable(line));
+  }
+  return message;
+}
+
+Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number) {
+  ASSIGN_OR_RETURN(auto message, ReadAnswer(line, id));
+  if (message["type"] == "answer" && (!message.contains("number") || message["number"] != number)) {
+    return Fail({}, "answered another step than {}: {}", number, Printable(line));
   }
   return message;
 }

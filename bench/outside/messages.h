@@ -16,6 +16,9 @@ constexpr int kDeepestReply = 32;
 Result<std::string> HelloLine(const std::string& task, const Json& options);
 Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files);
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files);
+/// A session that goes on step by step: its beginning, and step `number` of it.
+Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
+Result<std::string> StepLine(const std::string& id, int number, const Json& content);
 
 /// The lines that a program may say in reply. Each fails on anything else, with what was found: a line that is not
 /// JSON, of another type, about another problem, without a field or with one of the wrong type. Fields that are not
@@ -28,6 +31,8 @@ Result<HelloReply> ReadHello(const std::string& line);
 Result<void> ReadReady(const std::string& line);
 /// Gives the whole line: of type "answer", with an object `answer`, or of type "no_answer", with a text `reason`.
 Result<Json> ReadAnswer(const std::string& line, const std::string& id);
+/// Likewise, about step `number`, which an "answer" must repeat.
+Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
 
 /// The first `longest` bytes, what is no printable ASCII written as \xNN, in single quotes.
 std::string Printable(std::string_view text, std::size_t longest = 80);

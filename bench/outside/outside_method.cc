@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -48,14 +49,20 @@ tl::unexpected<Failure> Unspeakable(const Error& error) { return Failed(Status::
 struct OutsideMethod::State {
   explicit State(OutsideOptions told) : options(std::move(told)), errors(options.error_file) {}
 
+  Outcome<void> MakeReady(const std::string& setting_id, const Payload& setting);
   Outcome<Json> Converse(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                          const Payload& problem);
+  Outcome<void> Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
+                      const Payload& begin);
+  Outcome<Json> Step(const Json& step);
+  OutsideReply ReplyOf(Outcome<Json> said);
   Outcome<void> Start();
   Outcome<void> TellSetting(const std::string& id, const Payload& setting);
-  template <typename Step>
-  Outcome<void> Attempt(const std::string& what, Step step);
+  template <typename Act>
+  Outcome<void> Attempt(const std::string& what, Act act);
 
-  Outcome<std::string> Exchange(const std::string& line, double seconds);
+  enum class Looks { kAlways, kNowAndThen };
+  Outcome<std::string> Exchange(const std::string& line, double seconds, Looks looks = Looks::kAlways);
   Outcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
   Outcome<void> Look();
   Failure HowItEnded();
@@ -69,6 +76,13 @@ struct OutsideMethod::State {
   std::string called_itself;
   std::optional<std::string> setting_in_force;
   AttachmentFolder setting_files;
+  struct Session {
+    std::string id;
+    AttachmentFolder files;
+    int steps = 0;  ///< put so far
+  };
+  std::optional<Session> session;  ///< that goes on
+  Clock::time_point last_look{};
   double cpu_s = 0;          ///< of the running program, as last seen
   double cpu_charged_s = 0;  ///< of that, told in earlier replies
   double peak_mb = 0;        ///< since the problem was put
@@ -81,11 +95,11 @@ struct OutsideMethod::State {
 };
 
 /// Tries a step that is the same for many problems, unless it has failed too often in a row.
-template <typename Step>
-Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Step step) {
+template <typename Act>
+Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   Failures& failed = failures[what];
   if (failed.times == kMostFailures) return tl::unexpected(failed.last);
-  const Outcome<void> done = step();
+  const Outcome<void> done = act();
   if (done) {
     failed.times = 0;
     return done;
@@ -95,14 +109,44 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Step step) 
   return tl::unexpected(failed.last);
 }
 
-Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Payload& setting,
-                                             const std::string& problem_id, const Payload& problem) {
+/// Runs, and knows the setting.
+Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
+  session.reset();
   if (!child) {
     RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
   }
   if (setting_in_force != setting_id) {
     RETURN_IF_ERROR(Attempt("at setting " + Printable(setting_id), [&] { return TellSetting(setting_id, setting); }));
   }
+  return {};
+}
+
+Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
+                                          const Payload& begin) {
+  RETURN_IF_ERROR(MakeReady(setting_id, setting));
+  auto files = AttachmentFolder::Write(begin.files);
+  if (!files) return Unspeakable(files.error());
+  const auto line = BeginLine(id, *begin.json, files->path());
+  if (!line) return Unspeakable(line.error());
+  ASSIGN_OR_RETURN(const auto said, Exchange(*line, options.time_s));
+  if (const auto ready = ReadReady(said); !ready) return BadOutput(ready.error());
+  session = {.id = id, .files = std::move(*files)};
+  return {};
+}
+
+Outcome<Json> OutsideMethod::State::Step(const Json& step) {
+  const int number = session->steps++;
+  const auto line = StepLine(session->id, number, step);
+  if (!line) return Unspeakable(line.error());
+  ASSIGN_OR_RETURN(const auto said, Exchange(*line, options.time_s, Looks::kNowAndThen));
+  auto answer = ReadStepAnswer(said, session->id, number);
+  if (!answer) return Failed(Status::kBadOutput, fmt::format("at step {}: {}", number, answer.error().message));
+  return std::move(*answer);
+}
+
+Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Payload& setting,
+                                             const std::string& problem_id, const Payload& problem) {
+  RETURN_IF_ERROR(MakeReady(setting_id, setting));
   const auto files = AttachmentFolder::Write(problem.files);
   if (!files) return Unspeakable(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
@@ -145,7 +189,7 @@ Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Pay
 }
 
 /// Says a line and gives the one that is said in reply.
-Outcome<std::string> OutsideMethod::State::Exchange(const std::string& line, double seconds) {
+Outcome<std::string> OutsideMethod::State::Exchange(const std::string& line, double seconds, Looks looks) {
   child->Send(line);  // one that no longer listens is noticed by its silence
   const auto limit = std::chrono::duration<double>(std::min(seconds, kLongestS));
   auto said = WaitForLine(Clock::now() + std::chrono::duration_cast<Clock::duration>(limit), seconds);
@@ -155,7 +199,9 @@ Outcome<std::string> OutsideMethod::State::Exchange(const std::string& line, dou
     return Failed(Status::kBadOutput,
                   "said more than one line: " + Printable(more.value_or(std::string(child->PartOfLine()))));
   }
-  RETURN_IF_ERROR(Look());
+  if (looks == Looks::kAlways || Clock::now() >= last_look + kLookEvery) {
+    RETURN_IF_ERROR(Look());
+  }
   return said;
 }
 
@@ -184,6 +230,7 @@ Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadlin
 
 /// Notes what it uses; fails when that is too much.
 Outcome<void> OutsideMethod::State::Look() {
+  last_look = Clock::now();
   errors.Trim();
   const ProcessUsage usage = child->Measure();
   cpu_s = std::max(cpu_s, usage.cpu_s);  // it may have vanished meanwhile
@@ -209,6 +256,7 @@ Failure OutsideMethod::State::HowItEnded() {
 }
 
 std::string OutsideMethod::State::Stop(int patience_ms) {
+  session.reset();
   setting_files = {};  // deleted first: we may be killed while we wait for the program to end
   setting_in_force.reset();
   const std::string end = child ? child->Finish(patience_ms) : "not running";
@@ -229,15 +277,38 @@ OutsideMethod::~OutsideMethod() {
 
 OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                                 const Payload& problem) {
-  State& state = *state_;
-  state.peak_mb = 0;
-  auto said = state.Converse(setting_id, setting, problem_id, problem);
-  if (!said) state.Stop(0);
+  state_->peak_mb = 0;
+  OutsideReply reply = state_->ReplyOf(state_->Converse(setting_id, setting, problem_id, problem));
+  state_->errors.Save();
+  return reply;
+}
+
+OutsideReply OutsideMethod::Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
+                                  const Payload& session) {
+  state_->peak_mb = 0;
+  auto begun = state_->Begin(setting_id, setting, session_id, session);
+  OutsideReply reply = state_->ReplyOf(begun ? Outcome<Json>(Json{{"type", "answer"}, {"answer", Json::object()}})
+                                             : tl::unexpected(begun.error()));
+  state_->errors.Save();
+  return reply;
+}
+
+OutsideReply OutsideMethod::Step(const Json& step) {
+  assert(state_->session.has_value());
+  OutsideReply reply = state_->ReplyOf(state_->Step(step));
+  if (reply.status == Status::kOk) return reply;
+  state_->session.reset();
+  state_->errors.Save();
+  return reply;
+}
+
+/// Stops a program that gave no answer that can be read; charges what it used.
+OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
+  if (!said) Stop(0);
   OutsideReply reply;
-  reply.cpu_s = state.cpu_s - state.cpu_charged_s;
-  reply.peak_mb = state.peak_mb;
-  state.cpu_charged_s = state.cpu_s;
-  state.errors.Save();
+  reply.cpu_s = cpu_s - cpu_charged_s;
+  reply.peak_mb = peak_mb;
+  cpu_charged_s = cpu_s;
   if (!said) {
     reply.status = said.error().status;
     reply.reason = said.error().reason;

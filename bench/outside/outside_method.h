@@ -17,7 +17,7 @@ struct OutsideOptions {
   std::vector<std::string> command;  ///< program and arguments
   std::string task;                  ///< the kind of task, told in the handshake
   std::string options_json = {};     ///< an object told in the handshake; "" = {}
-  double time_s = 300;               ///< per problem
+  double time_s = 300;               ///< per problem, or per step of a session
   double memory_mb = 4096;           ///< resident, with all that the program has started
   std::string error_file = {};       ///< its standard error is kept here, up to 1 MiB; "" = it shares ours
   /// Handshake and setting may take this long each, where time_s is less: programs load libraries and models then.
@@ -31,8 +31,8 @@ double LongestAskSeconds(double time_s);
 struct OutsideReply {
   Status status = Status::kFailed;  ///< kOk: `answer` is what it said; else it gave none, and why
   std::string reason;
-  JsonPtr answer;  ///< an object, whose numbers are finite
-  double cpu_s = 0;              ///< of the program since its last reply; zero when it ended before it was looked at
+  JsonPtr answer;      ///< an object, whose numbers are finite
+  double cpu_s = 0;    ///< of the program since its last reply; zero when it ended before it was looked at
   double peak_mb = 0;  ///< the largest resident size seen while it worked on this; looked at 50 times a second
 };
 
@@ -49,6 +49,14 @@ class OutsideMethod {
   /// `setting` first when another one is in force. Attachments lie in a folder while it works.
   OutsideReply Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                    const Payload& problem);
+
+  /// Begins a session, which replaces one that still goes on: like a problem, but answered with `ready`, and step by
+  /// step from then on. kOk: it goes on.
+  OutsideReply Begin(const std::string& setting_id, const Payload& setting, const std::string& session_id,
+                     const Payload& session);
+  /// The next step of the session. Any reply but kOk ends it, and the program is started anew for the next one, unless
+  /// it merely gave no answer (kUnsolved). Only while a session goes on.
+  OutsideReply Step(const Json& step);
 
   /// What the program calls itself: "name version"; "" before its first handshake.
   std::string CalledItself() const;

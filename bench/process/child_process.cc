@@ -24,20 +24,6 @@ namespace {
 
 constexpr int kChunksPerReceive = 16;  // a child that never stops talking must not keep us from looking at the clock
 
-/// Our environment with the pinned settings in place of its own.
-std::vector<std::string> PinnedCopyOfEnvironment() {
-  std::vector<std::string> result = PinnedEnvironment();
-  for (char** entry = environ; *entry != nullptr; ++entry) {
-    const std::string_view setting = *entry;
-    const std::string_view name = setting.substr(0, setting.find('='));
-    const bool pinned = std::any_of(PinnedEnvironment().begin(), PinnedEnvironment().end(), [&](const auto& other) {
-      return std::string_view(other).substr(0, other.find('=')) == name;
-    });
-    if (!pinned) result.emplace_back(setting);
-  }
-  return result;
-}
-
 std::vector<char*> Pointers(std::vector<std::string>& texts) {
   std::vector<char*> pointers;
   for (std::string& text : texts) pointers.push_back(text.data());
@@ -112,7 +98,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   // Everything that allocates happens before fork: between fork and exec only system calls are safe.
   std::vector<std::string> argument_texts = {options.program};
   argument_texts.insert(argument_texts.end(), options.arguments.begin(), options.arguments.end());
-  std::vector<std::string> environment_texts = PinnedCopyOfEnvironment();
+  std::vector<std::string> environment_texts = ClosedEnvironment();
   const std::vector<char*> argv = Pointers(argument_texts);
   const std::vector<char*> envp = Pointers(environment_texts);
   ::signal(SIGPIPE, SIG_IGN);

@@ -11,7 +11,15 @@ namespace etude {
 /// process starts, which is why work is done in child processes.
 const std::vector<std::string>& PinnedEnvironment();
 
-/// Starts this very command anew in the pinned environment, unless it is in there already. Returns only when it is, or
+/// The names of what may come from outside: where programs, homes and temporary files are, who asks, the terminal, and
+/// what sanitizers are told. Nothing of these reaches a result.
+const std::vector<std::string>& PassedVariables();
+
+/// The whole environment of everything that computes, methods outside included: the pinned settings, and of ours what
+/// may pass. Built from these lists, so that no variable of somebody's shell decides about a pixel.
+std::vector<std::string> ClosedEnvironment();
+
+/// Starts this very command anew in the closed environment, unless it is in there already. Returns only when it is, or
 /// when that fails.
 Result<void> EnterPinnedEnvironment();
 

@@ -94,8 +94,8 @@ Result<Pack> ReadPack(const std::string& file) {
 
 }  // namespace
 
-Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file) {
-  ASSIGN_OR_RETURN(const auto run, LoadRun(folder));
+Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file, Sealing sealing) {
+  ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
   const auto row = std::find_if(run.rows.begin(), run.rows.end(), [&](const Row& r) { return r.Id() == cell; });
   if (row == run.rows.end()) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
   ASSIGN_OR_RETURN(auto whole, PrepareRun(fs::path(folder) / "manifest.json"));

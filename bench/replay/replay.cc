@@ -55,7 +55,7 @@ std::vector<Order> OrdersOf(const Plan& plan, const std::set<std::size_t>& cells
 }  // namespace
 
 Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
-  ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder));
+  ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder, options.sealing));
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(fs::path(options.folder) / "manifest.json"));
   const Plan plan(prepared.scenarios);
   if (run.rows.size() != plan.cell_count()) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/results/folder.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -23,6 +24,7 @@ struct ReplayOptions {
   std::vector<std::string> cells;  ///< identities as in cells.jsonl; empty = a sample
   std::size_t sample = 0;          ///< how many cells, drawn by the suite's seed; 0 = all
   int jobs = 0;                    ///< 0 = one per processor
+  Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
 };
 
@@ -31,7 +33,8 @@ struct ReplayOptions {
 Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options);
 
 /// Writes all that is needed to repeat one cell elsewhere into one file: the scenario, the clips, and what came of it.
-Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file);
+Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file,
+                      Sealing sealing = Sealing::kRequired);
 
 /// Runs the cell of such a file again.
 Result<CellCheck> ReplayPack(const std::string& file);

@@ -7,6 +7,7 @@
 
 #include "bench/files/files.h"
 #include "bench/results/row_json.h"
+#include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
 #include "engine/base/digest.h"
 
@@ -133,7 +134,7 @@ Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
   return WriteFileAtomically(folder / "cells.jsonl", cells);
 }
 
-Result<RunData> LoadRun(const fs::path& folder) {
+Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
   RunData run;
   const Place place{folder.string(), 0, 0};
   std::error_code error;
@@ -145,6 +146,13 @@ Result<RunData> LoadRun(const fs::path& folder) {
                 kJournalFile);
   }
   RETURN_IF_ERROR(LoadManifest(folder, run));
+  if (auto sealed = CheckSeal(folder); !sealed) {
+    if (sealing == Sealing::kRequired) {
+      sealed.error().message += "; --unsealed reads the run all the same";
+      return tl::unexpected(sealed.error());
+    }
+    run.unsealed = ToString(sealed.error());
+  }
   RETURN_IF_ERROR(ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
     ASSIGN_OR_RETURN(auto row, DecodeRow(json, line));
     run.rows.push_back(std::move(row));

@@ -18,9 +18,15 @@ constexpr const char* kJournalFile = "journal.jsonl";
 Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios);
 
+/// What a reader does about a folder whose seal does not hold (seal.h).
+enum class Sealing {
+  kRequired,  ///< refuses it
+  kIgnored,   ///< reads it, and says so in `RunData::unsealed`
+};
+
 /// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema
-/// version, and when the run did not come to its end.
-Result<RunData> LoadRun(const std::filesystem::path& folder);
+/// version, when the run did not come to its end, and when its seal does not hold.
+Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
 
 /// Whether the rows are those that summary.json sums up: as many of each scenario, none twice.
 Result<void> CheckRowsAgainstSummary(const std::filesystem::path& folder, const RunData& run);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "bench/outside/seated_program.h"
 #include "engine/base/digest.h"
 
 namespace etude {
@@ -76,7 +77,7 @@ void CellRunner::Open(int condition, int trial) {
   try {
     world_ = scenario_.task(condition).MakeWorld(key, std::find(filmed.begin(), filmed.end(), trial) != filmed.end());
     const auto& methods = scenario_.scenario().methods;
-    const bool runs_built_in = methods.size() > outside_.size();
+    const bool runs_built_in = std::ranges::any_of(methods, &MethodEntry::RunsInTask);
     if (runs_built_in && !world_->WhySkipped()) world_->PrepareShared();
   } catch (const std::exception& error) {
     world_.reset();
@@ -106,28 +107,53 @@ FinishedCell CellRunner::Run(std::size_t method) {
 CellResult CellRunner::RunMethod(std::size_t method, CellUsage& usage) {
   if (!world_) return CellResult::Ended(Status::kFailed, why_no_world_);
   if (const auto why = world_->WhySkipped()) return CellResult::Ended(Status::kSkipped, *why);
-  if (outside_.contains(method)) return AskOutside(method, usage);
-  const auto& methods = scenario_.scenario().methods;
-  return world_->Run(static_cast<std::size_t>(std::count_if(
-      methods.begin(), methods.begin() + method, [](const MethodEntry& other) { return other.exec.empty(); })));
+  if (!outside_.contains(method)) return world_->Run(IndexInTask(method));
+  return scenario_.scenario().methods[method].RunsInTask() ? RunWithProgram(method, usage) : AskOutside(method, usage);
 }
 
-CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
+std::size_t CellRunner::IndexInTask(std::size_t method) const {
+  const auto& methods = scenario_.scenario().methods;
+  return static_cast<std::size_t>(std::count_if(methods.begin(), methods.begin() + method,
+                                                [](const MethodEntry& other) { return other.RunsInTask(); }));
+}
+
+std::string CellRunner::SettingId() const {
+  return scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
+}
+
+tl::expected<const Payload*, CellResult> CellRunner::OpenSetting() {
   if (setting_ == nullptr || condition_of_setting_ != condition_) {
     auto setting = scenario_.task(condition_).Setting();
-    if (!setting) return CellResult::Ended(Status::kFailed, ToString(setting.error()));
+    if (!setting) return tl::unexpected(CellResult::Ended(Status::kFailed, ToString(setting.error())));
     setting_ = std::make_unique<Payload>(std::move(*setting));
     condition_of_setting_ = condition_;
   }
+  return setting_.get();
+}
+
+CellResult CellRunner::RunWithProgram(std::size_t method, CellUsage& usage) {
+  const auto setting = OpenSetting();
+  if (!setting) return setting.error();
+  SeatedProgram program(outside_.at(method), SettingId(), **setting, fmt::format("{}/{}", SettingId(), trial_));
+  auto result = world_->RunWith(program, IndexInTask(method));
+  usage.cpu_s += program.cpu_s();
+  usage.peak_mb = program.peak_mb();
+  if (program.failure()) return *program.failure();
+  if (!result) return CellResult::Ended(Status::kBadOutput, ToString(result.error()));
+  result->digests.emplace_back("answers", program.AnswersDigest());
+  return std::move(*result);
+}
+
+CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
+  const auto setting = OpenSetting();
+  if (!setting) return setting.error();
   if (problem_ == nullptr) {
     auto problem = world_->MakeProblem();
     if (!problem) return CellResult::Ended(Status::kFailed, ToString(problem.error()));
     problem_ = std::make_unique<Payload>(std::move(*problem));
   }
-  const std::string setting_id =
-      scenario_.scenario().name + "/" + CompactLabel(scenario_.scenario().conditions[condition_].swept);
-  const std::string problem_id = fmt::format("{}/{}", setting_id, trial_);
-  const OutsideReply reply = outside_.at(method).Ask(setting_id, *setting_, problem_id, *problem_);
+  const std::string problem_id = fmt::format("{}/{}", SettingId(), trial_);
+  const OutsideReply reply = outside_.at(method).Ask(SettingId(), **setting, problem_id, *problem_);
   usage.cpu_s += reply.cpu_s;
   usage.peak_mb = reply.peak_mb;
   if (reply.status != Status::kOk) return CellResult::Ended(reply.status, reply.reason);

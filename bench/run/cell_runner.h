@@ -39,6 +39,12 @@ class CellRunner {
  private:
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
+  CellResult RunWithProgram(std::size_t method, CellUsage& usage);
+  /// Its place among those that the task runs.
+  std::size_t IndexInTask(std::size_t method) const;
+  /// What is told to methods outside before their first problem; a cell that ended when it cannot be made.
+  tl::expected<const Payload*, CellResult> OpenSetting();
+  std::string SettingId() const;
 
   const PreparedScenario& scenario_;
   const std::string error_folder_;

@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/files/durable.h"
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "bench/results/seal.h"
 #include "bench/run/cell_json.h"
 #include "bench/scenario/study_of.h"
 #include "bench/statistics/summary.h"
@@ -38,10 +40,14 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable cells
   RETURN_IF_ERROR(SaveResults(folder, rows, summaries));
   RETURN_IF_ERROR(WriteFileAtomically(folder / "timings.jsonl", timings));
   RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
+  // The journal is the only other place that knows the results: it goes when all of them are on the disk.
+  RETURN_IF_ERROR(SealRun(folder));
+  RETURN_IF_ERROR(SyncTree(folder));
+  RETURN_IF_ERROR(SyncPathTo(folder));
   std::error_code error;
   fs::remove(folder / kJournalFile, error);
   if (error) return Fail({(folder / kJournalFile).string(), 0, 0}, "cannot be removed: {}", error.message());
-  return {};
+  return SyncFolder(folder);
 }
 
 }  // namespace etude

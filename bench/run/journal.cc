@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "bench/files/durable.h"
 #include "bench/results/folder.h"
 #include "bench/run/cell_json.h"
 #include "engine/base/digest.h"
@@ -18,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kJournalVersion = 1;
+constexpr int kJournalVersion = 2;
+constexpr int kHeads = 2;
 
 /// A line says at its end what its text adds up to, so that a disk's or an editor's mistake is found.
 constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
@@ -54,8 +56,6 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
 
 Result<void> AddCell(const std::string& line, const Place& place, const Plan& plan, const Shard& shard,
                      CellTable& cells) {
-  if (!HasRightSum(line))
-    return Fail(place, "this line is not as it was written; delete it to have its cell run again");
   ASSIGN_OR_RETURN(const auto json, ReadJson(line, place.file, place.line));
   ASSIGN_OR_RETURN(auto finished, DecodeFinishedCell(json, place));
   const auto number = json.find("cell");
@@ -72,20 +72,24 @@ Result<void> AddCell(const std::string& line, const Place& place, const Plan& pl
 
 }  // namespace
 
-Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head) {
+Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, const JournalLag& sync) {
   Journal journal(folder / kJournalFile,
-                  ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644));
-  ASSIGN_OR_RETURN(const auto line, WriteJson({{"journal", kJournalVersion},
+                  ::open((folder / kJournalFile).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644),
+                  sync);
+  ASSIGN_OR_RETURN(const auto json, WriteJson({{"journal", kJournalVersion},
                                                {"manifest", head.manifest},
                                                {"build", head.build},
                                                {"shard", ToString(head.shard)}}));
-  RETURN_IF_ERROR(journal.Write(line + "\n"));
+  const std::string line = WithSum(json);
+  RETURN_IF_ERROR(journal.Write(line + line));
+  RETURN_IF_ERROR(journal.Sync());
+  RETURN_IF_ERROR(SyncFolder(folder));
   return journal;
 }
 
-Result<Journal> Journal::Continue(const fs::path& folder) {
+Result<Journal> Journal::Continue(const fs::path& folder, const JournalLag& sync) {
   const fs::path path = folder / kJournalFile;
-  Journal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC));
+  Journal journal(path, ::open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC), sync);
   off_t end = ::lseek(journal.file_, 0, SEEK_END);
   for (char last = 0; end > 0; --end) {
     if (::pread(journal.file_, &last, 1, end - 1) != 1 || last == '\n') break;
@@ -96,7 +100,12 @@ Result<Journal> Journal::Continue(const fs::path& folder) {
   return journal;
 }
 
-Journal::Journal(Journal&& other) noexcept : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
+Journal::Journal(Journal&& other) noexcept
+    : path_(std::move(other.path_)),
+      file_(std::exchange(other.file_, -1)),
+      sync_(other.sync_),
+      unsynced_bytes_(other.unsynced_bytes_),
+      synced_at_(other.synced_at_) {}
 
 Journal::~Journal() {
   if (file_ >= 0) ::close(file_);
@@ -116,36 +125,63 @@ Result<void> Journal::Write(const std::string& line) {
     if (count <= 0) return Fail({path_.string(), 0, 0}, "cannot be written: {}", std::strerror(errno));
     written += static_cast<std::size_t>(count);
   }
+  unsynced_bytes_ += line.size();
   return {};
 }
+
+bool Journal::IsSyncDue() const {
+  constexpr double kMebibyte = 1 << 20;
+  return static_cast<double>(unsynced_bytes_) >= sync_.mebibytes * kMebibyte ||
+         SecondsSince(synced_at_) >= sync_.seconds;
+}
+
+Result<void> Journal::Sync() {
+  if (unsynced_bytes_ > 0 && ::fdatasync(file_) != 0) {
+    return Fail({path_.string(), 0, 0}, "cannot be synchronised: {}", std::strerror(errno));
+  }
+  unsynced_bytes_ = 0;
+  synced_at_ = Clock::now();
+  return {};
+}
+
+namespace {
+
+/// The first of the head's copies that is as it was written, from the lines at the file's beginning.
+Result<JournalHead> ReadHead(std::istream& in, const std::string& path) {
+  std::string line;
+  int read = 0;
+  while (read < kHeads && std::getline(in, line) && !in.eof()) {
+    ++read;
+    if (HasRightSum(line)) return DecodeHead(line, {path, read, 0});
+  }
+  if (read == 0) return Fail({path, 0, 0}, "cannot be read, or is empty");
+  return Fail({path, 1, 0}, "not the head of a journal, and no copy of it follows");
+}
+
+}  // namespace
 
 Result<JournalHead> ReadJournalHead(const fs::path& folder) {
   const fs::path path = folder / kJournalFile;
   std::ifstream in(path, std::ios::binary);
-  std::string line;
-  if (!std::getline(in, line)) return Fail({path.string(), 0, 0}, "cannot be read, or is empty");
-  return DecodeHead(line, {path.string(), 1, 0});
+  return ReadHead(in, path.string());
 }
 
-Result<JournalHead> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells) {
+Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, CellTable& cells) {
   const fs::path path = folder / kJournalFile;
+  ASSIGN_OR_RETURN(auto head, ReadJournalHead(folder));
+  JournalContent content{.head = std::move(head), .damaged = {}};
   std::ifstream in(path, std::ios::binary);
-  if (!in) return Fail({path.string(), 0, 0}, "cannot be read");
-  std::optional<JournalHead> head;
   int number = 1;
   for (std::string line; std::getline(in, line); ++number) {
     if (in.eof()) break;  // it does not end in a line end: torn
-    const Place place{path.string(), number, 0};
-    if (!head) {
-      auto decoded = DecodeHead(line, place);
-      if (!decoded) return decoded;
-      head = std::move(*decoded);
-    } else if (auto added = AddCell(line, place, plan, head->shard, cells); !added) {
+    if (number <= kHeads) continue;
+    if (!HasRightSum(line)) {
+      content.damaged.push_back(number);
+    } else if (auto added = AddCell(line, {path.string(), number, 0}, plan, content.head.shard, cells); !added) {
       return tl::unexpected(added.error());
     }
   }
-  if (!head) return Fail({path.string(), 0, 0}, "is empty");
-  return *std::move(head);
+  return content;
 }
 
 std::vector<bool> DoneCells(const CellTable& cells) {

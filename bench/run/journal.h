@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/run/cell_runner.h"
+#include "bench/run/clock.h"
 #include "bench/run/plan.h"
 
 namespace etude {
@@ -20,34 +21,56 @@ struct JournalHead {
 /// The finished cells of a run or of a shard, by their number in the plan; empty where there is none yet.
 using CellTable = std::vector<std::optional<FinishedCell>>;
 
+/// How far behind the disk may be, at most: whichever comes first.
+struct JournalLag {
+  double seconds = 1;
+  double mebibytes = 1;
+};
+
 /// The append-only record of a run that is under way, and all that is left of a finished shard: JSON Lines, a
-/// head and then one line per cell in order of completion, each flushed at once.
+/// head (twice, because everything hangs on it) and then one line per cell in order of completion, each written at once
+/// and synchronised in groups.
 class Journal {
  public:
   /// Begins a journal.
-  static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head);
+  static Result<Journal> Begin(const std::filesystem::path& folder, const JournalHead& head,
+                               const JournalLag& sync = {});
   /// Goes on with one that `ReadJournal` has read; a last line that was torn is cut off.
-  static Result<Journal> Continue(const std::filesystem::path& folder);
+  static Result<Journal> Continue(const std::filesystem::path& folder, const JournalLag& sync = {});
   Journal(Journal&& other) noexcept;
   ~Journal();
 
   Result<void> Append(std::size_t cell, FinishedCell finished);
+  /// Whether the disk is as far behind as it may be.
+  bool IsSyncDue() const;
+  /// Returns once every line that was appended is on the disk.
+  Result<void> Sync();
 
  private:
-  Journal(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
+  Journal(std::filesystem::path path, int file, const JournalLag& sync)
+      : path_(std::move(path)), file_(file), sync_(sync) {}
   Result<void> Write(const std::string& line);
 
   std::filesystem::path path_;
   int file_ = -1;
+  JournalLag sync_;
+  std::size_t unsynced_bytes_ = 0;
+  Clock::time_point synced_at_ = Clock::now();
 };
 
 /// Reads the head alone.
 Result<JournalHead> ReadJournalHead(const std::filesystem::path& folder);
 
+struct JournalContent {
+  JournalHead head;
+  std::vector<int> damaged;  ///< numbers of lines that are not as they were written, from 1: their cells are not known
+};
+
 /// Puts the cells of a journal into `cells` (one place per cell of `plan`). A last line without its end is what a kill
-/// leaves, and ignored; any other line that cannot be read, is no cell of the plan or of the shard, or stands there
-/// already, is refused with file:line.
-Result<JournalHead> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells);
+/// leaves, and ignored; a line that is not as it was written (a flipped bit, something that somebody wrote into it)
+/// costs its cell alone. A good line that is no cell of the plan or of the shard, or stands there already, is refused
+/// with file:line.
+Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells);
 
 /// Which cells are there.
 std::vector<bool> DoneCells(const CellTable& cells);

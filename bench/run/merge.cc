@@ -95,8 +95,8 @@ Result<RunOutcome> Merge(const MergeOptions& options) {
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
   for (const auto& [index, folder] : shards.folders) {
-    ASSIGN_OR_RETURN(const auto head, ReadJournal(folder, plan, cells));
-    const std::string what = WhatLacks(plan, head.shard, folder, cells);
+    ASSIGN_OR_RETURN(const auto journal, ReadJournal(folder, plan, cells));
+    const std::string what = WhatLacks(plan, journal.head.shard, folder, cells);
     if (!what.empty()) shards.missing.push_back(what);
     ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadHost(folder) : Json());
     hosts.push_back(host);

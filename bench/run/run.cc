@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/files/durable.h"
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "bench/run/clock.h"
@@ -74,8 +75,16 @@ class Keeper {
 
   Result<void> Add(std::size_t cell, FinishedCell finished) {
     RETURN_IF_ERROR(journal_.Append(cell, finished));
-    Count(finished);
     cells_[cell] = std::move(finished);
+    unsynced_.push_back(cell);
+    return journal_.IsSyncDue() ? Sync() : Result<void>();
+  }
+
+  /// Puts on the disk what is not there yet; only then it counts.
+  Result<void> Sync() {
+    RETURN_IF_ERROR(journal_.Sync());
+    for (const std::size_t cell : unsynced_) Count(*cells_[cell]);
+    unsynced_.clear();
     progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
     return {};
@@ -93,6 +102,7 @@ class Keeper {
   const Clock::time_point start_ = Clock::now();
   CellTable cells_;
   Journal journal_;
+  std::vector<std::size_t> unsynced_;
   Progress progress_;
   const std::function<void(const Progress&)>& on_progress_;
 };
@@ -123,15 +133,20 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const bool continues = options.resume && state != FolderState::kFree;
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   CellTable cells(plan.cell_count());
+  std::vector<int> damaged;
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n"));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
     ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells));
-    RETURN_IF_ERROR(CheckHead(folder, found, head));
-  } else if (auto saved = WriteFileAtomically(folder / "manifest.json", manifest + "\n"); !saved) {
-    return tl::unexpected(saved.error());
+    RETURN_IF_ERROR(CheckHead(folder, found.head, head));
+    damaged = found.damaged;
+  } else {
+    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest + "\n"));
+    RETURN_IF_ERROR(SyncTree(folder));
+    RETURN_IF_ERROR(SyncPathTo(folder));
   }
-  ASSIGN_OR_RETURN(auto journal, continues ? Journal::Continue(folder) : Journal::Begin(folder, head));
+  ASSIGN_OR_RETURN(auto journal,
+                   continues ? Journal::Continue(folder, options.sync) : Journal::Begin(folder, head, options.sync));
 
   std::size_t wanted = 0;
   for (std::size_t world = 0; world < plan.world_count(); ++world) {
@@ -150,13 +165,19 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                                  if (kept) claimed.Keep();
                                  return kept;
                                });
+  RETURN_IF_ERROR(keeper.Sync());
   const Progress& progress = keeper.progress();
   if (!whole) {
     Error failure = whole.error();
     if (progress.cells_done > 0) failure.message += "; what was done is kept, --resume goes on with it";
     return tl::unexpected(std::move(failure));
   }
-  RunOutcome outcome{folder, progress.cells_done, progress.cells_ok, SecondsSince(start), !*whole};
+  RunOutcome outcome{.folder = folder,
+                     .cells = progress.cells_done,
+                     .cells_ok = progress.cells_ok,
+                     .seconds = SecondsSince(start),
+                     .stopped = !*whole,
+                     .damaged_lines = std::move(damaged)};
   if (outcome.stopped) return outcome;
   claimed.Keep();
   const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
@@ -164,6 +185,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     RETURN_IF_ERROR(FinishRun(folder, plan, keeper.TakeCells(), host));
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
     RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
+    RETURN_IF_ERROR(SyncTree(folder));
   }
   outcome.seconds = SecondsSince(start);
   return outcome;

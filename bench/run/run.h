@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/journal.h"
 #include "bench/run/plan.h"
 #include "engine/base/result.h"
 
@@ -25,12 +26,13 @@ struct RunOptions {
   bool resume = false;                 ///< go on with the run that the folder holds
   Shard shard;                         ///< run this part only
   int jobs = 0;                        ///< worker processes; 0 = one per processor
+  JournalLag sync;                     ///< how far the disk may be behind
   std::string command_line;            ///< for host.json
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// How far a run has come: told before the first cell and after each.
+/// How far a run has come: told before the first cell, and whenever more cells are safe on the disk.
 struct Progress {
   std::size_t cells = 0;  ///< of this run or shard
   std::size_t cells_done = 0;
@@ -45,12 +47,14 @@ struct RunOutcome {
   std::size_t cells_ok = 0;
   double seconds = 0;
   bool stopped = false;  ///< ended early; the journal holds what was done
+  /// Lines of the journal gone on with that were not as they had been written; their cells were run again.
+  std::vector<int> damaged_lines = {};
 };
 
 /// Runs scenarios into a result folder. Everything that can be wrong with the input is found before anything is
-/// written; from then on, every cell that ends is flushed to journal.jsonl at once, and a run that was ended at any
-/// moment, however rudely, can be resumed to the same bytes. A shard leaves its journal, for Merge. A run that
-/// ends before any cell did leaves no folder that was not there before.
+/// written; from then on, every cell that ends is written to journal.jsonl at once and synchronised in groups;
+/// a run that was ended at any moment, by a kill or a power cut, can be resumed to the same bytes. A shard leaves its
+/// journal, for Merge. A run that ends before any cell did leaves no folder that was not there before.
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 struct MergeOptions {

@@ -51,7 +51,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
     const SourceTexts& texts) {
   std::vector<Node> built_in;
   for (const MethodEntry& method : scenario.methods) {
-    if (method.exec.empty()) built_in.push_back(method.node);
+    if (method.RunsInTask()) built_in.push_back(method.node);
   }
   std::vector<std::unique_ptr<Task>> tasks;
   for (const Condition& condition : scenario.conditions) {

@@ -98,8 +98,8 @@ class Supervisor {
     const auto& methods = plan_.scenario_of(worker.order->world).scenario().methods;
     const MethodEntry& method = methods[worker.order->methods.front()];
     const double limit_s = LimitsOf(*worker.order).time_s;
-    worker.deadline =
-        After(method.exec.empty() ? limit_s : LongestAskSeconds(method.time_s.value_or(limit_s)) + kGraceS);
+    const double ask_s = method.exec.empty() ? 0 : LongestAskSeconds(method.time_s.value_or(limit_s)) + kGraceS;
+    worker.deadline = After(ask_s + (method.RunsInTask() ? limit_s : 0));
   }
 
   Result<void> Step() {

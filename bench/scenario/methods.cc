@@ -1,5 +1,7 @@
 #include "bench/scenario/methods.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -53,12 +55,35 @@ Result<MethodEntry> ReadBuiltIn(const Node& node, const TaskKind& kind) {
   return entry;
 }
 
+/// A program in one seat of its task's loop: has the task's keys for all else, whose values the task reads.
+Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
+  Fields method(node, "a method of task " + kind.name + " with 'exec'");
+  MethodEntry entry;
+  OutsideMethodFields().ReadKeys(method, entry);
+  entry.seat = method.Choice("seat", kind.seats, "");
+  if (entry.seat.empty() && method.ok()) {
+    method.Complain(node.place, fmt::format("a program of task {} needs a 'seat' in its loop: {}", kind.name,
+                                            fmt::join(kind.seats, ", ")));
+  }
+  for (const KeyInfo& key : kind.method_keys) method.Raw(key.key);
+  RETURN_IF_ERROR(method.Finish());
+  return entry;
+}
+
 Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
-  auto entry = node.Find("exec") != nullptr ? ReadMapping(node, "a method with 'exec'", OutsideMethodFields())
-                                            : ReadBuiltIn(node, kind);
+  auto entry = node.Find("exec") == nullptr ? ReadBuiltIn(node, kind)
+               : !kind.seats.empty()        ? ReadSeated(node, kind)
+                                            : ReadMapping(node, "a method with 'exec'", OutsideMethodFields());
   if (!entry) return entry;
+  if (entry->exec.empty() && node.Find("seat") != nullptr) {
+    return Fail(node.Find("seat")->place, "'seat' is for methods with 'exec'");
+  }
   entry->node = node;
-  std::erase_if(entry->node.entries, [](const Node::Entry& key) { return key.key == "against"; });
+  std::erase_if(entry->node.entries, [&](const Node::Entry& key) {
+    return key.key == "against" || (!entry->seat.empty() && (key.key == "options" || key.key == "time_s"));
+  });
+  if (!entry->seat.empty())
+    std::erase_if(entry->node.entries, [](const Node::Entry& key) { return key.key == "exec"; });
   return entry;
 }
 
@@ -87,11 +112,12 @@ const FieldTable<MethodEntry>& OutsideMethodFields() {
          {"a list: a program and its arguments",
           R"({"type":"array","minItems":1,"items":{"type":["string","number"],"minLength":1}})"},
          "(the method is built in)",
-         "Another program that answers; such a method has none of its task's keys."},
+         "Another program that answers; such a method has none of its task's keys, unless it takes a `seat`."},
         ReadProgram},
        {{"options", {"a mapping; with `exec`", R"({"type":"object"})"}, "{}", "Told to that program as JSON."},
         [](Fields& method, MethodEntry& entry) { entry.options_json = ReadOptions(method); }},
-       Key::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s}, "How long it may take over one problem.")
+       Key::Number("time_s", &MethodEntry::time_s, {0.001, kLongestTime_s},
+                   "How long it may take over one problem, or one step.")
            .WhenAbsent("(`limits.time_s`)")
            .And("with `exec`")}};
   return table;

@@ -36,10 +36,14 @@ struct RecordingSelection {
 struct MethodEntry {
   std::string name;
   std::string against;            ///< the method it is compared with; the first is its own
-  Node node;                      ///< the mapping that its task reads; unused for a method outside
+  Node node;                      ///< the mapping that its task reads; unused for a method outside without a seat
   std::vector<std::string> exec;  ///< a method outside: program and arguments; empty = built in
   std::string options_json;       ///< a method outside: what its key `options` holds, told to it as it is
-  std::optional<double> time_s;   ///< a method outside: its own limit per problem, instead of Limits::time_s
+  std::optional<double> time_s;   ///< a method outside: its own limit per problem or step, instead of Limits::time_s
+  std::string seat = {};          ///< a method outside: its seat in the task's loop; "" = it is asked once a world
+
+  /// Whether its task runs it, wholly or around its seat.
+  bool RunsInTask() const { return exec.empty() || !seat.empty(); }
 };
 
 /// What one cell, or the building of one world, may take before it is ended.

@@ -18,7 +18,7 @@ std::vector<std::string> StagesOf(const Node* oracle) {
 
 /// Of a built-in method: what its entry says but for its name and its oracle.
 std::string SettingsOf(const MethodEntry& method) {
-  if (!method.exec.empty()) return "";
+  if (!method.exec.empty()) return "";  // what a program is, nobody knows
   Node settings = method.node;
   std::erase_if(settings.entries,
                 [](const Node::Entry& entry) { return entry.key == "name" || entry.key == "oracle"; });

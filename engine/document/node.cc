@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "engine/base/utf8.h"
+
 namespace etude {
 namespace {
 
@@ -126,6 +128,7 @@ Result<Node> ParseYaml(std::string_view text, const std::string& file) {
   if (text.size() > kLargestDocument) {
     return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), kLargestDocument);
   }
+  if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
   if (EstimateNesting(text) > kDeepestNesting) return Fail(whole, "nested deeper than {} levels", kDeepestNesting);
   Builder builder(file);
   try {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "engine/base/names.h"
 #include "engine/formats/number_rows.h"
@@ -95,8 +96,11 @@ Result<JointCsv> ReadJointCsv(std::string_view text, const std::string& file) {
   JointCsv csv;
   if (columns.time) csv.rate_hz = RateOf(table, *columns.time);
   csv.frames.resize(table.RowCount());
+  csv.times_s.resize(table.RowCount(), std::numeric_limits<double>::quiet_NaN());
+  csv.lines = table.lines;
   for (std::size_t t = 0; t < csv.frames.size(); ++t) {
     const auto row = table.Row(t);
+    if (columns.time) csv.times_s[t] = row[*columns.time];
     for (std::size_t j = 0; j < kRoleCount; ++j) {
       const auto& [x, y, z] = columns.joints[j];
       if (!x) continue;

@@ -19,6 +19,8 @@ std::string WriteJointCsv(const BodyMotion& motion);
 /// What such a file holds: its own joints may be fewer, and a joint may be missing in some frames.
 struct JointCsv {
   std::optional<double> rate_hz;  ///< by the middle step of `time_s`, where that is there and grows
+  std::vector<double> times_s;    ///< of each frame; NaN where the file does not tell it
+  std::vector<int> lines;         ///< where each frame stands in the text, from 1
   std::vector<std::array<std::optional<glm::dvec3>, kRoleCount>> frames;
 };
 /// Reads what `WriteJointCsv` wrote, or any file with some of its columns, in any order. Refused, with the line: what

@@ -26,6 +26,9 @@ using KinectV2Frame = std::array<std::optional<glm::dvec3>, kKinectV2JointCount>
 /// line: what `ReadNumberRows` refuses, another count of values, places farther than 20 m (other units).
 Result<std::vector<KinectV2Frame>> ReadKinectV2Text(std::string_view text, const std::string& file);
 
+/// The number of a role's joint in the SDK's JointType.
+std::size_t KinectV2JointOf(Role role);
+
 /// The twenty joints of the canonical body, which are Kinect v1's: SpineShoulder is the shoulder centre; Neck, hand
 /// tips and thumbs are left out.
 RolePlaces PlacesOf(const KinectV2Frame& frame);

@@ -12,7 +12,6 @@ namespace etude {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLargestCell = 1e9;
 
 bool IsRowBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool IsComma(char c) { return c == ',' || c == ';'; }
@@ -58,7 +57,7 @@ bool IsRemark(std::string_view line) { return line.empty() || line.starts_with('
 
 }  // namespace
 
-Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file) {
+Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest) {
   if (text.size() > kLargestNumberText) {
     return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
   }
@@ -66,6 +65,7 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
   NumberRows table;
   for (int line_number = 1; !text.empty(); ++line_number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
+    const char* const line_start = text.data();
     const std::string_view line = Trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (IsRemark(line)) continue;
@@ -81,9 +81,11 @@ Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file
     table.lines.push_back(line_number);
     for (std::size_t i = 0; i < words.size(); ++i) {
       const auto value = NumberOf(words[i]);
-      if (!value || std::abs(*value) > kLargestCell) {
-        return Fail({file, line_number}, "value {}: {}; allowed: a number, or nan for a missing one", i + 1,
-                    Quote(words[i]));
+      if (!value || std::abs(*value) > largest) {
+        const int column = static_cast<int>(words[i].data() - line_start) + 1;
+        return Fail({file, line_number, column},
+                    "value {}: {}; allowed: a number within ±{:g}, or nan for a missing one", i + 1, Quote(words[i]),
+                    largest);
       }
       table.values.push_back(*value);
     }

@@ -25,8 +25,9 @@ struct NumberRows {
 constexpr std::size_t kLargestNumberText = std::size_t{64} << 20;
 
 /// Reads such a text. Empty lines and lines that begin with '#' or "//" are skipped; "nan" in any case, and nothing
-/// between two commas, is a missing value. Refused, with the line: rows of different lengths, words, infinity, numbers
-/// beyond ±10⁹, no rows at all, more than `kLargestNumberText` bytes.
-Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file);
+/// between two commas, is a missing value. Refused, with the line and column: rows of different lengths, words,
+/// infinity, numbers beyond ±`largest` (clocks may need more than places do), no rows at all, more than
+/// `kLargestNumberText` bytes.
+Result<NumberRows> ReadNumberRows(std::string_view text, const std::string& file, double largest = 1e9);
 
 }  // namespace etude

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "engine/fuzzy/features.h"
 #include "engine/recognition/skeleton_stream.h"
@@ -13,13 +12,11 @@ struct FeatureFrame {
   PoseFeatures features;
   std::array<TrackingState, kFeatureCount> states{};  ///< the worst state among the feature's joints
   bool body_seen = false;                             ///< false: nothing of the rest means anything
+
+  TrackingState StateOf(Feature feature) const { return states[static_cast<std::size_t>(feature)]; }
 };
 
-/// The ten features of every frame. `standing_hip_height` in metres, > 0.
-std::vector<FeatureFrame> SeeFeatures(const SkeletonStream& stream, double standing_hip_height);
-
-/// The hip height this performer has when standing: the median, over the first second in which the body
-/// was seen, of what the limb lengths say (single frames vary by 4–12 %). 0.9 m for a stream without a body.
-double EstimateStandingHipHeight(const SkeletonStream& stream);
+/// `standing_hip_height` in metres, > 0.
+FeatureFrame SeeFeatures(const SensedFrame& frame, double standing_hip_height);
 
 }  // namespace etude

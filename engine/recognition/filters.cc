@@ -17,18 +17,6 @@ double LowPassWeight(double cutoff_hz, double rate_hz) {
   return 1.0 / (1.0 + time_constant * rate_hz);
 }
 
-template <typename Filter, typename Step>
-void SmoothJoint(SkeletonStream& stream, std::size_t joint, Filter filter, Step step) {
-  for (SensedFrame& frame : stream.frames) {
-    SensedJoint& sensed = frame.joints[joint];
-    if (sensed.state == TrackingState::kNotTracked) {
-      filter.Reset();
-    } else {
-      sensed.position = step(filter, sensed);
-    }
-  }
-}
-
 }  // namespace
 
 glm::dvec3 HoltFilter::Update(const glm::dvec3& raw, bool inferred) {
@@ -83,23 +71,36 @@ const std::vector<std::string>& FilterNames() {
 
 FilterKind FilterOf(std::string_view name) { return ValueNamed(kFilters, name); }
 
-SkeletonStream Smooth(const SkeletonStream& stream, const FilterOptions& options) {
-  SkeletonStream smoothed = stream;
-  for (std::size_t joint = 0; joint < kRoleCount; ++joint) {
-    switch (options.kind) {
-      case FilterKind::kNone:
-        break;
-      case FilterKind::kHolt:
-        SmoothJoint(smoothed, joint, HoltFilter(options.holt), [](HoltFilter& filter, const SensedJoint& sensed) {
-          return filter.Update(sensed.position, sensed.state == TrackingState::kInferred);
-        });
-        break;
-      case FilterKind::kOneEuro:
-        SmoothJoint(smoothed, joint, OneEuroFilter(options.one_euro, stream.rate_hz),
-                    [](OneEuroFilter& filter, const SensedJoint& sensed) { return filter.Update(sensed.position); });
-        break;
+StreamFilter::StreamFilter(const FilterOptions& options, double rate_hz) : kind_(options.kind) {
+  if (kind_ == FilterKind::kHolt) holt_.assign(kRoleCount, HoltFilter(options.holt));
+  if (kind_ == FilterKind::kOneEuro) one_euro_.assign(kRoleCount, OneEuroFilter(options.one_euro, rate_hz));
+}
+
+SensedFrame StreamFilter::Update(const SensedFrame& raw) {
+  SensedFrame smoothed = raw;
+  for (std::size_t i = 0; i < kRoleCount && kind_ != FilterKind::kNone; ++i) {
+    SensedJoint& joint = smoothed.joints[i];
+    const bool is_lost = joint.state == TrackingState::kNotTracked;
+    if (kind_ == FilterKind::kHolt) {
+      if (is_lost)
+        holt_[i].Reset();
+      else
+        joint.position = holt_[i].Update(joint.position, joint.state == TrackingState::kInferred);
+    } else {
+      if (is_lost)
+        one_euro_[i].Reset();
+      else
+        joint.position = one_euro_[i].Update(joint.position);
     }
   }
+  return smoothed;
+}
+
+SkeletonStream Smooth(const SkeletonStream& stream, const FilterOptions& options) {
+  SkeletonStream smoothed{.rate_hz = stream.rate_hz, .frames = {}};
+  smoothed.frames.reserve(stream.frames.size());
+  StreamFilter filter(options, stream.rate_hz);
+  for (const SensedFrame& raw : stream.frames) smoothed.frames.push_back(filter.Update(raw));
   return smoothed;
 }
 

@@ -25,6 +25,8 @@ struct HoltOptions {
   double jitter_radius_m = 0.05;
   /// The output stays this close to the raw position. Raise it for outliers of single frames.
   double max_deviation_radius_m = 0.04;
+
+  bool operator==(const HoltOptions&) const = default;
 };
 
 /// One joint through the Holt filter.
@@ -52,6 +54,8 @@ struct OneEuroOptions {
   /// ≥ 0: cut-off gained per m/s (ours: the paper's pixels do not carry over). Raise it for dances quicker than ours.
   double beta_per_m = 5.0;
   double derivative_cutoff_hz = 1.0;  ///< > 0; the paper's, which found no need to change it
+
+  bool operator==(const OneEuroOptions&) const = default;
 };
 
 /// One joint through the 1€ filter, each axis on its own, as in the paper.
@@ -78,6 +82,8 @@ struct FilterOptions {
   FilterKind kind = FilterKind::kNone;
   HoltOptions holt{};         ///< read with kHolt only
   OneEuroOptions one_euro{};  ///< read with kOneEuro only
+
+  bool operator==(const FilterOptions&) const = default;
 };
 
 /// "none", "holt", "one-euro".
@@ -85,8 +91,22 @@ const std::vector<std::string>& FilterNames();
 /// `name` must be one of FilterNames().
 FilterKind FilterOf(std::string_view name);
 
-/// Smooths every joint on its own, causally: frame t depends on frames ≤ t only. A joint that is not
+/// Smooths every joint on its own, frame by frame, causally: frame t depends on frames ≤ t only. A joint that is not
 /// tracked passes through unchanged and its filter starts anew afterwards. States are kept.
+class StreamFilter {
+ public:
+  /// `rate_hz` > 0.
+  StreamFilter(const FilterOptions& options, double rate_hz);
+
+  SensedFrame Update(const SensedFrame& raw);
+
+ private:
+  FilterKind kind_;
+  std::vector<HoltFilter> holt_;         // one per joint, of the kind chosen; else none
+  std::vector<OneEuroFilter> one_euro_;  // likewise
+};
+
+/// A whole stream through a StreamFilter.
 SkeletonStream Smooth(const SkeletonStream& stream, const FilterOptions& options);
 
 }  // namespace etude

@@ -3,48 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/named.h"
-#include "engine/base/names.h"
-
 namespace etude {
 namespace {
 
-Result<void> CheckOptions(const KeyPoseOptions& options) {
-  if (!(options.threshold > 0 && options.threshold <= 1)) {
-    return Fail({}, "threshold {}; allowed: above 0, up to 1", options.threshold);
-  }
-  if (options.hold_frames < 1) return Fail({}, "hold_frames {}; allowed: 1 or more", options.hold_frames);
-  return {};
-}
-
-Result<void> CheckTaught(const TaughtMove& move) {
-  if (move.poses.empty()) return Fail({}, "move '{}' has no key pose", move.name);
-  for (const TaughtPose& pose : move.poses) {
-    const auto is_usable = [](const PoseTarget& target) { return target.tolerance_deg > 0; };
-    if (pose.targets.empty()) return Fail({}, "a key pose of move '{}' has no target", move.name);
-    if (!std::ranges::all_of(pose.targets, is_usable)) {
-      return Fail({}, "a target of move '{}' has no tolerance above 0", move.name);
+Result<void> CheckAsked(std::span<const AskedMove> asked, std::size_t moves, std::size_t frames) {
+  int free_from = 0;
+  for (const auto& [move, window] : asked) {
+    const auto [begin, end] = window;
+    if (move >= moves) return Fail({}, "move number {} is asked for; {} were taught", move, moves);
+    if (begin < 0 || end < begin || end > static_cast<int>(frames)) {
+      return Fail({}, "a move is asked for in frames {} to {}; the stream has {}", begin, end, frames);
     }
+    if (begin < free_from) {
+      return Fail({}, "a move is asked for from frame {} on, while the one before it lasts until {}", begin, free_from);
+    }
+    free_from = end;
   }
-  return {};
-}
-
-Result<void> CheckAsked(const AskedMove& asked, const RecognitionInput& input) {
-  if (FindByName(input.taught, asked.name) == nullptr) {
-    return Fail({}, "{}", UnknownName("move", asked.name, NamesOf(input.taught)));
-  }
-  const int frames = static_cast<int>(input.seen.frames.size());
-  const auto [begin, end] = asked.window;
-  if (begin < 0 || end < begin || end > frames) {
-    return Fail({}, "move '{}' is asked for in frames {} to {}; the stream has {}", asked.name, begin, end, frames);
-  }
-  return {};
-}
-
-Result<void> Check(const RecognitionInput& input, const KeyPoseOptions& options) {
-  RETURN_IF_ERROR(CheckOptions(options));
-  for (const TaughtMove& move : input.taught) RETURN_IF_ERROR(CheckTaught(move));
-  for (const AskedMove& asked : input.asked) RETURN_IF_ERROR(CheckAsked(asked, input));
   return {};
 }
 
@@ -57,24 +31,66 @@ FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& 
   return {begin, end};
 }
 
-SeenStream SeeStream(const SkeletonStream& stream, const FilterOptions& filter) {
-  SeenStream seen{.filtered = Smooth(stream, filter), .frames = {}};
-  seen.frames = SeeFeatures(seen.filtered, EstimateStandingHipHeight(seen.filtered));
-  return seen;
+Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t moves, const SeenStream& seen,
+                                   std::span<const AskedMove> asked) {
+  RETURN_IF_ERROR(CheckAsked(asked, moves, seen.frames.size()));
+  EvidenceTrace trace{.moves = moves, .asked = {}, .spotted = {}};
+  trace.asked.reserve(seen.frames.size());
+  trace.spotted.reserve(seen.frames.size() * moves);
+  const auto follower = recogniser.Follow(seen.filtered.rate_hz);
+  const AskedMove* next = asked.data();
+  const AskedMove* const end = next + asked.size();
+  for (std::size_t t = 0; t < seen.frames.size(); ++t) {
+    const int now = static_cast<int>(t);
+    if (next != asked.data() && (next - 1)->window.end == now) follower->Ask(std::nullopt);
+    for (; next != end && next->window.begin == now; ++next) {
+      if (next->window.end > now) follower->Ask(next->move);
+    }
+    const Evidence evidence = follower->Update(seen[t]);
+    trace.asked.push_back(evidence.asked);
+    trace.spotted.insert(trace.spotted.end(), evidence.spotted.begin(), evidence.spotted.end());
+  }
+  return trace;
 }
 
-Result<Recognition> Recognise(const RecognitionInput& input, const KeyPoseOptions& options) {
-  RETURN_IF_ERROR(Check(input, options));
-  Recognition recognition;
-  const std::span<const FeatureFrame> all(input.seen.frames);
-  for (const auto& [name, window] : input.asked) {
-    const auto frames = all.subspan(window.begin, window.end - window.begin);
-    recognition.judgements.push_back(JudgeWindow(frames, *FindByName(input.taught, name), options));
+Judgement JudgeWindow(const EvidenceTrace& trace, const FrameInterval& window, double threshold) {
+  const auto frames = std::span(trace.asked).subspan(window.begin, window.end - window.begin);
+  Judgement judgement{.recognised_at = {}, .score = 0, .running_score = {frames.begin(), frames.end()}};
+  if (frames.empty()) return judgement;
+  judgement.score = frames.back();
+  const auto reached = std::ranges::find_if(frames, [&](double evidence) { return evidence >= threshold; });
+  if (reached != frames.end()) judgement.recognised_at = static_cast<int>(reached - frames.begin());
+  return judgement;
+}
+
+MoveSpotter::MoveSpotter(std::size_t moves, const DecisionOptions& options, double rate_hz)
+    : threshold_(options.threshold),
+      refractory_frames_(static_cast<int>(std::lround(options.refractory_s * rate_hz))),
+      states_(moves) {}
+
+std::span<const std::size_t> MoveSpotter::Update(std::span<const double> spotted) {
+  fired_.clear();
+  for (std::size_t move = 0; move < states_.size(); ++move) {
+    State& state = states_[move];
+    const bool is_above = spotted[move] >= threshold_;
+    if (is_above && !state.is_above && frame_ >= state.silent_until) {
+      fired_.push_back(move);
+      state.silent_until = frame_ + refractory_frames_;
+    }
+    state.is_above = is_above;
   }
-  for (const TaughtMove& move : input.taught) {
-    for (int frame : FindMove(all, move, options)) recognition.detections.push_back({move.name, frame});
+  ++frame_;
+  return fired_;
+}
+
+std::vector<Detection> FindMoves(const EvidenceTrace& trace, double rate_hz, const DecisionOptions& options) {
+  MoveSpotter spotter(trace.moves, options, rate_hz);
+  std::vector<Detection> found;
+  for (std::size_t t = 0; t < trace.asked.size(); ++t) {
+    for (std::size_t move : spotter.Update(trace.SpottedAt(t))) found.push_back({move, static_cast<int>(t)});
   }
-  return recognition;
+  std::ranges::stable_sort(found, {}, &Detection::move);
+  return found;
 }
 
 }  // namespace etude

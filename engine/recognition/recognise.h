@@ -1,12 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "engine/base/result.h"
-#include "engine/recognition/filters.h"
-#include "engine/recognition/key_pose.h"
+#include "engine/recognition/recogniser.h"
+#include "engine/recognition/sight.h"
 
 namespace etude {
 
@@ -22,48 +23,75 @@ FrameInterval FramesBetween(double start_s, double end_s, const SkeletonStream& 
 
 /// A performance that was asked for: which move is to be recognised, and when.
 struct AskedMove {
-  std::string name;  ///< of one of RecognitionInput::taught
+  std::size_t move = 0;  ///< the taught move's index
   FrameInterval window;
 };
 
-/// A stream as recognisers behind the same filter see it: computed once for all of them.
-struct SeenStream {
-  SkeletonStream filtered;
-  std::vector<FeatureFrame> frames;  ///< one per frame of the stream
+/// What a recogniser made of every frame of a stream.
+struct EvidenceTrace {
+  std::size_t moves = 0;
+  std::vector<double> asked;    ///< per frame
+  std::vector<double> spotted;  ///< per frame and move, frame by frame
+
+  std::span<const double> SpottedAt(std::size_t frame) const {
+    return std::span(spotted).subspan(frame * moves, moves);
+  }
 };
 
-/// Filters the stream and reads the pose features off it, by the hip height that the performer has in the filtered
-/// stream.
-SeenStream SeeStream(const SkeletonStream& stream, const FilterOptions& filter);
+/// Follows the whole stream, as live: asks for each move when its window opens. `asked`: in order of time, within the
+/// stream, none overlapping another; `moves`: how many the recogniser was taught.
+Result<EvidenceTrace> FollowStream(const Recogniser& recogniser, std::size_t moves, const SeenStream& seen,
+                                   std::span<const AskedMove> asked);
 
-/// What recognition works on; all of it must outlive the call.
-struct RecognitionInput {
-  const SeenStream& seen;
-  std::span<const AskedMove> asked;    ///< windows within the stream; they may overlap
-  std::span<const TaughtMove> taught;  ///< every move that may be performed, names all different
+/// What evidence comes to.
+struct DecisionOptions {
+  /// Evidence from which on a move counts as performed, in (0, 1]. Set it on people who are not judged, to the false
+  /// alarms that one can bear.
+  double threshold = 0.5;
+  /// A move that was spotted is not spotted again for so long, seconds, ≥ 0: a performance is one detection, however
+  /// its evidence flickers.
+  double refractory_s = 1.0;
+};
+
+/// What the coach concludes about one performance it asked for.
+struct Judgement {
+  std::optional<int> recognised_at;   ///< frame within the window; empty: the move was not recognised
+  double score = 0;                   ///< in [0, 1], for ROC curves
+  std::vector<double> running_score;  ///< per frame of the window
+};
+
+/// Judges one window of the trace, in which its move was asked for.
+Judgement JudgeWindow(const EvidenceTrace& trace, const FrameInterval& window, double threshold);
+
+/// Turns evidence into detections, frame by frame, each move for itself: it is spotted when its evidence rises to the
+/// threshold, and not again before it fell below and the refractory time is over.
+class MoveSpotter {
+ public:
+  MoveSpotter(std::size_t moves, const DecisionOptions& options, double rate_hz);
+
+  /// The moves spotted in this frame, in their order. Valid until the next call.
+  std::span<const std::size_t> Update(std::span<const double> spotted);
+
+ private:
+  struct State {
+    bool is_above = false;
+    int silent_until = 0;
+  };
+  double threshold_;
+  int refractory_frames_;
+  int frame_ = 0;
+  std::vector<State> states_;
+  std::vector<std::size_t> fired_;
 };
 
 /// A recogniser took a move for performed.
 struct Detection {
-  std::string move;
-  int frame = 0;  ///< of the stream, the one in which the last key pose had been held long enough
+  std::size_t move = 0;  ///< its index
+  int frame = 0;
 };
 
-struct Recognition {
-  /// One per move asked for, in that order; frames count from its window's first.
-  std::vector<Judgement> judgements;
-  /// Everything the recognisers of all moves saw when they ran through the whole stream, asked for or not: by move in
-  /// the order of `taught`, then by time. Those in no performance of their move are false alarms, which only someone
-  /// who knows what was performed can tell.
-  std::vector<Detection> detections;
-};
-
-/// Paper A's recognition (algorithms A7): judges every performance asked for in its window, and looks for every move in
-/// the whole stream. Refuses a move asked for that was not taught, a window that is not within the stream, and options
-/// or key poses outside their ranges.
-///
-///     const SeenStream seen = SeeStream(stream, {.kind = FilterKind::kHolt});
-///     const auto found = Recognise({.seen = seen, .asked = asked, .taught = taught}, {.threshold = 0.8});
-Result<Recognition> Recognise(const RecognitionInput& input, const KeyPoseOptions& options);
+/// Every time that a move was spotted in the stream, asked for or not: by move, then by time. Those in no performance
+/// of their move are false alarms, which only someone who knows what was performed can tell.
+std::vector<Detection> FindMoves(const EvidenceTrace& trace, double rate_hz, const DecisionOptions& options);
 
 }  // namespace etude

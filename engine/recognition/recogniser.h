@@ -29,8 +29,8 @@ struct Evidence {
 class MoveFollower {
  public:
   virtual ~MoveFollower() = default;
-  /// From the next frame on the person is asked for this taught move (its index): the window opens, what was seen before
-  /// does not count. Nothing: the window closes.
+  /// From the next frame on the person is asked for this taught move (its index): the window opens, what was seen
+  /// before does not count. Nothing: the window closes.
   virtual void Ask(std::optional<std::size_t> move) = 0;
   virtual Evidence Update(const SeenFrame& frame) = 0;
 };

@@ -10,14 +10,34 @@
 namespace etude {
 namespace {
 
-/// What the annotator knows of each limb *(ours)*.
-struct Anatomy {
-  double length_per_half_width;  ///< of its bone: how long it is when seen from aside
-  double inset;                  ///< how far its inner joint lies inside the trunk, in half widths of the limb
+/// What in the picture tells where a limb's inner joint is.
+enum class Landmark {
+  kBorder,     ///< the middle of its border with the part it hangs from
+  kBorderEnd,  ///< the end of that border that lies farthest along the limb: of a thigh, the crotch
+  kInnerEnd,   ///< where the limb is seen to begin
 };
-constexpr Anatomy kThigh{6, 0.94}, kShank{8, 0}, kFoot{6, 0}, kUpperArm{6.5, 1.04}, kForearm{7, 0}, kHand{5.5, 0};
-constexpr std::array<Anatomy, kStrokeCount> kAnatomy = {
-    kThigh, kShank, kFoot, kThigh, kShank, kFoot, kUpperArm, kForearm, kHand, kUpperArm, kForearm, kHand, {1.0, 0.35}};
+
+/// What the annotator knows of each limb *(ours)*; shares are of half the limb's width.
+struct Anatomy {
+  double length;   ///< of its bone, when seen from aside
+  double joint;    ///< how far outwards from the landmark its inner joint lies
+  double tip = 1;  ///< how far its outer end's point lies before where the limb is seen to end
+  Landmark landmark = Landmark::kBorder;
+};
+using Body = std::array<Anatomy, kStrokeCount>;
+
+constexpr Body BodyOf(Anatomy thigh, Anatomy shank, Anatomy foot, Anatomy upper_arm, Anatomy forearm, Anatomy hand,
+                      Anatomy head) {
+  return {thigh, shank, foot, thigh, shank, foot, upper_arm, forearm, hand, upper_arm, forearm, hand, head};
+}
+
+/// Of capsules only trunk joints are told by the limb that begins there, others by the round end of the one before.
+constexpr Body kCapsules = BodyOf({6, -0.94}, {8, 0}, {6, 0}, {6.5, -1.04}, {7, 0}, {5.5, 0}, {1, -0.35});
+constexpr Body kDressed =
+    BodyOf({6, -1.55, 1, Landmark::kBorderEnd}, {8, -0.5}, {6, 0, 0.62}, {6.5, 0.97, 1, Landmark::kInnerEnd},
+           {7, 0.28, 1, Landmark::kInnerEnd}, {5.5, 0.43, 0.76}, {1, -0.1});
+
+constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDressed ? kDressed : kCapsules; }
 constexpr std::size_t kHeadStroke = kStrokeCount - 1;
 constexpr std::size_t kFewestPixels = 6;     // less is a speck
 constexpr std::size_t kSmallestBorder = 3;   // pixel sides
@@ -61,7 +81,8 @@ Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& li
 
 class Looker {
  public:
-  Looker(const Regions& regions, const EvidenceOptions& options) : regions_(regions), options_(options) {
+  Looker(const Regions& regions, const EvidenceOptions& options)
+      : regions_(regions), options_(options), body_(BodyOf(options.figure)) {
     for (std::size_t i = 0; i < kStrokeCount; ++i) Look(i);
   }
 
@@ -205,23 +226,52 @@ class Looker {
   void PutInnerJoint(std::size_t i) {
     const Limb& limb = *limbs_[i];
     if (!limb.inner) return;
-    const Border& border = *limb.inner;
     std::optional<glm::dvec2>& joint = evidence_.joints[Index(StrokeMarks()[i].from)];
-    const bool in_trunk = kLimbParts[i].inner == Part::kTrunk;
-    if (border.limb_covers && i != kHeadStroke && !limb.line.IsLong()) {
-      joint = limb.line.At(0.5 * (limb.line.low + limb.line.high));  // seen end on
-    } else if (i == kHeadStroke) {
-      joint = border.middle - kAnatomy[i].inset * border.half_breadth * limb.line.along;
-    } else if (in_trunk && RunsAlong(limb)) {
-      joint = limb.line.At(limb.line.low - kAnatomy[i].inset * limb.line.half_width);
-    } else if (in_trunk) {
-      const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
-      joint = border.middle - kAnatomy[i].inset * limb.line.half_width * outwards;
-    } else if (limbs_[i - 1]) {
-      const MiddleLine& before = limbs_[i - 1]->line;
-      joint = RoundEnd(before, ReachBeyondJoint(before, limb.line));
+    if (i == kHeadStroke) {
+      joint = limb.inner->middle + body_[i].joint * limb.inner->half_breadth * limb.line.along;
+    } else if (options_.figure == FigureKind::kDressed) {
+      joint = DressedJoint(i, limb);
+    } else {
+      joint = CapsuleJoint(i, limb);
     }
   }
+
+  std::optional<glm::dvec2> CapsuleJoint(std::size_t i, const Limb& limb) const {
+    const Border& border = *limb.inner;
+    const double beyond = body_[i].joint * limb.line.half_width;
+    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // seen end on
+    if (kLimbParts[i].inner == Part::kTrunk) {
+      if (RunsAlong(limb)) return limb.line.At(limb.line.low + beyond);
+      const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
+      return border.middle + beyond * outwards;
+    }
+    if (!limbs_[i - 1]) return std::nullopt;
+    const MiddleLine& before = limbs_[i - 1]->line;
+    return RoundEnd(before, ReachBeyondJoint(before, limb.line));
+  }
+
+  glm::dvec2 DressedJoint(std::size_t i, const Limb& limb) const {
+    if (!limb.line.IsLong()) return limb.inner->middle;
+    const double beyond = body_[i].joint * limb.line.half_width;
+    switch (body_[i].landmark) {
+      case Landmark::kBorderEnd:
+        return limb.line.At(BorderEnd(i, limb.line) + beyond);
+      case Landmark::kInnerEnd:
+        return limb.line.At(limb.line.low + beyond);
+      case Landmark::kBorder:
+        // A limb that is folded over the one before it has a border along it, which tells of no end.
+        return RunsAlong(limb) ? limb.line.At(limb.line.low) : limb.inner->middle + beyond * limb.line.along;
+    }
+    return limb.inner->middle;
+  }
+
+  double BorderEnd(std::size_t i, const MiddleLine& line) const {
+    double farthest = line.low;
+    for (const glm::dvec2& p : regions_.borders[i]) farthest = std::max(farthest, line.Where(p));
+    return farthest;
+  }
+
+  static glm::dvec2 MiddleOf(const MiddleLine& line) { return line.At(0.5 * (line.low + line.high)); }
 
   void PutTip(std::size_t i) {
     if (HasOuterLimb(i)) return;
@@ -229,7 +279,7 @@ class Looker {
     if (IsCutOff(limb)) return;
     std::optional<glm::dvec2>& tip = evidence_.joints[Index(StrokeMarks()[i].to)];
     tip = i == kHeadStroke ? limb.line.At(limb.line.high - options_.head_below_crown * limb.line.half_width)
-                           : RoundEnd(limb.line, limb.line.half_width);
+                           : RoundEnd(limb.line, body_[i].tip * limb.line.half_width);
   }
 
   std::optional<LimbEvidence> LayLine(std::size_t i) const {
@@ -240,7 +290,7 @@ class Looker {
     seen.contrast = limb.region->contrast;
     seen.half_width = limb.line.half_width;
     const double half_width = LikelyHalfWidth(i);
-    const double whole = half_width * half_width * (2 * kAnatomy[i].length_per_half_width + kPi);
+    const double whole = half_width * half_width * (2 * body_[i].length + kPi);
     seen.seen_share = std::min(1.0, limb.region->pixels / whole);
     const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
     if (!(inner && outer) && (seen.seen_share < kSmallestSeenShare || !is_long)) return std::nullopt;
@@ -267,6 +317,7 @@ class Looker {
 
   const Regions& regions_;
   const EvidenceOptions& options_;
+  const Body& body_;
   std::array<std::optional<Limb>, kStrokeCount> limbs_;
   PictureEvidence evidence_;
 };

@@ -33,7 +33,15 @@ struct PictureEvidence {
   std::array<std::optional<glm::dvec2>, kRoleCount> joints;
 };
 
+/// What the performer looks like, and so where joints lie in what is seen of a limb; anyone knows it who looks.
+enum class FigureKind {
+  kCapsules,  ///< paper B's studio: round limbs, of which the thicker one ends about the joint; trunk joints are
+              ///< outside
+  kDressed,   ///< limbs are cut across at their joints (sim/character)
+};
+
 struct EvidenceOptions {
+  FigureKind figure = FigureKind::kCapsules;
   /// A pixel this close to the extracted person still counts as on it: extraction frays edges by a pixel or two.
   int margin_px = 3;
   /// Which point of the head is meant: how far it lies below the crown, in half widths of the head. Files end the head
@@ -43,11 +51,14 @@ struct EvidenceOptions {
 
 /// What the annotator can know from one picture and from anatomy; nothing else enters. The middle line of each limb is
 /// that of its visible pixels (`FindMiddleLine`). Joint centres, from what anyone knows of bodies:
-/// - limbs end round: a joint lies half a width inside the end of the limb that covers the other one there. Which one
-///   covers shows in their common border, whose ends bend back towards it;
-/// - hips, shoulders and the neck lie inside the trunk: beyond the border, along the limb, by a share of the border's
-///   breadth that is the joint's own *(ours: what the rest pose shows from aside)*;
-/// - a tip lies half a width inside the limb's outer end; the head's point some way below the crown *(ours)*.
+/// - capsules end round: a joint lies half a width inside the end of the limb that covers the other one there. Which
+/// one
+///   covers shows in their common border, whose ends bend back towards it. Hips, shoulders and the neck lie inside the
+///   trunk: beyond the border, along the limb, by a share of the border's breadth that is the joint's own;
+/// - the limbs of people in clothes are cut across at their joints: a joint lies at that border or, of arms, near the
+///   limb's inner end; a shoulder half an arm's width inside the arm, a hip above the crotch;
+/// - a tip lies about half a width inside the limb's outer end; the head's point some way below the crown.
+/// All these shares are *ours*: what each kind of figure shows at rest, from aside.
 /// A limb that is cut off, by another one or the picture's edge, ends where it is cut off; one of which neither both
 /// ends nor a quarter in a clearly long piece is seen is left out, and so is one that touches nothing known, because
 /// nothing tells which end is which. What these rules cost in exact joint centres: README.md, by joint.

@@ -1,5 +1,6 @@
 #include "sim/choreography/canonical_body.h"
 
+#include <array>
 #include <cmath>
 
 #include "engine/base/angles.h"
@@ -10,7 +11,6 @@
 namespace etude {
 namespace {
 
-using Body = CanonicalBody;
 using enum MiddleControl;
 using enum SideControl;
 using enum Role;
@@ -33,7 +33,7 @@ LegRoles LegOf(Side side) {
 }
 
 /// Trunk and neck, upward from the hip centre. Returns the chest's orientation.
-glm::dmat3 PlaceTrunk(const Controls& controls, const glm::dmat3& pelvis, BodyPose& pose) {
+glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis, BodyPose& pose) {
   // The lower spine takes part of every bend: a back is an arc, not a hinge.
   constexpr double kLowerShare = 0.55;
   const auto bent = [&](double share) {
@@ -41,18 +41,19 @@ glm::dmat3 PlaceTrunk(const Controls& controls, const glm::dmat3& pelvis, BodyPo
            TurnSideBend(share * controls[kTrunkTurn], share * controls[kTrunkSide], share * controls[kTrunkBend]);
   };
   const glm::dmat3 chest = bent(1);
-  pose[kSpine] = pose[kHipCentre] + bent(kLowerShare) * glm::dvec3(0, Body::kSpine, 0);
-  pose[kShoulderCentre] = pose[kSpine] + chest * glm::dvec3(0, Body::kChest, 0);
+  pose[kSpine] = pose[kHipCentre] + bent(kLowerShare) * glm::dvec3(0, body.spine, 0);
+  pose[kShoulderCentre] = pose[kSpine] + chest * glm::dvec3(0, body.chest, 0);
 
   // Dancers keep their eyes on the audience: the neck takes back most of the body's turn.
   constexpr double kGazeShare = 0.7;
   const double gaze = -kGazeShare * (controls[kHipsTurn] + controls[kTrunkTurn]);
   const glm::dmat3 neck = chest * TurnSideBend(controls[kNeckTurn] + gaze, controls[kNeckSide], controls[kNeckBend]);
-  pose[kHead] = pose[kShoulderCentre] + neck * glm::dvec3(0, Body::kHeadRise, 0.015);
+  pose[kHead] = pose[kShoulderCentre] + neck * glm::dvec3(0, body.head_rise, 0.015);
   return chest;
 }
 
-void PlaceArm(const Controls& controls, Side side, const glm::dmat3& chest, BodyPose& pose) {
+void PlaceArm(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& chest,
+              BodyPose& pose) {
   const double out = side == Side::kLeft ? 1 : -1;
   const glm::dmat3 upper = RotationX(-controls.Of(side, kArmForward)) * RotationZ(out * controls.Of(side, kArmSide)) *
                            RotationY(out * controls.Of(side, kArmTwist));
@@ -63,19 +64,19 @@ void PlaceArm(const Controls& controls, Side side, const glm::dmat3& chest, Body
   const double raise = AngleBetween(upper * down, down);
   const double rise = kFullRise * Smoothstep(Radians(60), Radians(175), raise);
   const glm::dvec3 shoulder =
-      RotationZ(out * rise) * glm::dvec3(out * Body::kShoulderHalfWidth, -Body::kShoulderFall, 0);
+      RotationZ(out * rise) * glm::dvec3(out * body.shoulder_half_width, -body.shoulder_fall, 0);
 
   const ArmRoles roles = ArmOf(side);
   const glm::dmat3 forearm = upper * RotationX(-controls.Of(side, kElbow));
   const glm::dmat3 hand = forearm * RotationX(-controls.Of(side, kWrist));
   pose[roles.shoulder] = pose[kShoulderCentre] + chest * shoulder;
-  pose[roles.elbow] = pose[roles.shoulder] + chest * upper * down * Body::kUpperArm;
-  pose[roles.wrist] = pose[roles.elbow] + chest * forearm * down * Body::kForearm;
-  pose[roles.hand] = pose[roles.wrist] + chest * hand * down * Body::kHand;
+  pose[roles.elbow] = pose[roles.shoulder] + chest * upper * down * body.upper_arm;
+  pose[roles.wrist] = pose[roles.elbow] + chest * forearm * down * body.forearm;
+  pose[roles.hand] = pose[roles.wrist] + chest * hand * down * body.hand;
 }
 
-glm::dvec3 HipOffset(Side side, const glm::dmat3& pelvis) {
-  return pelvis * glm::dvec3(side == Side::kLeft ? Body::kHipHalfWidth : -Body::kHipHalfWidth, 0, 0);
+glm::dvec3 HipOffset(const BodyDimensions& body, Side side, const glm::dmat3& pelvis) {
+  return pelvis * glm::dvec3(side == Side::kLeft ? body.hip_half_width : -body.hip_half_width, 0, 0);
 }
 
 /// The smaller of both, rounded off where they come within some millimetres of each other.
@@ -85,27 +86,41 @@ double SmoothMin(double a, double b) {
 }
 
 /// The hips' place: where the choreography wants them, lowered until standing legs reach the floor.
-glm::dvec3 PlaceHips(const Controls& controls, const glm::dmat3& pelvis) {
-  const glm::dvec3 wanted(controls[kHipsSide], Body::kHipHeight - controls[kHipsDrop] + controls[kJump],
+glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis) {
+  const glm::dvec3 wanted(controls[kHipsSide], body.HipHeight() - controls[kHipsDrop] + controls[kJump],
                           controls[kHipsAhead]);
   const auto limit = [&](Side side) {
-    const glm::dvec3 offset = HipOffset(side, pelvis);
-    return HighestHip(controls, side, wanted + offset) - offset.y;
+    const glm::dvec3 offset = HipOffset(body, side, pelvis);
+    return HighestHip(controls, body, side, wanted + offset) - offset.y;
   };
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
+/// The controls with their metres in proportion to the body's legs.
+Controls InProportion(const Controls& controls, const BodyDimensions& body) {
+  constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
+  constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};
+  const double scale = body.HipHeight() / CanonicalBody::kHipHeight;
+  Controls scaled = controls;
+  for (MiddleControl control : kMiddle) scaled[control] *= scale;
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    for (SideControl control : kOfASide) scaled.Of(side, control) *= scale;
+  }
+  return scaled;
+}
+
 }  // namespace
 
-BodyPose PoseOf(const Controls& controls) {
+BodyPose PoseOf(const Controls& canonical, const BodyDimensions& body) {
+  const Controls controls = InProportion(canonical, body);
   BodyPose pose;
   const glm::dmat3 pelvis = RotationY(controls[kHipsTurn]) * RotationZ(controls[kHipsTilt]);
-  pose[kHipCentre] = PlaceHips(controls, pelvis);
-  const glm::dmat3 chest = PlaceTrunk(controls, pelvis, pose);
+  pose[kHipCentre] = PlaceHips(controls, body, pelvis);
+  const glm::dmat3 chest = PlaceTrunk(controls, body, pelvis, pose);
   for (Side side : {Side::kLeft, Side::kRight}) {
-    PlaceArm(controls, side, chest, pose);
+    PlaceArm(controls, body, side, chest, pose);
     const LegRoles roles = LegOf(side);
-    const LegJoints leg = PlaceLeg(controls, side, pelvis, pose[kHipCentre] + HipOffset(side, pelvis));
+    const LegJoints leg = PlaceLeg(controls, body, side, pelvis, pose[kHipCentre] + HipOffset(body, side, pelvis));
     pose[roles.hip] = leg.hip;
     pose[roles.knee] = leg.knee;
     pose[roles.ankle] = leg.ankle;

@@ -31,10 +31,32 @@ struct CanonicalBody {
   static constexpr double kHomeToeOut = 0.2;
 };
 
+/// The sizes of one body, metres, both sides alike: the canonical body's unless said otherwise.
+struct BodyDimensions {
+  double hip_half_width = CanonicalBody::kHipHalfWidth;
+  double thigh = CanonicalBody::kThigh;
+  double shank = CanonicalBody::kShank;
+  double ankle_height = CanonicalBody::kAnkleHeight;
+  double toe_height = CanonicalBody::kToeHeight;
+  double foot_reach = CanonicalBody::kFootReach;
+  double spine = CanonicalBody::kSpine;
+  double chest = CanonicalBody::kChest;
+  double shoulder_half_width = CanonicalBody::kShoulderHalfWidth;
+  double shoulder_fall = CanonicalBody::kShoulderFall;
+  double head_rise = CanonicalBody::kHeadRise;
+  double upper_arm = CanonicalBody::kUpperArm;
+  double forearm = CanonicalBody::kForearm;
+  double hand = CanonicalBody::kHand;
+  double home_half_width = CanonicalBody::kHomeHalfWidth;
+
+  double HipHeight() const { return thigh + shank + ankle_height; }
+};
+
 /// Where the twenty joints are, on a floor at y = 0, facing +Z, the feet's home spots left and right
 /// of the origin. Legs that are not free reach for their spot by two-bone inverse kinematics, so a
 /// standing foot cannot slide; the hips sink as far as standing legs need to reach. Limb lengths are
-/// the canonical body's in every pose.
-BodyPose PoseOf(const Controls& controls);
+/// those of `body` in every pose. Angles are taken as they are, metres (of hips, feet and jumps) in proportion to the
+/// legs: a child's step is a child's.
+BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
 }  // namespace etude

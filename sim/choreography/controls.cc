@@ -62,6 +62,12 @@ Controls Mirrored(const Controls& controls) {
   return mirrored;
 }
 
+Controls Sum(const Controls& a, const Controls& b) {
+  Controls sum;
+  for (std::size_t i = 0; i < kControlCount; ++i) sum.values[i] = a.values[i] + b.values[i];
+  return sum;
+}
+
 Controls Mix(const Controls& from, const Controls& to, double share) {
   Controls mixed;
   for (std::size_t i = 0; i < kControlCount; ++i) {

@@ -77,6 +77,8 @@ std::span<const ControlName, kSideControlCount> SideControlNames();
 
 /// Left and right exchanged.
 Controls Mirrored(const Controls& controls);
+/// Control by control.
+Controls Sum(const Controls& a, const Controls& b);
 /// (1 − share) · from + share · to.
 Controls Mix(const Controls& from, const Controls& to, double share);
 /// Every control's distance from `centre` times `factor`; whether a leg is free stays as it is, so

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/coaching/dance.h"
 #include "engine/motion/body.h"
 #include "sim/choreography/move.h"
 
@@ -17,12 +18,6 @@ struct SongPart {
   bool half_time = false;  ///< each of the move's beats takes two of the music's
   double start_beat = 0;   ///< of the music, which begins with the song
   double beats = 0;        ///< of the music, for all repetitions
-};
-
-/// A frame that belongs to a moment of the music (paper A, 3.4: the next move is slowed or sped up by it).
-struct MusicTag {
-  std::size_t frame = 0;
-  double music_s = 0;
 };
 
 /// A choreography to a piece of music: 8 to 12 different moves, each at least twice in a row (paper A, 3.4), authored

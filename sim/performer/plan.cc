@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/performer/faults.h"
+#include "engine/base/named.h"
 #include "sim/performer/session.h"
 
 namespace etude {
@@ -13,16 +13,6 @@ namespace {
 template <typename T>
 void Shuffle(RandomStream& random, std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.IndexBelow(i)]);
-}
-
-template <typename T>
-const T& Pick(RandomStream& random, const std::vector<T>& items) {
-  return items[random.IndexBelow(items.size())];
-}
-
-/// Normal, but never further than two deviations: a right performance must stay right.
-double Bounded(RandomStream& random, double mean, double deviation) {
-  return mean + deviation * std::clamp(random.Normal(), -2.0, 2.0);
 }
 
 /// Indices of moves, `count` of them: every move is asked once before any is asked again.
@@ -38,16 +28,31 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-void DrawFault(RandomStream& random, std::span<const Move> moves, const Move& asked, SessionEvent& event) {
-  event.fault = Pick(random, ShowableFaults(asked, moves));
-  if (event.fault == Fault::kHalfAmplitude) event.amplitude *= kHalfAmplitude;
-  if (event.fault == Fault::kWrongMove) event.danced = Pick(random, WrongMoves(asked, moves));
-  if (event.fault == Fault::kSkipped) event.danced.clear();
+/// One more fault that the move can show, in another way than those it has; none when there is no such fault.
+void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
+  const Move& asked = *FindByName(moves, event.move);
+  std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
+  std::erase_if(left, [&](Fault fault) {
+    return std::ranges::find(event.faults, fault, &GradedFault::fault) != event.faults.end();
+  });
+  Shuffle(random, left);
+  const double severity = random.Uniform();
+  for (Fault fault : left) {
+    const GradedFault graded{fault, options.severity.value_or(severity), random.Uniform()};
+    const Move* instead = &moves[random.IndexBelow(moves.size())];
+    if (fault == Fault::kWrongMove && instead->name == asked.name) continue;
+    if (!CanShow(graded, asked, instead)) continue;
+    event.faults.push_back(graded);
+    if (fault == Fault::kWrongMove) event.danced = instead->name;
+    if (fault == Fault::kSkipped && graded.severity == 1) event.danced.clear();
+    return;
+  }
 }
 
 }  // namespace
 
-SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const SessionOptions& options) {
+SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const Person& person,
+                        const SessionOptions& options) {
   assert(!moves.empty());
   const auto count = static_cast<std::size_t>(std::max(0, options.events));
   const double share = std::clamp(options.fault_share, 0.0, 1.0);
@@ -55,7 +60,6 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   std::fill_n(is_fault.begin(), std::lround(share * static_cast<double>(count)), 1);
   Shuffle(random, is_fault);
 
-  const double looseness = 2 - std::clamp(options.skill, 0.0, 1.0);
   constexpr double kStandsFirst = 2.0;  // sensors and filters settle
   constexpr double kLeastRest = 1.0;    // the ways out of one move and into the next must not meet
   SessionPlan plan;
@@ -63,12 +67,18 @@ SessionPlan PlanSession(RandomStream& random, std::span<const Move> moves, const
   const std::vector<std::size_t> asked = DrawMoves(random, moves.size(), count);
   for (std::size_t i = 0; i < count; ++i) {
     const Move& move = moves[asked[i]];
-    SessionEvent event{.move = move.name, .danced = move.name, .start_s = time, .first_right_s = {}};
-    event.end_s = time + move.beats * 60 / move.tempo_bpm;
-    event.delay_s = looseness * random.Uniform(0.02, 0.1);
-    event.tempo = Bounded(random, 1, 0.015 * looseness);
-    event.amplitude = Bounded(random, 1, 0.02 * looseness);
-    if (is_fault[i]) DrawFault(random, moves, move, event);
+    SessionEvent event;
+    event.move = event.danced = move.name;
+    event.start_s = time;
+    event.chance = DrawChance(random, person);
+    event.end_s = time + event.chance.lag_s + move.beats * 60 / (move.tempo_bpm * event.chance.tempo);
+    if (person.kind == People::kAbsent) {
+      event.faults = {{Fault::kSkipped, 1, 0}};
+      event.danced.clear();
+    } else if (is_fault[i]) {
+      AddFault(random, moves, options, event);
+      if (random.Chance(options.two_faults)) AddFault(random, moves, options, event);
+    }
     time = event.WindowEnd() + std::max(options.rest_s, kLeastRest) + random.Uniform(0, 0.5);
     plan.events.push_back(std::move(event));
   }

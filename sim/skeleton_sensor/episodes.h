@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/glm.hpp>
-#include <vector>
 
 #include "engine/motion/body.h"
+#include "sim/random/stream.h"
 #include "sim/skeleton_sensor/joint_errors.h"
+#include "sim/skeleton_sensor/options.h"
 #include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
@@ -18,22 +20,73 @@ struct Guess {
 using FrameGuesses = std::array<Guess, kRoleCount>;
 
 /// The guesses for hidden joints, limb by limb, in episodes.
-std::vector<FrameGuesses> OcclusionGuesses(const BodyMotion& truth, const std::vector<HiddenJoints>& hidden,
-                                           const SkeletonSensorOptions& options, const WorldKey& world);
+class OcclusionGuesses {
+ public:
+  OcclusionGuesses(const SkeletonSensorOptions& options, const WorldKey& world);
+  FrameGuesses Next(const BodyPose& pose, const HiddenJoints& hidden);
+
+ private:
+  static constexpr std::size_t kLimbs = 4, kJointsOfLimb = 4;
+  /// One limb's current wrong (or lucky) idea of where its hidden joints are.
+  struct Episode {
+    int age = 0;
+    int length = 0;  ///< 0: none running
+    bool wrong = false;
+    double size_m = 0;
+    glm::dvec3 direction{0};
+    std::array<bool, kJointsOfLimb> joints{};  ///< which were hidden since it began
+
+    bool IsRunning() const { return length > 0; }
+  };
+
+  Episode Throw();
+
+  SkeletonSensorOptions options_;
+  RandomStream dice_;
+  std::array<Episode, kLimbs> episodes_;
+};
 
 /// Rare single-frame errors of single joints, zero where there is none.
-JointErrors Outliers(std::size_t frames, const SkeletonSensorOptions& options, const WorldKey& world);
+class Outliers {
+ public:
+  Outliers(const SkeletonSensorOptions& options, const WorldKey& world);
+  FrameErrors Next();
 
-/// Which frames show arms, or legs, exchanged.
+ private:
+  double chance_, size_m_;
+  RandomStream dice_;
+};
+
+/// Whether a frame shows arms, or legs, exchanged.
 struct Swap {
   bool arms = false;
   bool legs = false;
 };
-/// `turns`: per frame, how far the body is turned away from the sensor, radians.
-std::vector<Swap> Swaps(const std::vector<double>& turns, double rate_hz, const SkeletonSensorOptions& options,
-                        const WorldKey& world);
+class Swaps {
+ public:
+  Swaps(double rate_hz, const SkeletonSensorOptions& options, const WorldKey& world);
+  /// `turn`: how far the body is turned away from the sensor in this frame, radians.
+  Swap Next(double turn);
+
+ private:
+  double usual_chance_;  ///< of starting in a frame
+  bool when_facing_;
+  int length_;  ///< frames
+  RandomStream dice_;
+  int left_ = 0;
+  Swap current_;
+};
 
 /// Which frames the whole body is lost in.
-std::vector<bool> Dropouts(std::size_t frames, const SkeletonSensorOptions& options, const WorldKey& world);
+class Dropouts {
+ public:
+  Dropouts(const SkeletonSensorOptions& options, const WorldKey& world);
+  bool Next();
+
+ private:
+  double chance_;  ///< of starting in a frame with the body seen
+  RandomStream dice_;
+  std::uint64_t left_ = 0;
+};
 
 }  // namespace etude

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "engine/base/angles.h"
-#include "sim/skeleton_sensor/episodes.h"
-#include "sim/skeleton_sensor/joint_errors.h"
 
 namespace etude {
 namespace {
@@ -20,28 +17,14 @@ bool IsInView(const Camera& camera, const ProjectionMatrix& matrix, const glm::d
          pixel->y < camera.intrinsics.height;
 }
 
-/// How far the body is turned away from the sensor, per frame.
-std::vector<double> TurnsFrom(const glm::dvec3& eye, const BodyMotion& truth) {
-  std::vector<double> turns;
-  turns.reserve(truth.poses.size());
-  for (const BodyPose& pose : truth.poses) {
-    const glm::dvec3 to_eye = eye - pose[kHipCentre];
-    turns.push_back(AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z}));
-  }
-  return turns;
+/// How far the body is turned away from the sensor.
+double TurnFrom(const glm::dvec3& eye, const BodyPose& pose) {
+  const glm::dvec3 to_eye = eye - pose[kHipCentre];
+  return AngleBetween(Facing(pose), {to_eye.x, 0, to_eye.z});
 }
 
 void Exchange(SensedFrame& frame, std::initializer_list<Role> left_joints) {
   for (Role role : left_joints) std::swap(frame[role], frame[Mirrored(role)]);
-}
-
-/// Every frame is told `lag` frames late; until then the first one is.
-void Delay(std::vector<SensedFrame>& frames, std::size_t lag) {
-  lag = std::min(lag, frames.size());
-  if (lag == 0) return;
-  const SensedFrame first = frames.front();
-  std::move_backward(frames.begin(), frames.end() - static_cast<std::ptrdiff_t>(lag), frames.end());
-  std::fill_n(frames.begin(), lag, first);
 }
 
 }  // namespace
@@ -52,38 +35,72 @@ Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view) {
   return LookAt(view, eye, {0, kLooksAtHeight, 0});
 }
 
+SkeletonSensor::SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options,
+                               double rate_hz, const WorldKey& world)
+    : sensor_(sensor),
+      view_(MatrixOf(sensor)),
+      occluders_(occluders),
+      motion_(rate_hz),
+      errors_(sensor, options, rate_hz, world),
+      guesses_(options, world),
+      outliers_(options, world),
+      swaps_(rate_hz, options, world),
+      dropouts_(options, world),
+      delayed_(static_cast<std::size_t>(options.Lag()) + 1) {}
+
+SensedFrame SkeletonSensor::Sense(const BodyPose& pose, const FrameMotion& motion) {
+  const FrameErrors errors = errors_.Next(pose, motion);
+  const FrameGuesses guesses = guesses_.Next(pose, FindHidden(pose, frame_, occluders_, sensor_.p_WC));
+  const FrameErrors outliers = outliers_.Next();
+  const Swap swap = swaps_.Next(TurnFrom(sensor_.p_WC, pose));
+  SensedFrame frame;
+  frame.body_seen = !dropouts_.Next();
+  for (std::size_t j = 0; j < kRoleCount; ++j) {
+    const glm::dvec3& place = pose.joints[j];
+    const Guess& guess = guesses[j];
+    frame.joints[j].position = place + errors[j] + guess.offset + outliers[j];
+    frame.joints[j].state = guess.inferred ? TrackingState::kInferred : TrackingState::kTracked;
+    if (!frame.body_seen || !IsInView(sensor_, view_, place)) {
+      frame.joints[j] = {.position = last_.joints[j].position, .state = TrackingState::kNotTracked};
+    }
+  }
+  last_ = frame;
+  if (swap.arms) Exchange(frame, {kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand});
+  if (swap.legs) Exchange(frame, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot});
+  return frame;
+}
+
+/// Every frame is told Lag() frames late; until then the first one is.
+SensedFrame SkeletonSensor::Delayed(const SensedFrame& sensed) {
+  if (frame_ == 0) std::fill(delayed_.begin(), delayed_.end(), sensed);
+  delayed_[frame_ % delayed_.size()] = sensed;
+  ++frame_;
+  return delayed_[frame_ % delayed_.size()];
+}
+
+std::optional<SensedFrame> SkeletonSensor::Update(const BodyPose& pose) {
+  motion_.Push(pose);
+  const auto known = motion_.Next();
+  if (!known) return std::nullopt;
+  return Delayed(Sense(known->pose, known->motion));
+}
+
+std::vector<SensedFrame> SkeletonSensor::Finish() {
+  motion_.End();
+  std::vector<SensedFrame> owed;
+  while (const auto known = motion_.Next()) owed.push_back(Delayed(Sense(known->pose, known->motion)));
+  return owed;
+}
+
 SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,
                              const SkeletonSensorOptions& options, const WorldKey& world) {
-  const std::size_t count = truth.poses.size();
-  const auto hidden = FindHidden(truth, occluders, sensor.p_WC);
-  const auto errors = ContinuousErrors(truth, sensor, options, world);
-  const auto guesses = OcclusionGuesses(truth, hidden, options, world);
-  const auto outliers = Outliers(count, options, world);
-  const auto swaps = Swaps(TurnsFrom(sensor.p_WC, truth), truth.rate_hz, options, world);
-  const auto dropouts = Dropouts(count, options, world);
-  const ProjectionMatrix view = MatrixOf(sensor);
-
+  SkeletonSensor skeleton(sensor, occluders, options, truth.rate_hz, world);
   SkeletonStream stream{.rate_hz = truth.rate_hz, .frames = {}};
-  stream.frames.reserve(count);
-  SensedFrame last;
-  for (std::size_t t = 0; t < count; ++t) {
-    SensedFrame frame;
-    frame.body_seen = !dropouts[t];
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      const glm::dvec3& place = truth.poses[t].joints[j];
-      const Guess& guess = guesses[t][j];
-      frame.joints[j].position = place + errors[t][j] + guess.offset + outliers[t][j];
-      frame.joints[j].state = guess.inferred ? TrackingState::kInferred : TrackingState::kTracked;
-      if (!frame.body_seen || !IsInView(sensor, view, place)) {
-        frame.joints[j] = {.position = last.joints[j].position, .state = TrackingState::kNotTracked};
-      }
-    }
-    last = frame;
-    if (swaps[t].arms) Exchange(frame, {kLeftShoulder, kLeftElbow, kLeftWrist, kLeftHand});
-    if (swaps[t].legs) Exchange(frame, {kLeftHip, kLeftKnee, kLeftAnkle, kLeftFoot});
-    stream.frames.push_back(frame);
+  stream.frames.reserve(truth.poses.size());
+  for (const BodyPose& pose : truth.poses) {
+    if (const auto frame = skeleton.Update(pose)) stream.frames.push_back(*frame);
   }
-  Delay(stream.frames, static_cast<std::size_t>(options.Lag()));
+  for (const SensedFrame& frame : skeleton.Finish()) stream.frames.push_back(frame);
   return stream;
 }
 

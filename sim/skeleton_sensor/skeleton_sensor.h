@@ -1,9 +1,15 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "engine/cameras/camera.h"
 #include "engine/motion/body.h"
 #include "engine/recognition/skeleton_stream.h"
 #include "sim/random/stream.h"
+#include "sim/skeleton_sensor/episodes.h"
+#include "sim/skeleton_sensor/joint_errors.h"
+#include "sim/skeleton_sensor/motion_window.h"
 #include "sim/skeleton_sensor/options.h"
 #include "sim/skeleton_sensor/visibility.h"
 
@@ -17,9 +23,44 @@ struct SensorPlace {
 };
 Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view);
 
-/// What `sensor` would report of a body moving as `truth`: one frame per frame, late by the options' lag. A joint is
-/// inferred while something stands before it, not tracked while out of view. Every error has dice of its own, and as
-/// many throws per frame whatever happens, so that options change strengths and nothing else.
+/// A skeleton sensor, frame by frame. How much a joint errs depends on how it is about to move, so a frame's report
+/// comes when the body's pose `kAhead` frames later is known: whoever closes a loop over it lets the body plan so far
+/// ahead. Every error has dice of its own, and as many throws per frame whatever happens, so that options change
+/// strengths and nothing else.
+class SkeletonSensor {
+ public:
+  static constexpr std::size_t kAhead = MotionWindow::kAhead;
+
+  /// `occluders` must outlive this; `rate_hz` > 0.
+  SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
+                 const WorldKey& world);
+
+  /// Takes the body's next pose, and tells what is reported in the frame `kAhead` before it; nothing in the first
+  /// `kAhead` frames. A joint is inferred while something stands before it, not tracked while out of view; a report is
+  /// of a pose the options' lag ago.
+  std::optional<SensedFrame> Update(const BodyPose& pose);
+  /// The reports still owed at the end of a motion, of its last `kAhead` frames. Nothing may follow.
+  std::vector<SensedFrame> Finish();
+
+ private:
+  SensedFrame Sense(const BodyPose& pose, const FrameMotion& motion);
+  SensedFrame Delayed(const SensedFrame& sensed);
+
+  Camera sensor_;
+  ProjectionMatrix view_;
+  const Occluders& occluders_;
+  MotionWindow motion_;
+  ContinuousErrors errors_;
+  OcclusionGuesses guesses_;
+  Outliers outliers_;
+  Swaps swaps_;
+  Dropouts dropouts_;
+  std::size_t frame_ = 0;             ///< sensed so far
+  SensedFrame last_;                  ///< before arms or legs were exchanged
+  std::vector<SensedFrame> delayed_;  ///< a ring of the last Lag() + 1 frames
+};
+
+/// What `sensor` would report of a body moving as `truth`: one frame per frame.
 SkeletonStream SenseSkeleton(const BodyMotion& truth, const Camera& sensor, const Occluders& occluders,
                              const SkeletonSensorOptions& options, const WorldKey& world);
 

@@ -22,18 +22,17 @@ double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<C
 
 }  // namespace
 
-std::vector<HiddenJoints> FindHidden(const BodyMotion& truth, const Occluders& occluders, const glm::dvec3& eye) {
-  std::vector<HiddenJoints> hidden(truth.poses.size());
+HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye) {
+  const std::vector<Capsule> flesh = BodyCapsules(pose);
   std::vector<Capsule> bystander;
-  for (std::size_t t = 0; t < truth.poses.size(); ++t) {
-    const BodyPose& pose = truth.poses[t];
-    const std::vector<Capsule> flesh = BodyCapsules(pose);
-    if (t < occluders.bystander.size()) bystander = BodyCapsules(occluders.bystander[t]);
-    for (const Role role : AllRoles()) {
-      const JointSight sight = SightOf(flesh, pose, role, eye);
-      const double other = std::min(sight.other, NearestOccluder(occluders.furniture, bystander, pose[role], eye));
-      hidden[t][Index(role)] = other < sight.skin - kHidingClearance;
-    }
+  if (!occluders.bystander.empty()) {
+    bystander = BodyCapsules(occluders.bystander[std::min(frame, occluders.bystander.size() - 1)]);
+  }
+  HiddenJoints hidden;
+  for (const Role role : AllRoles()) {
+    const JointSight sight = SightOf(flesh, pose, role, eye);
+    const double other = std::min(sight.other, NearestOccluder(occluders.furniture, bystander, pose[role], eye));
+    hidden[Index(role)] = other < sight.skin - kHidingClearance;
   }
   return hidden;
 }

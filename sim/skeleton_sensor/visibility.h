@@ -18,8 +18,9 @@ struct Occluders {
   std::vector<BodyPose> bystander;  ///< a second person: a pose per frame (the last one stays), none = nobody
 };
 
-/// Which joints `eye` does not see, per frame: the ray to the joint meets another part of the body, furniture or the
-/// second person clearly (2 cm) before the joint's own skin. The flesh is what the renderer draws (sim/body).
-std::vector<HiddenJoints> FindHidden(const BodyMotion& truth, const Occluders& occluders, const glm::dvec3& eye);
+/// Which joints of `pose` in this frame `eye` does not see: the ray to the joint meets another part of the body,
+/// furniture or the second person clearly (2 cm) before the joint's own skin. The flesh is what the renderer draws
+/// (sim/body).
+HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
 }  // namespace etude

@@ -33,6 +33,7 @@ class StagedRoom {
 
   /// Null: the studio. Lives as long as this.
   const Interior* interior() const { return furnished_ ? &furnished_->interior : nullptr; }
+  bool IsPerformerDressed() const { return performer_.has_value(); }
   /// The dressed performer; at scene 0 the capsules in `studio` colours.
   Figure PerformerAt(const BodyPose& pose, const PartColours& studio) const;
   /// What moves in the room, `seconds` after the take's start (less than 0: before).

@@ -29,7 +29,7 @@ SHARED = ["manifest.json", "cells.jsonl", "summary.json", "series", "recordings"
 def cells_in_journal(folder):
     """How many cells a run has flushed so far."""
     try:
-        return max(0, (folder / "journal.jsonl").read_bytes().count(b"\n") - 1)  # the first line is its head
+        return max(0, (folder / "journal.jsonl").read_bytes().count(b"\n") - 2)  # the first lines are its head, twice
     except FileNotFoundError:
         return 0
 

@@ -112,10 +112,11 @@ class Gate(EtudeCase):
         cells = self.out / "cells.jsonl"
         lines = cells.read_text().splitlines(keepends=True)
         cells.write_text("".join(lines[:-3]))
-        text = self.gate(self.out, "--baseline", self.baseline, expect=3)
+        self.assertIn("is not as the run wrote it", self.gate(self.out, "--baseline", self.baseline, expect=2))
+        text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=3)
         self.assertIn("3 of 48 rows are missing", text)
         before = self.baseline.read_text()
-        self.gate(self.out, "--baseline", self.baseline, "--update", expect=3)
+        self.gate(self.out, "--baseline", self.baseline, "--update", "--unsealed", expect=3)
         self.assertEqual(self.baseline.read_text(), before)
         cells.write_text("".join(lines))
         self.gate(self.out, "--baseline", self.baseline, expect=0)
@@ -128,7 +129,7 @@ class Gate(EtudeCase):
         rows = [json.loads(line) for line in cells.read_text().splitlines()]
         rows[5].update(status="timeout", reason="300 s")
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
-        text = self.gate(self.out, "--baseline", self.baseline, expect=3)
+        text = self.gate(self.out, "--baseline", self.baseline, "--unsealed", expect=3)
         self.assertIn("1 × timeout, which depends on the machine", text)
         self.assertNotIn("worse", text)
 

@@ -49,6 +49,21 @@ methods: [{name: cut, choice: now, join: cut}]
             self.assert_same_results(self.folder / "any", self.folder / name)
             self.assertEqual((self.folder / "any.csv").read_bytes(), (self.folder / f"{name}.csv").read_bytes())
 
+    def test_no_variable_of_a_shell_changes_a_byte_or_stops_the_program(self):
+        scenario = self.write("c.yaml", """scenario: c
+question: Does it run?
+task: capture
+clips: ['builtin:sway']
+duration_s: 0.1
+trials: 1
+methods: [{name: hue}]
+""")
+        self.run_suite(scenario, out=self.folder / "plain")
+        shell = dict(os.environ, LP_PERF="no_blend,no_tex", LP_NATIVE_VECTOR_WIDTH="512", GALLIUM_DRIVER="softpipe",
+                     GALLIUM_OVERRIDE_CPU_CAPS="avx512", LC_ALL="tr_TR.UTF-8", ETUDE_RESTARTED="1")
+        subprocess.run([ETUDE, "run", scenario, "-o", self.folder / "shell"], env=shell, check=True, capture_output=True)
+        self.assert_same_results(self.folder / "plain", self.folder / "shell")
+
     def test_another_seed_gives_other_worlds_and_the_control_differs(self):
         path = self.write("ik.yaml", IK)
         one = self.run_suite(path, out=self.folder / "one")

@@ -178,7 +178,8 @@ methods:
         rows = [json.loads(line) for line in cells.read_text().splitlines()]
         rows[7]["digest_solution"] = "0123456789abcdef"
         cells.write_text("".join(json.dumps(row) + "\n" for row in rows))
-        result = self.etude("replay", self.whole)
+        self.assertIn("cells.jsonl: is not as the run wrote it", self.etude("replay", self.whole).stderr)
+        result = self.etude("replay", self.whole, "--unsealed")
         self.assertEqual(result.returncode, 1)
         self.assertIn(f"differs: {rows[7]['cell']}\n  first at solution: 0123456789abcdef then,", result.stdout)
         self.assertIn("159 of 160 cells came out the same", result.stdout)
@@ -217,7 +218,7 @@ methods:
         for changed, complaint in ((lines[:-1], "holds 159 rows of scenario ik; summary.json sums up 160"),
                                    (lines[:-1] + lines[:1], "holds the cell ik/joint_noise_deg=2/000/fixed twice")):
             cells.write_text("".join(changed))
-            result = self.etude("report", self.whole, "--no-video")
+            result = self.etude("report", self.whole, "--no-video", "--unsealed")
             self.assertEqual(result.returncode, 2)
             self.assertIn(complaint, result.stderr)
 

@@ -82,7 +82,7 @@ def set_up(scratch):
     assert run.returncode == 0, run.stderr
     manifest = json.loads((out / "manifest.json").read_text())
     host = json.loads((out / "host.json").read_text())
-    environment = dict(os.environ, **dict(setting.split("=", 1) for setting in host["pinned_environment"]))
+    environment = {"PATH": os.environ["PATH"], **dict(setting.split("=", 1) for setting in host["pinned_environment"])}
     methods = {}  # of each scenario
     for line in (out / "cells.jsonl").read_text().splitlines():
         row = json.loads(line)

@@ -14,6 +14,9 @@ MAY_INCLUDE = {
     "engine/capture":
         "engine/base engine/boards engine/bundle_adjustment engine/cameras engine/kinematics engine/kinematics/solvers "
         "engine/motion engine/smoothing engine/vision",
+    "engine/coaching":
+        "engine/base engine/fuzzy engine/motion engine/recognition engine/transitions engine/transitions/base "
+        "engine/transitions/joins engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
@@ -27,6 +30,7 @@ MAY_INCLUDE = {
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
+    "engine/streams": "engine/base engine/formats engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
@@ -49,8 +53,10 @@ MAY_INCLUDE = {
     "sim/body": "engine/motion",
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
-    "sim/choreography": "engine/base engine/document engine/fuzzy engine/motion sim/random",
+    "sim/choreography":
+        "engine/base engine/coaching engine/document engine/fuzzy engine/motion sim/random",
     "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
+    "sim/music": "engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",

@@ -21,6 +21,17 @@
 
 namespace etude {
 
+/// A program that takes one seat of a world's loop, asked step by step (docs/outside-methods.md).
+class LiveProgram {
+ public:
+  virtual ~LiveProgram() = default;
+  /// A session begins; false when the program has failed.
+  virtual bool Begin(const Payload& session) = 0;
+  /// What it answers to the next step: an object whose numbers are finite. Null when it has failed, or gave no answer:
+  /// then the session is over, and whoever called the world's Run knows why.
+  virtual JsonPtr Step(const Json& step) = 0;
+};
+
 /// One world, built once, in which methods run one after the other. What a method answers depends on the
 /// world and on the method, never on which others ran before; stages that methods share are computed once.
 class TaskWorld {
@@ -35,6 +46,11 @@ class TaskWorld {
 
   /// Runs a built-in method: its index in TaskInput::methods.
   virtual CellResult Run(std::size_t method) = 0;
+  /// Likewise, with `program` in the seat that the method leaves to it (TaskKind::seats). What the program says in the
+  /// wrong shape, size or range is an Error, as of Judge. What is told when the program has failed is thrown away.
+  virtual Result<CellResult> RunWith(LiveProgram& /*program*/, std::size_t /*method*/) {
+    return Fail({}, "worlds of this task have no loop");
+  }
 
   /// What a method outside is asked here, beside Task::Setting.
   virtual Result<Payload> MakeProblem() = 0;
@@ -92,7 +108,10 @@ struct TaskKind {
   Result<std::unique_ptr<Task>> (*make)(TaskInput& input);
   std::vector<KeyInfo> condition_keys;  ///< its keys of a scenario
   std::vector<KeyInfo> method_keys;     ///< its keys of a method, beside `name`
-  bool uses_clips = true;               ///< whether its worlds are made of a scenario's `clips`
+  /// The seats of a loop that a program may take, named by its method's key `seat`; then it is spoken to step by step,
+  /// and the method has the task's keys for all else. None: programs are asked one question a world.
+  std::vector<std::string> seats = {};
+  bool uses_clips = true;  ///< whether its worlds are made of a scenario's `clips`
   /// What its worlds are drawn from, and what else a scenario may say they are; at least one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
   /// What its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".

@@ -1,5 +1,8 @@
 #include "bench/tasks/capture/marking.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/base/unit_vector.h"
 #include "sim/annotator/drawing.h"
 #include "sim/body/shape.h"
@@ -58,26 +61,36 @@ Marks MeanMarks(const Marks& first, const Marks& second) {
   return mean;
 }
 
-double HeadBelowCrown(const BodyPose& body) {
+double HeadBelowCrown(const Figure& figure, const BodyPose& body) {
   const glm::dvec3 up = UnitOr(body[Role::kHead] - body[Role::kShoulderCentre], {0, 1, 0});
-  double crown = 0, radius = 1;
-  for (const Capsule& capsule : BodyCapsules(body)) {
+  const glm::dvec3 shoulders = body[Role::kLeftShoulder] - body[Role::kRightShoulder];
+  const glm::dvec3 aside = UnitOr(shoulders - glm::dot(shoulders, up) * up, {1, 0, 0});
+  double crown = 0, half_width = 0;
+  const auto meet = [&](const glm::dvec3& p, double radius) {
+    const glm::dvec3 from_head = p - body[Role::kHead];
+    crown = std::max(crown, glm::dot(from_head, up) + radius);
+    half_width = std::max(half_width, std::abs(glm::dot(from_head, aside)) + radius);
+  };
+  for (const Capsule& capsule : figure.shape) {
     if (capsule.part != Part::kHead) continue;
-    for (const glm::dvec3& end : {capsule.a, capsule.b}) {
-      const double top = glm::dot(end - body[Role::kHead], up) + capsule.radius;
-      if (top > crown) {
-        crown = top;
-        radius = capsule.radius;
-      }
+    meet(capsule.a, capsule.radius);
+    meet(capsule.b, capsule.radius);
+  }
+  for (const Surface& surface : figure.surfaces) {
+    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+      if (surface.parts[i] != Part::kHead) continue;
+      for (const std::uint32_t corner : surface.triangles[i]) meet(surface.positions[corner], 0);
     }
   }
-  return crown / radius;
+  return half_width > 0 ? crown / half_width : 0;
 }
 
 Marking::Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key)
     : mark_every_(static_cast<std::size_t>(options.mark_every)), annotators_(world.cameras.size()) {
   const PersonErrors errors{.error_px = options.annotation_error_px};
-  eye_.head_below_crown = HeadBelowCrown(world.truth.front());
+  const BodyPose& body = world.truth.front();
+  eye_.figure = world.stage.IsPerformerDressed() ? FigureKind::kDressed : FigureKind::kCapsules;
+  eye_.head_below_crown = HeadBelowCrown(world.stage.PerformerAt(body, world.colours), body);
   for (std::size_t camera = 0; camera < annotators_.size(); ++camera) {
     for (int annotator = 0; annotator < options.annotators; ++annotator) {
       annotators_[camera].emplace_back(errors, eye_, key, annotator, static_cast<int>(camera));

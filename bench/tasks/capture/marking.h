@@ -17,7 +17,8 @@ namespace etude {
 /// (`ReadMarks`). Two markings of the same world throw the same dice, whatever they are shown.
 class Marking {
  public:
-  /// `key` must outlive this. Of the world only the number of cameras is used, and which point of the head is meant.
+  /// `key` must outlive this. Of the world only the number of cameras is used, and what figure
+  /// performs: where joints lie in its limbs, which point of the head is meant.
   Marking(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key);
 
   /// What methods are told of one picture: of a stroke or disc that both annotators drew, the mean; else the one
@@ -42,8 +43,9 @@ class Marking {
   std::vector<MarkedTwice> joints_, limbs_;
 };
 
-/// `EvidenceOptions::head_below_crown` of this body: like limb lengths the same in every pose, measured beforehand.
-double HeadBelowCrown(const BodyPose& body);
+/// `EvidenceOptions::head_below_crown` of a performer in the pose `body`: the same in every pose, like limb lengths,
+/// and measured beforehand.
+double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 
 /// Stroke by stroke and disc by disc the mean of both, or the one there is.
 Marks MeanMarks(const Marks& first, const Marks& second);

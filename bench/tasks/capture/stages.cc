@@ -182,7 +182,7 @@ Result<const CaptureBody*> CaptureStages::GetBody(const CaptureMethod& method) {
   const BodyChoice choice = BodyChoiceOf(method);
   auto kept = bodies_.find(choice);
   if (kept == bodies_.end()) {
-    const Person& person = choice.true_lengths ? world_.person : world_.measured;
+    const PersonalLimbs& person = choice.true_lengths ? world_.person : world_.measured;
     Result<CaptureBody> body = choice.kind == BodyKind::kPaper ? PaperBody(person.lengths) : FittedBody(person.body);
     kept = bodies_.emplace(choice, std::move(body)).first;
   }

@@ -104,10 +104,10 @@ class Tape {
   RandomStream random_;
 };
 
-Person Measured(const Person& person, double error_mm, const WorldKey& key) {
+PersonalLimbs Measured(const PersonalLimbs& person, double error_mm, const WorldKey& key) {
   if (error_mm == 0) return person;
   Tape tape(error_mm, key);
-  Person measured = person;
+  PersonalLimbs measured = person;
   LimbLengths& l = measured.lengths;
   for (double* length : {&l.foot, &l.shank, &l.thigh, &l.hip_width, &l.trunk, &l.neck, &l.shoulder_width, &l.upper_arm,
                          &l.forearm, &l.hand}) {

@@ -17,7 +17,7 @@
 namespace etude {
 
 /// How long somebody's limbs are: as paper B counts them, and joint by joint.
-struct Person {
+struct PersonalLimbs {
   LimbLengths lengths;
   RestBody body;
 };
@@ -25,8 +25,8 @@ struct Person {
 /// Everything true about one take: who moves how in front of which cameras under which light.
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
-  Person person;                   ///< who moves
-  Person measured;                 ///< the same as it was measured beforehand, as paper B does
+  PersonalLimbs person;            ///< who moves
+  PersonalLimbs measured;          ///< the same as it was measured beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<Camera> cameras;     ///< two or more, each with its lens
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures

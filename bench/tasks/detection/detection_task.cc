@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <deque>
 
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -33,17 +34,23 @@ class UnlabelledWorld final : public TaskWorld {
   std::string reason_;
 };
 
+/// A method whose recogniser was taught all moves.
+struct ReadyMethod {
+  DetectionMethod method;
+  std::unique_ptr<Recogniser> recogniser;
+};
+
 /// One session, and the methods run and judged in it.
 class DetectionTaskWorld final : public TaskWorld {
  public:
   /// `methods` and `repertoire` must outlive this.
-  DetectionTaskWorld(const std::vector<DetectionMethod>& methods, const Repertoire& repertoire, DetectionWorld world,
+  DetectionTaskWorld(const std::vector<ReadyMethod>& methods, const Repertoire& repertoire, DetectionWorld world,
                      bool keeps_motion)
       : methods_(methods), repertoire_(repertoire), world_(std::move(world)), keeps_motion_(keeps_motion) {}
 
   CellResult Run(std::size_t index) override {
-    const DetectionMethod& method = methods_[index];
-    const auto verdict = JudgeSession(world_, SeenBy(method), repertoire_, method);
+    const auto& [method, recogniser] = methods_[index];
+    const auto verdict = JudgeSession(world_, SeenBy(method), repertoire_, *recogniser, method.Decision());
     return verdict ? Score(*verdict) : CellResult::Ended(Status::kFailed, ToString(verdict.error()));
   }
 
@@ -57,33 +64,45 @@ class DetectionTaskWorld final : public TaskWorld {
 
  private:
   const SeenStream& SeenBy(const DetectionMethod& method) {
-    const auto [seen, is_new] = seen_.try_emplace({method.filter.kind, method.sees_truth});
-    if (is_new) seen->second = SeeSession(world_, method);
-    return seen->second;
+    const auto same = [&](const Sighted& known) {
+      return known.filter == method.filter && known.sees_truth == method.sees_truth;
+    };
+    auto found = std::ranges::find_if(seen_, same);
+    if (found == seen_.end()) {
+      found = seen_.insert(found, {method.filter, method.sees_truth, SeeSession(world_, method)});
+    }
+    return found->seen;
   }
 
   CellResult Score(const SessionVerdict& verdict) const {
     CellResult result = CellResult::Ended(Status::kOk, "");
     ScoreSession(world_, verdict, result);
     result.digests = world_digests_;
-    for (auto& stage : VerdictDigests(verdict)) result.digests.push_back(std::move(stage));
+    for (auto& stage : VerdictDigests(verdict, repertoire_)) result.digests.push_back(std::move(stage));
     result.series.push_back(ScoreSeries(world_, verdict));
-    if (keeps_motion_) result.recording = RecordSession(world_, verdict);
+    if (keeps_motion_) result.recording = RecordSession(world_, verdict, repertoire_);
     return result;
   }
 
-  const std::vector<DetectionMethod>& methods_;
+  struct Sighted {
+    FilterOptions filter;
+    bool sees_truth;
+    SeenStream seen;
+  };
+
+  const std::vector<ReadyMethod>& methods_;
   const Repertoire& repertoire_;
   const DetectionWorld world_;
   const StageDigests world_digests_ = WorldDigests(world_);
   const bool keeps_motion_;
-  std::map<std::pair<FilterKind, bool>, SeenStream> seen_;  ///< by filter and oracle: methods share them
+  std::deque<Sighted> seen_;  ///< methods with the same filter and oracle share one
 };
 
 class DetectionTask final : public Task {
  public:
-  DetectionTask(const DetectionOptions& options, std::vector<DetectionMethod> methods, const ClipLibrary& clips)
-      : options_(options), methods_(std::move(methods)), repertoire_(RepertoireOf(clips)) {
+  DetectionTask(const DetectionOptions& options, std::vector<ReadyMethod> methods, Repertoire repertoire,
+                const ClipLibrary& clips)
+      : options_(options), methods_(std::move(methods)), repertoire_(std::move(repertoire)) {
     for (const LibraryClip& clip : clips.clips) clips_.push_back({clip.name, clip.move.has_value()});
   }
 
@@ -119,7 +138,7 @@ class DetectionTask final : public Task {
   }
 
   const DetectionOptions options_;
-  const std::vector<DetectionMethod> methods_;
+  const std::vector<ReadyMethod> methods_;
   const Repertoire repertoire_;
   std::vector<TrialClip> clips_;
 };
@@ -140,12 +159,20 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   ASSIGN_OR_RETURN(options.sensor, SensorOf(input));
   DetectionConditionFields().Read(input.condition, options);
   DetectionMethod start;
-  start.recogniser = options.recogniser;
+  start.threshold = options.threshold;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "detection", DetectionMethodFields(), start));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*']");
   }
-  return std::make_unique<DetectionTask>(options, std::move(methods), input.clips);
+  Repertoire repertoire = RepertoireOf(input.clips);
+  std::vector<ReadyMethod> ready;
+  for (DetectionMethod& method : methods) {
+    auto recogniser = MakeRecogniser(method.recogniser, repertoire.taught);
+    if (!recogniser)
+      return Fail(input.condition.node().place, "method {}: {}", method.name, recogniser.error().message);
+    ready.push_back({std::move(method), *std::move(recogniser)});
+  }
+  return std::make_unique<DetectionTask>(options, std::move(ready), std::move(repertoire), input.clips);
 }
 
 }  // namespace

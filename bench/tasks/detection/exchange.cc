@@ -81,7 +81,7 @@ Payload TruthPayload(const DetectionWorld& world) {
   Json events = Json::array();
   for (const SessionEvent& event : world.session.events) {
     const FrameInterval window = WindowOf(event, world.stream);
-    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultName(event.fault)},
+    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultNames(event.faults)},
                  {"danced", event.danced}, {"begin_frame", window.begin}, {"end_frame", window.end}};
     if (event.first_right_s) told["first_right_s"] = *event.first_right_s;
     events.push_back(std::move(told));
@@ -109,14 +109,14 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
 
   const std::vector<std::string> moves = NamesOf(repertoire.taught);
   const int frames = static_cast<int>(world.stream.frames.size());
-  std::set<std::pair<std::string, int>> alarms;  // by move, then by time; said twice is said once
+  std::set<std::pair<std::size_t, int>> alarms;  // by move, then by time; said twice is said once
   const Json& said = fields.List("alarms", 0, moves.size() * world.stream.frames.size());
   for (std::size_t i = 0; i < said.size(); ++i) {
     AnswerFields alarm(said[i], fields.PathOf("alarms", i));
     const std::string move = alarm.RequiredChoice("move", moves);
     const int frame = alarm.Integer("frame", 0, frames - 1);
     if (auto done = alarm.Finish(); !done) fields.Note(done.error());
-    if (!IsPerformance(move, frame, world)) alarms.emplace(move, frame);
+    if (!IsPerformance(move, frame, world)) alarms.emplace(repertoire.IndexOf(move), frame);
   }
   for (const auto& [move, frame] : alarms) verdict.alarms.push_back({move, frame});
 

@@ -1,5 +1,6 @@
 #include "bench/tasks/detection/options.h"
 
+#include "bench/keys/setting_fields.h"
 #include "bench/tasks/base/sensor_key.h"
 
 namespace etude {
@@ -7,7 +8,35 @@ namespace {
 
 constexpr Range kShare{0, 1};
 constexpr Range kThresholds{0.01, 1};  // 0 would call everything right
-constexpr Range kHolds{1, 30};
+constexpr Range kLengths{0, 1};        // metres
+
+using Method = DetectionMethod;
+using MethodKey = Field<Method>;
+
+/// What the filters can be set by.
+std::vector<MethodKey> FilterFields() {
+  const auto holt = [](const std::string& key, double HoltOptions::*member, Range range, const std::string& meaning) {
+    const auto value = [member](auto& m) -> auto& { return m.filter.holt.*member; };
+    return MethodKey::Number(key, value, range, meaning).With("filter", {"holt"});
+  };
+  const auto one_euro = [](const std::string& key, double OneEuroOptions::*member, Range range,
+                           const std::string& meaning) {
+    const auto value = [member](auto& m) -> auto& { return m.filter.one_euro.*member; };
+    return MethodKey::Number(key, value, range, meaning).With("filter", {"one-euro"});
+  };
+  return {holt("smoothing", &HoltOptions::smoothing, kShare, "0 follows the raw data; more is calmer and later."),
+          holt("correction", &HoltOptions::correction, kShare, "How fast the trend follows."),
+          holt("prediction_frames", &HoltOptions::prediction_frames, {0, 10},
+               "How many frames ahead the output is, which makes up for the lag of smoothing."),
+          holt("jitter_radius_m", &HoltOptions::jitter_radius_m, kLengths, "A step inside this radius is damped."),
+          holt("max_deviation_radius_m", &HoltOptions::max_deviation_radius_m, kLengths,
+               "The output stays this close to the raw position."),
+          one_euro("min_cutoff_hz", &OneEuroOptions::min_cutoff_hz, {0.01, 100},
+                   "The cut-off at rest: lower is calmer, and later in slow motion."),
+          one_euro("beta_per_m", &OneEuroOptions::beta_per_m, {0, 1000}, "The cut-off gained per metre a second."),
+          one_euro("derivative_cutoff_hz", &OneEuroOptions::derivative_cutoff_hz, {0.01, 100},
+                   "The cut-off of the speed that this goes by.")};
+}
 
 }  // namespace
 
@@ -20,10 +49,24 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
            "How many performances a session holds."),
        Key::Number(
            "fault_share", [](auto& o) -> auto& { return o.session.fault_share; }, kShare,
-           "Which share of them is performed wrong."),
+           "Which share of them has a fault; whether it is wrong is up to how bad the fault is."),
        Key::Number(
-           "skill", [](auto& o) -> auto& { return o.session.skill; }, kShare,
-           "The learner's: 1 is careful, at 0 every deviation is twice as large."),
+           "severity", [](auto& o) -> auto& { return o.session.severity; }, kShare,
+           "How bad every fault is: 0 changes nothing, 1 is as bad as it gets.")
+           .WhenAbsent("(thrown evenly for each)"),
+       Key{{"faults", ListKind("a list of: " + NameKind(FaultNameList()).allowed, NameKind(FaultNameList())), "[]",
+            "The faults that may happen; none named: all."},
+           [](Fields& condition, Options& o) {
+             for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
+               o.session.faults.push_back(FindFault(name));
+             }
+           }},
+       Key::Number(
+           "two_faults", [](auto& o) -> auto& { return o.session.two_faults; }, kShare,
+           "The chance that a performance with a fault has a second one."),
+       Key::Name(
+           "people", [](auto& o) -> auto& { return o.session.people; }, PeopleNames(), FindPeople,
+           "Who dances, another person in every trial; `mixed`: toddlers, school children, adults and experts."),
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),
@@ -39,49 +82,47 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
                   {"chair", OccluderKind::kChair},
                   {"person", OccluderKind::kPerson}},
                  "What stands between the sensor and the performer."),
-       Key::Number(
-           "threshold", [](auto& o) -> auto& { return o.recogniser.threshold; }, kThresholds,
-           "The weighted share of a key pose's angles that must be met; for all methods."),
-       Key::Number(
-           "hold_frames", [](auto& o) -> auto& { return o.recogniser.hold_frames; }, kHolds,
-           "For how many frames in a row a key pose must be met; for all methods.")}};
+       Key::Number("threshold", &Options::threshold, kThresholds,
+                   "The evidence from which on a move counts as performed; for all methods.")
+           .WhenAbsent("(each recogniser's own)")}};
   return table;
 }
 
 const FieldTable<DetectionMethod>& DetectionMethodFields() {
-  using Method = DetectionMethod;
-  using Key = Field<Method>;
-  static const std::vector<std::string> recognisers = {"key-pose"};
-  static const FieldTable<Method> table{
-      {Key::Name(
-           "filter", [](auto& m) -> auto& { return m.filter.kind; }, FilterNames(), FilterOf,
-           "How the sensed joints are smoothed first."),
-       Key::Flags("oracle", {{"stream", &Method::sees_truth}},
-                  "What is replaced by the truth: the skeletons as performed instead of as sensed, so what the sensor "
-                  "costs."),
-       Key{{"recogniser", NameKind(recognisers), recognisers.front(),
-            "How a move is recognised: by passing its key poses in order."},
-           [](Fields& method, Method&) { method.Choice("recogniser", recognisers, recognisers.front()); }},
-       Key::Name(
-           "weights", [](auto& m) -> auto& { return m.recogniser.weights; },
-           {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
-           "How much an angle counts: all alike, or by how well its joints are seen."),
-       Key::Number(
-           "threshold", [](auto& m) -> auto& { return m.recogniser.threshold; }, kThresholds,
-           "The weighted share of a key pose's angles that must be met.")
-           .WhenAbsent("(the scenario's)"),
-       Key::Number(
-           "hold_frames", [](auto& m) -> auto& { return m.recogniser.hold_frames; }, kHolds,
-           "For how many frames in a row it must be met.")
-           .WhenAbsent("(the scenario's)"),
-       Key::Number(
-           "inferred_weight", [](auto& m) -> auto& { return m.recogniser.inferred_weight; }, kShare,
-           "What an angle with an inferred joint counts.")
-           .With("weights", {"adaptive"}),
-       Key::Number(
-           "not_tracked_weight", [](auto& m) -> auto& { return m.recogniser.not_tracked_weight; }, kShare,
-           "What an angle with a joint that is not tracked counts.")
-           .With("weights", {"adaptive"})}};
+  static const FieldTable<Method> table = [] {
+    std::vector<MethodKey> fields = {MethodKey::Name(
+        "filter", [](auto& m) -> auto& { return m.filter.kind; }, FilterNames(), FilterOf,
+        "How the sensed joints are smoothed first.")};
+    for (MethodKey& field : FilterFields()) fields.push_back(std::move(field));
+    fields.push_back(MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
+                                      "What is replaced by the truth: the skeletons as performed instead of as sensed, "
+                                      "so what the sensor costs."));
+    fields.push_back(MethodKey::Name(
+        "recogniser", [](auto& m) -> auto& { return m.recogniser.kind; }, RecogniserNames(), FindRecogniser,
+        "How a move is recognised."));
+    const auto settings = [](auto& m) -> auto& { return m.recogniser.settings; };
+    for (auto& field : SettingFields<Method>("recogniser", AllRecognisers(), settings)) {
+      fields.push_back(std::move(field));
+    }
+    fields.push_back(MethodKey::Name(
+        "weights", [](auto& m) -> auto& { return m.recogniser.weights.weighting; },
+        {{"fixed", Weighting::kFixed}, {"adaptive", Weighting::kAdaptive}},
+        "How much what is seen counts: all alike, or by how well its joints are seen."));
+    fields.push_back(MethodKey::Number(
+                         "inferred_weight", [](auto& m) -> auto& { return m.recogniser.weights.inferred_weight; },
+                         kShare, "What counts that needs an inferred joint; a tracked one is 1.")
+                         .With("weights", {"adaptive"}));
+    fields.push_back(MethodKey::Number(
+                         "not_tracked_weight", [](auto& m) -> auto& { return m.recogniser.weights.not_tracked_weight; },
+                         kShare, "What counts that needs a joint that is not tracked.")
+                         .With("weights", {"adaptive"}));
+    fields.push_back(MethodKey::Number("threshold", &Method::threshold, kThresholds,
+                                       "The evidence from which on a move counts as performed.")
+                         .WhenAbsent("(the scenario's, else the recogniser's own)"));
+    fields.push_back(MethodKey::Number("refractory_s", &Method::refractory_s, {0, 60},
+                                       "For how long a move that was spotted is not spotted again."));
+    return FieldTable<Method>{std::move(fields)};
+  }();
   return table;
 }
 

@@ -5,7 +5,8 @@
 
 #include "bench/keys/field_table.h"
 #include "engine/recognition/filters.h"
-#include "engine/recognition/key_pose.h"
+#include "engine/recognition/recognise.h"
+#include "engine/recognition/recognisers.h"
 #include "sim/performer/session.h"
 #include "sim/skeleton_sensor/options.h"
 
@@ -17,8 +18,9 @@ enum class OccluderKind { kNone, kTable, kChair, kPerson };
 /// One condition of a detection scenario: who dances, and how well the sensor sees it.
 ///
 ///     events: 8        # performances in one session
-///     fault_share: 0.5 # of them are wrong
-///     skill: 1         # 1 = careful learner, 0 = sloppy
+///     people: mixed    # who dances: toddler, school-child, adult, expert, absent, or a mixture
+///     fault_share: 0.5 # of them have a fault
+///     severity: 0.7    # of every fault; else thrown
 ///     noise: 1         # times every error of the sensor
 ///     sensor: v2       # which sensor: v1, v2 or a sensor file
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
@@ -31,21 +33,27 @@ struct DetectionOptions {
   std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  KeyPoseOptions recogniser;  ///< what methods begin with
+  std::optional<double> threshold;  ///< of methods that say none of their own
 };
 
 /// One way from stream to verdict.
 ///
-///     - {name: adaptive, filter: holt, recogniser: key-pose, weights: adaptive, threshold: 0.8}
+///     - {name: adaptive, filter: holt, recogniser: key-pose, weights: adaptive, threshold: 0.5}
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
   bool sees_truth = false;  ///< `oracle: [stream]`
-  KeyPoseOptions recogniser;
+  RecogniserOptions recogniser;
+  std::optional<double> threshold;  ///< else the recogniser's own
+  double refractory_s = DecisionOptions{}.refractory_s;
+
+  DecisionOptions Decision() const {
+    return {.threshold = threshold.value_or(recogniser.kind->threshold), .refractory_s = refractory_s};
+  }
 };
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
-/// `threshold` and `hold_frames` may stand in the condition for all methods, which makes these two sweepable.
+/// `threshold` may stand in the condition for all methods, which makes it sweepable.
 const FieldTable<DetectionMethod>& DetectionMethodFields();
 
 }  // namespace etude

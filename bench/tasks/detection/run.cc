@@ -7,14 +7,21 @@ SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method
 }
 
 Result<SessionVerdict> JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                                    const DetectionMethod& method) {
+                                    const Recogniser& recogniser, const DecisionOptions& decision) {
   std::vector<AskedMove> asked;
-  for (const SessionEvent& event : world.session.events) asked.push_back({event.move, WindowOf(event, world.stream)});
-  ASSIGN_OR_RETURN(Recognition recognition,
-                   Recognise({.seen = seen, .asked = asked, .taught = repertoire.taught}, method.recogniser));
-  std::erase_if(recognition.detections,
-                [&](const Detection& detection) { return IsPerformance(detection.move, detection.frame, world); });
-  return SessionVerdict{seen.filtered, std::move(recognition.judgements), std::move(recognition.detections)};
+  for (const SessionEvent& event : world.session.events) {
+    asked.push_back({repertoire.IndexOf(event.move), WindowOf(event, world.stream)});
+  }
+  ASSIGN_OR_RETURN(const EvidenceTrace trace, FollowStream(recogniser, repertoire.taught.size(), seen, asked));
+  SessionVerdict verdict{.filtered = seen.filtered, .events = {}, .alarms = {}};
+  for (const AskedMove& move : asked) {
+    verdict.events.push_back(JudgeWindow(trace, move.window, decision.threshold));
+  }
+  verdict.alarms = FindMoves(trace, seen.filtered.rate_hz, decision);
+  std::erase_if(verdict.alarms, [&](const Detection& detection) {
+    return IsPerformance(repertoire.taught[detection.move].name, detection.frame, world);
+  });
+  return verdict;
 }
 
 }  // namespace etude

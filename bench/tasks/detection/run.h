@@ -5,6 +5,7 @@
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/world.h"
 #include "engine/recognition/recognise.h"
+#include "engine/recognition/recognisers.h"
 
 namespace etude {
 
@@ -12,16 +13,15 @@ namespace etude {
 struct SessionVerdict {
   SkeletonStream filtered;
   std::vector<Judgement> events;  ///< one per event; frames count from its window's first
-  std::vector<Detection> alarms;  ///< false ones: by move, then by time
+  std::vector<Detection> alarms;  ///< false ones: by move (Repertoire::taught), then by time
 };
 
 /// Filters what the sensor saw, or, for an oracle, how it was truly performed.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
-/// Lets the method judge every event in its window and look for all moves through the whole session
-/// (engine/recognition, which is told what was asked for and when), then keeps the false alarms. `seen` must be what
-/// the method sees of the world.
+/// Lets the method's recogniser follow the whole session (it is told what is asked for when its window opens), then
+/// keeps the false alarms. `seen` must be what the method sees of the world.
 Result<SessionVerdict> JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                                    const DetectionMethod& method);
+                                    const Recogniser& recogniser, const DecisionOptions& decision);
 
 }  // namespace etude

@@ -38,7 +38,7 @@ void AddPose(Digest& digest, const BodyPose& pose) {
 std::string SessionDigest(const Performance& session) {
   Digest digest;
   for (const SessionEvent& event : session.events) {
-    digest.Add(event.move).Add(event.danced).Add(FaultName(event.fault)).Add(event.start_s).Add(event.end_s);
+    digest.Add(event.move).Add(event.danced).Add(FaultNames(event.faults)).Add(event.start_s).Add(event.end_s);
     digest.Add(event.first_right_s.value_or(-1));
   }
   for (const BodyPose& pose : session.motion.poses) AddPose(digest, pose);
@@ -55,12 +55,14 @@ std::string StreamDigest(const SkeletonStream& stream) {
   return digest.Hex();
 }
 
-std::string EventsDigest(const SessionVerdict& verdict) {
+std::string EventsDigest(const SessionVerdict& verdict, const Repertoire& repertoire) {
   Digest digest;
   for (const Judgement& judgement : verdict.events) {
     digest.Add(std::int64_t{judgement.recognised_at.value_or(-1)}).Add(judgement.score);
   }
-  for (const Detection& alarm : verdict.alarms) digest.Add(alarm.move).Add(std::int64_t{alarm.frame});
+  for (const Detection& alarm : verdict.alarms) {
+    digest.Add(repertoire.taught[alarm.move].name).Add(std::int64_t{alarm.frame});
+  }
   return digest.Hex();
 }
 
@@ -94,8 +96,8 @@ StageDigests WorldDigests(const DetectionWorld& world) {
   return {{"session", SessionDigest(world.session)}, {"stream", StreamDigest(world.stream)}};
 }
 
-StageDigests VerdictDigests(const SessionVerdict& verdict) {
-  return {{"filtered", StreamDigest(verdict.filtered)}, {"events", EventsDigest(verdict)}};
+StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire) {
+  return {{"filtered", StreamDigest(verdict.filtered)}, {"events", EventsDigest(verdict, repertoire)}};
 }
 
 std::string StateLetters(const SensedFrame& frame) {
@@ -117,14 +119,14 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
   return series;
 }
 
-Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict) {
+Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {
   nlohmann::ordered_json extras = {{"format", "etude-detection"}, {"version", 1}};
   extras["events"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const SessionEvent& event = world.session.events[i];
     const Judgement& judgement = verdict.events[i];
     const FrameInterval window = WindowOf(event, world.stream);
-    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultName(event.fault)},
+    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultNames(event.faults)},
                                    {"danced", event.danced},  {"begin_frame", window.begin},
                                    {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},
                                    {"score", judgement.score}};
@@ -133,7 +135,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
   }
   extras["alarms"] = nlohmann::ordered_json::array();
   for (const Detection& alarm : verdict.alarms) {
-    extras["alarms"].push_back({{"move", alarm.move}, {"frame", alarm.frame}});
+    extras["alarms"].push_back({{"move", repertoire.taught[alarm.move].name}, {"frame", alarm.frame}});
   }
   extras["joint_states"] = nlohmann::ordered_json::array();
   for (const SensedFrame& frame : world.stream.frames) extras["joint_states"].push_back(StateLetters(frame));

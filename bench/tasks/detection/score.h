@@ -28,7 +28,7 @@ using StageDigests = std::vector<std::pair<std::string, std::string>>;
 /// Fingerprints of the session and of the stream: the same for every method.
 StageDigests WorldDigests(const DetectionWorld& world);
 /// Fingerprints of the filtered stream and of the verdicts.
-StageDigests VerdictDigests(const SessionVerdict& verdict);
+StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire);
 
 /// One letter per joint: tracked, inferred, not tracked.
 std::string StateLetters(const SensedFrame& frame);
@@ -45,6 +45,6 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 ///      "joint_states": ["tttttttttttttttiiiii", …]}   one letter per joint and frame: tracked, inferred, not tracked
 ///
 /// `called_frame` is absent when the move was not recognised.
-Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict);
+Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire);
 
 }  // namespace etude

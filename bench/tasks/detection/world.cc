@@ -13,14 +13,11 @@
 namespace etude {
 namespace {
 
-/// One performance at the taught tempo, and half a second for the slow.
-int SpanFrames(const Move& move) {
-  const double seconds = 60.0 * move.beats / move.tempo_bpm + 0.5;
-  return static_cast<int>(std::ceil(seconds * kJudgedRateHz));
-}
-
 TaughtMove Teach(const Move& move) {
-  TaughtMove taught{.name = move.name, .poses = {}, .span_frames = SpanFrames(move)};
+  constexpr double kForTheSlow = 0.5;  // seconds beyond one performance at the taught tempo
+  TaughtMove taught{.name = move.name,
+                    .span_s = 60.0 * move.beats / move.tempo_bpm + kForTheSlow,
+                    .examples = {StreamOf(move.motion)}};
   for (const KeyPose& key_pose : move.key_poses) {
     TaughtPose& pose = taught.poses.emplace_back();
     for (const KeyPose::Target& target : key_pose.targets) {
@@ -45,13 +42,20 @@ Repertoire RepertoireOf(const ClipLibrary& library) {
   return repertoire;
 }
 
+std::size_t Repertoire::IndexOf(std::string_view move) const {
+  const TaughtMove* found = FindByName(taught, move);
+  assert(found != nullptr);
+  return static_cast<std::size_t>(found - taught.data());
+}
+
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key) {
   RandomStream plan_dice(key, "session-plan");
   RandomStream dance_dice(key, "session-dance");
   RandomStream place_dice(key, "sensor-place");
-  const SessionPlan plan = PlanSession(plan_dice, repertoire.moves, options.session);
+  const Person person = DrawPerson(key, options.session.people);
+  const SessionPlan plan = PlanSession(plan_dice, repertoire.moves, person, options.session);
   DetectionWorld world;
-  world.session = Perform(dance_dice, repertoire.moves, plan, options.session);
+  world.session = Perform(dance_dice, repertoire.moves, person, plan);
 
   // The distance at which Kinect's makers ask players to stand, roughly.
   constexpr double kNearest = 2.5, kFarthest = 3.0;

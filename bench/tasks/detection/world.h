@@ -6,6 +6,7 @@
 #include "bench/clips/clip_library.h"
 #include "bench/tasks/detection/options.h"
 #include "engine/recognition/recognise.h"
+#include "engine/recognition/taught_move.h"
 #include "sim/performer/session.h"
 
 namespace etude {
@@ -14,6 +15,9 @@ namespace etude {
 struct Repertoire {
   std::vector<Move> moves;
   std::vector<TaughtMove> taught;  ///< sorted by name
+
+  /// Of a taught move's name.
+  std::size_t IndexOf(std::string_view move) const;
 };
 
 /// The labelled clips of the library, each move once. Empty when there are none.

@@ -4,11 +4,11 @@
 
 namespace etude {
 
-MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
-                          const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
+MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
+                                   const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
   MotionLibrary library{.proportions = proportions,
                         .names = std::move(names),
-                        .motions = PerformedBy(proportions, clips),
+                        .motions = std::move(motions),
                         .tagged = {},
                         .features = {},
                         .in_betweens = {}};
@@ -17,6 +17,11 @@ MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMo
   library.in_betweens =
       BuildInBetweens(library.tagged, {.weights = rules.weights, .threshold = kPaperThreshold, .tween = tween});
   return library;
+}
+
+MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
+                          const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
+  return MakeLibraryOfOneBody(std::move(names), PerformedBy(proportions, clips), proportions, rules, tween);
 }
 
 }  // namespace etude

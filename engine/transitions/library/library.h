@@ -21,8 +21,13 @@ struct MotionLibrary {
   InBetweenNet in_betweens;
 };
 
-/// Makes a library of clips as they came: has them performed by one body, tags them by `rules`, and builds in-betweens
+/// Makes a library of motions that one body performs already, at 30 Hz: tags them by `rules`, and builds in-betweens
 /// that move by `tween`.
+MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<BodyMotion> motions,
+                                   const BodyProportions& proportions, const TagRules& rules = {},
+                                   const TweenRules& tween = {});
+
+/// Makes a library of clips as they came: has them performed by one body, and goes on as MakeLibraryOfOneBody.
 MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions, const TagRules& rules = {}, const TweenRules& tween = {});
 

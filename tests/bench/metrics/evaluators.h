@@ -25,5 +25,6 @@ std::span<const Evaluator> TransitionEvaluators();  ///< matching, too
 std::span<const Evaluator> SearchEvaluators();
 std::span<const Evaluator> PoseDistanceEvaluators();
 std::span<const Evaluator> DetectionEvaluators();
+std::span<const Evaluator> CoachEvaluators();
 
 }  // namespace etude

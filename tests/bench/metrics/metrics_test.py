@@ -12,7 +12,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "cli"), str(ROOT / "tests" / "support")]
 import second_implementation as second  # noqa: E402
-from independent import capture, common, detection, ik, pose_distance, search, tracking, transition  # noqa: E402
+from independent import capture, coach, common, detection, ik, pose_distance, search, tracking, transition  # noqa: E402
 from etude_case import IK, EtudeCase  # noqa: E402
 from json_schema import complaints, load_schema, own_complaints  # noqa: E402
 
@@ -91,6 +91,19 @@ MUTANTS = {
     "limits to a hundredth of a degree": (ik, {"ROUNDING": 0.01}, ["limit_violations"]),
     "limits to the last bit": (ik, {"ROUNDING": 0}, ["limit_violations"]),
     "PAR-10": (ik, {"PENALTY": 10}, ["iterations_par2", "fk_evaluations_par2"]),
+    "answered whenever": (coach, {"next_end": lambda given, i: given["frames"]}, [
+        "corrections_missed_per_min", "answered_share"]),
+    "answered before the next one begins": (coach, {"next_end": lambda given, i: given["performances"][i]["end_frame"]}, [
+        "corrections_missed_per_min", "answered_share"]),
+    "grey for right": (coach, {"is_right": lambda truth: truth != "wrong"}, [
+        "corrections_unneeded_per_min", "repetitions_until_right", "retention"]),
+    "grey for wrong": (coach, {"is_wrong": lambda truth: truth != "right"}, [
+        "corrections_due_per_min", "answered_share", "decision_delay_s", "retention"]),
+    "corrections that nothing caused are needed": (coach, {"uncaused": False}, ["corrections_unneeded_per_min"]),
+    "what was given up left out": (coach, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
+        [time for time, happened in waits if happened])}, [
+            "repetitions_until_right"]),
+    "the mean beat error": (coach, {"PERCENTILE": 0.5}, ["beat_error_ms", "switch_natural_share"]),
     "ties lost": (detection, {"tie_credit": lambda: 0.0}, ["roc_auc"]),
     "misses left out": (detection, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
         [seconds for seconds, called in waits if called])}, ["latency_s"]),

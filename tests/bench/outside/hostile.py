@@ -20,7 +20,8 @@ def say(**message):
 
 
 def answer(problem, **instead):
-    say(**{"type": "answer", "id": problem["id"], "answer": ANSWER} | instead)
+    number = {"number": problem["number"]} if "number" in problem else {}
+    say(**{"type": "answer", "id": problem["id"], "answer": ANSWER} | number | instead)
 
 
 def crashes(problem):
@@ -134,6 +135,28 @@ def refuses_what_it_does_not_know(problem):
     prints_garbage(problem) if "of_a_later_version" in problem["problem"] else answer(problem)
 
 
+def at_step(number, then):
+    """Behaves until this step of a session."""
+    def step(message):
+        if message["type"] == "step" and message["number"] == number:
+            then(message)
+        else:
+            answer(message)
+    return step
+
+
+dies_in_a_session = at_step(2, lambda step: sys.exit("out of luck"))
+hangs_in_a_session = at_step(2, hangs)
+prints_garbage_in_a_session = at_step(2, prints_garbage)
+answers_a_session_twice = at_step(2, answers_twice)
+answers_another_step = at_step(2, lambda step: answer(step, number=1))
+gives_up_in_a_session = at_step(2, lambda step: gives_up(step))
+
+
+def says_no_number(message):
+    say(type="answer", id=message["id"], answer=ANSWER)
+
+
 def gives_up(problem):
     say(type="no_answer", id=problem["id"], reason="no way\nout")
 
@@ -157,6 +180,8 @@ def main(behaviour):
         elif message["type"] == "setting":
             if behaviour == "dies_at_a_setting" and message["id"] == "fatal":
                 sys.exit(7)
+            say(type="ready")
+        elif message["type"] == "begin" and behaviour != "answers_the_beginning":
             say(type="ready")
         else:
             globals().get(behaviour, is_good)(message)

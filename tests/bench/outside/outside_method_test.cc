@@ -227,5 +227,67 @@ TEST(OutsideMethod, AttachmentsLieInAFolderWhileItWorks) {
   EXPECT_FALSE(std::filesystem::exists((*reply.answer)["folder"].get<std::string>()));
 }
 
+OutsideReply Begin(OutsideMethod& method, const std::string& id = "session") {
+  return method.Begin("s", Show({{"size", 1}}), id, Show({{"rate_hz", 30}}));
+}
+
+TEST(LiveSession, GoesOnStepByStepInOneLife) {
+  OutsideMethod method(Behaving("is_good"));
+  for (const char* id : {"first", "second"}) {
+    ASSERT_EQ(Begin(method, id).status, Status::kOk);
+    for (int i = 0; i < 200; ++i) {
+      const OutsideReply reply = method.Step({{"pose", i}});
+      ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+      EXPECT_EQ(reply.answer->dump(), R"({"number":1})");
+    }
+  }
+  EXPECT_EQ(Ask(method).status, Status::kOk) << "a problem ends the session";
+  EXPECT_EQ(method.End(5000), "exit code 0");
+}
+
+class HostileInASession : public ::testing::TestWithParam<Hostility> {};
+
+TEST_P(HostileInASession, EndsTheSessionAndTheNextOneBeginsAnew) {
+  const Hostility& hostility = GetParam();
+  OutsideOptions options = Behaving(hostility.behaviour);
+  if (hostility.status == Status::kTimeout) options.time_s = 0.1;
+  OutsideMethod method(options);
+  for (int session = 0; session < 2; ++session) {
+    ASSERT_EQ(Begin(method).status, Status::kOk);
+    for (int i = 0; i < 2; ++i) ASSERT_EQ(method.Step(Json::object()).status, Status::kOk);
+    const OutsideReply reply = method.Step(Json::object());
+    EXPECT_EQ(StatusName(reply.status), StatusName(hostility.status));
+    EXPECT_THAT(reply.reason, StartsWith(hostility.reason));
+    EXPECT_EQ(reply.answer, nullptr);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OutsideMethod, HostileInASession,
+    ::testing::Values(
+        Hostility{"dies_in_a_session", Status::kCrashed, "ended with exit code 1; its last words: 'out of luck'"},
+        Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
+        Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
+                  "at step 2: said something that is not JSON: 'loading model"},
+        Hostility{"answers_a_session_twice", Status::kBadOutput, "said more than one line: "},
+        Hostility{"answers_another_step", Status::kBadOutput, "at step 2: answered another step than 2: "},
+        Hostility{"gives_up_in_a_session", Status::kUnsolved, "gave no answer: 'no way\\x0aout'"}),
+    [](const auto& tested) { return tested.param.behaviour; });
+
+TEST(LiveSession, AnswersAreToSayTheirStep) {
+  OutsideMethod method(Behaving("says_no_number"));
+  ASSERT_EQ(Begin(method).status, Status::kOk);
+  const OutsideReply reply = method.Step(Json::object());
+  EXPECT_EQ(reply.status, Status::kBadOutput);
+  EXPECT_THAT(reply.reason, StartsWith("at step 0: answered another step than 0: "));
+}
+
+TEST(LiveSession, ABeginningIsRepliedToWithReady) {
+  OutsideMethod method(Behaving("answers_the_beginning"));
+  const OutsideReply reply = Begin(method);
+  EXPECT_EQ(reply.status, Status::kBadOutput);
+  EXPECT_THAT(reply.reason, StartsWith("said no 'ready': "));
+}
+
 }  // namespace
 }  // namespace etude

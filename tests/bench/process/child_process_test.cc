@@ -168,6 +168,23 @@ TEST(ChildProcess, RunsInThePinnedEnvironmentWhateverOursIs) {
   ::setenv("LP_NUM_THREADS", "0", 1);
 }
 
+// What turns other knobs of the renderer, the loader or the libraries stays outside; the rest of a closed environment
+// is made of two lists.
+TEST(ChildProcess, TakesNothingFromTheShellThatIsNotOnTheList) {
+  const std::vector<std::string> knobs = {
+      "LP_PERF",          "GALLIUM_DRIVER", "LP_NATIVE_VECTOR_WIDTH", "OPENBLAS_NUM_THREADS", "LD_BIND_NOW",
+      "MALLOC_ARENA_MAX", "LANG",           "ETUDE_RESTARTED"};
+  for (const std::string& name : knobs) ::setenv(name.c_str(), "1", 1);
+  ::setenv("TERM", "dumb", 1);
+  ChildProcess child = Shell("env");
+  const auto lines = LinesUntilEnd(child);
+  for (const std::string& name : knobs) {
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), name + "=1"), 0) << name;
+    ::unsetenv(name.c_str());
+  }
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "TERM=dumb"), 1) << "the control: what may pass does";
+}
+
 TEST(PinnedEnvironment, IsWhatTheTestsThemselvesRunIn) {
   for (const std::string& setting : PinnedEnvironment()) {
     const std::string name = setting.substr(0, setting.find('='));

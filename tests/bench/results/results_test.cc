@@ -8,6 +8,7 @@
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
+#include "bench/results/seal.h"
 #include "bench/results/summary_json.h"
 
 namespace etude {
@@ -199,18 +200,20 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json",
                                   fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
   ASSERT_TRUE(WriteFileAtomically(folder / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
-  ASSERT_TRUE(LoadRun(folder)) << ToString(LoadRun(folder).error());
-  EXPECT_TRUE(LoadRun(folder)->cpu_seconds.empty()) << "a folder may tell of no times";
+  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("seal.json: is missing"));
+  const auto load = [&] { return LoadRun(folder, Sealing::kIgnored); };
+  ASSERT_TRUE(load()) << ToString(load().error());
+  EXPECT_THAT(load()->unsealed, HasSubstr("seal.json: is missing"));
+  EXPECT_TRUE(load()->cpu_seconds.empty()) << "a folder may tell of no times";
   ASSERT_TRUE(WriteFileAtomically(folder / "timings.jsonl", "{\"cell\":\"x\",\"cpu_s\":0.25}\n"));
-  EXPECT_EQ(LoadRun(folder)->cpu_seconds, (std::map<std::string, double>{{"x", 0.25}}));
+  EXPECT_EQ(load()->cpu_seconds, (std::map<std::string, double>{{"x", 0.25}}));
   ASSERT_TRUE(WriteFileAtomically(folder / "timings.jsonl", "{\"cell\":\"x\",\"cpu_s\":0.25}\n{\"cell\":\"y\"}\n"));
-  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("timings.jsonl:2: not a line of times"));
+  EXPECT_THAT(ToString(load().error()), HasSubstr("timings.jsonl:2: not a line of times"));
   std::filesystem::remove(folder / "timings.jsonl");
   std::ofstream(folder / "cells.jsonl", std::ios::app) << R"({"cell":"x","scen)";
-  EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("cells.jsonl:2: not valid JSON"));
+  EXPECT_THAT(ToString(load().error()), HasSubstr("cells.jsonl:2: not valid JSON"));
   ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json", R"({"schema":99})"));
-  EXPECT_THAT(ToString(LoadRun(folder).error()),
-              HasSubstr(fmt::format("schema 99; this program reads {}", kResultSchema)));
+  EXPECT_THAT(ToString(load().error()), HasSubstr(fmt::format("schema 99; this program reads {}", kResultSchema)));
 }
 
 TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {
@@ -219,6 +222,33 @@ TEST(Rows, NeverTakeASweptParameterForAMetricOfTheSameName) {
   ASSERT_TRUE(read);
   EXPECT_EQ(ValueOf(*read, "wait_s"), std::nullopt);
   EXPECT_EQ(read->condition, row.condition);
+}
+
+TEST(Seal, HoldsUntilAnythingTheRunWroteChanges) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "etude_sealed_run";
+  std::filesystem::remove_all(folder);
+  const auto cells = folder / "cells.jsonl", series = folder / "series" / "ik.jsonl";
+  ASSERT_TRUE(WriteFileAtomically(cells, "one\n"));
+  ASSERT_TRUE(WriteFileAtomically(series, "two\n"));
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("seal.json: is missing"));
+  ASSERT_TRUE(SealRun(folder));
+  EXPECT_TRUE(CheckSeal(folder));
+
+  ASSERT_TRUE(WriteFileAtomically(folder / "report" / "index.html", "made from results"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "video" / "a.mp4", "likewise"));
+  EXPECT_TRUE(CheckSeal(folder));
+
+  ASSERT_TRUE(WriteFileAtomically(series, "twp\n"));
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("ik.jsonl: is not as the run wrote it"));
+  std::filesystem::remove(series);
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("ik.jsonl: is missing"));
+  ASSERT_TRUE(WriteFileAtomically(series, "two\n"));
+  ASSERT_TRUE(WriteFileAtomically(folder / "more.json", "{}"));
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("more.json: was not written by the run"));
+  std::filesystem::remove(folder / "more.json");
+  EXPECT_TRUE(CheckSeal(folder));
+  ASSERT_TRUE(WriteFileAtomically(folder / "seal.json", "{\"version\": 7}"));
+  EXPECT_THAT(ToString(CheckSeal(folder).error()), HasSubstr("a seal of version 7"));
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ TEST(KinectText, NamesTheLineOfWhatItRefuses) {
   EXPECT_TRUE(ComplaintOf(good + "\n\n# remark\n" + good + " 5\n").starts_with("k.txt:4: 176 values"))
       << ComplaintOf(good + "\n\n# remark\n" + good + " 5\n");
   EXPECT_TRUE(ComplaintOf(good + "\n" + Row(0, true).replace(0, 3, "0,1")).starts_with("k.txt:2: "));
-  EXPECT_TRUE(ComplaintOf(good + "\nx" + good.substr(1)).starts_with("k.txt:2: value 1: "));
-  EXPECT_TRUE(ComplaintOf(good + "\ninf" + good.substr(3)).starts_with("k.txt:2: value 1: "));
+  EXPECT_TRUE(ComplaintOf(good + "\nx" + good.substr(1)).starts_with("k.txt:2:1: value 1"));
+  EXPECT_TRUE(ComplaintOf(good + "\ninf" + good.substr(3)).starts_with("k.txt:2:1: value 1"));
   EXPECT_TRUE(ComplaintOf(Row(0, true) + "\n" + Row(4000, true)).starts_with("k.txt:2: joint 0 is 4000"));
   EXPECT_NE(ComplaintOf("1 2 3\n").find("3 values in a row; a Kinect v2 recording has 75"), std::string::npos);
   EXPECT_EQ(ComplaintOf(""), "k.txt: no rows of numbers");

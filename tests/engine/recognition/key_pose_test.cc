@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "engine/recognition/pose_sequence.h"
+
 namespace etude {
 namespace {
-
-/// "Right arm up, then down", each within 20°.
-TaughtMove UpAndDown(int span_frames = 1000) {
-  return {
-      .name = "up-down", .poses = {{{{Feature::kRH, 180, 20}}}, {{{Feature::kRH, 0, 20}}}}, .span_frames = span_frames};
-}
 
 FeatureFrame ArmAt(double degrees, TrackingState state = TrackingState::kTracked) {
   FeatureFrame frame;
@@ -19,127 +17,117 @@ FeatureFrame ArmAt(double degrees, TrackingState state = TrackingState::kTracked
   return frame;
 }
 
-std::vector<FeatureFrame> Arm(const std::vector<double>& degrees) {
-  std::vector<FeatureFrame> frames;
-  for (double angle : degrees) frames.push_back(ArmAt(angle));
-  return frames;
+const TaughtPose kArmUp{{{Feature::kRH, 180, 20}}};
+
+TEST(MatchOf, IsOneForPerfectAndOneHalfAtTheTolerance) {
+  EXPECT_DOUBLE_EQ(MatchOf(ArmAt(180), kArmUp, {}, {}), 1.0);
+  EXPECT_DOUBLE_EQ(MatchOf(ArmAt(160), kArmUp, {}, {}), 0.5);
+  EXPECT_LT(MatchOf(ArmAt(159.9), kArmUp, {}, {}), 0.5);
+  EXPECT_DOUBLE_EQ(MatchOf(ArmAt(140), kArmUp, {}, {}), 0.2);
 }
 
-TEST(KeyPoseRecogniser, AnswersInTheFrameThatHoldsTheLastPoseLongEnough) {
-  const auto frames = Arm({90, 170, 170, 170, 90, 10, 10, 10, 10});
-  EXPECT_EQ(JudgeWindow(frames, UpAndDown(), {.hold_frames = 3}).recognised_at, 7);
-  EXPECT_EQ(JudgeWindow(frames, UpAndDown(), {.hold_frames = 1}).recognised_at, 5);
-  EXPECT_FALSE(JudgeWindow(frames, UpAndDown(), {.hold_frames = 4}).recognised_at);
+TEST(MatchOf, ScalesTolerances) {
+  EXPECT_DOUBLE_EQ(MatchOf(ArmAt(156), kArmUp, {}, {.tolerance_scale = 1.2}), 0.5);
+  EXPECT_DOUBLE_EQ(MatchOf(ArmAt(170), kArmUp, {}, {.tolerance_scale = 0.5}), 0.5);
 }
 
-TEST(KeyPoseRecogniser, DemandsTheTaughtOrder) {
-  EXPECT_FALSE(JudgeWindow(Arm({10, 10, 10, 90, 170, 170, 170}), UpAndDown(), {.hold_frames = 3}).recognised_at);
-}
-
-TEST(KeyPoseRecogniser, SkipsFramesWithoutABodyAndBreaksOnFramesWithAWrongPose) {
-  auto lost = Arm({170, 170, 170, 170, 10, 10, 10, 10});
-  lost[1].body_seen = false;
-  EXPECT_EQ(JudgeWindow(lost, UpAndDown(), {.hold_frames = 3}).recognised_at, 6);
-  auto broken = Arm({170, 170, 90, 170, 10, 10, 10, 10});
-  EXPECT_FALSE(JudgeWindow(broken, UpAndDown(), {.hold_frames = 3}).recognised_at);
-}
-
-TEST(KeyPoseRecogniser, CountsToleranceInclusively) {
-  const TaughtMove move{.name = "up", .poses = {{{{Feature::kRH, 180, 20}}}}};
-  EXPECT_TRUE(JudgeWindow(Arm({160, 160, 160}), move, {.hold_frames = 3}).recognised_at);
-  EXPECT_FALSE(JudgeWindow(Arm({159.9, 159.9, 159.9}), move, {.hold_frames = 3}).recognised_at);
+TEST(MatchOf, GoesByTheWorstOfTheAnglesWanted) {
+  TaughtPose four = kArmUp;
+  for (Feature feature : {Feature::kLH, Feature::kRHE, Feature::kLHE}) four.targets.push_back({feature, 0, 20});
+  FeatureFrame frame = ArmAt(180);
+  frame.features[Feature::kLHE] = 40;
+  EXPECT_DOUBLE_EQ(MatchOf(frame, four, {}, {.pose_share = 0.8}), 0.2);
+  EXPECT_DOUBLE_EQ(MatchOf(frame, four, {}, {.pose_share = 0.75}), 1.0) << "three of four will do";
 }
 
 /// Both arms up; the left one is at 0°, thus wrong, and seen as `state`.
-double ShareWithWrongLeftArm(TrackingState state, Weighting weights) {
+double MatchWithWrongLeftArm(TrackingState state, const SightWeights& weights) {
   const TaughtPose both{{{Feature::kRH, 180, 20}, {Feature::kLH, 180, 20}}};
   FeatureFrame frame = ArmAt(180);
   frame.states[static_cast<std::size_t>(Feature::kLH)] = state;
-  return MatchedShare(frame, both, {.weights = weights});
+  return MatchOf(frame, both, weights, {.pose_share = 0.76});
 }
 
-TEST(Weights, CountFixedFeaturesAlikeAndAdaptiveOnesByTheirTracking) {
+TEST(Weights, CountFixedAnglesAlikeAndAdaptiveOnesByTheirTracking) {
   using enum TrackingState;
-  for (TrackingState state : {kTracked, kInferred, kNotTracked}) {
-    EXPECT_DOUBLE_EQ(ShareWithWrongLeftArm(state, Weighting::kFixed), 0.5);
-  }
-  EXPECT_DOUBLE_EQ(ShareWithWrongLeftArm(kTracked, Weighting::kAdaptive), 0.5);
-  EXPECT_DOUBLE_EQ(ShareWithWrongLeftArm(kInferred, Weighting::kAdaptive), 1.0 / 1.3);
-  EXPECT_DOUBLE_EQ(ShareWithWrongLeftArm(kNotTracked, Weighting::kAdaptive), 1.0);
+  const SightWeights adaptive{.weighting = Weighting::kAdaptive};
+  for (TrackingState state : {kTracked, kInferred, kNotTracked}) EXPECT_LT(MatchWithWrongLeftArm(state, {}), 0.02);
+  EXPECT_LT(MatchWithWrongLeftArm(kTracked, adaptive), 0.02);
+  EXPECT_EQ(MatchWithWrongLeftArm(kInferred, adaptive), 1.0) << "1 of 1.3 is more than .76";
+  EXPECT_EQ(MatchWithWrongLeftArm(kNotTracked, adaptive), 1.0);
 }
 
 TEST(Weights, NeverMakeAPoseOfNothingSeen) {
-  const TaughtPose pose{{{Feature::kRH, 180, 20}}};
   const FeatureFrame unseen = ArmAt(180, TrackingState::kNotTracked);
-  EXPECT_EQ(MatchedShare(unseen, pose, {.weights = Weighting::kAdaptive}), 0.0);
-  EXPECT_EQ(SoftMatch(unseen, pose, {.weights = Weighting::kAdaptive}), 0.0);
-  EXPECT_EQ(MatchedShare(unseen, pose, {.weights = Weighting::kFixed}), 1.0);
+  EXPECT_EQ(MatchOf(unseen, kArmUp, {.weighting = Weighting::kAdaptive}, {}), 0.0);
+  EXPECT_EQ(MatchOf(unseen, kArmUp, {.weighting = Weighting::kFixed}, {}), 1.0);
 }
 
-TEST(Score, IsOneForPerfectOneHalfAtTheToleranceAndFallsWithTheWorstPose) {
-  EXPECT_DOUBLE_EQ(JudgeWindow(Arm({180, 0}), UpAndDown(), {.hold_frames = 1}).score, 1.0);
-  EXPECT_DOUBLE_EQ(JudgeWindow(Arm({160, 0}), UpAndDown(), {.hold_frames = 1}).score, 0.5);
-  EXPECT_DOUBLE_EQ(JudgeWindow(Arm({180, 40}), UpAndDown(), {.hold_frames = 1}).score, 0.2);
-  EXPECT_LT(JudgeWindow(Arm({0, 180}), UpAndDown(), {.hold_frames = 1}).score, 0.02);  // control: wrong order
+/// How well each frame matches two poses.
+using Matches = std::vector<std::array<double, 2>>;
+
+struct Passage {
+  std::vector<double> asked, spotted;
+};
+
+Passage Pass(const Matches& matches, int hold_frames, int span_frames) {
+  PoseSequence sequence(2, hold_frames, span_frames);
+  Passage passage;
+  for (const auto& frame : matches) {
+    sequence.Update(frame);
+    passage.asked.push_back(sequence.Asked());
+    passage.spotted.push_back(sequence.Spotted());
+  }
+  return passage;
 }
 
-/// The definition by brute force: the best pair of windows of `hold` frames in order, by its worst frame.
-double BestPairByBruteForce(const std::vector<FeatureFrame>& frames, const TaughtMove& move,
-                            const KeyPoseOptions& options) {
-  const int hold = options.hold_frames, count = static_cast<int>(frames.size());
-  const auto worst = [&](int end, const TaughtPose& pose) {
-    double score = 1;
-    for (int i = end - hold + 1; i <= end; ++i) score = std::min(score, SoftMatch(frames[i], pose, options));
-    return score;
+/// The definition by brute force: the best pair of stretches of `hold` frames in order, by its worst frame; the first
+/// ends at or after `from`, the second at or before `to`, where it ends exactly there if `ends` says so.
+double BestPair(const Matches& matches, int hold, int from, int to, bool ends) {
+  const auto held = [&](int end, std::size_t pose) {
+    double worst = 1;
+    for (int i = end - hold + 1; i <= end; ++i) worst = std::min(worst, matches[static_cast<std::size_t>(i)][pose]);
+    return worst;
   };
   double best = 0;
-  for (int first = hold - 1; first < count; ++first) {
-    for (int second = std::max(hold - 1, first + 1); second < count; ++second) {
-      best = std::max(best, std::min(worst(first, move.poses[0]), worst(second, move.poses[1])));
+  for (int first = std::max(from, hold - 1); first < to; ++first) {
+    for (int second = ends ? to : first + 1; second <= to; ++second) {
+      best = std::max(best, std::min(held(first, 0), held(second, 1)));
     }
   }
   return best;
 }
 
-TEST(Score, EqualsTheBruteForceSearchOverAllPassages) {
-  std::vector<double> degrees;
-  for (int i = 0; i < 40; ++i) degrees.push_back(90 + 80 * std::sin(0.37 * i * i));
+TEST(PoseSequence, EqualsTheBruteForceSearchOverAllPassages) {
+  Matches matches;
+  for (int i = 0; i < 40; ++i)
+    matches.push_back({0.5 + 0.5 * std::sin(0.37 * i * i), 0.5 + 0.5 * std::cos(0.5 * i * i)});
+  constexpr int kSpan = 9;
   for (int hold : {1, 2, 3}) {
-    const KeyPoseOptions options{.hold_frames = hold};
-    const auto frames = Arm(degrees);
-    const Judgement judgement = JudgeWindow(frames, UpAndDown(), options);
-    EXPECT_NEAR(judgement.score, BestPairByBruteForce(frames, UpAndDown(), options), 1e-12) << "hold " << hold;
-    EXPECT_EQ(judgement.running_score.size(), frames.size());
+    const Passage passage = Pass(matches, hold, kSpan);
+    for (int t = 0; t < 40; ++t) {
+      EXPECT_DOUBLE_EQ(passage.asked[static_cast<std::size_t>(t)], BestPair(matches, hold, 0, t, false)) << t;
+      EXPECT_DOUBLE_EQ(passage.spotted[static_cast<std::size_t>(t)], BestPair(matches, hold, t - kSpan, t, true)) << t;
+    }
   }
 }
 
-TEST(FindMove, FiresOncePerPassageHoweverLongTheLastPoseIsHeld) {
-  const auto frames = Arm({170, 170, 10, 10, 10, 10, 10, 170, 170, 170, 10, 10, 10});
-  EXPECT_EQ(FindMove(frames, UpAndDown(20), {.hold_frames = 2}), (std::vector<int>{3, 11}));
+TEST(PoseSequence, ForgetsWhatWasSeenBeforeItsWindowOpened) {
+  PoseSequence sequence(2, 2, 100);
+  for (const auto& frame : Matches{{1, 0}, {1, 0}, {1, 0}}) sequence.Update(frame);
+  sequence.Open();
+  for (const auto& frame : Matches{{0, 1}, {0, 1}}) sequence.Update(frame);
+  EXPECT_EQ(sequence.Asked(), 0);
+  EXPECT_EQ(sequence.Spotted(), 1) << "which does not matter where nothing is asked for";
 }
 
-TEST(FindMove, ForgetsAFirstPoseThatIsTooLongAgo) {
-  const auto frames = Arm({170, 170, 90, 90, 90, 90, 90, 10, 10});
-  EXPECT_EQ(FindMove(frames, UpAndDown(7), {.hold_frames = 2}), (std::vector<int>{8}));
-  EXPECT_TRUE(FindMove(frames, UpAndDown(6), {.hold_frames = 2}).empty());
-}
-
-TEST(SeeFeatures, TakesTheWorstStateAmongAFeaturesJoints) {
-  SkeletonStream stream;
-  SensedFrame frame;
-  frame.body_seen = true;
-  for (SensedJoint& joint : frame.joints) joint.state = TrackingState::kTracked;
-  frame[Role::kRightElbow].state = TrackingState::kInferred;
-  frame[Role::kRightWrist].state = TrackingState::kNotTracked;
-  stream.frames.push_back(frame);
-  const FeatureFrame seen = SeeFeatures(stream, 0.9).front();
-  EXPECT_EQ(seen.states[static_cast<std::size_t>(Feature::kRH)], TrackingState::kInferred);
-  EXPECT_EQ(seen.states[static_cast<std::size_t>(Feature::kRHE)], TrackingState::kNotTracked);
-  EXPECT_EQ(seen.states[static_cast<std::size_t>(Feature::kLHE)], TrackingState::kTracked);
-}
-
-TEST(EstimateStandingHipHeight, FallsBackWhenNoBodyIsSeen) {
-  EXPECT_EQ(EstimateStandingHipHeight(SkeletonStream{}), 0.9);
+TEST(PoseSequence, NeitherHoldsNorBreaksAPoseWhereNoBodyIsSeen) {
+  PoseSequence sequence(1, 3, 100);
+  const double met = 1;
+  for (bool seen : {true, false, true}) sequence.Update(seen ? std::span(&met, 1) : std::span<const double>());
+  EXPECT_EQ(sequence.Asked(), 0);
+  sequence.Update(std::span(&met, 1));
+  EXPECT_EQ(sequence.Asked(), 1);
 }
 
 }  // namespace

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "engine/recognition/recognisers.h"
+
 namespace etude {
 namespace {
 
@@ -36,19 +40,26 @@ TaughtMove RaisedTo(const std::string& name, double degrees) {
 
 const std::vector<TaughtMove> kTaught = {RaisedTo("hang", 0), RaisedTo("raise", 180)};
 
+struct Recognition {
+  std::vector<Judgement> judgements;
+  std::vector<std::string> told;  ///< every detection, as "raise 32"
+};
+
+/// The moves asked for in their order of time; a detection may follow the last at once.
 Recognition RecogniseIn(const SkeletonStream& stream, const std::vector<AskedMove>& asked,
-                        const std::vector<TaughtMove>& taught = kTaught, const KeyPoseOptions& options = {}) {
+                        const std::vector<TaughtMove>& taught = kTaught, const RecogniserOptions& options = {}) {
   const SeenStream seen = SeeStream(stream, {});
-  return *Recognise({.seen = seen, .asked = asked, .taught = taught}, options);
+  const auto recogniser = *MakeRecogniser(options, taught);
+  const auto trace = *FollowStream(*recogniser, taught.size(), seen, asked);
+  Recognition recognition;
+  for (const AskedMove& move : asked) recognition.judgements.push_back(JudgeWindow(trace, move.window, 0.5));
+  for (const auto& [move, frame] : FindMoves(trace, stream.rate_hz, {})) {
+    recognition.told.push_back(taught[move].name + " " + std::to_string(frame));
+  }
+  return recognition;
 }
 
-std::vector<std::string> Told(const Recognition& recognition) {
-  std::vector<std::string> told;
-  for (const Detection& detection : recognition.detections) {
-    told.push_back(detection.move + " " + std::to_string(detection.frame));
-  }
-  return told;
-}
+constexpr std::size_t kHang = 0, kRaise = 1;
 
 TEST(FramesBetween, TakesEveryFrameTouchedAndCutsAtTheStreamsEnds) {
   const auto window = [](double start_s, double end_s) {
@@ -80,54 +91,72 @@ TEST(SeeStream, ReadsTheFeaturesOffTheFilteredStream) {
   const SeenStream raw = SeeStream(stream, {}), smooth = SeeStream(stream, {.kind = FilterKind::kHolt});
   ASSERT_EQ(raw.frames.size(), stream.frames.size());
   EXPECT_NEAR(raw.frames[kUp].features[Feature::kRH], 180, 1e-9);
-  const auto expected = SeeFeatures(smooth.filtered, EstimateStandingHipHeight(smooth.filtered));
-  for (std::size_t t = 0; t < expected.size(); ++t) {
-    EXPECT_EQ(smooth.frames[t].features.values, expected[t].features.values) << "frame " << t;
+  const double standing = StandingHipHeight(PoseOf(stream.frames.front()));  // the legs keep still
+  const SkeletonStream filtered = Smooth(stream, {.kind = FilterKind::kHolt});
+  for (std::size_t t = 0; t < smooth.frames.size(); ++t) {
+    const FeatureFrame expected = SeeFeatures(filtered.frames[t], standing > 0 ? standing : 0.9);
+    EXPECT_EQ(smooth.frames[t].features.values, expected.features.values) << "frame " << t;
   }
   const auto elbow = [&](const SeenStream& seen) { return seen.filtered.frames[kUp + 3][Role::kRightElbow].position; };
   EXPECT_EQ(elbow(raw), stream.frames[kUp + 3][Role::kRightElbow].position);
   EXPECT_NE(elbow(smooth), elbow(raw)) << "control: the filter was asked";
 }
 
+TEST(StandingHeight, IsTheMedianOfTheFirstSecondInWhichABodyWasSeen) {
+  StandingHeight standing(4);
+  EXPECT_EQ(standing.Value(), 0.9) << "before a body was seen";
+  SensedFrame frame;
+  standing.Update(frame);
+  EXPECT_EQ(standing.Value(), 0.9);
+  frame.body_seen = true;
+  std::vector<double> heights;
+  for (double leg : {0.8, 1.4, 0.7, 1.0, 9.0, 9.0}) {
+    for (Role role : {Role::kLeftHip, Role::kRightHip}) frame[role].position.y = leg;
+    heights.push_back(StandingHipHeight(PoseOf(frame)));
+    standing.Update(frame);
+  }
+  std::sort(heights.begin(), heights.begin() + 4);
+  EXPECT_EQ(standing.Value(), heights[2]) << "the upper middle of four";
+}
+
 TEST(Recognise, AnswersInTheThirdFrameOfThePoseCountedFromTheWindowsFirst) {
-  const auto judgements = RecogniseIn(RaisedArm(), {{"raise", {15, 75}}, {"raise", {31, 34}}}).judgements;
-  ASSERT_EQ(judgements.size(), 2u);
-  EXPECT_EQ(judgements[0].recognised_at, kUp + 2 - 15);
-  EXPECT_EQ(judgements[1].recognised_at, 2);
-  EXPECT_DOUBLE_EQ(judgements[0].score, 1.0);
-  EXPECT_EQ(judgements[0].running_score.size(), 60u);
+  EXPECT_EQ(RecogniseIn(RaisedArm(), {{kRaise, {31, 34}}}).judgements[0].recognised_at, 2);
+  const Judgement judgement = RecogniseIn(RaisedArm(), {{kRaise, {15, 75}}}).judgements[0];
+  EXPECT_EQ(judgement.recognised_at, kUp + 2 - 15);
+  EXPECT_DOUBLE_EQ(judgement.score, 1.0);
+  EXPECT_EQ(judgement.running_score.size(), 60u);
 }
 
 TEST(Recognise, DoesNotFindAPoseThatIsNotInTheWindowOrTooShort) {
-  const auto judgements = RecogniseIn(RaisedArm(), {{"raise", {kDown, kFrames}}, {"raise", {31, 33}}}).judgements;
+  const auto judgements = RecogniseIn(RaisedArm(), {{kRaise, {31, 33}}, {kRaise, {kDown, kFrames}}}).judgements;
   EXPECT_EQ(judgements[0].recognised_at, std::nullopt);
-  EXPECT_NEAR(judgements[0].score, 1.0 / (1 + 9 * 9), 1e-12);  // 180° off, of a tolerance of 20°
+  EXPECT_EQ(judgements[0].score, 0);  // two frames hold nothing for three
   EXPECT_EQ(judgements[1].recognised_at, std::nullopt);
-  EXPECT_EQ(judgements[1].score, 0);  // two frames hold nothing for three
+  EXPECT_NEAR(judgements[1].score, 1.0 / (1 + 9 * 9), 1e-12);  // 180° off, of a tolerance of 20°
 }
 
 TEST(Recognise, LooksForEveryMoveTaughtWhateverIsAskedFor) {
-  EXPECT_THAT(Told(RecogniseIn(RaisedArm(), {})), ElementsAre("hang 2", "hang 62", "raise 32"));
-  EXPECT_THAT(Told(RecogniseIn(RaisedArm(), {{"raise", {15, 75}}})), ElementsAre("hang 2", "hang 62", "raise 32"));
-  EXPECT_THAT(Told(RecogniseIn(RaisedArm(), {}, {kTaught[1], kTaught[0]})),
+  EXPECT_THAT(RecogniseIn(RaisedArm(), {}).told, ElementsAre("hang 2", "hang 62", "raise 32"));
+  EXPECT_THAT(RecogniseIn(RaisedArm(), {{kRaise, {15, 75}}}).told, ElementsAre("hang 2", "hang 62", "raise 32"));
+  EXPECT_THAT(RecogniseIn(RaisedArm(), {}, {kTaught[1], kTaught[0]}).told,
               ElementsAre("raise 32", "hang 2", "hang 62"));
-  EXPECT_THAT(Told(RecogniseIn(RaisedArm(), {}, {RaisedTo("sideways", 90)})), ElementsAre());  // control
+  EXPECT_THAT(RecogniseIn(RaisedArm(), {}, {RaisedTo("sideways", 90)}).told, ElementsAre());  // control
 }
 
 TEST(Recognise, FindsNoMoveThatTookLongerThanItsSpan) {
   TaughtMove swing{.name = "swing", .poses = {RaisedTo("", 0).poses[0], RaisedTo("", 180).poses[0]}};
   // Hangs until frame 29, held high in frame 32.
-  swing.span_frames = 3;
-  EXPECT_THAT(Told(RecogniseIn(RaisedArm(), {}, {swing})), ElementsAre("swing 32"));
-  swing.span_frames = 2;
-  EXPECT_THAT(Told(RecogniseIn(RaisedArm(), {}, {swing})), ElementsAre());
-  EXPECT_EQ(RecogniseIn(RaisedArm(), {{"swing", {0, 60}}}, {swing}).judgements[0].recognised_at, 32)
+  swing.span_s = 0.1;
+  EXPECT_THAT(RecogniseIn(RaisedArm(), {}, {swing}).told, ElementsAre("swing 32"));
+  swing.span_s = 0.05;
+  EXPECT_THAT(RecogniseIn(RaisedArm(), {}, {swing}).told, ElementsAre());
+  EXPECT_EQ(RecogniseIn(RaisedArm(), {{0, {0, 60}}}, {swing}).judgements[0].recognised_at, 32)
       << "a window is a span of its own";
 }
 
 TEST(Recognise, AnswersLaterByTheFramesInWhichNobodyWasSeen) {
   constexpr int kLost = 20;
-  const std::vector<AskedMove> asked = {{"raise", {15, 75}}, {"hang", {40, 90}}};
+  const std::vector<AskedMove> asked = {{kRaise, {15, 40}}, {kHang, {40, 90}}};
   std::vector<AskedMove> later = asked;
   for (AskedMove& move : later) move.window = {move.window.begin + kLost, move.window.end + kLost};
   const Recognition at_once = RecogniseIn(RaisedArm(), asked), delayed = RecogniseIn(RaisedArm(kLost), later);
@@ -135,47 +164,70 @@ TEST(Recognise, AnswersLaterByTheFramesInWhichNobodyWasSeen) {
     EXPECT_EQ(delayed.judgements[i].recognised_at, at_once.judgements[i].recognised_at);
     EXPECT_EQ(delayed.judgements[i].running_score, at_once.judgements[i].running_score);
   }
-  ASSERT_EQ(delayed.detections.size(), at_once.detections.size());
-  for (std::size_t i = 0; i < at_once.detections.size(); ++i) {
-    EXPECT_EQ(delayed.detections[i].frame, at_once.detections[i].frame + kLost);
-  }
+  EXPECT_THAT(delayed.told, ElementsAre("hang 22", "hang 82", "raise 52"));
 }
 
 TEST(Recognise, GoesByItsOptions) {
-  EXPECT_EQ(RecogniseIn(RaisedArm(), {{"raise", {15, 75}}}, kTaught, {.hold_frames = 1}).judgements[0].recognised_at,
-            kUp - 15);
+  const RecogniserOptions quick{.settings = {1, 0.8, 1}};
+  EXPECT_EQ(RecogniseIn(RaisedArm(), {{kRaise, {15, 75}}}, kTaught, quick).judgements[0].recognised_at, kUp - 15);
   // The arm is up as asked, the left elbow, which is not tracked, is not: adaptive weights let it pass.
   TaughtMove both = RaisedTo("both", 180);
   both.poses[0].targets.push_back({Feature::kLHE, 150, 20});
   SkeletonStream stream = RaisedArm();
   for (SensedFrame& frame : stream.frames) frame[Role::kLeftWrist].state = TrackingState::kNotTracked;
-  EXPECT_THAT(Told(RecogniseIn(stream, {}, {both}, {.weights = Weighting::kFixed})), ElementsAre());
-  EXPECT_THAT(Told(RecogniseIn(stream, {}, {both}, {.weights = Weighting::kAdaptive})), ElementsAre("both 32"));
+  EXPECT_THAT(RecogniseIn(stream, {}, {both}).told, ElementsAre());
+  const RecogniserOptions adaptive{.weights = {.weighting = Weighting::kAdaptive}};
+  EXPECT_THAT(RecogniseIn(stream, {}, {both}, adaptive).told, ElementsAre("both 32"));
 }
 
-TEST(Recognise, RefusesWhatItCannotJudgeAndSaysWhatIsAllowed) {
-  const SeenStream seen = SeeStream(RaisedArm(), {});
-  const auto complaint = [&](const AskedMove& asked, const TaughtMove& taught, const KeyPoseOptions& options) {
-    const auto recognised = Recognise({.seen = seen, .asked = {&asked, 1}, .taught = {&taught, 1}}, options);
-    return recognised ? "no complaint" : recognised.error().message;
-  };
-  const AskedMove asked{"raise", {15, 75}};
-  const TaughtMove raise = kTaught[1], without_target{.name = "raise", .poses = {{}}},
-                   without_pose{.name = "raise", .poses = {}};
-  TaughtMove exact = raise;
-  exact.poses[0].targets[0].tolerance_deg = 0;
-  EXPECT_EQ(complaint(asked, raise, {}), "no complaint");  // the control
-  EXPECT_EQ(complaint({"raize", {15, 75}}, raise, {}), "unknown move 'raize'; did you mean 'raise'? Allowed: raise");
-  for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
-    EXPECT_THAT(complaint({"raise", window}, raise, {}), HasSubstr("; the stream has 90"));
+TEST(MoveSpotter, SpotsAMoveWhenItsEvidenceRisesAndNotAgainForAWhile) {
+  MoveSpotter spotter(1, {.threshold = 0.5, .refractory_s = 0.3}, 10);
+  const std::vector<double> evidence = {0.4, 0.5, 0.9, 0.2, 0.6, 0.7, 0.1, 0.8, 0.8};
+  std::vector<int> fired;
+  for (int t = 0; t < 9; ++t) {
+    if (!spotter.Update(std::span(&evidence[static_cast<std::size_t>(t)], 1)).empty()) fired.push_back(t);
   }
-  EXPECT_EQ(complaint(asked, without_pose, {}), "move 'raise' has no key pose");
-  EXPECT_EQ(complaint(asked, without_target, {}), "a key pose of move 'raise' has no target");
-  EXPECT_EQ(complaint(asked, exact, {}), "a target of move 'raise' has no tolerance above 0");
-  EXPECT_EQ(complaint(asked, raise, {.threshold = 0}), "threshold 0; allowed: above 0, up to 1");
-  EXPECT_EQ(complaint(asked, raise, {.threshold = 1.1}), "threshold 1.1; allowed: above 0, up to 1");
-  EXPECT_EQ(complaint(asked, raise, {.threshold = 1}), "no complaint") << "the whole match is a threshold, too";
-  EXPECT_EQ(complaint(asked, raise, {.hold_frames = 0}), "hold_frames 0; allowed: 1 or more");
+  EXPECT_THAT(fired, ElementsAre(1, 4, 7));
+  MoveSpotter patient(1, {.threshold = 0.5, .refractory_s = 0.4}, 10);
+  fired.clear();
+  for (int t = 0; t < 9; ++t) {
+    if (!patient.Update(std::span(&evidence[static_cast<std::size_t>(t)], 1)).empty()) fired.push_back(t);
+  }
+  EXPECT_THAT(fired, ElementsAre(1, 7)) << "what rose while it had to be silent does not count";
+}
+
+TEST(MakeRecogniser, RefusesMovesItCannotBeTaughtAndSaysWhatIsAllowed) {
+  const auto complaint = [&](const std::vector<TaughtMove>& taught) {
+    const auto made = MakeRecogniser({}, taught);
+    return made ? "no complaint" : made.error().message;
+  };
+  const TaughtMove raise = kTaught[1], without_target{.name = "raise", .poses = {{}}}, without_pose{.name = "raise"};
+  TaughtMove exact = raise, endless = raise;
+  exact.poses[0].targets[0].tolerance_deg = 0;
+  endless.span_s = 61;
+  EXPECT_EQ(complaint({raise}), "no complaint");  // the control
+  EXPECT_EQ(complaint({}), "no complaint") << "of no move there is nothing to know";
+  EXPECT_EQ(complaint({raise, raise}), "two moves are called 'raise'");
+  EXPECT_EQ(complaint({without_pose}), "recogniser key-pose: move 'raise' has no key pose");
+  EXPECT_EQ(complaint({without_target}), "recogniser key-pose: a key pose of move 'raise' has no target");
+  EXPECT_EQ(complaint({exact}), "recogniser key-pose: a target of move 'raise' has no tolerance above 0");
+  EXPECT_EQ(complaint({endless}), "move 'raise' lasts 61 s; allowed: above 0, up to 60");
+}
+
+TEST(FollowStream, RefusesWindowsThatItCannotFollow) {
+  const SeenStream seen = SeeStream(RaisedArm(), {});
+  const auto recogniser = *MakeRecogniser({}, kTaught);
+  const auto complaint = [&](const std::vector<AskedMove>& asked) {
+    const auto trace = FollowStream(*recogniser, kTaught.size(), seen, asked);
+    return trace ? "no complaint" : trace.error().message;
+  };
+  EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {75, 75}}, {kHang, {75, 90}}}), "no complaint");  // the control
+  EXPECT_EQ(complaint({{2, {15, 75}}}), "move number 2 is asked for; 2 were taught");
+  for (const FrameInterval window : {FrameInterval{-1, 9}, FrameInterval{9, 8}, FrameInterval{0, 91}}) {
+    EXPECT_THAT(complaint({{kRaise, window}}), HasSubstr("; the stream has 90"));
+  }
+  EXPECT_EQ(complaint({{kRaise, {15, 75}}, {kHang, {74, 80}}}),
+            "a move is asked for from frame 74 on, while the one before it lasts until 75");
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include "engine/fuzzy/features.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/reach.h"
 #include "sim/choreography/stance.h"
+#include "tests/sim/choreography/key_poses_shown.h"
 
 namespace etude {
 namespace {

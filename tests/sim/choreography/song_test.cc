@@ -8,9 +8,9 @@
 #include <set>
 
 #include "sim/choreography/canonical_body.h"
-#include "sim/choreography/reach.h"
 #include "sim/choreography/sequence.h"
 #include "sim/choreography/stance.h"
+#include "tests/sim/choreography/key_poses_shown.h"
 #include "tests/sim/choreography/measures.h"
 
 namespace etude {

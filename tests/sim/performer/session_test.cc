@@ -3,48 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
-#include "sim/performer/faults.h"
+#include "tests/sim/performer/all_moves.h"
 
 namespace etude {
 namespace {
 
-const std::vector<Move>& AllMoves() {
-  static const std::vector<Move> moves = [] {
-    std::vector<Move> loaded;
-    for (const std::string& name : BuiltinMoveNames()) loaded.push_back(LoadBuiltinMove(name).value());
-    return loaded;
-  }();
-  return moves;
-}
-
 Performance PerformTrial(int trial, const SessionOptions& options) {
   const WorldKey key{7, "session-test", trial};
-  RandomStream script(key, "plan"), learner(key, "performer");
-  return Perform(learner, AllMoves(), PlanSession(script, AllMoves(), options), options);
-}
-
-TEST(Session, RightEventsReachTheirKeyPosesAndFaultsNeverDo) {
-  int right = 0;
-  std::set<Fault> seen;
-  for (int trial = 0; trial < 2; ++trial) {
-    for (double skill : {0.0, 1.0}) {
-      for (const SessionEvent& event : PerformTrial(trial, {.events = 22, .skill = skill}).events) {
-        EXPECT_EQ(event.first_right_s.has_value(), event.IsRight())
-            << event.move << " " << FaultName(event.fault) << " " << event.danced << " trial " << trial;
-        if (event.first_right_s) {
-          EXPECT_GE(*event.first_right_s, event.start_s);
-          EXPECT_LE(*event.first_right_s, event.WindowEnd());
-        }
-        right += event.IsRight();
-        seen.insert(event.fault);
-      }
-    }
-  }
-  EXPECT_EQ(right, 2 * 2 * 11);
-  EXPECT_EQ(seen.size(), 5u) << "every kind of fault must have come up";
+  RandomStream script(key, "plan"), dance(key, "performer");
+  const Person person = DrawPerson(key, options.people);
+  return Perform(dance, AllMoves(), person, PlanSession(script, AllMoves(), person, options));
 }
 
 TEST(Session, WindowsNeverOverlapAndFitTheMotion) {
@@ -61,7 +31,8 @@ TEST(Session, WindowsNeverOverlapAndFitTheMotion) {
 TEST(Session, HasTheShareOfFaultsAskedFor) {
   for (const auto& [share, faults] : {std::pair(0.0, 0), {0.25, 3}, {1.0, 12}}) {
     const Performance performance = PerformTrial(3, {.events = 12, .fault_share = share});
-    EXPECT_EQ(std::ranges::count_if(performance.events, [](const SessionEvent& e) { return !e.IsRight(); }), faults);
+    EXPECT_EQ(std::ranges::count_if(performance.events, [](const SessionEvent& e) { return !e.faults.empty(); }),
+              faults);
   }
 }
 
@@ -70,20 +41,6 @@ TEST(Session, AsksEveryMoveBeforeAnyComesAgain) {
   std::set<std::string> asked;
   for (const SessionEvent& event : performance.events) asked.insert(event.move);
   EXPECT_EQ(asked.size(), AllMoves().size());
-}
-
-TEST(Session, IsSmoothFromTheFirstFrameToTheLast) {
-  const Performance performance = PerformTrial(2, {.events = 11});
-  const auto& poses = performance.motion.poses;
-  double worst_jump = 0;
-  for (std::size_t i = 2; i < poses.size(); ++i) {
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      const glm::dvec3 bend = poses[i].joints[j] - 2.0 * poses[i - 1].joints[j] + poses[i - 2].joints[j];
-      worst_jump = std::max(worst_jump, glm::length(bend));
-    }
-  }
-  // The moves' own sharpest corner (a clapping hand) is 8 cm; a cut between moves would be 50.
-  EXPECT_LT(worst_jump, 0.12);
 }
 
 TEST(Session, IsTheSameEveryTimeAndAnotherForAnotherTrial) {
@@ -95,36 +52,94 @@ TEST(Session, IsTheSameEveryTimeAndAnotherForAnotherTrial) {
   EXPECT_NE(a.motion.poses[40].joints, c.motion.poses[40].joints);
 }
 
-TEST(Session, StandsWhenAMoveIsSkipped) {
-  SessionEvent skipped;
-  skipped.move = "clap";
-  skipped.fault = Fault::kSkipped;
-  skipped.start_s = 2;
-  skipped.end_s = 4;
-  RandomStream learner({}, "performer");
-  const Performance performance = Perform(learner, AllMoves(), {.events = {skipped}, .duration_s = 6}, {});
-  for (const BodyPose& pose : performance.motion.poses) {
-    EXPECT_LT(pose[Role::kLeftHand].y, 1.0);
-    EXPECT_LT(pose[Role::kRightHand].y, 1.0);
+TEST(Session, IsSmoothFromTheFirstFrameToTheLast) {
+  for (int trial = 0; trial < 6; ++trial) {
+    const auto& poses = PerformTrial(trial, {.events = 11, .fault_share = 0.7}).motion.poses;
+    double worst_jump = 0;
+    for (std::size_t i = 2; i < poses.size(); ++i) {
+      for (std::size_t j = 0; j < kRoleCount; ++j) {
+        const glm::dvec3 bend = poses[i].joints[j] - 2.0 * poses[i - 1].joints[j] + poses[i - 2].joints[j];
+        worst_jump = std::max(worst_jump, glm::length(bend));
+      }
+    }
+    // The moves' own sharpest corner (a clapping hand) is 8 cm; a cut between moves would be 50.
+    EXPECT_LT(worst_jump, 0.2) << trial;
   }
 }
 
-TEST(Faults, OnlyOneSidedMovesCanBeDancedOnTheWrongSide) {
-  const auto can = [](const std::string& name, Fault fault) {
-    const auto faults = ShowableFaults(LoadBuiltinMove(name).value(), AllMoves());
-    return std::ranges::find(faults, fault) != faults.end();
-  };
-  EXPECT_TRUE(can("side_kick", Fault::kWrongSide));
-  EXPECT_TRUE(can("side_stretch", Fault::kWrongSide));
-  EXPECT_FALSE(can("boxing", Fault::kWrongSide));
-  EXPECT_FALSE(can("clap", Fault::kWrongSide));
-  for (const Move& move : AllMoves()) EXPECT_TRUE(can(move.name, Fault::kHalfAmplitude)) << move.name;
+TEST(Session, WhoIsAbsentStandsAndIsNeverRight) {
+  const Performance performance = PerformTrial(0, {.people = People::kAbsent, .events = 11});
+  for (const BodyPose& pose : performance.motion.poses) {
+    EXPECT_LT(pose[Role::kLeftHand].y, 1.1);
+    EXPECT_LT(pose[Role::kRightHand].y, 1.1);
+  }
+  for (const SessionEvent& event : performance.events) {
+    EXPECT_EQ(event.truth, Truth::kWrong) << event.move;
+    EXPECT_EQ(event.danced, "");
+    EXPECT_FALSE(event.first_right_s);
+  }
 }
 
-TEST(Faults, AMoveWithoutOthersCannotBeMistaken) {
-  const Move clap = LoadBuiltinMove("clap").value();
-  EXPECT_TRUE(WrongMoves(clap, {&clap, 1}).empty());
-  EXPECT_FALSE(WrongMoves(clap, AllMoves()).empty());
+TEST(Session, FaultsOfNoSeverityAreNoneAndFullOnesAreWrong) {
+  for (const SessionEvent& event : PerformTrial(1, {.events = 22, .fault_share = 1, .severity = 0.0}).events) {
+    EXPECT_FALSE(event.faults.empty());
+    EXPECT_EQ(event.truth, Truth::kRight);
+    ASSERT_TRUE(event.first_right_s);
+    EXPECT_GT(*event.first_right_s, event.start_s);
+    EXPECT_LT(*event.first_right_s, event.end_s);
+  }
+  int wrong = 0;
+  for (const SessionEvent& event : PerformTrial(1, {.events = 22, .fault_share = 1, .severity = 1.0}).events) {
+    EXPECT_NE(event.truth, Truth::kRight) << event.move << " " << FaultNames(event.faults);
+    wrong += event.truth == Truth::kWrong;
+  }
+  EXPECT_GE(wrong, 18);
+}
+
+TEST(Session, OnlyTheFaultsAskedForHappen) {
+  for (const SessionEvent& event : PerformTrial(2, {.events = 22, .fault_share = 1, .faults = {Fault::kLate}}).events) {
+    ASSERT_EQ(event.faults.size(), 1u);
+    EXPECT_EQ(event.faults.front().fault, Fault::kLate);
+    EXPECT_EQ(event.stray.limb_deg, 0);
+  }
+}
+
+TEST(Session, SweepingSeverityChangesNoDice) {
+  const Performance mild = PerformTrial(4, {.events = 11, .severity = 0.3}),
+                    bad = PerformTrial(4, {.events = 11, .severity = 0.9});
+  for (std::size_t i = 0; i < mild.events.size(); ++i) {
+    EXPECT_EQ(FaultNames(mild.events[i].faults), FaultNames(bad.events[i].faults));
+    EXPECT_EQ(mild.events[i].start_s, bad.events[i].start_s);
+    EXPECT_LE(mild.events[i].stray.limb_deg, bad.events[i].stray.limb_deg + 1e-9);
+  }
+}
+
+/// The first frame at which a hand is as high as it gets in the event.
+double TimeOfHighestHand(const Performance& performance, const SessionEvent& event) {
+  std::size_t best = 0;
+  double height = -1;
+  for (auto i = static_cast<std::size_t>(event.start_s * 30); i < static_cast<std::size_t>(event.WindowEnd() * 30);
+       ++i) {
+    const BodyPose& pose = performance.motion.poses[i];
+    const double y = std::max(pose[Role::kLeftHand].y, pose[Role::kRightHand].y);
+    if (y > height) height = y, best = i;
+  }
+  return static_cast<double>(best) / 30;
+}
+
+TEST(Session, TheLastKeyBeatIsWhereTheMotionHasIt) {
+  // The jump's last key beat is its top, hands highest in the air.
+  const Move& jump = *std::ranges::find(AllMoves(), "jump", &Move::name);
+  for (int trial = 0; trial < 5; ++trial) {
+    const WorldKey key{7, "key-beat", trial};
+    RandomStream script(key, "plan"), dance(key, "dance");
+    const Person person = DrawPerson(key, People::kExpert);
+    const SessionPlan plan = PlanSession(script, {&jump, 1}, person, {.events = 2, .fault_share = 0});
+    const Performance performance = Perform(dance, {&jump, 1}, person, plan);
+    for (const SessionEvent& event : performance.events) {
+      EXPECT_NEAR(TimeOfHighestHand(performance, event), event.first_right_s.value(), 0.12);
+    }
+  }
 }
 
 }  // namespace

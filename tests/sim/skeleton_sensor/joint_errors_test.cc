@@ -7,6 +7,7 @@
 #include "sim/choreography/move.h"
 #include "sim/skeleton_sensor/processes.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
+#include "tests/sim/skeleton_sensor/whole_motion.h"
 
 // The model against its own closed forms: what each option is said to do is measured.
 
@@ -54,7 +55,7 @@ MeanSquares Measure(const BodyMotion& motion, const Camera& sensor, const Skelet
   MeanSquares sum;
   double count = 0;
   for (int trial = 0; trial < kWorlds; ++trial) {
-    const JointErrors errors = ContinuousErrors(motion, sensor, options, ModelWorld(trial));
+    const JointErrors errors = ErrorsOver(motion, sensor, options, ModelWorld(trial));
     for (std::size_t t = 0; t < errors.size(); ++t) {
       const glm::dvec3 sight = glm::normalize(motion.poses[t][role] - sensor.p_WC);
       const double z = sensor.p_WC.z - motion.poses[t][role].z, z0 = options.reference_distance_m;
@@ -96,8 +97,8 @@ TEST(JointErrors, GrowWithTheDistanceByTheSensorsLaw) {
     SkeletonSensorOptions options = Plain();
     options.depth_law = law;
     const Camera near = SensorOf(2), far = SensorOf(4);
-    const JointErrors at_near = ContinuousErrors(motion, near, options, ModelWorld(0));
-    const JointErrors at_far = ContinuousErrors(motion, far, options, ModelWorld(0));
+    const JointErrors at_near = ErrorsOver(motion, near, options, ModelWorld(0));
+    const JointErrors at_far = ErrorsOver(motion, far, options, ModelWorld(0));
     for (std::size_t t = 0; t < motion.poses.size(); t += 7) {
       const glm::dvec3 place = motion.poses[t][kHead];
       const auto split = [&](const JointErrors& errors, const Camera& sensor) {
@@ -125,7 +126,7 @@ double CorrelationOf(const SkeletonSensorOptions& options, Role a, Role b) {
   double both = 0, first = 0, second = 0;
   const BodyMotion motion = Dancing();
   for (int trial = 0; trial < kWorlds; ++trial) {
-    for (const auto& frame : ContinuousErrors(motion, SensorOf(), options, ModelWorld(trial))) {
+    for (const auto& frame : ErrorsOver(motion, SensorOf(), options, ModelWorld(trial))) {
       both += glm::dot(frame[Index(a)], frame[Index(b)]);
       first += glm::dot(frame[Index(a)], frame[Index(a)]);
       second += glm::dot(frame[Index(b)], frame[Index(b)]);
@@ -151,7 +152,7 @@ double ForearmVariation(const SkeletonSensorOptions& options) {
   const BodyMotion motion = Dancing();
   double sum = 0, squares = 0, count = 0;
   for (int trial = 0; trial < kWorlds; ++trial) {
-    const JointErrors errors = ContinuousErrors(motion, SensorOf(), options, ModelWorld(trial));
+    const JointErrors errors = ErrorsOver(motion, SensorOf(), options, ModelWorld(trial));
     for (std::size_t t = 0; t < errors.size(); ++t) {
       const auto place = [&](Role role) { return motion.poses[t][role] + errors[t][Index(role)]; };
       const double length = glm::distance(place(kLeftElbow), place(kLeftWrist));
@@ -173,7 +174,7 @@ TEST(JointErrors, StretchLimbsLessWhenTheSensorKnowsTheirLength) {
 double Restlessness(const BodyMotion& motion, const SkeletonSensorOptions& options, Role role) {
   double sum = 0;
   for (int trial = 0; trial < 10; ++trial) {
-    const JointErrors errors = ContinuousErrors(motion, SensorOf(), options, ModelWorld(trial));
+    const JointErrors errors = ErrorsOver(motion, SensorOf(), options, ModelWorld(trial));
     glm::dvec3 mean(0);
     for (const auto& frame : errors) mean += frame[Index(role)] / static_cast<double>(errors.size());
     for (const auto& frame : errors) {
@@ -240,7 +241,7 @@ TEST(BurstNoise, HasUnitVarianceAndTheKurtosisOfALogNormalLoudness) {
 TEST(JointErrors, AreNothingAtStrengthZero) {
   for (SkeletonSensorOptions options : {SensorV1(), SensorV2()}) {
     options.strength = 0;
-    for (const auto& frame : ContinuousErrors(Dancing(), SensorOf(), options, ModelWorld(0))) {
+    for (const auto& frame : ErrorsOver(Dancing(), SensorOf(), options, ModelWorld(0))) {
       for (const glm::dvec3& error : frame) EXPECT_EQ(error, glm::dvec3(0));
     }
   }

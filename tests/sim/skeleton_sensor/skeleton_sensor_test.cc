@@ -7,8 +7,7 @@
 
 #include "engine/base/angles.h"
 #include "sim/choreography/move.h"
-#include "sim/skeleton_sensor/episodes.h"
-#include "sim/skeleton_sensor/joint_errors.h"
+#include "tests/sim/skeleton_sensor/whole_motion.h"
 
 // The simulated Kinect v1 against the figures it is to have (algorithms A7, first paragraph). Every band is the
 // published one. What a v2's recordings show instead is held by tests/bench/sensor_fit and docs/sensor.md.
@@ -39,7 +38,7 @@ Camera Sensor() { return SkeletonSensorAt({}, SensorV1().view); }
 JointErrors Errors(const BodyMotion& motion, const WorldKey& world, double strength = 1) {
   SkeletonSensorOptions options = SensorV1();
   options.strength = strength;
-  return ContinuousErrors(motion, Sensor(), options, world);
+  return ErrorsOver(motion, Sensor(), options, world);
 }
 
 BodyPose Standing() { return LoadBuiltinMove("sway")->motion.poses.front(); }
@@ -174,9 +173,10 @@ TEST(SkeletonSensor, StretchesTheArmsBonesByFourToTwelvePercent) {
 }
 
 TEST(SkeletonSensor, LosesTheWholeBodyInTwoPercentOfFrames) {
-  const std::vector<bool> lost = Dropouts(300000, SensorV1(), World(0));
-  const double share = static_cast<double>(std::count(lost.begin(), lost.end(), true)) / 300000;
-  EXPECT_NEAR(share, 0.02, 0.003);
+  Dropouts dropouts(SensorV1(), World(0));
+  int lost = 0;
+  for (int t = 0; t < 300000; ++t) lost += dropouts.Next();
+  EXPECT_NEAR(lost / 300000.0, 0.02, 0.003);
 }
 
 /// A stretch of frames with one guess; on a body that stands still, an episode.
@@ -189,7 +189,7 @@ TEST(SkeletonSensor, GuessesHiddenHandsFarOffInEpisodesOfThreeToFortyFrames) {
   const std::size_t frames = 20000;
   std::vector<HiddenJoints> hidden(frames);
   for (HiddenJoints& frame : hidden) frame[Index(kLeftHand)] = true;
-  const auto guesses = OcclusionGuesses(StandingStill(frames), hidden, SensorV1(), World(0));
+  const auto guesses = GuessesOver(StandingStill(frames), hidden, SensorV1(), World(0));
   std::vector<Stretch> stretches;
   for (std::size_t t = 0; t < frames; ++t) {
     const Guess& guess = guesses[t][Index(kLeftHand)];
@@ -220,7 +220,7 @@ TEST(SkeletonSensor, GuessesHiddenHandsFarOffInEpisodesOfThreeToFortyFrames) {
 TEST(SkeletonSensor, InfersAtLeastThreeFramesOnceAJointWasHidden) {
   std::vector<HiddenJoints> hidden(30);
   hidden[10][Index(kRightWrist)] = true;
-  const auto guesses = OcclusionGuesses(StandingStill(30), hidden, SensorV1(), World(0));
+  const auto guesses = GuessesOver(StandingStill(30), hidden, SensorV1(), World(0));
   for (std::size_t t = 0; t < 30; ++t) {
     EXPECT_EQ(guesses[t][Index(kRightWrist)].inferred, t >= 10 && t < 13) << "frame " << t;
   }
@@ -261,7 +261,9 @@ TEST(SkeletonSensor, ExchangesArmsOrLegsForAThirdOfASecondNowAndThen) {
   options.swaps_per_minute = 30;
   const std::size_t frames = 18000;  // ten minutes
   int arms = 0, legs = 0;
-  for (const Swap& swap : Swaps(std::vector<double>(frames), 30, options, World(0))) {
+  Swaps swaps(30, options, World(0));
+  for (std::size_t t = 0; t < frames; ++t) {
+    const Swap swap = swaps.Next(0);
     arms += swap.arms;
     legs += swap.legs;
     EXPECT_FALSE(swap.arms && swap.legs);
@@ -298,6 +300,35 @@ TEST(SkeletonSensor, DependsOnItsWorldAlone) {
   };
   EXPECT_EQ(hand(3), hand(3));
   EXPECT_NE(hand(3), hand(4));
+}
+
+TEST(SkeletonSensor, ReportsAFrameAsSoonAsTheNextSevenPosesAreKnownWhateverFollowsThem) {
+  const BodyMotion dance = Dance("boxing", 2);
+  const std::size_t turns_off = 60;
+  BodyMotion other = dance;
+  for (std::size_t t = turns_off; t < other.poses.size(); ++t) other.poses[t] = Dance("jump", 4).poses[t];
+  const SkeletonStream whole = SenseSkeleton(dance, Sensor(), {}, SensorV1(), World(0));
+  const Occluders nothing;
+  SkeletonSensor sensor(Sensor(), nothing, SensorV1(), other.rate_hz, World(0));
+  std::size_t told = 0;
+  for (std::size_t t = 0; t < other.poses.size(); ++t) {
+    const auto frame = sensor.Update(other.poses[t]);
+    ASSERT_EQ(frame.has_value(), t >= SkeletonSensor::kAhead);
+    if (!frame || told + SkeletonSensor::kAhead >= turns_off) continue;
+    for (const Role role : AllRoles()) {
+      ASSERT_EQ((*frame)[role].position, whole.frames[told][role].position) << "frame " << told;
+      ASSERT_EQ((*frame)[role].state, whole.frames[told][role].state);
+    }
+    ++told;
+  }
+  EXPECT_EQ(told, turns_off - SkeletonSensor::kAhead);
+  EXPECT_EQ(sensor.Finish().size(), SkeletonSensor::kAhead);
+}
+
+TEST(SkeletonSensor, ReportsEveryFrameOfAMotionShorterThanItLooksAhead) {
+  for (const std::size_t frames : {0, 1, 3, 7, 8}) {
+    EXPECT_EQ(SenseSkeleton(StandingStill(frames), Sensor(), {}, SensorV2(), World(0)).frames.size(), frames);
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
+#include "tests/sim/skeleton_sensor/whole_motion.h"
 
 // What rays say is hidden against what the renderer draws: two pictures of a few pixels around each joint, one of all
 // there is, one of the joint's own limbs alone. Hidden is what the first shows clearly nearer.
@@ -140,11 +141,11 @@ TEST(Visibility, IsWhatTheRendererDrawsForAllButOneJointInAThousand) {
       occluders.bystander = {other};
     }
     const glm::dvec3 eye(dice.Uniform(-0.5, 0.5), dice.Uniform(0.5, 1.8), dice.Uniform(2.2, 3.5));
-    const auto told = FindHidden(motion, occluders, eye);
+    const auto told = HiddenOver(motion, occluders, eye);
     CompareWithPictures(**renderer, motion.poses[0], occluders, eye, told[0], agreement);
     if (i % 3 == 0) continue;
     // The control: rays that know of the body alone.
-    CompareWithPictures(**renderer, motion.poses[0], occluders, eye, FindHidden(motion, {}, eye)[0], blind);
+    CompareWithPictures(**renderer, motion.poses[0], occluders, eye, HiddenOver(motion, {}, eye)[0], blind);
   }
   EXPECT_GE(agreement.joints, 2000);
   EXPECT_GE(agreement.agree, 0.999 * agreement.joints)
@@ -158,13 +159,13 @@ TEST(Visibility, OfATableBeforeTheLegsHidesTheLegsAlone) {
   const BodyMotion motion{.rate_hz = 30, .poses = {LoadBuiltinMove("sway")->motion.poses.front()}};
   const Occluders table{.furniture = {{.centre = {0, 0.4, 0.8}, .half_size = {1, 0.4, 0.1}, .heading = 0}},
                         .bystander = {}};
-  const HiddenJoints hidden = FindHidden(motion, table, {0, 1, 2.75})[0];
+  const HiddenJoints hidden = HiddenOver(motion, table, {0, 1, 2.75})[0];
   for (const Role role : {kLeftKnee, kRightKnee, kLeftAnkle, kRightFoot}) EXPECT_TRUE(hidden[Index(role)]);
   for (const Role role : {kHead, kLeftShoulder, kRightElbow, kSpine}) EXPECT_FALSE(hidden[Index(role)]);
   // The same table behind the performer hides nothing.
   const Occluders behind{.furniture = {{.centre = {0, 0.4, -0.8}, .half_size = {1, 0.4, 0.1}, .heading = 0}},
                          .bystander = {}};
-  EXPECT_FALSE(FindHidden(motion, behind, {0, 1, 2.75})[0][Index(kLeftKnee)]);
+  EXPECT_FALSE(HiddenOver(motion, behind, {0, 1, 2.75})[0][Index(kLeftKnee)]);
 }
 
 }  // namespace

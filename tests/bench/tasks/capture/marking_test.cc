@@ -4,10 +4,15 @@
 
 #include <cmath>
 
+#include "sim/choreography/stance.h"
+#include "sim/render/renderer.h"
+#include "sim/stage/wardrobe.h"
 #include "tests/sim/annotator/annotated_body.h"
 
 namespace etude {
 namespace {
+
+using enum Role;
 
 // A world of one standing frame, seen by one camera.
 CaptureWorld StandingWorld() {
@@ -113,16 +118,49 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
   }
 }
 
+// What the shares of `EvidenceOptions::figure` were read off: people in clothes who stand with their arms out, whatever
+// their build and cut, seen from before. Taken for capsules, they have their hips and shoulders far away.
+TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
+  const auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const Camera camera = LookAt({}, {0, 1.2, 3.6}, {0, 1, 0});
+  BodyPose body = StandingBody();
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    if (MakeOutfit(seed, "performer", Wardrobe::kStudio, 1).is_skirt) continue;  // nobody sees hips and knees there
+    const StagedRoom stage({.seed = seed, .scene = 0.5}, std::span(&body, 1), std::span(&camera, 1));
+    const Figure figure = stage.PerformerAt(body, PerformerColours());
+    const View view = (*renderer)->Render({}, {figure}, camera, Targets::kColourAndLabels);
+    const Shown shown(view.labels);
+    EvidenceOptions eye{.figure = FigureKind::kDressed, .head_below_crown = HeadBelowCrown(figure, body)};
+    const auto miss_mm = [&](Role role) {
+      const auto joint = SeePicture(shown.picture(), eye).joints[Index(role)];
+      const double distance = -(camera.R_CW * (camera.p_WC - body[role])).z;
+      return joint ? glm::distance(*joint, *Project(camera, body[role])) * distance / camera.intrinsics.fx * 1000 : 1e9;
+    };
+    for (const Role role : {kLeftHip, kRightHip}) EXPECT_LT(miss_mm(role), 50) << RoleName(role) << ", seed " << seed;
+    for (const Role role :
+         {kLeftShoulder, kRightShoulder, kLeftElbow, kRightElbow, kLeftAnkle, kRightAnkle, kShoulderCentre, kHead}) {
+      EXPECT_LT(miss_mm(role), 35) << RoleName(role) << ", seed " << seed;
+    }
+    for (const Role role :
+         {kLeftKnee, kRightKnee, kLeftWrist, kRightWrist, kLeftHand, kRightHand, kLeftFoot, kRightFoot}) {
+      EXPECT_LT(miss_mm(role), 15) << RoleName(role) << ", seed " << seed;
+    }
+    eye.figure = FigureKind::kCapsules;
+    EXPECT_GT(miss_mm(kLeftShoulder), 50) << "the control";
+  }
+}
+
 TEST(HeadBelowCrown, FollowsFromTheShapeWhateverThePose) {
   BodyPose pose = StandingBody();
-  const double standing = HeadBelowCrown(pose);
+  const double standing = HeadBelowCrown({BodyCapsules(pose)}, pose);
   // A trunk of 50 cm has a skull of radius 9.25 cm whose centre reaches 3 cm beyond 17 cm above the neck's base; the
   // head joint lies 25.1 cm above it.
   EXPECT_NEAR(standing, (0.17 + 0.03 + 0.0925 - std::hypot(0.25, 0.02)) / 0.0925, 1e-9);
   const glm::dvec3 neck = pose[Role::kShoulderCentre];
   const glm::dvec3 head = pose[Role::kHead] - neck;
   pose[Role::kHead] = neck + glm::dvec3(head.y, -head.x, head.z);  // nodded aside by 90°
-  EXPECT_NEAR(HeadBelowCrown(pose), standing, 1e-9);
+  EXPECT_NEAR(HeadBelowCrown({BodyCapsules(pose)}, pose), standing, 1e-9);
 }
 
 }  // namespace

@@ -16,9 +16,9 @@ class DetectionFixture : public ::testing::Test {
  protected:
   static constexpr const char* kFourMethods = R"(
 methods:
-  - {name: fixed, weights: fixed, threshold: 1}
+  - {name: fixed, weights: fixed}
   - {name: adaptive, weights: adaptive}
-  - {name: fixed-holt, filter: holt, threshold: 1}
+  - {name: fixed-holt, filter: holt}
   - {name: adaptive-euro, filter: one-euro, weights: adaptive}
 )";
 

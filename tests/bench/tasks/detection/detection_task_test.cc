@@ -9,15 +9,12 @@ namespace {
 
 class DetectionTask : public DetectionFixture {};
 
-TEST_F(DetectionTask, TellsRightFromWrongWithoutErrorWhenTheSensorHasNone) {
-  const auto task = *MakeTask(std::string("noise: 0\nevents: 8\n") + kFourMethods, FourMoves());
+TEST_F(DetectionTask, FindsWhatAnExpertDoesWhenTheSensorHasNoErrors) {
+  const auto task = *MakeTask(std::string("noise: 0\nevents: 8\npeople: expert\n") + kFourMethods, FourMoves());
   for (int trial = 0; trial < 3; ++trial) {
     const CellResult fixed = CellsOf(*task, trial).front();
     ASSERT_EQ(fixed.status, Status::kOk) << fixed.reason;
-    EXPECT_EQ(ValueOf(fixed, "f1"), 1.0);
-    EXPECT_EQ(ValueOf(fixed, "roc_auc"), 1.0);
-    // It answers once the last pose was held for three frames, two frames after it was truly reached.
-    EXPECT_NEAR(*ValueOf(fixed, "latency_s"), 2.0 / 30, 0.5 / 30);
+    EXPECT_GE(*ValueOf(fixed, "recall"), 0.75);
   }
 }
 
@@ -88,8 +85,7 @@ TEST_F(DetectionTask, ShowsAnOracleTheTruthWhateverTheSensorDoes) {
   const auto task = *MakeTask(yaml, FourMoves());
   for (int trial = 0; trial < 2; ++trial) {
     const auto cells = RunWorld(*task, World(trial), 2);
-    EXPECT_EQ(ValueOf(cells[1], "f1"), 1.0);
-    EXPECT_LT(ValueOf(cells[0], "f1").value_or(0), 1.0);
+    EXPECT_GT(ValueOf(cells[1], "f1").value_or(0), ValueOf(cells[0], "f1").value_or(0));
     EXPECT_EQ(DigestOf(cells[0], "stream"), DigestOf(cells[1], "stream")) << "the same world";
     EXPECT_NE(DigestOf(cells[1], "filtered"), DigestOf(cells[1], "stream"));
   }
@@ -113,7 +109,8 @@ struct BadScenario {
 TEST_F(DetectionTask, RefusesWhatItDoesNotKnowAndSaysWhatIsAllowed) {
   const std::vector<BadScenario> cases = {
       {"methods:\n  - {name: a, filter: hold}\n", "'holt'"},
-      {"methods:\n  - {name: a, recogniser: dtw}\n", "key-pose"},
+      {"methods:\n  - {name: a, recogniser: keypose}\n", "key-pose"},
+      {"methods:\n  - {name: a, beta_per_m: 2}\n", "one-euro"},
       {"methods:\n  - {name: a, weights: adaptiv}\n", "'adaptive'"},
       {"methods:\n  - {name: a, treshold: 0.5}\n", "threshold"},
       {"methods:\n  - {name: a, weights: fixed, inferred_weight: 0.5}\n", "inferred_weight"},

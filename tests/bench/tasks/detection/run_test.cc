@@ -36,13 +36,14 @@ DetectionWorld ArmRaised() {
 
 TEST(JudgeSession, CountsAnAlarmOnlyWhereTheMoveWasNeitherAskedForNorDanced) {
   Repertoire repertoire;
-  repertoire.taught = {{.name = "clap", .poses = {{{{Feature::kRH, 90, 20}}}}, .span_frames = 60},
-                       {.name = "raise", .poses = {{{{Feature::kRH, 180, 20}}}}, .span_frames = 60}};
+  repertoire.taught = {{.name = "clap", .poses = {{{{Feature::kRH, 90, 20}}}}, .span_s = 2},
+                       {.name = "raise", .poses = {{{{Feature::kRH, 180, 20}}}}, .span_s = 2}};
   const auto alarms = [&](const std::vector<SessionEvent>& events) {
     DetectionWorld world = ArmRaised();
     world.session.events = events;
     const DetectionMethod method;
-    return JudgeSession(world, SeeSession(world, method), repertoire, method)->alarms.size();
+    const auto recogniser = *MakeRecogniser(method.recogniser, repertoire.taught);
+    return JudgeSession(world, SeeSession(world, method), repertoire, *recogniser, method.Decision())->alarms.size();
   };
   EXPECT_EQ(alarms({}), 1u);
   EXPECT_EQ(alarms({AskedFor("raise", "raise")}), 0u);

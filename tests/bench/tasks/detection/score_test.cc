@@ -5,11 +5,11 @@
 namespace etude {
 namespace {
 
-SessionEvent Event(Fault fault, double start_s, std::optional<double> first_right_s) {
+SessionEvent Event(Truth truth, double start_s, std::optional<double> first_right_s) {
   SessionEvent event;
   event.move = "clap";
   event.danced = "clap";
-  event.fault = fault;
+  event.truth = truth;
   event.start_s = start_s;
   event.end_s = start_s + 1.5;  // the window is 2 s long
   event.first_right_s = first_right_s;
@@ -32,13 +32,13 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   DetectionWorld world;
   world.session.motion.poses.resize(900);  // half a minute
   world.stream.frames.resize(900);
-  world.session.events = {Event(Fault::kNone, 1, 2.0), Event(Fault::kNone, 5, 6.0), Event(Fault::kNone, 9, 10.0),
-                          Event(Fault::kWrongMove, 13, std::nullopt), Event(Fault::kSkipped, 17, std::nullopt)};
+  world.session.events = {Event(Truth::kRight, 1, 2.0), Event(Truth::kRight, 5, 6.0), Event(Truth::kRight, 9, 10.0),
+                          Event(Truth::kWrong, 13, std::nullopt), Event(Truth::kWrong, 17, std::nullopt)};
   SessionVerdict verdict;
   // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong.
   verdict.events = {Called(33, 0.9), Called(39, 0.8), Called(std::nullopt, 0.4), Called(20, 0.6),
                     Called(std::nullopt, 0)};
-  verdict.alarms = {{"sway", 120}, {"boxing", 400}, {"boxing", 800}};
+  verdict.alarms = {{1, 120}, {0, 400}, {0, 800}};
 
   CellResult cell;
   ScoreSession(world, verdict, cell);
@@ -55,7 +55,7 @@ TEST(ScoreSession, SaysWhyAValueIsMissing) {
   DetectionWorld world;
   world.session.motion.poses.resize(300);
   world.stream.frames.resize(300);
-  world.session.events = {Event(Fault::kNone, 1, 2.0)};
+  world.session.events = {Event(Truth::kRight, 1, 2.0)};
   SessionVerdict verdict;
   verdict.events = {Called(std::nullopt, 0.2)};
   CellResult cell;

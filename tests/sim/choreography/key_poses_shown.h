@@ -1,13 +1,18 @@
-#include "sim/choreography/reach.h"
+#pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include "engine/fuzzy/features.h"
+#include "engine/motion/body.h"
+#include "sim/choreography/move.h"
 
 namespace etude {
 
-bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double standing_hip_height) {
+/// Whether the frame shows the key pose: every target's feature (engine/fuzzy) within its tolerance.
+inline bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double standing_hip_height) {
   const PoseFeatures features = ComputeFeatures(pose, standing_hip_height);
   return std::ranges::all_of(key_pose.targets, [&](const KeyPose::Target& target) {
     const Feature* feature = FindFeature(target.feature);
@@ -15,8 +20,11 @@ bool ShowsKeyPose(const KeyPose& key_pose, const BodyPose& pose, double standing
   });
 }
 
-std::optional<double> FirstReached(std::span<const KeyPose> key_poses, const BodyMotion& motion, double from_s,
-                                   double to_s) {
+/// The first time, seconds from the motion's first frame, by which every key pose has been shown in frames of
+/// [from_s, to_s], in whatever order; nothing when one of them never is. What recognisers are taught of a move must be
+/// in it; it is no truth to judge them by.
+inline std::optional<double> FirstReached(std::span<const KeyPose> key_poses, const BodyMotion& motion, double from_s,
+                                          double to_s) {
   if (motion.poses.empty()) return std::nullopt;
   const double standing = StandingHipHeight(motion.poses.front());
   // Frames are counted, not summed: the end of a window must not depend on rounding.

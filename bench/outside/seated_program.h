@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/outside/outside_method.h"
+#include "bench/tasks/base/task.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+
+/// A method outside in a seat of a world's loop. Once it has failed it is asked no more.
+class SeatedProgram : public LiveProgram {
+ public:
+  /// `method` and `setting` must outlive this. `id` names its sessions.
+  SeatedProgram(OutsideMethod& method, std::string setting_id, const Payload& setting, std::string id);
+
+  bool Begin(const Payload& session) override;
+  JsonPtr Step(const Json& step) override;
+
+  /// How it failed, if it has.
+  const std::optional<CellResult>& failure() const { return failure_; }
+  double cpu_s() const { return cpu_s_; }
+  double peak_mb() const { return peak_mb_; }
+  /// Of all that it has answered.
+  std::string AnswersDigest() const { return answers_.Hex(); }
+
+ private:
+  OutsideReply Note(OutsideReply reply);
+
+  OutsideMethod& method_;
+  const std::string setting_id_;
+  const Payload& setting_;
+  const std::string id_;
+  int sessions_ = 0;
+  std::optional<CellResult> failure_;
+  double cpu_s_ = 0, peak_mb_ = 0;
+  Digest answers_;
+};
+
+}  // namespace etude

@@ -1,0 +1,89 @@
+#include "bench/results/seal.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bench/files/files.h"
+#include "bench/files/json.h"
+#include "bench/results/folder.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSealVersion = 1;
+
+/// By path from the folder, with '/' between its parts.
+using Digests = std::map<std::string, std::string>;
+
+bool IsSealed(const fs::path& from_folder) {
+  const std::string first = from_folder.begin()->string();
+  return first != kSealFile && first != TemporaryName(kSealFile) && first != kJournalFile && !IsMadeFromResults(first);
+}
+
+Result<Digests> DigestsOf(const fs::path& folder) {
+  Digests digests;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path name = entry->path().lexically_relative(folder);
+    if (!IsSealed(name)) {
+      entry.disable_recursion_pending();
+    } else if (entry->is_regular_file(error)) {
+      ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(entry->path()));
+      digests[name.generic_string()] = Digest().Add(std::string_view(bytes)).Hex();
+    }
+  }
+  if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());
+  return digests;
+}
+
+Result<Digests> ReadSeal(const fs::path& path) {
+  std::error_code none;
+  if (!fs::exists(path, none)) {
+    return Fail({path.string()}, "is missing: an older program wrote this run, or somebody took its seal away");
+  }
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  ASSIGN_OR_RETURN(const auto json, ReadJson(text, path.string()));
+  try {
+    if (json.at("version").get<int>() != kSealVersion) {
+      return Fail({path.string()}, "a seal of version {}; this program reads {}", json.at("version").dump(),
+                  kSealVersion);
+    }
+    return json.at("files").get<Digests>();
+  } catch (const Json::exception& error) {
+    return Fail({path.string()}, "not a seal: {}", error.what());
+  }
+}
+
+}  // namespace
+
+bool IsMadeFromResults(std::string_view part) { return part == "report" || part == "video"; }
+
+Result<void> SealRun(const fs::path& folder) {
+  ASSIGN_OR_RETURN(const auto digests, DigestsOf(folder));
+  ASSIGN_OR_RETURN(const auto text,
+                   WriteJson({{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}}));
+  return WriteFileAtomically(folder / kSealFile, text + "\n");
+}
+
+Result<void> CheckSeal(const fs::path& folder) {
+  ASSIGN_OR_RETURN(const auto sealed, ReadSeal(folder / kSealFile));
+  ASSIGN_OR_RETURN(const auto found, DigestsOf(folder));
+  for (const auto& [name, digest] : sealed) {
+    const auto file = found.find(name);
+    const Place place{(folder / name).string()};
+    if (file == found.end()) return Fail(place, "is missing: the run wrote it");
+    if (file->second != digest) return Fail(place, "is not as the run wrote it");
+  }
+  for (const auto& [name, digest] : found) {
+    if (!sealed.contains(name)) return Fail({(folder / name).string()}, "was not written by the run");
+  }
+  return {};
+}
+
+}  // namespace etude

@@ -1,0 +1,84 @@
+#include "engine/coaching/dance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/base/named.h"
+
+namespace etude {
+namespace {
+
+/// A clip must have something to leave and something to enter.
+constexpr std::size_t kFewestFrames = 2;
+
+Result<void> CheckMotion(const std::string& title, std::string_view what, const BodyMotion& motion) {
+  if (motion.poses.size() < kFewestFrames) {
+    return Fail({}, "dance '{}': {} has {} frames; at least {}", title, what, motion.poses.size(), kFewestFrames);
+  }
+  if (motion.rate_hz != kJudgedRateHz) {
+    return Fail({}, "dance '{}': {} runs at {} Hz; must be {}", title, what, motion.rate_hz, kJudgedRateHz);
+  }
+  return {};
+}
+
+Result<void> CheckRepetitions(const Dance& dance) {
+  std::size_t free_from = 0;
+  if (dance.repetitions.empty()) return Fail({}, "dance '{}' has no repetition", dance.title);
+  for (std::size_t i = 0; i < dance.repetitions.size(); ++i) {
+    const Repetition& repetition = dance.repetitions[i];
+    if (repetition.move < 0 || repetition.move >= static_cast<int>(dance.moves.size())) {
+      return Fail({}, "dance '{}', repetition {}: move {} of {}", dance.title, i, repetition.move, dance.moves.size());
+    }
+    if (repetition.first < free_from || repetition.end < repetition.first + kFewestFrames ||
+        repetition.end > dance.motion.poses.size()) {
+      return Fail({}, "dance '{}', repetition {}: frames {} to {}; allowed: {} to {}, two at least", dance.title, i,
+                  repetition.first, repetition.end, free_from, dance.motion.poses.size());
+    }
+    free_from = repetition.end;
+  }
+  return {};
+}
+
+Result<void> CheckTags(const Dance& dance) {
+  const MusicTag* before = nullptr;
+  for (const MusicTag& tag : dance.tags) {
+    if (!std::isfinite(tag.music_s) || tag.frame >= dance.motion.poses.size()) {
+      return Fail({}, "dance '{}': a music-time tag at frame {}, {} s; the dance has {} frames", dance.title, tag.frame,
+                  tag.music_s, dance.motion.poses.size());
+    }
+    if (before != nullptr && (tag.frame <= before->frame || tag.music_s <= before->music_s)) {
+      return Fail({}, "dance '{}': music-time tags must ascend; frame {}, {} s comes after frame {}, {} s", dance.title,
+                  tag.frame, tag.music_s, before->frame, before->music_s);
+    }
+    before = &tag;
+  }
+  return {};
+}
+
+}  // namespace
+
+const CoachAct* Dance::FindAct(std::string_view name) const { return FindByName(acts, name); }
+
+std::vector<std::string> RequiredActs() {
+  return {"standby", "attract", "doze", "wake", "head_shake", "wave", "puzzled", "praise"};
+}
+
+Result<void> CheckDance(const Dance& dance) {
+  RETURN_IF_ERROR(CheckMotion(dance.title, "the song", dance.motion));
+  std::set<std::string> names;
+  for (const DanceMove& move : dance.moves) {
+    RETURN_IF_ERROR(CheckMotion(dance.title, "the slow demonstration of '" + move.name + "'", move.slow));
+    if (!names.insert(move.name).second) return Fail({}, "dance '{}': two moves '{}'", dance.title, move.name);
+  }
+  RETURN_IF_ERROR(CheckRepetitions(dance));
+  RETURN_IF_ERROR(CheckTags(dance));
+  for (const std::string& name : RequiredActs()) {
+    const CoachAct* act = dance.FindAct(name);
+    if (act == nullptr) return Fail({}, "dance '{}' lacks the act '{}'", dance.title, name);
+    RETURN_IF_ERROR(CheckMotion(dance.title, "the act '" + name + "'", act->motion));
+  }
+  return {};
+}
+
+}  // namespace etude

@@ -1,0 +1,140 @@
+#include "engine/coaching/playback.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <utility>
+
+#include "engine/transitions/joins/crossfade.h"
+
+namespace etude {
+namespace {
+
+/// First `inner`, then `outer`.
+FloorMove After(const FloorMove& outer, const FloorMove& inner) {
+  const glm::dvec3 shift = outer.Apply(glm::dvec3(inner.x, 0, inner.z));
+  return {.yaw = outer.yaw + inner.yaw, .x = shift.x, .z = shift.z};
+}
+
+/// The place of the path's clip in the world.
+FloorMove ClipPlace(const Playback& playback) { return After(playback.place, playback.path->place); }
+
+BodyPose DancePose(const Dance& dance, double frame) {
+  const auto& poses = dance.motion.poses;
+  const auto last = static_cast<double>(poses.size() - 1);
+  const double at = std::clamp(frame, 0.0, last);
+  const auto before = static_cast<std::size_t>(at);
+  return PoseBetween(poses[before], poses[std::min(before + 1, poses.size() - 1)], at - std::floor(at));
+}
+
+/// A whole frame of a path, and of its clip after that: a loop goes on, another clip keeps its last pose.
+BodyPose PathPose(const Playback& playback, const DanceLibrary& library, std::size_t frame) {
+  const ShownPath& path = *playback.path;
+  if (frame < path.frames.size()) return playback.place.Apply(path.frames[frame]);
+  const std::vector<BodyPose>& clip = library.library().motions[path.clip].poses;
+  const std::size_t since = static_cast<std::size_t>(path.clip_frame) + frame - path.entered;
+  const std::size_t index = library.IsLoop(path.clip) ? since % clip.size() : std::min(since, clip.size() - 1);
+  return ClipPlace(playback).Apply(clip[index]);
+}
+
+/// What is left: a clip of the library, its whole frame, what is shown beyond that, and where it is laid.
+struct Leaving {
+  int clip = 0;
+  int frame = 0;
+  double beyond = 0;
+  FloorMove place;
+};
+
+Leaving LeavingOf(const Playback& playback, const DanceLibrary& library) {
+  Leaving leaving;
+  double frame = 0;
+  if (playback.path) {
+    const PlayedClip played = PlayedOf(playback, library);
+    leaving.clip = played.clip;
+    leaving.place = ClipPlace(playback);
+    frame = played.frame;
+  } else {
+    leaving.clip = library.ClipLeaving(library.RepetitionAt(playback.dance_frame));
+    frame = playback.dance_frame - static_cast<double>(library.DanceFrameOf(leaving.clip));
+  }
+  const auto last = static_cast<double>(library.library().motions[leaving.clip].poses.size() - 1);
+  frame = std::clamp(frame, 0.0, last);
+  leaving.frame = static_cast<int>(frame);
+  leaving.beyond = frame - std::floor(frame);
+  return leaving;
+}
+
+}  // namespace
+
+PlayedClip PlayedOf(const Playback& playback, const DanceLibrary& library) {
+  const ShownPath& path = *playback.path;
+  PlayedClip played{.clip = path.clip, .frame = static_cast<double>(path.clip_frame), .in_transition = true};
+  const double since = playback.path_frame - static_cast<double>(path.entered);
+  if (since < 0) return played;
+  const auto size = static_cast<double>(library.library().motions[path.clip].poses.size());
+  const double frame = played.frame + since;
+  return {.clip = path.clip,
+          .frame = library.IsLoop(path.clip) ? std::fmod(frame, size) : std::min(frame, size - 1),
+          .in_transition = false};
+}
+
+double DanceFrame(const Playback& playback, const DanceLibrary& library) {
+  if (!playback.path) return playback.dance_frame;
+  if (!library.IsReturning(playback.path->clip)) return -1;
+  const PlayedClip played = PlayedOf(playback, library);
+  return played.in_transition ? -1 : static_cast<double>(library.DanceFrameOf(played.clip)) + played.frame;
+}
+
+BodyPose ShownPose(const Playback& playback, const DanceLibrary& library) {
+  if (!playback.path) return DancePose(library.dance(), playback.dance_frame);
+  const auto frame = static_cast<std::size_t>(playback.path_frame);
+  const double beyond = playback.path_frame - std::floor(playback.path_frame);
+  const BodyPose pose = PathPose(playback, library, frame);
+  return beyond > 0 ? PoseBetween(pose, PathPose(playback, library, frame + 1), beyond) : pose;
+}
+
+bool IsOver(const Playback& playback, const DanceLibrary& library, double before) {
+  if (!playback.path) {
+    return playback.dance_frame + before >= static_cast<double>(library.dance().motion.poses.size() - 1);
+  }
+  if (library.IsLoop(playback.path->clip)) return false;
+  const PlayedClip played = PlayedOf(playback, library);
+  const auto last = static_cast<double>(library.library().motions[played.clip].poses.size() - 1);
+  return !played.in_transition && played.frame + before >= last;
+}
+
+bool IsSettled(const Playback& playback) {
+  constexpr double kLongestJoin = 30;  // frames
+  if (!playback.path || playback.path->frames.empty()) return true;
+  return playback.path_frame >= static_cast<double>(playback.path->entered) + kLongestJoin;
+}
+
+void Advance(Playback& playback, const DanceLibrary& library, double rate) {
+  if (!playback.path) {
+    const auto last = static_cast<double>(library.dance().motion.poses.size() - 1);
+    playback.dance_frame = std::min(playback.dance_frame + rate, last);
+    return;
+  }
+  playback.path_frame += 1;
+  if (!library.IsReturning(playback.path->clip) || !IsOver(playback, library, 1)) return;
+  playback.dance_frame = DanceFrame(playback, library);
+  playback.path = nullptr;
+}
+
+void LeaveFor(int clip, Playback& playback, const DanceTransitions& transitions) {
+  const Leaving leaving = LeavingOf(playback, transitions.library());
+  playback.path = transitions.Find(leaving.clip, leaving.frame, clip);
+  // The path's first frame comes after the whole frame that was left; Advance is still to come.
+  playback.path_frame = leaving.beyond - 1;
+  playback.place = leaving.place;
+}
+
+void LeaveForHome(int clip, Playback& playback, const DanceTransitions& transitions) {
+  const Leaving leaving = LeavingOf(playback, transitions.library());
+  playback.path = transitions.FindHome(leaving.clip, leaving.frame, leaving.place, clip);
+  playback.path_frame = leaving.beyond - 1;
+  playback.place = {};
+}
+
+}  // namespace etude

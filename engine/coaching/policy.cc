@@ -1,0 +1,109 @@
+#include "engine/coaching/policy.h"
+
+#include <fmt/format.h>
+
+#include "engine/base/named.h"
+
+namespace etude {
+namespace {
+
+using Values = std::span<const double>;
+
+/// After so many mistakes in a row of a move.
+struct AfterOptions {
+  int mistakes = 2;
+};
+const SettingTable<AfterOptions>& AfterSettings() {
+  static const SettingTable<AfterOptions> table({
+      {"mistakes", &AfterOptions::mistakes, 1, 100, "mistakes in a row of a move, from which on it is corrected"},
+  });
+  return table;
+}
+
+struct ConfidenceOptions {
+  double sure_below = 0.5;
+};
+const SettingTable<ConfidenceOptions>& ConfidenceSettings() {
+  static const SettingTable<ConfidenceOptions> table({
+      {"sure_below", &ConfidenceOptions::sure_below, 0, 1,
+       "corrects where the evidence stays below this share of what counts as right"},
+  });
+  return table;
+}
+
+struct FadingOptions {
+  double mistakes_per_correction = 1;
+};
+const SettingTable<FadingOptions>& FadingSettings() {
+  static const SettingTable<FadingOptions> table({
+      {"mistakes_per_correction", &FadingOptions::mistakes_per_correction, 0, 10,
+       "so many mistakes more in a row are let pass for every correction that the move has had"},
+  });
+  return table;
+}
+
+PolicyDecision AfterMistakes(const PolicyInput& input, int wanted) {
+  if (input.verdict != Verdict::kWrong) return {false, "no mistake"};
+  const int found = input.move.mistakes_in_row;
+  return {found >= wanted, fmt::format("{} mistakes in a row of this move; corrects from {} on", found, wanted)};
+}
+
+PolicyDecision Never(const PolicyInput& /*input*/, Values /*values*/) { return {false, "never corrects"}; }
+
+PolicyDecision AtFirst(const PolicyInput& input, Values /*values*/) { return AfterMistakes(input, 1); }
+
+PolicyDecision AfterN(const PolicyInput& input, Values values) {
+  return AfterMistakes(input, AfterSettings().Apply(values).mistakes);
+}
+
+PolicyDecision Confident(const PolicyInput& input, Values values) {
+  if (input.verdict != Verdict::kWrong) return {false, "no mistake"};
+  const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
+  return {input.evidence < sure || input.evidence == 0,
+          fmt::format("evidence {:.2f} of a right performance; sure of a mistake below {:.2f}", input.evidence, sure)};
+}
+
+PolicyDecision Fading(const PolicyInput& input, Values values) {
+  const double more = FadingSettings().Apply(values).mistakes_per_correction * input.move.corrections;
+  return AfterMistakes(input, 1 + static_cast<int>(more));
+}
+
+PolicyDecision AtMoments(const PolicyInput& /*input*/, Values /*values*/) {
+  return {false, "corrects at given moments only"};
+}
+
+}  // namespace
+
+std::span<const Policy> AllPolicies() {
+  static const std::vector<Policy> policies = {
+      {.name = "at-first-mistake", .description = "every mistake is corrected (paper A)", .decide = AtFirst},
+      {.name = "never", .description = "the dance goes on whatever the player does", .decide = Never},
+      {.name = "after-n",
+       .description = "after several mistakes in a row of a move",
+       .settings = AfterSettings().Describe(),
+       .decide = AfterN},
+      {.name = "confidence",
+       .description = "only where the recogniser is sure of a mistake",
+       .settings = ConfidenceSettings().Describe(),
+       .decide = Confident},
+      {.name = "fading",
+       .description = "guidance grows less: every correction of a move lets further mistakes pass",
+       .settings = FadingSettings().Describe(),
+       .decide = Fading},
+      {.name = "oracle",
+       .description = "every mistake, and nothing else, is corrected: it is told the truth",
+       .asks_truth = true,
+       .decide = AtFirst},
+      {.name = "yoked",
+       .description = "corrects at the moments of another session, whatever its own player does",
+       .takes_moments = true,
+       .decide = AtMoments},
+  };
+  return policies;
+}
+
+std::vector<std::string> PolicyNames() { return NamesOf(AllPolicies()); }
+
+const Policy* FindPolicy(std::string_view name) { return FindByName(AllPolicies(), name); }
+
+}  // namespace etude

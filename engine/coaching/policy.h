@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/settings.h"
+
+namespace etude {
+
+/// What a window came to.
+enum class Verdict {
+  kRight,
+  kWrong,
+  kUnknown,  ///< the player was not seen, or the one who knows did not say
+};
+
+/// What a coach remembers of one move, or of all of them.
+struct MoveMemory {
+  int judged = 0;           ///< windows that came to right or wrong
+  int mistakes = 0;         ///< of them wrong
+  int mistakes_in_row = 0;  ///< since the last right one
+  int corrections = 0;      ///< given
+};
+
+/// What a policy decides by, once a window has closed.
+struct PolicyInput {
+  Verdict verdict = Verdict::kUnknown;
+  double evidence = 0;    ///< Evidence::asked at the window's end
+  double right_from = 0;  ///< from which evidence on a performance counts as right, > 0
+  MoveMemory move;        ///< of the move asked for, this window included
+};
+
+struct PolicyDecision {
+  bool corrects = false;
+  std::string why;  ///< one sentence with numbers
+};
+
+/// When the coach interrupts, by the name scenario files call it. All policies are pure.
+struct Policy {
+  std::string name;
+  std::string description;     ///< one line, for people
+  bool asks_truth = false;     ///< the verdict is CoachInput::told_right, not the recogniser's
+  bool takes_moments = false;  ///< it corrects at CoachInput::moment and at no other time
+  std::vector<NumberSetting> settings = {};
+  /// `values`: one per setting, in their order; none at all: the defaults.
+  PolicyDecision (*decide)(const PolicyInput& input, std::span<const double> values) = nullptr;
+};
+
+/// Paper A's first: at-first-mistake, never, after-n, confidence, fading, oracle, yoked.
+std::span<const Policy> AllPolicies();
+std::vector<std::string> PolicyNames();
+/// Null when there is no such policy.
+const Policy* FindPolicy(std::string_view name);
+
+}  // namespace etude

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/coaching/coach.h"
+
+namespace etude {
+
+/// One frame of Coach::Step: takes the player in, goes on playing, shows that, and decides what comes next.
+class Stepping {
+ public:
+  /// Everything must outlive this; `step.state` is changed, `step.output` filled.
+  Stepping(const DanceTransitions& transitions, const CoachOptions& options, const Coach::PolicyChoice& policy,
+           const CoachInput& input, CoachStep& step);
+
+  void Run();
+
+ private:
+  // The player (player.cc).
+  void Watch();
+  PlayerHint WhereToStand() const;
+  bool IsIdleFor(double seconds) const;
+
+  // What is shown.
+  void Show();
+  void Picture();
+
+  // The machine, by mode.
+  void Decide();
+  void Wait();
+  void DanceOn();
+  void Correct();
+
+  // The dance's music and windows (dancing.cc).
+  void FollowMusic(double dance_frame);
+  void OpenWindowAt(double dance_frame);
+  void CloseWindow();
+  void JudgeEarly();
+  void Remember(Verdict verdict);
+  Verdict Judge(Mistake& mistake) const;
+  void AnswerMistake(Mistake mistake);
+  void AnswerMoment(double dance_frame);
+
+  // Ways from mode to mode.
+  void BeginSong();
+  void EndSong();
+  void Interrupt(int repetition, std::string why);
+  void ReturnToDance();
+  void Enter(CoachMode mode, std::string_view act, CoachEvent event, std::string why);
+  void Become(CoachMode mode);
+  void StopMusic();
+  void NoteTransition();
+
+  CoachRecord& Note(CoachEvent event, std::string why);
+  void Say(std::string_view words, double seconds);
+  int MoveOf(int repetition) const { return dance_.repetitions[repetition].move; }
+  const std::string& NameOf(int repetition) const { return dance_.moves[MoveOf(repetition)].name; }
+
+  const DanceTransitions& transitions_;
+  const DanceLibrary& library_;
+  const etude::Dance& dance_;
+  const CoachOptions& options_;
+  const Coach::PolicyChoice& policy_;
+  const CoachInput& input_;
+  CoachState& state_;
+  CoachOutput& out_;
+};
+
+}  // namespace etude

@@ -1,0 +1,79 @@
+#include "engine/recognition/alignment.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace etude {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr std::uint8_t kBegins = 3;  // instead of an advance: a path begins here
+
+}  // namespace
+
+SubsequenceAligner::SubsequenceAligner(std::span<const PoseVector> pattern, int longest)
+    : pattern_(pattern),
+      longest_(longest),
+      distances_(pattern.size()),
+      starts_(pattern.size()),
+      advances_(static_cast<std::size_t>(longest) * pattern.size()) {
+  assert(!pattern.empty() && longest >= 1);
+  Reset();
+}
+
+void SubsequenceAligner::Reset() {
+  count_ = 0;
+  costs_.assign(pattern_.size(), kNever);
+}
+
+void SubsequenceAligner::Update(const PoseVector& seen) {
+  const int now = count_++;
+  const std::size_t size = pattern_.size();
+  std::uint8_t* advances = advances_.data() + static_cast<std::size_t>(now % longest_) * size;
+  for (std::size_t j = 0; j < size; ++j) distances_[j] = SquaredDistance(seen, pattern_[j]);
+
+  // From the pattern's end to its start, so that costs below j are still those of the step before.
+  for (std::size_t j = size; j-- > 0;) {
+    double best = costs_[j];
+    std::uint8_t advance = 0;
+    int start = starts_[j];
+    if (j >= 1 && costs_[j - 1] < best) {
+      best = costs_[j - 1];
+      advance = 1;
+      start = starts_[j - 1];
+    }
+    if (j >= 2 && costs_[j - 2] + distances_[j - 1] < best) {
+      best = costs_[j - 2] + distances_[j - 1];
+      advance = 2;
+      start = starts_[j - 2];
+    }
+    if (j == 0) {  // beginning now is never dearer than having begun before
+      best = 0;
+      advance = kBegins;
+      start = now;
+    }
+    const bool is_too_long = now - start >= longest_;
+    costs_[j] = is_too_long ? kNever : best + distances_[j];
+    starts_[j] = start;
+    advances[j] = advance;
+  }
+}
+
+std::vector<StepPair> SubsequenceAligner::Path() const {
+  std::vector<StepPair> path;
+  if (count_ == 0 || costs_.back() == kNever) return path;
+  const std::size_t size = pattern_.size();
+  int seen = count_ - 1, taught = static_cast<int>(size) - 1;
+  for (;; --seen) {
+    path.push_back({seen, taught});
+    const std::uint8_t advance =
+        advances_[static_cast<std::size_t>(seen % longest_) * size + static_cast<std::size_t>(taught)];
+    if (advance == kBegins) break;
+    taught -= advance;
+  }
+  std::ranges::reverse(path);
+  return path;
+}
+
+}  // namespace etude

@@ -1,0 +1,173 @@
+#include "engine/recognition/measuring_recogniser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/recognition/step_follower.h"
+
+namespace etude {
+namespace {
+
+constexpr double kUnaligned = std::numeric_limits<double>::infinity();
+
+/// An example of a move, and how many steps a performance of it may last.
+struct TaughtExample {
+  std::size_t move;
+  std::vector<PoseVector> pattern;
+  int longest;
+};
+
+/// The steps seen last, by their number.
+class RecentSteps {
+ public:
+  explicit RecentSteps(std::size_t kept) : steps_(kept) {}
+
+  void Add(const PoseVector& step) { steps_[static_cast<std::size_t>(count_++) % steps_.size()] = step; }
+  int Count() const { return count_; }
+  const PoseVector& operator[](int number) const { return steps_[static_cast<std::size_t>(number) % steps_.size()]; }
+
+ private:
+  std::vector<PoseVector> steps_;
+  int count_ = 0;
+};
+
+/// What each move cost at its best lately.
+class RecentCosts {
+ public:
+  explicit RecentCosts(std::size_t moves) : moves_(moves), costs_(moves * kKept, kUnaligned) {}
+
+  void Next() { std::fill_n(costs_.begin() + static_cast<std::ptrdiff_t>(++step_ % kKept * moves_), moves_, kUnaligned); }
+  void Lower(std::size_t move, double cost) {
+    double& known = costs_[step_ % kKept * moves_ + move];
+    known = std::min(known, cost);
+  }
+  /// Of the moves other than this one.
+  double LowestOther(std::size_t move) const {
+    double lowest = kUnaligned;
+    for (std::size_t i = 0; i < costs_.size(); ++i) {
+      if (i % moves_ != move) lowest = std::min(lowest, costs_[i]);
+    }
+    return lowest;
+  }
+
+ private:
+  static constexpr std::size_t kKept = 15;  // steps: a second
+  std::size_t moves_, step_ = 0;
+  std::vector<double> costs_;
+};
+
+class MeasuringFollower final : public StepFollower {
+ public:
+  MeasuringFollower(const std::vector<TaughtExample>& examples, std::size_t moves, const SightWeights& weights,
+                    const PerformanceJudge& judge, double rate_hz)
+      : StepFollower(PoseParts::kLimbs, weights, moves, rate_hz),
+        examples_(examples),
+        judge_(judge),
+        steps_(LongestOf(examples)),
+        costs_(std::max<std::size_t>(moves, 1)) {
+    for (const TaughtExample& example : examples) always_.emplace_back(example.pattern, example.longest);
+  }
+
+ private:
+  static std::size_t LongestOf(const std::vector<TaughtExample>& examples) {
+    int longest = 1;
+    for (const TaughtExample& example : examples) longest = std::max(longest, example.longest);
+    return static_cast<std::size_t>(longest);
+  }
+
+  void Open(std::optional<std::size_t> move) override {
+    in_window_.clear();
+    opened_at_ = steps_.Count();
+    for (const TaughtExample& example : examples_) {
+      if (example.move == move) in_window_.push_back({&example, {example.pattern, example.longest}});
+    }
+  }
+
+  double Take(const PoseVector& step, std::span<double> spotted) override {
+    steps_.Add(step);
+    costs_.Next();
+    std::size_t nearest = 0;
+    double lowest = kUnaligned;
+    for (std::size_t i = 0; i < examples_.size(); ++i) {
+      always_[i].Update(step);
+      const double cost = always_[i].Cost();
+      costs_.Lower(examples_[i].move, cost);
+      if (cost < lowest) {
+        lowest = cost;
+        nearest = i;
+      }
+    }
+    if (lowest < kUnaligned) {
+      const TaughtExample& example = examples_[nearest];
+      spotted[example.move] = Judge(Occasion::kSpotted, example, always_[nearest], 0);
+    }
+    double evidence = 0;
+    for (auto& [example, aligner] : in_window_) {
+      aligner.Update(step);
+      if (aligner.Cost() < kUnaligned)
+        evidence = std::max(evidence, Judge(Occasion::kAsked, *example, aligner, opened_at_));
+    }
+    return evidence;
+  }
+
+  /// `first`: the number of the step that the aligner calls its first.
+  double Judge(Occasion occasion, const TaughtExample& example, const SubsequenceAligner& aligner, int first) const {
+    const std::vector<StepPair> path = aligner.Path();
+    const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
+    return judge_(occasion, example.move,
+                  Measure({.path = path,
+                           .seen = seen,
+                           .pattern = example.pattern,
+                           .cost = aligner.Cost(),
+                           .other_cost = costs_.LowestOther(example.move)}));
+  }
+
+  struct InWindow {
+    const TaughtExample* example;
+    SubsequenceAligner aligner;
+  };
+
+  const std::vector<TaughtExample>& examples_;
+  const PerformanceJudge& judge_;
+  RecentSteps steps_;
+  RecentCosts costs_;
+  std::vector<SubsequenceAligner> always_;  // one per example
+  std::vector<InWindow> in_window_;
+  int opened_at_ = 0;
+};
+
+class MeasuringRecogniser final : public Recogniser {
+ public:
+  MeasuringRecogniser(std::vector<TaughtExample> examples, std::size_t moves, const SightWeights& weights,
+                      PerformanceJudge judge)
+      : examples_(std::move(examples)), moves_(moves), weights_(weights), judge_(std::move(judge)) {}
+
+  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
+    return std::make_unique<MeasuringFollower>(examples_, moves_, weights_, judge_, rate_hz);
+  }
+
+ private:
+  std::vector<TaughtExample> examples_;
+  std::size_t moves_;
+  SightWeights weights_;
+  PerformanceJudge judge_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+                                                    PerformanceJudge judge) {
+  std::vector<TaughtExample> examples;
+  for (std::size_t move = 0; move < taught.size(); ++move) {
+    const int longest = static_cast<int>(std::ceil(taught[move].span_s * kStepsPerSecond));
+    for (const SkeletonStream& stream : taught[move].examples) {
+      auto pattern = DescribeStream(stream, PoseParts::kLimbs);
+      if (!pattern.empty()) examples.push_back({move, std::move(pattern), longest});
+    }
+  }
+  return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge));
+}
+
+}  // namespace etude

@@ -1,0 +1,145 @@
+#include "engine/recognition/nearest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/recognition/step_follower.h"
+
+namespace etude {
+namespace {
+
+using Pattern = std::vector<PoseVector>;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+/// An example, and what it is compared with because it is not the move. All last alike.
+struct Example {
+  std::size_t move;
+  Pattern right;
+  std::vector<Pattern> wrong;  ///< mirrored, at half its amplitude, standing still
+};
+
+/// A body of paper B's proportions, the trunk 50 cm, that stands with its arms hanging.
+PoseVector Standing() {
+  PoseVector pose;
+  pose.parts = {{{0, 0.75, 0},
+                 {0.18, 0.5, 0},
+                 {-0.18, 0.5, 0},
+                 {0.18, 0.21, 0},
+                 {-0.18, 0.21, 0},
+                 {0.18, -0.04, 0},
+                 {-0.18, -0.04, 0},
+                 {0.09, -0.43, 0},
+                 {-0.09, -0.43, 0},
+                 {0.09, -0.85, 0},
+                 {-0.09, -0.85, 0},
+                 {0, 0, 0}}};
+  return pose;
+}
+
+template <typename Change>
+Pattern Changed(const Pattern& pattern, Change change) {
+  Pattern changed;
+  for (const PoseVector& pose : pattern) changed.push_back(change(pose));
+  return changed;
+}
+
+PoseVector Halved(const PoseVector& pose) {
+  static const PoseVector standing = Standing();
+  PoseVector halved = pose;
+  for (std::size_t i = 0; i < kPosePartCount; ++i) halved.parts[i] = 0.5 * (pose.parts[i] + standing.parts[i]);
+  return halved;
+}
+
+/// How unlike the end of `seen` is the pattern: root mean square over its steps; kFar when too little was seen.
+double Distance(std::span<const PoseVector> seen, const Pattern& pattern) {
+  if (seen.size() < pattern.size()) return kFar;
+  const auto end = seen.last(pattern.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < pattern.size(); ++i) sum += SquaredDistance(end[i], pattern[i]);
+  return std::sqrt(sum / static_cast<double>(pattern.size()));
+}
+
+Example ExampleOf(std::size_t move, Pattern right) {
+  constexpr double kOwnImage = 0.03;  // metres: a move that is its own mirror image cannot be done on the wrong side
+  Example example{.move = move, .right = std::move(right), .wrong = {}};
+  Pattern mirrored = Changed(example.right, [](const PoseVector& pose) { return Mirrored(pose, PoseParts::kJoints); });
+  if (Distance(mirrored, example.right) > kOwnImage) example.wrong.push_back(std::move(mirrored));
+  example.wrong.push_back(Changed(example.right, Halved));
+  example.wrong.push_back(Changed(example.right, [](const PoseVector&) { return Standing(); }));
+  return example;
+}
+
+class NearestFollower final : public StepFollower {
+ public:
+  NearestFollower(const std::vector<Example>& examples, std::size_t moves, const SightWeights& weights, double rate_hz)
+      : StepFollower(PoseParts::kJoints, weights, moves, rate_hz), examples_(examples), right_(moves), wrong_(moves) {
+    for (const Example& example : examples) longest_ = std::max(longest_, example.right.size());
+  }
+
+ private:
+  void Open(std::optional<std::size_t>) override { since_open_ = 0; }
+
+  double Take(const PoseVector& step, std::span<double> spotted) override {
+    if (seen_.size() == longest_) seen_.erase(seen_.begin());
+    seen_.push_back(step);
+    ++since_open_;
+    std::ranges::fill(right_, kFar);
+    std::ranges::fill(wrong_, kFar);
+    bool fits_into_window = false;
+    for (const Example& example : examples_) {
+      right_[example.move] = std::min(right_[example.move], Distance(seen_, example.right));
+      for (const Pattern& wrong : example.wrong) {
+        wrong_[example.move] = std::min(wrong_[example.move], Distance(seen_, wrong));
+      }
+      fits_into_window |= asked() == example.move && example.right.size() <= since_open_;
+    }
+    for (std::size_t move = 0; move < spotted.size(); ++move) spotted[move] = EvidenceOf(move);
+    return fits_into_window ? spotted[*asked()] : 0.0;
+  }
+
+  double EvidenceOf(std::size_t move) const {
+    if (right_[move] == kFar) return 0;
+    double other = wrong_[move];
+    for (std::size_t i = 0; i < right_.size(); ++i) {
+      if (i != move) other = std::min(other, right_[i]);
+    }
+    const double both = right_[move] + other;
+    return both > 0 ? other / both : 0.5;
+  }
+
+  const std::vector<Example>& examples_;
+  std::vector<double> right_, wrong_;  // distances per move, of this step
+  std::size_t longest_ = 0, since_open_ = 0;
+  std::vector<PoseVector> seen_;  // the last `longest_` steps
+};
+
+class NearestRecogniser final : public Recogniser {
+ public:
+  NearestRecogniser(std::vector<Example> examples, std::size_t moves, const SightWeights& weights)
+      : examples_(std::move(examples)), moves_(moves), weights_(weights) {}
+
+  std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
+    return std::make_unique<NearestFollower>(examples_, moves_, weights_, rate_hz);
+  }
+
+ private:
+  std::vector<Example> examples_;
+  std::size_t moves_;
+  SightWeights weights_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recogniser> MakeNearestRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights) {
+  std::vector<Example> examples;
+  for (std::size_t move = 0; move < taught.size(); ++move) {
+    for (const SkeletonStream& stream : taught[move].examples) {
+      Pattern right = DescribeStream(stream, PoseParts::kJoints);
+      if (!right.empty()) examples.push_back(ExampleOf(move, std::move(right)));
+    }
+  }
+  return std::make_unique<NearestRecogniser>(std::move(examples), taught.size(), weights);
+}
+
+}  // namespace etude

@@ -1,0 +1,153 @@
+#include "engine/recognition/pose_vector.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/recognition/sight.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+/// A part: the way from one joint to another, or, of the joints, from the hip centre to `to`.
+struct Part {
+  Role from, to;
+};
+constexpr std::size_t kWays = kPosePartCount - 1;
+constexpr std::array<Part, kWays> kJointParts = {{{kHipCentre, kHead},
+                                                  {kHipCentre, kLeftShoulder},
+                                                  {kHipCentre, kRightShoulder},
+                                                  {kHipCentre, kLeftElbow},
+                                                  {kHipCentre, kRightElbow},
+                                                  {kHipCentre, kLeftWrist},
+                                                  {kHipCentre, kRightWrist},
+                                                  {kHipCentre, kLeftKnee},
+                                                  {kHipCentre, kRightKnee},
+                                                  {kHipCentre, kLeftAnkle},
+                                                  {kHipCentre, kRightAnkle}}};
+constexpr std::array<Part, kWays> kLimbParts = {{{kHipCentre, kShoulderCentre},
+                                                 {kRightShoulder, kLeftShoulder},
+                                                 {kShoulderCentre, kHead},
+                                                 {kLeftShoulder, kLeftElbow},
+                                                 {kRightShoulder, kRightElbow},
+                                                 {kLeftElbow, kLeftWrist},
+                                                 {kRightElbow, kRightWrist},
+                                                 {kLeftHip, kLeftKnee},
+                                                 {kRightHip, kRightKnee},
+                                                 {kLeftKnee, kLeftAnkle},
+                                                 {kRightKnee, kRightAnkle}}};
+
+const std::array<Part, kWays>& WaysOf(PoseParts parts) {
+  return parts == PoseParts::kJoints ? kJointParts : kLimbParts;
+}
+
+constexpr double kTrunk = 0.5;    // metres to which bodies are scaled
+constexpr double kHips = 0.9;     // their standing hip height then
+constexpr double kStanding = 80;  // of the feature Posture
+constexpr double kSmoothing = 1;  // seconds
+
+double TrunkLength(const SensedFrame& skeleton) {
+  return glm::distance(skeleton[kHipCentre].position, skeleton[kShoulderCentre].position);
+}
+
+}  // namespace
+
+double SquaredDistance(const PoseVector& seen, const PoseVector& taught) {
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i < kPosePartCount; ++i) {
+    const glm::dvec3 gap = seen.parts[i] - taught.parts[i];
+    sum += seen.weights[i] * glm::dot(gap, gap);
+    total += seen.weights[i];
+  }
+  return total > 0 ? sum / total : 0.0;
+}
+
+PoseVector Mirrored(const PoseVector& pose, PoseParts parts) {
+  const auto& ways = WaysOf(parts);
+  const glm::dvec3 flip(-1, 1, 1);
+  PoseVector mirrored = pose;
+  for (std::size_t i = 0; i < kWays; ++i) {
+    for (std::size_t j = 0; j < kWays; ++j) {
+      const bool is_image = ways[j].from == Mirrored(ways[i].from) && ways[j].to == Mirrored(ways[i].to);
+      const bool is_reverse = ways[j].from == Mirrored(ways[i].to) && ways[j].to == Mirrored(ways[i].from);
+      if (!is_image && !is_reverse) continue;
+      mirrored.parts[j] = flip * pose.parts[i] * (is_image ? 1.0 : -1.0);
+      mirrored.weights[j] = pose.weights[i];
+    }
+  }
+  return mirrored;
+}
+
+StepDescriber::StepDescriber(PoseParts parts, const SightWeights& weights, double rate_hz)
+    : parts_(parts), weights_(weights), rate_hz_(rate_hz) {}
+
+void StepDescriber::Follow(const SensedFrame& skeleton) {
+  const double share = follows_ ? 1.0 - std::exp(-1.0 / (kSmoothing * rate_hz_)) : 1.0;
+  const glm::dvec3 facing = facing_ + share * (Facing(PoseOf(skeleton)) - facing_);
+  if (glm::length(facing) > 1e-6) facing_ = facing;  // half a turn at once has no middle
+  trunk_m_ += share * (TrunkLength(skeleton) - trunk_m_);
+  follows_ = true;
+}
+
+PoseVector StepDescriber::Describe(const SeenFrame& frame) {
+  Follow(frame.skeleton);
+  const glm::dvec3 ahead = glm::normalize(facing_), left(ahead.z, 0, -ahead.x);
+  const double scale = trunk_m_ > 0 ? kTrunk / trunk_m_ : 1.0;
+  PoseVector pose;
+  const auto& ways = WaysOf(parts_);
+  for (std::size_t i = 0; i < kWays; ++i) {
+    const SensedJoint &from = frame.skeleton[ways[i].from], &to = frame.skeleton[ways[i].to];
+    const glm::dvec3 way = to.position - from.position;
+    const double length = glm::length(way);
+    const double factor = parts_ == PoseParts::kJoints ? scale : length > 0 ? 1.0 / length : 0.0;
+    pose.parts[i] = factor * glm::dvec3(glm::dot(way, left), way.y, glm::dot(way, ahead));
+    pose.weights[i] = weights_.Of(std::max(from.state, to.state));
+  }
+  pose.parts.back().y = kHips * (frame.features.features[Feature::kPosture] / kStanding - 1.0);
+  pose.weights.back() = weights_.Of(frame.features.StateOf(Feature::kPosture));
+  return pose;
+}
+
+int StepDescriber::Update(const SeenFrame& frame) {
+  if (frame.features.body_seen) {
+    const PoseVector pose = Describe(frame);
+    for (std::size_t i = 0; i < kPosePartCount; ++i) {
+      sum_.parts[i] += pose.parts[i];
+      sum_.weights[i] += pose.weights[i];
+    }
+    ++summed_;
+  }
+  const auto steps_until = [&](long frames) {
+    return static_cast<long>(std::floor(static_cast<double>(frames) * kStepsPerSecond / rate_hz_));
+  };
+  const long completed = steps_until(frame_ + 1) - steps_until(frame_);
+  ++frame_;
+  if (completed == 0) return 0;
+
+  step_.reset();
+  if (summed_ > 0) {
+    step_ = sum_;
+    for (std::size_t i = 0; i < kPosePartCount; ++i) {
+      step_->parts[i] /= summed_;
+      step_->weights[i] /= summed_;
+    }
+  }
+  sum_ = {};
+  summed_ = 0;
+  return static_cast<int>(completed);
+}
+
+std::vector<PoseVector> DescribeStream(const SkeletonStream& stream, PoseParts parts) {
+  std::vector<PoseVector> steps;
+  LiveSight sight({}, stream.rate_hz);
+  StepDescriber describer(parts, {}, stream.rate_hz);
+  for (const SensedFrame& frame : stream.frames) {
+    const int completed = describer.Update(sight.Update(frame));
+    if (completed > 0 && describer.Step())
+      steps.insert(steps.end(), static_cast<std::size_t>(completed), *describer.Step());
+  }
+  return steps;
+}
+
+}  // namespace etude

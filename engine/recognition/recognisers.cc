@@ -1,0 +1,117 @@
+#include "engine/recognition/recognisers.h"
+
+#include <algorithm>
+
+#include "engine/base/named.h"
+#include "engine/recognition/dtw.h"
+#include "engine/recognition/fuzzy_rules.h"
+#include "engine/recognition/key_pose.h"
+#include "engine/recognition/nearest.h"
+
+namespace etude {
+namespace {
+
+template <typename Own>
+using TeachWithOwn = std::unique_ptr<Recogniser> (*)(std::span<const TaughtMove>, const SightWeights&, const Own&);
+
+// A recogniser with options of its own: `table` tells which of them can be set, by which key, in which range.
+template <typename Own>
+RecogniserKind WithSettings(RecogniserKind kind, TeachWithOwn<Own> teach, const SettingTable<Own>& table) {
+  kind.settings = table.Describe();
+  kind.teach = [teach, table](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
+    return teach(taught, options.weights, table.Apply(options.settings));
+  };
+  return kind;
+}
+
+Result<void> CheckKeyPoses(const TaughtMove& move) {
+  if (move.poses.empty()) return Fail({}, "move '{}' has no key pose", move.name);
+  for (const TaughtPose& pose : move.poses) {
+    if (pose.targets.empty()) return Fail({}, "a key pose of move '{}' has no target", move.name);
+    if (pose.targets.size() > kFeatureCount) {
+      return Fail({}, "a key pose of move '{}' has {} targets; allowed: at most {}", move.name, pose.targets.size(),
+                  kFeatureCount);
+    }
+    const auto is_usable = [](const PoseTarget& target) { return target.tolerance_deg > 0; };
+    if (!std::ranges::all_of(pose.targets, is_usable)) {
+      return Fail({}, "a target of move '{}' has no tolerance above 0", move.name);
+    }
+  }
+  return {};
+}
+
+Result<void> CheckExamples(const TaughtMove& move) {
+  const auto shows_a_body = [](const SkeletonStream& stream) {
+    return stream.rate_hz > 0 && std::ranges::any_of(stream.frames, &SensedFrame::body_seen);
+  };
+  if (std::ranges::any_of(move.examples, shows_a_body)) return {};
+  return Fail({}, "move '{}' has no example that shows a body", move.name);
+}
+
+Result<void> Check(const RecogniserKind& kind, std::span<const TaughtMove> taught) {
+  for (std::size_t i = 0; i < taught.size(); ++i) {
+    const TaughtMove& move = taught[i];
+    if (FindByName(taught.first(i), move.name)) return Fail({}, "two moves are called '{}'", move.name);
+    if (!(move.span_s > 0 && move.span_s <= kLongestSpan)) {
+      return Fail({}, "move '{}' lasts {} s; allowed: above 0, up to {}", move.name, move.span_s, kLongestSpan);
+    }
+    const auto why = [&](const Error& error) { return Fail({}, "recogniser {}: {}", kind.name, error.message); };
+    if (kind.needs_key_poses) {
+      if (const auto checked = CheckKeyPoses(move); !checked) return why(checked.error());
+    }
+    if (kind.needs_examples) {
+      if (const auto checked = CheckExamples(move); !checked) return why(checked.error());
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+// A new recogniser is one row here. Its options, if it has any, are a struct in its own header.
+std::span<const RecogniserKind> AllRecognisers() {
+  static const std::vector<RecogniserKind> recognisers = {
+      WithSettings<KeyPoseOptions>(
+          {.name = "key-pose",
+           .description = "paper A's: the move's key poses, in their order",
+           .needs_key_poses = true},
+          MakeKeyPoseRecogniser,
+          {{{"tolerance_scale", &KeyPoseOptions::tolerance_scale, 0.1, 5, "Times every tolerance of the key poses."},
+            {"pose_share", &KeyPoseOptions::pose_share, 0.01, 1,
+             "The weighted share of a key pose's angles that must be within their tolerances."},
+            {"hold_frames", &KeyPoseOptions::hold_frames, 1, 30,
+             "For how many frames in a row a key pose must be met."}}}),
+      WithSettings<FuzzyRulesOptions>(
+          {.name = "fuzzy-rules",
+           .description = "paper A's fuzzy features: a rule for each key pose, and one for their order",
+           .needs_key_poses = true},
+          MakeFuzzyRulesRecogniser,
+          {{{"hold_frames", &FuzzyRulesOptions::hold_frames, 1, 30,
+             "For how many frames in a row a rule must hold."}}}),
+      WithSettings<DtwOptions>(
+          {.name = "dtw",
+           .description = "dynamic time warping of joints to the taught examples",
+           .needs_examples = true},
+          MakeDtwRecogniser,
+          {{{"half_at_cm", &DtwOptions::half_at_cm, 1, 100, "The distance at which the evidence is one half."}}}),
+      {.name = "nearest",
+       .description =
+           "nearest neighbour of joints: examples against their mirror image, their half, other moves, standing",
+       .needs_examples = true,
+       .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
+         return MakeNearestRecogniser(taught, options.weights);
+       }}};
+  return recognisers;
+}
+
+std::vector<std::string> RecogniserNames() { return NamesOf(AllRecognisers()); }
+
+const RecogniserKind* FindRecogniser(std::string_view name) { return FindByName(AllRecognisers(), name); }
+
+Result<std::unique_ptr<Recogniser>> MakeRecogniser(const RecogniserOptions& options,
+                                                   std::span<const TaughtMove> taught) {
+  RETURN_IF_ERROR(Check(*options.kind, taught));
+  return options.kind->teach(taught, options);
+}
+
+}  // namespace etude

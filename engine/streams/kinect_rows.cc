@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/names.h"
+#include "engine/formats/number_rows.h"
+#include "engine/streams/format_readers.h"
+
+namespace etude {
+namespace {
+
+/// How a row is laid out.
+struct RowLayout {
+  std::size_t columns;
+  std::size_t joints;
+  std::size_t first;   ///< where the first joint begins
+  std::size_t stride;  ///< numbers a joint
+  bool has_fourth;     ///< the fourth number of a joint may be its state
+};
+
+constexpr double kLargestClock = 1e18;
+constexpr std::size_t kV1Joints = kRoleCount, kV2Joints = kKinectV2JointCount;
+constexpr RowLayout kV1Layouts[] = {{3 * kV1Joints, kV1Joints, 0, 3, false},
+                                    {3 * kV1Joints + 1, kV1Joints, 1, 3, false},
+                                    {4 * kV1Joints, kV1Joints, 0, 4, true},
+                                    {4 * kV1Joints + 1, kV1Joints, 1, 4, true}};
+constexpr RowLayout kV2Layouts[] = {{3 * kV2Joints, kV2Joints, 0, 3, false},
+                                    {4 * kV2Joints, kV2Joints, 0, 4, true},
+                                    {7 * kV2Joints, kV2Joints, 0, 7, false}};
+
+std::span<const RowLayout> LayoutsOf(StreamFormat format) {
+  if (format == StreamFormat::kKinectV1) return kV1Layouts;
+  if (format == StreamFormat::kKinectV2) return kV2Layouts;
+  return {};
+}
+
+const RowLayout* FindLayout(StreamFormat format, std::size_t columns) {
+  for (const RowLayout& layout : LayoutsOf(format)) {
+    if (layout.columns == columns) return &layout;
+  }
+  return nullptr;
+}
+
+/// From the sensor's space (X to its left, Y up, Z away from it) to one in which a person who faces it looks along +Z.
+glm::dvec3 FromSensor(const glm::dvec3& p) { return {-p.x, p.y, -p.z}; }
+
+/// Whether the fourth numbers are states of the SDK (0 not tracked, 1 inferred, 2 tracked): they are when nothing else
+/// occurs and 2 does. MSRC-12 has a weight there, which is 1 throughout.
+bool FourthsAreStates(const NumberRows& table, const RowLayout& layout) {
+  if (!layout.has_fourth) return false;
+  bool some_tracked = false;
+  for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    for (std::size_t j = 0; j < layout.joints; ++j) {
+      const double fourth = table.Row(t)[layout.first + layout.stride * j + 3];
+      if (fourth != 0 && fourth != 1 && fourth != 2) return false;
+      some_tracked = some_tracked || fourth == 2;
+    }
+  }
+  return some_tracked;
+}
+
+/// How many seconds the first column counts by, from the middle step between rows: seconds, frames at 30 Hz,
+/// milliseconds or microseconds. Nothing when the clock stands still or leaps.
+std::optional<double> SecondsPerCount(const NumberRows& table) {
+  std::vector<double> steps;
+  for (std::size_t t = 1; t < table.RowCount(); ++t) {
+    const double step = table.Row(t)[0] - table.Row(t - 1)[0];
+    if (step > 0) steps.push_back(step);
+  }
+  if (steps.empty()) return table.RowCount() == 1 ? std::optional(1 / kJudgedRateHz) : std::nullopt;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const double step = *middle;
+  if (step < 1) return 1.0;
+  if (step < 5) return 1 / kJudgedRateHz;  // frames, of which some are missing
+  if (step <= 1000) return 1e-3;
+  if (step <= 1e6) return 1e-6;
+  return std::nullopt;
+}
+
+RecordedFrame FrameOf(std::span<const double> row, const RowLayout& layout, bool has_states) {
+  std::vector<std::optional<glm::dvec3>> places(layout.joints);
+  std::vector<TrackingState> states(layout.joints, TrackingState::kTracked);
+  for (std::size_t j = 0; j < layout.joints; ++j) {
+    const auto at = row.subspan(layout.first + layout.stride * j, layout.stride);
+    const glm::dvec3 place(at[0], at[1], at[2]);
+    if (std::isnan(place.x + place.y + place.z) || place == glm::dvec3(0)) continue;
+    if (has_states && at[3] == 0) continue;
+    if (has_states && at[3] == 1) states[j] = TrackingState::kInferred;
+    places[j] = FromSensor(place);
+  }
+  RecordedFrame frame;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const std::size_t j = layout.joints == kV2Joints ? KinectV2JointOf(AllRoles()[i]) : i;
+    frame.places[i] = places[j];
+    frame.states[i] = states[j];
+  }
+  return frame;
+}
+
+/// The row as a frame of the recording, its `index`th.
+Result<RecordedFrame> TimedFrame(std::span<const double> row, Place place, const RowLayout& layout,
+                                 const StreamRecording& recording, std::size_t index) {
+  RecordedFrame frame = FrameOf(row, layout, recording.tells_states);
+  frame.line = place.line;
+  const double count = recording.tells_times ? row[0] : static_cast<double>(index);
+  if (std::isnan(count)) return Fail(std::move(place), "no time, although other rows tell one");
+  frame.time_s = count * recording.seconds_per_count;
+  return frame;
+}
+
+std::string ColumnsAllowed(StreamFormat format) {
+  std::vector<std::string> counts;
+  for (const RowLayout& layout : LayoutsOf(format)) counts.push_back(std::to_string(layout.columns));
+  return Join(counts);
+}
+
+}  // namespace
+
+bool HasColumnsOf(StreamFormat format, std::size_t columns) { return FindLayout(format, columns) != nullptr; }
+
+Result<StreamRecording> ReadKinectRows(std::string_view text, const std::string& file, StreamFormat format,
+                                       const StreamReading& reading) {
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows(text, file, kLargestClock));
+  const RowLayout* layout = FindLayout(format, table.columns);
+  if (layout == nullptr) {
+    return Fail({file, table.lines.front()}, "{} numbers in a row; allowed for {}: {}", table.columns,
+                StreamFormatName(format), ColumnsAllowed(format));
+  }
+  StreamRecording recording{.format = format};
+  recording.tells_states = FourthsAreStates(table, *layout);
+  recording.tells_times = layout->first == 1 && !reading.rate_hz;
+  recording.rate_hz = reading.rate_hz.value_or(kJudgedRateHz);
+  const auto unit = recording.tells_times ? SecondsPerCount(table) : std::optional(1 / recording.rate_hz);
+  if (!unit) return Fail({file, table.lines.front(), 1}, "a first column that is no clock and counts no frames");
+  recording.seconds_per_count = *unit;
+  for (std::size_t t = 0; t < table.RowCount(); ++t) {
+    ASSIGN_OR_RETURN(recording.frames.emplace_back(),
+                     TimedFrame(table.Row(t), {file, table.lines[t], 1}, *layout, recording, t));
+  }
+  return recording;
+}
+
+Result<RecordedFrame> ReadKinectRow(std::string_view row, const std::string& file, const StreamRecording& recording,
+                                    std::size_t index) {
+  // After a heading, or a word in the row's place would be taken for one.
+  ASSIGN_OR_RETURN(const NumberRows table, ReadNumberRows("row\n" + std::string(row), file, kLargestClock));
+  const RowLayout* layout = FindLayout(recording.format, table.columns);
+  if (layout == nullptr || (layout->first == 0 && recording.tells_times)) {
+    return Fail({file, 1}, "{} numbers in a row, other than in the rows before", table.columns);
+  }
+  return TimedFrame(table.Row(0), {file, 1, 1}, *layout, recording, index);
+}
+
+}  // namespace etude

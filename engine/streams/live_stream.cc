@@ -1,0 +1,112 @@
+#include "engine/streams/live_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/names.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/streams/format_readers.h"
+
+namespace etude {
+namespace {
+
+constexpr int kLongestWait = 18000;  // rows: ten minutes at 30 Hz
+constexpr std::size_t kLongestLine = 1 << 16;
+
+bool HoldsNothing(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos || line.starts_with('#') || line.starts_with("//");
+}
+
+bool ShowsTrunk(const RecordedFrame& frame) {
+  return frame.places[Index(Role::kHipCentre)] && frame.places[Index(Role::kShoulderCentre)];
+}
+
+}  // namespace
+
+LiveStream::LiveStream(std::string name, const StreamReading& reading, const StreamOptions& options)
+    : name_(std::move(name)), reading_(reading), options_(options) {}
+
+Result<void> LiveStream::Take(std::string_view line, std::vector<SensedFrame>& stream) {
+  ++line_;
+  if (line.size() > kLongestLine)
+    return Fail({name_, line_}, "{} bytes in a line; allowed: {}", line.size(), kLongestLine);
+  if (HoldsNothing(line)) {
+    if (!maker_) first_lines_ += '\n';
+    return {};
+  }
+  if (maker_) {
+    auto frame = Read(line);
+    if (!frame) {
+      frame.error().place.line = line_;
+      return tl::unexpected(std::move(frame).error());
+    }
+    frame->line = line_;
+    return Add(*std::move(frame), stream);
+  }
+  if (rows_++ == 0) heading_ = line;
+  first_lines_ += line;
+  first_lines_ += '\n';
+  const int wanted = static_cast<int>(kJudgedRateHz);
+  const bool is_csv = TellStreamFormat(heading_) == StreamFormat::kEtudeCsv;
+  if (is_csv ? rows_ >= 3 : rows_ % wanted == 0) return Start(false, stream);
+  return {};
+}
+
+Result<void> LiveStream::Finish(std::vector<SensedFrame>& stream) {
+  if (maker_) return {};
+  return Start(true, stream);
+}
+
+Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
+  const auto format = reading_.format ? reading_.format : TellStreamFormat(first_lines_);
+  const bool is_rows = format && (*format == StreamFormat::kEtudeCsv || *format == StreamFormat::kKinectV1 ||
+                                  *format == StreamFormat::kKinectV2);
+  if (!is_rows) {
+    return Fail({name_, 1}, "no rows of skeletons; allowed as they come: {}, {}, {}",
+                StreamFormatName(StreamFormat::kEtudeCsv), StreamFormatName(StreamFormat::kKinectV1),
+                StreamFormatName(StreamFormat::kKinectV2));
+  }
+  ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, first_lines_, name_, reading_));
+  const auto wanted = static_cast<std::ptrdiff_t>(kJudgedRateHz);
+  const auto shown = std::ranges::count_if(recording.frames, ShowsTrunk);
+  if (!recording.is_level && shown < (at_end ? 1 : wanted / 2)) {
+    if (!at_end && rows_ < kLongestWait) return {};
+    return Fail({name_, line_}, "nobody to be seen so far");
+  }
+  if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, name_));
+  StreamLevel level;
+  if (options_.levels && !recording.is_level) level = EstimateLevel(recording.frames, recording.rate_hz);
+  maker_.emplace(level, options_, name_);
+  std::vector<RecordedFrame> frames = std::move(recording.frames);
+  recording.frames.clear();
+  meaning_ = std::move(recording);
+  for (RecordedFrame& frame : frames) RETURN_IF_ERROR(Add(std::move(frame), stream));
+  first_lines_.clear();
+  return {};
+}
+
+/// A frame under the time of the one before is left out.
+Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stream) {
+  const bool again = frames_ > 0 && frame.time_s == last_s_;
+  ++frames_;
+  last_s_ = frame.time_s;
+  if (again) return {};
+  return maker_->Add(frame, stream);
+}
+
+Result<RecordedFrame> LiveStream::Read(std::string_view line) const {
+  if (meaning_->format != StreamFormat::kEtudeCsv) {
+    ASSIGN_OR_RETURN(RecordedFrame frame, ReadKinectRow(line, name_, *meaning_, frames_));
+    for (auto& place : frame.places) {
+      if (place) *place *= meaning_->metres_per_unit;
+    }
+    return frame;
+  }
+  ASSIGN_OR_RETURN(const JointCsv csv, ReadJointCsv(heading_ + "\n" + std::string(line), name_));
+  RecordedFrame frame{.places = csv.frames.front()};
+  frame.time_s = meaning_->tells_times ? csv.times_s.front() : static_cast<double>(frames_) / meaning_->rate_hz;
+  if (std::isnan(frame.time_s)) return Fail({name_}, "no time, although other rows tell one");
+  return frame;
+}
+
+}  // namespace etude

@@ -1,0 +1,195 @@
+#include "engine/streams/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/base/named.h"
+#include "engine/base/names.h"
+#include "engine/formats/number_rows.h"
+#include "engine/streams/format_readers.h"
+
+namespace etude {
+namespace {
+
+using enum Role;
+
+constexpr Named<StreamFormat> kFormats[] = {
+    {"etude-csv", StreamFormat::kEtudeCsv}, {"trc", StreamFormat::kTrc}, {"kinect-v2", StreamFormat::kKinectV2},
+    {"kinect-v1", StreamFormat::kKinectV1}, {"ntu", StreamFormat::kNtu}, {"azure-kinect", StreamFormat::kAzureKinect}};
+
+std::string_view TakeLine(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+  while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+  return line;
+}
+
+bool IsWholeNumber(std::string_view line) {
+  return !line.empty() && line.size() <= 9 && line.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// The numbers in the first row that has any; 0 when there is none.
+std::size_t FirstRowColumns(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = TakeLine(text);
+    if (line.empty()) continue;
+    const auto row = ReadNumberRows(line, "", 1e18);
+    if (row) return row->columns;
+  }
+  return 0;
+}
+
+Result<void> CheckRoles(const StreamRecording& recording, const std::string& file) {
+  std::vector<std::string> missing;
+  for (const Role role : AllRoles()) {
+    const auto has = [&](const RecordedFrame& frame) { return frame.places[Index(role)].has_value(); };
+    if (std::ranges::none_of(recording.frames, has)) missing.emplace_back(RoleName(role));
+  }
+  if (missing.size() == kRoleCount) return Fail({file}, "no frame shows a body");
+  if (!missing.empty()) return Fail({file}, "never shows {}; needed: all {} joints", Join(missing), kRoleCount);
+  return {};
+}
+
+/// The middle distance between two joints, over the frames that have both; 0 when none has.
+double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
+  std::vector<double> lengths;
+  for (const RecordedFrame& frame : recording.frames) {
+    const auto &from = frame.places[Index(a)], &to = frame.places[Index(b)];
+    if (from && to) lengths.push_back(glm::distance(*from, *to));
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+/// No person is anywhere near so far from the sensor.
+Result<void> CheckReach(const StreamRecording& recording, const std::string& file) {
+  constexpr double kFarthest = 100;
+  for (const RecordedFrame& frame : recording.frames) {
+    for (const Role role : AllRoles()) {
+      const auto& place = frame.places[Index(role)];
+      if (!place || glm::length(*place) <= kFarthest) continue;
+      return Fail({file, frame.line}, "{} is {:.3g} m away; allowed: {} m", RoleName(role), glm::length(*place),
+                  kFarthest);
+    }
+  }
+  return {};
+}
+
+/// Frames that stand twice under one time count once, as the last one tells them.
+Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
+  std::vector<RecordedFrame> ordered;
+  for (RecordedFrame& frame : recording.frames) {
+    if (!ordered.empty() && frame.time_s < ordered.back().time_s) {
+      return Fail({file, frame.line}, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards",
+                  frame.time_s, ordered.back().time_s);
+    }
+    if (!ordered.empty() && frame.time_s == ordered.back().time_s) ordered.pop_back();
+    ordered.push_back(std::move(frame));
+  }
+  if (const std::size_t twice = recording.frames.size() - ordered.size(); twice > 0) {
+    recording.remarks.push_back(fmt::format("{} frames under the time of another, of which the last counts", twice));
+  }
+  recording.frames = std::move(ordered);
+  return {};
+}
+
+}  // namespace
+
+const std::vector<std::string>& StreamFormatNames() {
+  static const std::vector<std::string> names = NamesOf(kFormats);
+  return names;
+}
+
+std::string_view StreamFormatName(StreamFormat format) { return kFormats[static_cast<std::size_t>(format)].name; }
+
+StreamFormat FindStreamFormat(std::string_view name) { return ValueNamed(kFormats, name); }
+
+std::optional<StreamFormat> TellStreamFormat(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos) return std::nullopt;
+  if (text[start] == '{') return StreamFormat::kAzureKinect;
+  std::string_view rest = text.substr(start);
+  const std::string_view first = TakeLine(rest), second = TakeLine(rest);
+  if (first.starts_with("PathFileType")) return StreamFormat::kTrc;
+  if (first.find("_x_m") != std::string_view::npos) return StreamFormat::kEtudeCsv;
+  if (IsWholeNumber(first) && IsWholeNumber(second)) return StreamFormat::kNtu;
+  const std::size_t columns = FirstRowColumns(text);
+  for (const StreamFormat format : {StreamFormat::kKinectV2, StreamFormat::kKinectV1}) {
+    if (HasColumnsOf(format, columns)) return format;
+  }
+  return std::nullopt;
+}
+
+Result<StreamRecording> ReadFormat(StreamFormat format, std::string_view text, const std::string& file,
+                                   const StreamReading& reading) {
+  switch (format) {
+    case StreamFormat::kEtudeCsv:
+      return ReadEtudeCsv(text, file, reading);
+    case StreamFormat::kTrc:
+      return ReadTrcStream(text, file);
+    case StreamFormat::kKinectV2:
+    case StreamFormat::kKinectV1:
+      return ReadKinectRows(text, file, format, reading);
+    case StreamFormat::kNtu:
+      return ReadNtuSkeleton(text, file, reading);
+    case StreamFormat::kAzureKinect:
+      return ReadAzureKinect(text, file, reading);
+  }
+  return Fail({file}, "no format");
+}
+
+Result<void> ToMetres(StreamRecording& recording, const std::string& file) {
+  constexpr double kShortestTrunk = 0.15, kLongestTrunk = 0.95;  // a toddler's, a tall adult's
+  const double trunk = MiddleDistance(recording, kHipCentre, kShoulderCentre);
+  const struct {
+    double metres;
+    std::string_view name;
+  } units[] = {{1, "metres"}, {0.01, "centimetres"}, {0.001, "millimetres"}};
+  for (const auto& [metres, name] : units) {
+    if (!(trunk * metres >= kShortestTrunk && trunk * metres <= kLongestTrunk)) continue;
+    if (metres == 1) return {};
+    recording.remarks.push_back(fmt::format("places in {}", name));
+    recording.metres_per_unit = metres;
+    for (RecordedFrame& frame : recording.frames) {
+      for (auto& place : frame.places) {
+        if (place) *place *= metres;
+      }
+    }
+    return {};
+  }
+  return Fail({file}, "a trunk of {:.3g} from hip centre to shoulder centre; allowed: {} to {} m, in m, cm or mm",
+              trunk, kShortestTrunk, kLongestTrunk);
+}
+
+Result<StreamRecording> ReadStreamRecording(std::string_view text, const std::string& file,
+                                            const StreamReading& reading) {
+  if (text.size() > kLargestNumberText) {
+    return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestNumberText);
+  }
+  const auto format = reading.format ? reading.format : TellStreamFormat(text);
+  if (!format) {
+    const std::size_t columns = FirstRowColumns(text);
+    const std::string found = columns == 0 ? "no rows of numbers" : fmt::format("{} numbers in its first row", columns);
+    return Fail({file, 1},
+                "no skeletons known here ({}); allowed: {}; a Kinect v2's rows have 75, 100 or 175 numbers, "
+                "a Kinect v1's 60, 61, 80 or 81",
+                found, Join(StreamFormatNames()));
+  }
+  ASSIGN_OR_RETURN(StreamRecording recording, ReadFormat(*format, text, file, reading));
+  RETURN_IF_ERROR(CheckRoles(recording, file));
+  RETURN_IF_ERROR(OrderTimes(recording, file));
+  if (!recording.is_level) RETURN_IF_ERROR(ToMetres(recording, file));
+  RETURN_IF_ERROR(CheckReach(recording, file));
+  return recording;
+}
+
+}  // namespace etude

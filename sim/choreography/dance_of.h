@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "engine/base/result.h"
+#include "engine/coaching/dance.h"
+#include "sim/choreography/song.h"
+
+namespace etude {
+
+/// A song as a coach needs it: with the slow demonstrations of its moves, at their own tempo, the acts, and hints. The
+/// moves are in the order of their first turn.
+Result<Dance> DanceOf(const Song& song);
+
+/// A move's key poses in words, as the person's own sides: "left arm up, right elbow bent". What both sides share is
+/// said once: "both arms up".
+std::string HintOf(const Move& move);
+
+}  // namespace etude

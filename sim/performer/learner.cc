@@ -1,0 +1,359 @@
+#include "sim/performer/learner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "engine/base/smoothstep.h"
+#include "sim/choreography/canonical_body.h"
+#include "sim/performer/eased_time.h"
+
+namespace etude {
+namespace {
+
+// Units of learning (learning_law.h) are ours; that practice without knowledge of its result teaches little, and such
+// knowledge much, is Salmoni, Schmidt and Walter's (1984) first finding.
+constexpr double kPractice = 0.25;
+constexpr double kDemonstration = 1;
+constexpr double kCorrection = 2;  // of the faults that were made
+constexpr double kWrongPraise = 0.5;
+
+// Feedback guides (Winstein and Schmidt 1990): right after it errors are rarer, which does not last.
+constexpr double kGuided = 0.5;           // the share of errors that it keeps away at once
+constexpr double kGuidedLater = 0.5;      // what is left of that one performance later
+constexpr double kFrequencyMemory = 0.7;  // of how often feedback came, from one performance to the next
+
+// Patience, of 1 (ours).
+constexpr double kNeedlessCost = 0.15;
+constexpr double kWrongPraiseCost = 0.06;
+constexpr double kCorrectionCost = 0.02;
+constexpr double kPraiseGain = 0.03;
+
+/// The severity of a fault when it happens (ours): seldom too mild to be wrong.
+constexpr double kLeastSeverity = 0.35;
+
+/// How often each fault happens to somebody without any skill (ours), in the order of Fault.
+constexpr std::array<double, 10> kProneness = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
+
+/// Of people: how skilled they start, on average, and how patient they are (ours).
+struct Beginning {
+  double skill, patience;
+};
+
+Beginning BeginningOf(People kind) {
+  switch (kind) {
+    case People::kToddler:
+      return {0.35, 0.7};
+    case People::kSchoolChild:
+      return {0.5, 0.85};
+    case People::kExpert:
+      return {0.97, 1};
+    default:
+      return {0.6, 1};
+  }
+}
+
+std::vector<Skill> DrawSkills(const WorldKey& key, const Person& person, const Move& move,
+                              const LearnerOptions& options) {
+  constexpr double kSpread = 0.15, kFloor = 0.02;
+  RandomStream dice(key, "learner-skill/" + move.name);
+  std::vector<Skill> skills;
+  for (std::size_t i = 0; i < AllFaults().size(); ++i) {
+    const double thrown = BeginningOf(person.kind).skill + kSpread * std::clamp(dice.Normal(), -2.0, 2.0);
+    const double error = 1 - options.skill.value_or(std::clamp(thrown, kFloor, 1 - kFloor));
+    skills.emplace_back(options.law, error, std::min(kFloor, error), options.rates);
+  }
+  return skills;
+}
+
+Sway DrawSway(const WorldKey& key) {
+  RandomStream dice(key, "learner-sway");
+  return Sway(dice);
+}
+
+}  // namespace
+
+struct Learner::MoveState {
+  std::vector<Skill> skills;  // in the order of Fault
+  std::unique_ptr<Style> style;
+  int attempts = 0;
+  std::optional<std::size_t> latest;  // performance that is over and was not cut
+  bool latest_was_corrected = false;
+  bool was_fed = false;      // feedback came since the latest performance
+  double fed_frequency = 0;  // in [0, 1]
+  double guided = 0;         // the share of errors kept away
+
+  double ChanceOf(Fault fault) const {
+    const auto i = static_cast<std::size_t>(fault);
+    return kProneness[i] * skills[i].Error() * (1 - guided);
+  }
+};
+
+struct Learner::Layer {
+  std::optional<Rendition> rendition;  // none: stands
+  double seen_s = 0;                   // when it began to be shown
+  double lag_s = 0;
+  double blend_s = kBlendSeconds;
+  double vigour = 1;
+  std::vector<double> beats;  // shown, frame by frame
+  std::size_t performance = 0;
+
+  double Weight(double time_s) const { return Smootherstep((time_s - seen_s) / blend_s); }
+
+  /// What the person's clock says, in shares of the performance: the beat that they saw their lag ago. Before the first
+  /// they gather way, and after the last one shown they go on by themselves.
+  double DueAt(double time_s) const {
+    const Move& move = rendition->style().move();
+    const double beats_per_s = move.tempo_bpm / 60, length_s = move.beats / beats_per_s;
+    const double frame = (time_s - seen_s - lag_s) * kJudgedRateHz;
+    const auto last = static_cast<double>(beats.size() - 1);
+    double beat = 0;
+    if (frame <= 0) {
+      beat = beats.front() + frame / kJudgedRateHz * beats_per_s;
+    } else if (frame >= last) {
+      beat = beats.back() + (frame - last) / kJudgedRateHz * beats_per_s;
+    } else {
+      const auto i = static_cast<std::size_t>(frame);
+      beat = beats[i] + (frame - static_cast<double>(i)) * (beats[i + 1] - beats[i]);
+    }
+    return EasedTime(beat / beats_per_s, length_s) / length_s;
+  }
+};
+
+Learner::Learner(const WorldKey& key, const Person& person, std::span<const Move> moves, const ShowableFaults& showable,
+                 const LearnerOptions& options)
+    : key_(key),
+      person_(person),
+      moves_(moves),
+      showable_(showable),
+      options_(options),
+      rest_(RestOf(person)),
+      sway_(DrawSway(key)),
+      patience_(BeginningOf(person.kind).patience) {
+  for (const Move& move : moves) {
+    MoveState& known = known_.emplace_back();
+    known.skills = DrawSkills(key, person, move, options);
+  }
+  layers_.emplace_back().seen_s = -1;
+}
+
+Learner::~Learner() = default;
+
+const Style& Learner::StyleOf(std::size_t move) {
+  std::unique_ptr<Style>& style = known_[move].style;
+  if (!style) style = std::make_unique<Style>(person_, moves_[move]);
+  return *style;
+}
+
+const BodyPose& Learner::Step(const Shown& shown) {
+  Notice(shown);
+  before_ = shown;
+  NoteLastKeyBeat();
+  pose_ = person_.place.Apply(PoseOf(ControlsNow(), person_.body));
+  time_s_ += 1 / kJudgedRateHz;
+  if (shown.act == Shown::Act::kDance) danced_s_ += 1 / kJudgedRateHz;
+  return pose_;
+}
+
+void Learner::Notice(const Shown& shown) {
+  using enum Shown::Act;
+  const bool goes_on = shown.act == before_.act && shown.move == before_.move && shown.repetition == before_.repetition;
+  if (goes_on) {
+    if (shown.act == kDance && layers_.back().rendition) layers_.back().beats.push_back(shown.beat);
+  } else {
+    if (before_.act == kDance) End();
+    if (shown.act == kDance) {
+      Begin(shown);
+    } else if (before_.act == kDance) {
+      Layer& stands = layers_.emplace_back();
+      stands.seen_s = time_s_ + person_.lag_s;
+    }
+    if (shown.act == kCorrect && shown.move >= 0) Correct(static_cast<std::size_t>(shown.move));
+    if (shown.act == kDemonstrate && shown.move >= 0) Demonstrate(static_cast<std::size_t>(shown.move));
+  }
+  if (shown.praises && !before_.praises) Praise();
+  const auto covers = [&](const Layer& layer) { return layer.Weight(time_s_) >= 1; };
+  const auto top = std::find_if(layers_.rbegin(), layers_.rend(), covers);
+  if (top != layers_.rend()) layers_.erase(layers_.begin(), top.base() - 1);
+}
+
+std::vector<GradedFault> Learner::DrawFaults(RandomStream& dice, std::size_t move, std::size_t& instead) const {
+  std::vector<GradedFault> faults;
+  const std::span<const GradedFault> showable = showable_.Of(move);
+  for (Fault fault : AllFaults()) {
+    // Every fault throws its dice, whether it happens or not.
+    const double happens = dice.Uniform(), severity = dice.Uniform(), choice = dice.Uniform();
+    const auto ways = std::ranges::equal_range(showable, fault, {}, &GradedFault::fault);
+    if (ways.empty() || happens >= known_[move].ChanceOf(fault)) continue;
+    const auto way = static_cast<std::size_t>(choice * static_cast<double>(ways.size()));
+    faults.push_back({fault, kLeastSeverity + (1 - kLeastSeverity) * severity, ways[way].choice});
+  }
+  instead = (move + 1 + dice.IndexBelow(std::max<std::size_t>(1, moves_.size() - 1))) % moves_.size();
+  return faults;
+}
+
+void Learner::Begin(const Shown& shown) {
+  assert(0 <= shown.move && static_cast<std::size_t>(shown.move) < moves_.size());
+  const auto index = static_cast<std::size_t>(shown.move);
+  const Move& move = moves_[index];
+  MoveState& known = known_[index];
+  LearnerPerformance& performance = performances_.emplace_back();
+  performance.repetition = shown.repetition;
+  performance.move = shown.move;
+  performance.attempt = known.attempts++;
+
+  RandomStream dice(key_, fmt::format("learner/{}/{}", move.name, performance.attempt));
+  Chance chance = DrawChance(dice, person_);
+  chance.tempo = 1;  // the music keeps the time
+  std::size_t instead = 0;
+  std::vector<GradedFault> faults = DrawFaults(dice, index, instead);
+  const bool stands = HasGivenUp() || person_.kind == People::kAbsent;
+  if (stands) faults = {{Fault::kSkipped, 1, 0}};
+
+  SessionEvent& event = performance.event;
+  event.move = event.danced = move.name;
+  event.faults = faults;
+  event.chance = chance;
+  event.start_s = time_s_ - shown.beat * 60 / move.tempo_bpm;
+  event.end_s = event.start_s + chance.lag_s + move.beats * 60 / move.tempo_bpm;
+  if (stands) event.danced.clear();
+  if (std::ranges::find(faults, Fault::kWrongMove, &GradedFault::fault) != faults.end()) {
+    event.danced = moves_[instead].name;
+  }
+
+  Layer layer;
+  layer.rendition.emplace(StyleOf(index), chance, std::move(faults), &StyleOf(instead));
+  layer.seen_s = time_s_;
+  layer.lag_s = chance.lag_s;
+  // Who follows closely must also be quick.
+  layer.blend_s = std::clamp(chance.lag_s + 0.15, 0.2, kBlendSeconds);
+  layer.vigour = VigourAfter(person_, danced_s_);
+  layer.beats = {shown.beat};
+  layer.performance = performances_.size() - 1;
+  event.stray = layer.rendition->Strays();
+  event.truth = TruthOf(event.stray);
+  layers_.push_back(std::move(layer));
+}
+
+void Learner::End() {
+  LearnerPerformance& performance = performances_.back();
+  const Move& move = moves_[static_cast<std::size_t>(performance.move)];
+  MoveState& known = known_[static_cast<std::size_t>(performance.move)];
+  constexpr double kLastBeats = 0.25;  // more than a frame
+  performance.is_over = true;
+  performance.is_cut = before_.beat < move.beats - kLastBeats;
+  performance.event.end_s = time_s_ + performance.event.chance.lag_s;
+  if (performance.is_cut || HasGivenUp()) return;
+
+  for (Skill& skill : known.skills) skill.Practise(kPractice);
+  known.guided *= kGuidedLater;
+  known.fed_frequency = kFrequencyMemory * known.fed_frequency + (1 - kFrequencyMemory) * (known.was_fed ? 1 : 0);
+  known.was_fed = false;
+  known.latest = latest_ = performances_.size() - 1;
+  known.latest_was_corrected = false;
+}
+
+void Learner::Feed(std::size_t move) {
+  known_[move].was_fed = true;
+  known_[move].guided = kGuided;
+}
+
+void Learner::Correct(std::size_t move) {
+  MoveState& known = known_[move];
+  if (HasGivenUp()) return;
+  const bool follows_mistake =
+      known.latest && !known.latest_was_corrected && performances_[*known.latest].event.truth != Truth::kRight;
+  if (!follows_mistake) {
+    SpendPatience(kNeedlessCost);
+    return;
+  }
+  known.latest_was_corrected = true;
+  const double lasts = 1 - options_.guidance * known.fed_frequency;
+  for (const GradedFault& fault : performances_[*known.latest].event.faults) {
+    known.skills[static_cast<std::size_t>(fault.fault)].Learn(kCorrection * lasts);
+  }
+  Feed(move);
+  SpendPatience(kCorrectionCost);
+}
+
+void Learner::Demonstrate(std::size_t move) {
+  MoveState& known = known_[move];
+  if (HasGivenUp()) return;
+  const double lasts = 1 - options_.guidance * known.fed_frequency;
+  for (Skill& skill : known.skills) skill.Learn(kDemonstration * lasts);
+  Feed(move);
+}
+
+void Learner::Praise() {
+  if (!latest_ || HasGivenUp()) return;
+  const LearnerPerformance& praised = performances_[*latest_];
+  if (praised.event.truth == Truth::kRight) patience_ = std::min(1.0, patience_ + kPraiseGain);
+  if (praised.event.truth != Truth::kWrong) return;
+  for (const GradedFault& fault : praised.event.faults) {
+    known_[static_cast<std::size_t>(praised.move)].skills[static_cast<std::size_t>(fault.fault)].Unlearn(kWrongPraise);
+  }
+  SpendPatience(kWrongPraiseCost);
+}
+
+void Learner::SpendPatience(double cost) {
+  if (options_.gives_up) patience_ = std::max(0.0, patience_ - cost);
+}
+
+double Learner::ChanceOfRight(std::size_t move) const {
+  double chance = 1;
+  std::optional<Fault> counted;
+  for (const GradedFault& fault : showable_.Of(move)) {
+    if (counted != fault.fault) chance *= 1 - known_[move].ChanceOf(fault.fault);
+    counted = fault.fault;
+  }
+  return chance;
+}
+
+double Learner::RetainedChanceOfRight(std::size_t move, int performances_later) const {
+  double chance = 1;
+  std::optional<Fault> counted;
+  for (const GradedFault& fault : showable_.Of(move)) {
+    if (counted == fault.fault) continue;
+    counted = fault.fault;
+    const auto i = static_cast<std::size_t>(fault.fault);
+    Skill rested = known_[move].skills[i];
+    rested.Rest(performances_later);
+    chance *= 1 - kProneness[i] * rested.Error();
+  }
+  return chance;
+}
+
+void Learner::NoteLastKeyBeat() {
+  for (const Layer& layer : layers_) {
+    if (!layer.rendition) continue;
+    SessionEvent& event = performances_[layer.performance].event;
+    const Move& move = layer.rendition->style().move();
+    const bool waits = event.IsRight() && !event.first_right_s && !move.key_poses.empty();
+    if (!waits) continue;
+    const double share = layer.rendition->DancedShare(layer.DueAt(time_s_));
+    if (share * move.beats >= move.key_poses.back().beat) event.first_right_s = time_s_;
+  }
+}
+
+Controls Learner::ControlsNow() const {
+  const Controls standing = Sum(rest_, sway_.At(time_s_));
+  Controls controls = standing;
+  for (const Layer& layer : layers_) {
+    const double weight = layer.Weight(time_s_);
+    if (weight <= 0) continue;
+    Controls own = standing;
+    if (layer.rendition) {
+      const double share = layer.rendition->DancedShare(layer.DueAt(time_s_)),
+                   presence = layer.rendition->Presence(share);
+      if (presence > 0) own = Mix(standing, layer.rendition->Danced(share, layer.vigour), presence);
+    }
+    controls = weight < 1 ? Mix(controls, own, weight) : own;
+  }
+  return controls;
+}
+
+}  // namespace etude

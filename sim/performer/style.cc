@@ -1,0 +1,213 @@
+#include "sim/performer/style.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/base/smoothstep.h"
+#include "sim/choreography/stance.h"
+
+namespace etude {
+namespace {
+
+using enum MiddleControl;
+using enum SideControl;
+
+/// The size of offsets (standard deviation at size 1) and the range of each control. Ranges are an adult's (algorithms
+/// B6, table 3.1), less a margin where a limb would meet the trunk.
+struct ControlSpan {
+  double spread, lower, upper;
+};
+
+constexpr ControlSpan InDegrees(double spread, double lower, double upper) {
+  return {Radians(spread), Radians(lower), Radians(upper)};
+}
+
+ControlSpan SpanOf(MiddleControl control) {
+  switch (control) {
+    case kHipsSide:
+      return {0.015, -0.2, 0.2};
+    case kHipsAhead:
+      return {0.01, -0.16, 0.1};
+    case kHipsDrop:
+      return {0.015, -0.06, 0.3};
+    case kHipsTurn:
+      return InDegrees(4, -25, 25);
+    case kHipsTilt:
+      return InDegrees(2, -22, 22);
+    case kJump:
+      return {0, 0, 1};
+    case kTrunkBend:
+      return InDegrees(6, -15, 95);
+    case kTrunkSide:
+      return InDegrees(4, -33, 33);
+    case kTrunkTurn:
+      return InDegrees(6, -40, 40);
+    case kNeckBend:
+      return InDegrees(6, -35, 35);
+    case kNeckSide:
+      return InDegrees(4, -30, 30);
+    case kNeckTurn:
+      return InDegrees(6, -50, 50);
+  }
+  return {};
+}
+
+ControlSpan SpanOf(SideControl control) {
+  switch (control) {
+    case kArmForward:
+      return InDegrees(15, -40, 170);
+    case kArmSide:
+      return InDegrees(14, -20, 80);
+    case kArmTwist:
+      return InDegrees(16, -60, 60);
+    case kElbow:
+      return InDegrees(17, 0, 140);
+    case kWrist:
+      return InDegrees(10, -50, 60);
+    case kLegFree:
+      return {0, 0, 1};
+    case kLegForward:
+      return InDegrees(8, -20, 100);
+    case kLegSide:
+      return InDegrees(5, -10, 45);
+    case kLegTwist:
+      return InDegrees(5, -30, 35);
+    case kKnee:
+      return InDegrees(10, 0, 125);
+    case kFootPoint:
+      return InDegrees(6, -15, 45);
+    case kFootSide:
+      return {0.01, -0.05, 0.3};
+    case kFootAhead:
+      return {0.01, -0.15, 0.15};
+    case kFootLift:
+      return {0, 0, 0.3};
+    case kFootHeel:
+      return InDegrees(0, 0, 40);
+    case kFootTurn:
+      return InDegrees(3, -15, 30);
+  }
+  return {};
+}
+
+/// The spans of all controls, in their order.
+const std::array<ControlSpan, kControlCount>& Spans() {
+  static const std::array<ControlSpan, kControlCount> spans = [] {
+    std::array<ControlSpan, kControlCount> all{};
+    for (std::size_t i = 0; i < kMiddleControlCount; ++i) all[i] = SpanOf(static_cast<MiddleControl>(i));
+    for (Side side : {Side::kLeft, Side::kRight}) {
+      for (std::size_t i = 0; i < kSideControlCount; ++i) {
+        const auto control = static_cast<SideControl>(i);
+        all[Controls::SideIndex(side, control)] = SpanOf(control);
+      }
+    }
+    return all;
+  }();
+  return spans;
+}
+
+bool IsSpot(SideControl control) { return control == kFootSide || control == kFootAhead || control == kFootTurn; }
+
+/// What has no size to make more or less of: whether a leg is free, and how high a body flies.
+bool IsSwitch(std::size_t control) {
+  return control == Controls::SideIndex(Side::kLeft, kLegFree) ||
+         control == Controls::SideIndex(Side::kRight, kLegFree);
+}
+
+/// The share of each harmonic in an offset's spread: half of it stays, the rest comes and goes. Squares sum to one.
+constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
+
+/// Standard normal terms times their shares.
+std::array<double, 7> DrawTerms(RandomStream& random) {
+  std::array<double, 7> terms{};
+  for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);
+  return terms;
+}
+
+/// What is left of a deviation where there is so much room: nearly all of a small one, never more than the room.
+double Saturated(double deviation, double room) {
+  if (room <= 0) return 0;
+  return room * (1 - std::exp(-deviation / room));
+}
+
+}  // namespace
+
+SmoothOffsets::SmoothOffsets(RandomStream& random, double size) {
+  for (std::size_t i = 0; i < kMiddleControlCount; ++i) {
+    terms_[i] = DrawTerms(random);
+    for (double& term : terms_[i]) term *= size * Spans()[i].spread;
+  }
+  // Of a control's offset: with the other side's, and alone. Squares sum to one.
+  constexpr double kCommon = 0.8, kAlone = 0.6;
+  for (std::size_t i = 0; i < kSideControlCount; ++i) {
+    const auto control = static_cast<SideControl>(i);
+    const auto common = DrawTerms(random);
+    for (Side side : {Side::kLeft, Side::kRight}) {
+      const auto alone = DrawTerms(random);
+      const std::size_t index = Controls::SideIndex(side, control);
+      for (std::size_t k = 0; k < kTerms; ++k) {
+        const bool moves = k > 0 && IsSpot(control);  // a foot that stands, stands
+        terms_[index][k] = moves ? 0 : size * Spans()[index].spread * (kCommon * common[k] + kAlone * alone[k]);
+      }
+    }
+  }
+}
+
+Controls SmoothOffsets::At(double share) const {
+  const double angle = 2 * kPi * share, c = std::cos(angle), s = std::sin(angle);
+  const double c2 = c * c - s * s, s2 = 2 * c * s;
+  const std::array<double, kTerms> waves = {1, c, s, c2, s2, c * c2 - s * s2, s * c2 + c * s2};
+  Controls offsets;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    for (std::size_t k = 0; k < kTerms; ++k) offsets.values[i] += terms_[i][k] * waves[k];
+  }
+  return offsets;
+}
+
+Style::Style(const Person& person, const Move& move) : person_(person), move_(move) {
+  RandomStream random(WorldKey{.suite_seed = person.style, .scenario = "style"}, move.name);
+  offsets_ = SmoothOffsets(random, person.looseness);
+  for (double& share : rhythm_) share = 0.02 * person.looseness * std::clamp(random.Normal(), -2.0, 2.0);
+}
+
+Controls Style::At(double beat, double vigour, const SmoothOffsets& chance) const {
+  const double share = beat / move_.beats, angle = 2 * kPi * share;
+  const double own_beat = beat + move_.beats * (rhythm_[0] * std::sin(angle) + 0.5 * rhythm_[1] * std::sin(2 * angle));
+  const Controls authored = move_.curves.At(own_beat), ready = ReadyStance();
+  const Controls own = offsets_.At(share), thrown = chance.At(share);
+  Controls danced;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    const double reach = person_.amplitude * vigour * person_.gains[i];
+    danced.values[i] = ready.values[i] + reach * (authored.values[i] - ready.values[i]) + person_.posture.values[i] +
+                       own.values[i] + thrown.values[i];
+  }
+  return WithinReach(danced, authored);
+}
+
+Controls RestOf(const Person& person) {
+  Controls rest = ReadyStance();
+  for (std::size_t i = 0; i < kControlCount; ++i) rest.values[i] += person.posture.values[i];
+  return WithinReach(rest, ReadyStance());
+}
+
+Controls WithinReach(const Controls& wanted, const Controls& authored) {
+  Controls within;
+  for (std::size_t i = 0; i < kControlCount; ++i) {
+    const double from = authored.values[i], deviation = wanted.values[i] - from;
+    const ControlSpan& span = Spans()[i];
+    within.values[i] = IsSwitch(i)      ? from
+                       : deviation >= 0 ? from + Saturated(deviation, span.upper - from)
+                                        : from - Saturated(-deviation, from - span.lower);
+  }
+  // A hanging arm stays outside the trunk.
+  for (Side side : {Side::kLeft, Side::kRight}) {
+    const double raised = Smoothstep(Radians(25), Radians(60), within.Of(side, kArmForward));
+    const double from = authored.Of(side, kArmSide), deviation = within.Of(side, kArmSide) - from;
+    const double lower = Radians(5) - raised * Radians(25);
+    if (deviation < 0) within.Of(side, kArmSide) = from - Saturated(-deviation, from - lower);
+  }
+  return within;
+}
+
+}  // namespace etude

@@ -1,0 +1,219 @@
+"""A power cut loses nothing that a run has counted. The system calls of a run are recorded (strace), and replayed onto a
+model of a disk that keeps only what was synchronised; at every call the power is cut, and what the disk then holds is
+gone on with.  ETUDE_CUTS: how many different disks are tried (all of them in the heavy version of this test)."""
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import unittest
+
+from etude_case import ETUDE, EtudeCase
+
+CUTS = int(os.environ.get("ETUDE_CUTS", "10"))
+SCENARIO = """scenario: ik
+question: Does it survive?
+task: ik
+trials: 6
+sweep: {joint_noise_deg: [2, 5]}
+methods:
+  - {name: fixed, solver: ccd, weights: fixed}
+  - {name: least-squares, solver: damped-least-squares}
+video: {compare: [fixed], trials: [0]}
+"""
+CALLS = "openat,creat,write,pwrite64,writev,ftruncate,fsync,fdatasync,rename,renameat,renameat2,unlink,unlinkat,mkdir,mkdirat,rmdir,close"
+LINE = re.compile(r"^(\d+) +(\w+)\((.*)\) += (-?\d+)")
+
+
+def unescaped(text):
+    return bytes.fromhex(text.replace("\\x", ""))
+
+
+def strings_of(arguments):
+    return [unescaped(text) for text in re.findall(r'"((?:\\x[0-9a-f]{2})*)"', arguments)]
+
+
+def recorded(command, trace):
+    """The system calls of a program's first process, as (name, arguments, result)."""
+    subprocess.run(["strace", "-f", "-xx", "-s", "10000000", "-e", f"trace={CALLS}", "-o", trace, *command],
+                   check=True, capture_output=True, timeout=300)
+    calls, first, unfinished = [], None, {}
+    for line in pathlib.Path(trace).read_text(errors="replace").splitlines():
+        begun = re.match(r"^(\d+) +(.*) <unfinished \.\.\.>$", line)
+        if begun:
+            unfinished[begun[1]] = begun[2]
+            continue
+        resumed = re.match(r"^(\d+) +<\.\.\. \w+ resumed>(.*)$", line)
+        if resumed and resumed[1] in unfinished:
+            line = f"{resumed[1]} {unfinished.pop(resumed[1])}{resumed[2]}"
+        match = LINE.match(line)
+        if match:
+            first = first or match[1]
+            if match[1] == first and int(match[4]) >= 0:
+                calls.append((match[2], match[3], int(match[4])))
+    return calls
+
+
+class File:
+    def __init__(self):
+        self.now = b""
+        self.safe = None  # what is on the disk for certain
+
+
+class Disk:
+    """A folder as the system shows it, and as much of it as a power cut leaves."""
+
+    def __init__(self, root):
+        self.root = os.fsencode(str(root))
+        self.now, self.safe = {}, {}  # names: of files a File, of folders None
+        self.open = {}
+
+    def inside(self, path):
+        return path == self.root or path.startswith(self.root + b"/")
+
+    def apply(self, name, arguments, result):
+        paths = strings_of(arguments)
+        handle = int(arguments.split(",")[0]) if re.match(r"^\d+\b", arguments) else None
+        if name in ("openat", "creat"):
+            path = paths[0]
+            if not self.inside(path):
+                self.open.pop(result, None)
+            elif "O_CREAT" in arguments or name == "creat" or path in self.now:
+                if "O_DIRECTORY" not in arguments and self.now.get(path) is None and "O_CREAT" in arguments:
+                    self.now[path] = File()
+                if "O_TRUNC" in arguments:
+                    self.now[path].now = b""
+                self.open[result] = path if self.now.get(path) is None else self.now[path]
+            else:
+                self.open[result] = path
+        elif name in ("write", "pwrite64") and isinstance(self.open.get(handle), File):
+            self.open[handle].now += paths[0][:result]
+        elif name == "writev" and isinstance(self.open.get(handle), File):
+            self.open[handle].now += b"".join(paths)[:result]
+        elif name == "ftruncate" and isinstance(self.open.get(handle), File):
+            self.open[handle].now = self.open[handle].now[:int(arguments.split(",")[1])]
+        elif name in ("fsync", "fdatasync"):
+            opened = self.open.get(handle)
+            if isinstance(opened, File):
+                opened.safe = opened.now
+            elif opened is not None:
+                here = {path for path in {*self.now, *self.safe} if os.path.dirname(path) == opened}
+                for path in here:
+                    self.safe.pop(path, None)
+                    if path in self.now:
+                        self.safe[path] = self.now[path]
+        elif name.startswith("rename") and self.inside(paths[0]):
+            self.now[paths[1]] = self.now.pop(paths[0])
+        elif name.startswith("unlink") or name == "rmdir":
+            self.now.pop(paths[0], None)
+        elif name.startswith("mkdir") and self.inside(paths[0]):
+            self.now[paths[0]] = None
+        elif name == "close":
+            self.open.pop(handle, None)
+
+    def after_a_cut(self, way):
+        """The files by name: "least" has nothing that was not synchronised, "names" has all names, but of contents only
+        what was synchronised (as journalling file systems leave it), "most" has everything."""
+        names = self.safe if way == "least" else self.now
+        left = {}
+        for path, file in names.items():
+            folders = path[len(self.root) + 1:].split(b"/")[:-1]
+            parents = [self.root + b"/" + b"/".join(folders[:i + 1]) for i in range(len(folders))]
+            if file is not None and all(parent in names for parent in parents):
+                left[path[len(self.root) + 1:]] = file.now if way == "most" else file.safe or b""
+        return left
+
+
+def counted(arguments):
+    """How many cells a line of progress says are done."""
+    said = re.findall(rb"(\d+)/\d+ cells", b"".join(strings_of(arguments)))
+    return int(said[-1]) if said else 0
+
+
+def cells_on(files):
+    if b"cells.jsonl" in files and b"journal.jsonl" not in files:
+        return files[b"cells.jsonl"].count(b"\n")
+    return max(0, files.get(b"journal.jsonl", b"").count(b"\n") - 2)
+
+
+@unittest.skipUnless(shutil.which("strace") and subprocess.run(["strace", "-o", "/dev/null", "true"]).returncode == 0,
+                     "needs strace, and a system that allows it")
+class PowerCut(EtudeCase):
+    def setUp(self):
+        super().setUp()
+        self.scenario = self.write("ik.yaml", SCENARIO)
+        self.whole = self.folder / "whole"
+        self.run_suite(self.scenario, out=self.whole)
+
+    def disks(self, command):
+        """Every different disk that a power cut may leave, with the number of cells that had been counted by then."""
+        disk, counts, found, cuts = Disk(self.out), 0, {}, 0
+        for name, arguments, result in recorded(command, self.folder / "trace"):
+            if name == "write" and re.match(r"^[12]\b", arguments):
+                counts = max(counts, counted(arguments))
+            disk.apply(name, arguments, result)
+            for way in ("least", "names", "most"):
+                files = disk.after_a_cut(way)
+                cuts += 1
+                found[tuple(sorted(files.items()))] = max(counts, found.get(tuple(sorted(files.items())), 0))
+        return found, cuts
+
+    def put(self, files):
+        shutil.rmtree(self.out, ignore_errors=True)
+        for name, content in files:
+            path = self.out / os.fsdecode(name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+
+    def sample(self, found):
+        chosen = list(found.items())
+        random.Random(1).shuffle(chosen)
+        return chosen[:CUTS]
+
+    def check(self, command, go_on):
+        found, cuts = self.disks(command)
+        self.assert_same_results(self.whole, self.out)
+        tried = self.sample(found)
+        for files, counts in tried:
+            self.assertGreaterEqual(cells_on(dict(files)), counts, "cells that were counted are lost")
+            self.put(files)
+            result = self.etude(*go_on)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assert_same_results(self.whole, self.out)
+        print(f"{cuts} cuts, {len(found)} different disks, {len(tried)} tried")
+        return found
+
+    def test_a_run_goes_on_after_a_cut_at_any_call(self):
+        run = ["run", self.scenario, "-o", str(self.out), "-j", "1", "--sync-seconds", "0"]
+        self.check([ETUDE, *run], [*run, "--resume"])
+
+    def test_a_merge_is_done_again_after_a_cut_at_any_call(self):
+        shards = [self.folder / f"shard-{i}" for i in (1, 2)]
+        for i, shard in enumerate(shards, 1):
+            self.assertEqual(self.etude("run", self.scenario, "-o", shard, "--shard", f"{i}/2").returncode, 0)
+        merge = ["merge", *map(str, shards), "-o", str(self.out)]
+        self.check([ETUDE, *merge], [*merge, "--overwrite"])
+
+    def test_what_exit_0_has_told_is_on_the_disk(self):
+        found, _ = self.disks([ETUDE, "run", self.scenario, "-o", str(self.out), "-j", "1"])
+        files = dict(list(found)[-1])
+        self.assertNotIn(b"journal.jsonl", files)
+        self.assertEqual(files[b"cells.jsonl"], (self.whole / "cells.jsonl").read_bytes())
+        self.assertIn(b"seal.json", files)
+
+    def test_the_model_finds_what_is_not_synchronised(self):
+        """The control: without its calls to synchronise, the disk has lost cells that were counted."""
+        disk, counts = Disk(self.out), 0
+        run = [ETUDE, "run", self.scenario, "-o", str(self.out), "-j", "1", "--sync-seconds", "0"]
+        for name, arguments, result in recorded(run, self.folder / "trace"):
+            if name == "write" and re.match(r"^[12]\b", arguments):
+                counts = max(counts, counted(arguments))
+            if name not in ("fsync", "fdatasync"):
+                disk.apply(name, arguments, result)
+        self.assertGreater(counts, cells_on(disk.after_a_cut("least")))
+        self.assertGreater(counts, cells_on(disk.after_a_cut("names")))
+
+
+if __name__ == "__main__":
+    unittest.main()

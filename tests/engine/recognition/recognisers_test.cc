@@ -1,0 +1,141 @@
+#include "engine/recognition/recognisers.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "engine/recognition/fuzzy_rules.h"
+#include "engine/recognition/recognise.h"
+#include "tests/engine/recognition/waving_body.h"
+
+namespace etude {
+namespace {
+
+constexpr double kRight = std::numbers::pi / 2, kHigh = 2.6;
+
+/// Two moves that every recogniser can be taught: both arms out to the sides, and the left one up high.
+std::vector<TaughtMove> Taught() {
+  return {{.name = "both",
+           .poses = {{{{Feature::kRH, 90, 20}, {Feature::kLH, 90, 20}}}},
+           .span_s = 3,
+           .examples = {StreamOf(Swing(kRight, kRight, 2))}},
+          {.name = "left",
+           .poses = {{{{Feature::kLH, 149, 20}, {Feature::kRH, 0, 20}}}},
+           .span_s = 3,
+           .examples = {StreamOf(Swing(kHigh, 0, 2))}}};
+}
+
+class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
+ protected:
+  /// The evidence at the end of a window in which "left" was asked for.
+  double Asked(const BodyMotion& danced, const SightWeights& weights = {}) const {
+    const SkeletonStream stream = Then({Rest(1), danced, Rest(1)});
+    return Trace(stream, weights).asked[static_cast<std::size_t>(End(stream)) - 1];
+  }
+  EvidenceTrace Trace(const SkeletonStream& stream, const SightWeights& weights = {}) const {
+    const auto recogniser = *MakeRecogniser({.kind = GetParam(), .weights = weights}, Taught());
+    return *FollowStream(*recogniser, 2, SeeStream(stream, {}), {{AskedMove{1, {30, End(stream)}}}});
+  }
+  static int End(const SkeletonStream& stream) { return static_cast<int>(stream.frames.size()) - 15; }
+};
+
+TEST_P(AnyRecogniser, RanksTheMoveAskedForAboveWhatItIsNot) {
+  const double right = Asked(Swing(kHigh, 0, 2));
+  EXPECT_GE(right, GetParam()->threshold);
+  EXPECT_LE(right, 1);
+  for (const BodyMotion& wrong : {Swing(0, kHigh, 2), Swing(kRight, kRight, 2), Swing(0.2 * kHigh, 0, 2), Rest(2)}) {
+    EXPECT_LT(Asked(wrong), right);
+    EXPECT_LT(Asked(wrong), GetParam()->threshold);
+  }
+}
+
+TEST_P(AnyRecogniser, KnowsTheMoveOfASmallerPersonWhoStandsElsewhere) {
+  const FloorMove elsewhere{.yaw = 0.8, .x = 1, .z = 2};
+  const SkeletonStream stream =
+      Then({Rest(1, 0.6, elsewhere), Swing(kHigh, 0, 2, 0.6, elsewhere), Rest(1, 0.6, elsewhere)});
+  EXPECT_GE(Trace(stream).asked[static_cast<std::size_t>(End(stream)) - 1], GetParam()->threshold);
+}
+
+TEST_P(AnyRecogniser, SpotsEachMoveAtItsEndAndNothingInRest) {
+  const SkeletonStream stream = Then({Rest(2), Swing(kRight, kRight, 2), Rest(2), Swing(kHigh, 0, 2), Rest(2)});
+  const auto found = FindMoves(Trace(stream), 30, {.threshold = GetParam()->threshold, .refractory_s = 2});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].move, 0u);
+  EXPECT_TRUE(found[0].frame > 80 && found[0].frame < 150) << found[0].frame;
+  EXPECT_EQ(found[1].move, 1u);
+  EXPECT_TRUE(found[1].frame > 200 && found[1].frame < 270) << found[1].frame;
+}
+
+TEST_P(AnyRecogniser, NeverTakesBackWhatItSaidOfThePerformanceAskedFor) {
+  const SkeletonStream stream = Then({Rest(1), Swing(kHigh, 0, 2), Swing(0, kHigh, 2), Rest(1)});
+  const EvidenceTrace trace = Trace(stream);
+  for (int t = 31; t < End(stream); ++t) {
+    EXPECT_GE(trace.asked[static_cast<std::size_t>(t)], trace.asked[static_cast<std::size_t>(t) - 1]);
+  }
+  EXPECT_EQ(trace.asked.front(), 0) << "nothing is asked for yet";
+  EXPECT_EQ(trace.asked.back(), 0) << "nothing is asked for any more";
+}
+
+TEST_P(AnyRecogniser, IsCausal) {
+  const SkeletonStream whole = Then({Rest(1), Swing(kHigh, 0, 2), Swing(0, kHigh, 2), Rest(1)});
+  SkeletonStream changed = whole;
+  for (std::size_t t = 100; t < changed.frames.size(); ++t) changed.frames[t] = changed.frames[0];
+  const EvidenceTrace a = Trace(whole), b = Trace(changed);
+  for (std::size_t i = 0; i < 100 * 2; ++i) EXPECT_EQ(a.spotted[i], b.spotted[i]);
+  for (std::size_t t = 0; t < 100; ++t) EXPECT_EQ(a.asked[t], b.asked[t]);
+}
+
+TEST_P(AnyRecogniser, LivesThroughWhatSensorsLoseAndThroughAnyRate) {
+  SkeletonStream stream = Then({Rest(1), Swing(kHigh, 0, 2), Rest(1)});
+  for (double rate_hz : {10.0, 15.0, 30.0, 60.0}) {
+    stream.rate_hz = rate_hz;
+    for (std::size_t t = 0; t < stream.frames.size(); t += 7) stream.frames[t] = {};
+    for (const Weighting weighting : {Weighting::kFixed, Weighting::kAdaptive}) {
+      for (double evidence : Trace(stream, {.weighting = weighting}).spotted) {
+        EXPECT_TRUE(evidence >= 0 && evidence <= 1) << evidence;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, AnyRecogniser, ::testing::ValuesIn([] {
+                           std::vector<const RecogniserKind*> kinds;
+                           for (const RecogniserKind& kind : AllRecognisers()) kinds.push_back(&kind);
+                           return kinds;
+                         }()),
+                         [](const auto& test) {
+                           std::string name = test.param->name;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(RuleStrength, IsOneWhereTaughtAndTheLeastOverlapElsewhere) {
+  const TaughtPose pose{{{Feature::kRH, 90, 20}, {Feature::kLH, 20, 20}}};
+  FeatureFrame frame;
+  frame.body_seen = true;
+  frame.features[Feature::kRH] = 90;
+  frame.features[Feature::kLH] = 20;
+  EXPECT_DOUBLE_EQ(RuleStrength(frame, pose, {}, PaperMemberships()), 1.0);
+  // At 55°: down (90 − 55) / 70 = ½, mid (55 − 20) / 70 = ½; at 90° mid 1, down 0: ½ of 1 + ½.
+  frame.features[Feature::kRH] = 55;
+  EXPECT_NEAR(RuleStrength(frame, pose, {}, PaperMemberships()), 0.5 / 1.5, 1e-12);
+  frame.features[Feature::kLH] = 90;
+  EXPECT_EQ(RuleStrength(frame, pose, {}, PaperMemberships()), 0.0) << "the least counts";
+}
+
+TEST(MakeRecogniser, AsksForExamplesWhereItNeedsThem) {
+  std::vector<TaughtMove> taught = Taught();
+  taught[1].examples.clear();
+  const auto complaint = [&](const char* name) {
+    const auto made = MakeRecogniser({.kind = FindRecogniser(name)}, taught);
+    return made ? "no complaint" : made.error().message;
+  };
+  EXPECT_EQ(complaint("dtw"), "recogniser dtw: move 'left' has no example that shows a body");
+  taught[1].examples.push_back({.rate_hz = 30, .frames = std::vector<SensedFrame>(9)});
+  EXPECT_EQ(complaint("nearest"), "recogniser nearest: move 'left' has no example that shows a body");
+  EXPECT_EQ(complaint("key-pose"), "no complaint");
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,83 @@
+#include "engine/streams/live_stream.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/formats/joint_csv.h"
+#include "tests/engine/streams/small_files.h"
+
+namespace etude {
+namespace {
+
+using testing::AzureText;
+using testing::KinectV1Text;
+using testing::WavingMotion;
+using testing::WithClock;
+
+/// The frames that each line gave, and the complaint that ended them.
+struct Heard {
+  std::vector<SensedFrame> frames;
+  std::vector<std::size_t> known;  ///< after each line
+  std::string complaint;
+};
+
+Heard Listen(const std::string& text, const StreamOptions& options = {}) {
+  LiveStream live("-", {}, options);
+  Heard heard;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t end = text.find('\n', at);
+    const auto taken = live.Take(text.substr(at, end - at), heard.frames);
+    heard.known.push_back(heard.frames.size());
+    if (!taken) heard.complaint = ToString(taken.error());
+    if (!taken || end == std::string::npos) break;
+    at = end + 1;
+  }
+  if (!heard.complaint.empty()) return heard;
+  if (const auto done = live.Finish(heard.frames); !done) heard.complaint = ToString(done.error());
+  return heard;
+}
+
+/// The recorded file's frames must be heard live, to the last bit.
+void ExpectAsRecorded(const std::string& text) {
+  const Heard heard = Listen(text);
+  EXPECT_EQ(heard.complaint, "");
+  const auto recording = ReadStreamRecording(text, "s");
+  ASSERT_TRUE(recording) << ToString(recording.error());
+  const auto made = MakeStream(*recording, "s");
+  ASSERT_TRUE(made);
+  ASSERT_EQ(heard.frames.size(), made->stream.frames.size());
+  for (std::size_t t = 0; t < heard.frames.size(); ++t) {
+    for (const Role role : AllRoles()) {
+      EXPECT_EQ(heard.frames[t][role].position, made->stream.frames[t][role].position);
+      EXPECT_EQ(heard.frames[t][role].state, made->stream.frames[t][role].state);
+    }
+  }
+}
+
+TEST(LiveStream, HearsWhatARecordingSays) {
+  ExpectAsRecorded(WriteJointCsv(WavingMotion(90)));
+  ExpectAsRecorded(WriteJointCsv(WavingMotion(90, 15)));
+  // Of a Kinect the level is estimated: by a trunk that stands still, from any part alike.
+  ExpectAsRecorded(KinectV1Text(WavingMotion(90), "2"));
+  ExpectAsRecorded(WithClock(KinectV1Text(WavingMotion(90), "1", 0.1), 44155936, 1e6 / 30));
+}
+
+TEST(LiveStream, EachLineOfCsvGivesItsFrameAtOnce) {
+  const Heard heard = Listen(WriteJointCsv(WavingMotion(10)));
+  EXPECT_EQ(heard.known, (std::vector<std::size_t>{0, 0, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+}
+
+TEST(LiveStream, AShortStreamIsGivenOutAtItsEnd) { EXPECT_EQ(Listen(KinectV1Text(WavingMotion(5))).frames.size(), 5u); }
+
+TEST(LiveStream, ComplaintsCountTheLinesOfTheStream) {
+  const std::string rows = KinectV1Text(WavingMotion(31));
+  EXPECT_EQ(Listen(rows + "\n1 2 3\n").complaint.find("-:33: 3 numbers in a row"), 0u);
+  EXPECT_EQ(Listen(rows + "x" + rows.substr(1)).complaint.find("-:32:1: value 1"), 0u);
+  const std::string csv = WriteJointCsv(WavingMotion(5));
+  EXPECT_EQ(Listen(csv + "5,0.05" + csv.substr(csv.rfind("\n4,") + 20)).complaint.find("-:7"), 0u);
+  EXPECT_EQ(Listen("").complaint.find("-:1: no rows of skeletons"), 0u);
+  EXPECT_EQ(Listen(AzureText(WavingMotion(2))).complaint.find("-:1: no rows of skeletons"), 0u);
+}
+
+}  // namespace
+}  // namespace etude

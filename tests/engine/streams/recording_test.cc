@@ -1,0 +1,151 @@
+#include "engine/streams/recording.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
+#include "engine/streams/stream_maker.h"
+#include "tests/engine/streams/small_files.h"
+
+namespace etude {
+namespace {
+
+using testing::AzureText;
+using testing::KinectSpace;
+using testing::KinectV1Text;
+using testing::KinectV2Joints;
+using testing::NtuText;
+using testing::StandingPose;
+using testing::WavingMotion;
+using testing::WithClock;
+
+std::string KinectV2Text(const BodyMotion& motion) {
+  std::string text;
+  for (const BodyPose& pose : motion.poses) {
+    for (const glm::dvec3& p : KinectV2Joints(pose)) text += fmt::format("{} {} {} 0 0 0 1 ", p.x, p.y, p.z);
+    text += '\n';
+  }
+  return text;
+}
+
+std::string ComplaintOf(const std::string& text, const StreamReading& reading = {}) {
+  const auto read = ReadStreamRecording(text, "s", reading);
+  return read ? std::string("(read)") : ToString(read.error());
+}
+
+MadeStream Made(const std::string& text, const StreamReading& reading = {}, const StreamOptions& options = {}) {
+  const auto read = ReadStreamRecording(text, "s", reading);
+  EXPECT_TRUE(read) << ToString(read.error());
+  if (!read) return {};
+  auto made = MakeStream(*read, "s", options);
+  EXPECT_TRUE(made) << ToString(made.error());
+  return made ? *made : MadeStream{};
+}
+
+/// The furthest that a joint of any frame is from the motion, after the sensor's place on the floor is made up for.
+double FurthestFrom(const BodyMotion& motion, const SkeletonStream& stream) {
+  double furthest = motion.poses.size() == stream.frames.size() ? 0 : 1e9;
+  for (std::size_t t = 0; furthest < 1e9 && t < motion.poses.size(); ++t) {
+    const glm::dvec3 shift = motion.poses[0][Role::kHipCentre] - stream.frames[0][Role::kHipCentre].position;
+    for (const Role role : AllRoles()) {
+      const glm::dvec3 off = stream.frames[t][role].position + glm::dvec3(shift.x, 0, shift.z) - motion.poses[t][role];
+      furthest = std::max(furthest, glm::length(off));
+    }
+  }
+  return furthest;
+}
+
+TEST(Streams, EveryFormatGivesTheSameMotionBackLevelAndFacingTheSensor) {
+  const BodyMotion motion = WavingMotion();
+  const std::pair<StreamFormat, std::string> files[] = {
+      {StreamFormat::kKinectV2, KinectV2Text(motion)},
+      {StreamFormat::kKinectV1, KinectV1Text(motion)},
+      {StreamFormat::kKinectV1, KinectV1Text(motion, "1")},
+      {StreamFormat::kKinectV1, WithClock(KinectV1Text(motion, "1"), 44155936, 1e6 / 30)},
+      {StreamFormat::kNtu, NtuText(motion)},
+      {StreamFormat::kAzureKinect, AzureText(motion)},
+      {StreamFormat::kEtudeCsv, WriteJointCsv(motion)},
+      {StreamFormat::kTrc, WriteTrc(motion, "m")}};
+  for (const auto& [format, text] : files) {
+    SCOPED_TRACE(StreamFormatName(format));
+    ASSERT_EQ(TellStreamFormat(text), format);
+    EXPECT_LT(FurthestFrom(motion, Made(text).stream), 1e-3);
+  }
+}
+
+TEST(Streams, EtudesOwnFilesComeBackToTheLastDigitPrinted) {
+  const BodyMotion motion = WavingMotion();
+  const std::string csv = WriteJointCsv(motion), trc = WriteTrc(motion, "m");
+  EXPECT_EQ(WriteJointCsv(MotionOf(Made(csv).stream)), csv);
+  EXPECT_EQ(WriteTrc(MotionOf(Made(trc).stream), "m"), trc);
+}
+
+TEST(Streams, StatesAreToldWhereTheFileHasThemAndSaidToBeMissingElse) {
+  const BodyMotion motion = WavingMotion(3);
+  const auto tells = [](const std::string& text) { return ReadStreamRecording(text, "s")->tells_states; };
+  EXPECT_FALSE(tells(KinectV1Text(motion)));
+  EXPECT_FALSE(tells(KinectV1Text(motion, "1")));  // MSRC-12's weight
+  EXPECT_TRUE(tells(KinectV1Text(motion, "2")));
+  EXPECT_TRUE(tells(NtuText(motion)));
+  EXPECT_FALSE(tells(AzureText(motion)));
+  EXPECT_TRUE(tells(AzureText(motion, "1")));
+  EXPECT_EQ(Made(NtuText(motion, 1)).stream.frames[0][Role::kHead].state, TrackingState::kInferred);
+  EXPECT_EQ(Made(AzureText(motion, "1")).stream.frames[0][Role::kHead].state, TrackingState::kInferred);
+  EXPECT_EQ(Made(AzureText(motion, "2")).stream.frames[0][Role::kHead].state, TrackingState::kTracked);
+}
+
+TEST(Streams, AClockMayCountMicrosecondsMillisecondsSecondsOrFrames) {
+  const std::string rows = KinectV1Text(WavingMotion());
+  for (const double step : {1e6 / 30, 1e3 / 30, 1.0 / 30, 1.0})
+    EXPECT_EQ(Made(WithClock(rows, 100 * step, step)).stream.frames.size(), 60u) << step;
+  // UTKinect keeps every other frame.
+  EXPECT_EQ(Made(WithClock(rows, 252, 2)).stream.frames.size(), 119u);
+}
+
+TEST(Streams, OfSeveralBodiesTheOneSeenLongestIsTakenUnlessAnotherIsAskedFor) {
+  const std::string one = NtuText(WavingMotion(1));
+  const std::string body = one.substr(one.find("7205"));
+  std::string other = body;
+  other.replace(0, 17, "72057594037931102");
+  const std::string text = "3\n1\n" + other + "2\n" + other + body + "1\n" + body + "";
+  EXPECT_EQ(ReadStreamRecording(text, "s")->remarks.size(), 1u);
+  EXPECT_TRUE(ReadStreamRecording(text, "s", {.body = 1})->frames[0].places[0] == std::nullopt);
+  EXPECT_EQ(ComplaintOf(text, {.body = 2}), "s: body 2 of 2, counted from 0");
+}
+
+TEST(Streams, RefusalsSayWhereAndWhatIsAllowed) {
+  const BodyMotion motion = WavingMotion(2);
+  const std::string rows = KinectV1Text(motion);
+  EXPECT_TRUE(ComplaintOf("").starts_with("s:1: no skeletons known here")) << ComplaintOf("");
+  EXPECT_TRUE(ComplaintOf("1 2 3\n4 5 6\n").starts_with("s:1: no skeletons known here (3 numbers"));
+  EXPECT_TRUE(ComplaintOf(rows, {.format = StreamFormat::kKinectV2}).starts_with("s:1: 60 numbers in a row; allowed"));
+  EXPECT_TRUE(ComplaintOf(rows + rows.substr(rows.find(' '))).starts_with("s:3: "));
+  EXPECT_TRUE(ComplaintOf(rows + "x" + rows.substr(1)).starts_with("s:3:1: value 1"));
+  std::string far = KinectV1Text(WavingMotion(9));
+  far.replace(0, far.find(' '), "5000");
+  EXPECT_TRUE(ComplaintOf(far).find("allowed: 100 m") != std::string::npos) << ComplaintOf(far);
+  const std::string ntu = NtuText(motion);
+  EXPECT_TRUE(ComplaintOf(ntu.substr(0, ntu.size() / 2)).starts_with("s:")) << ComplaintOf(ntu);
+  EXPECT_NE(ComplaintOf(ntu.substr(0, ntu.size() / 2)), "(read)");
+  EXPECT_NE(ComplaintOf(std::string(ntu).replace(ntu.find("\n25\n"), 4, "\n24\n")).find("24 as the number of joints"),
+            std::string::npos);
+  EXPECT_EQ(ComplaintOf("{\"frames\": [}"), "s:1:13: no JSON from here on");
+  EXPECT_NE(ComplaintOf("{}").find("no list \"frames\""), std::string::npos);
+  EXPECT_EQ(ComplaintOf("head_x_m,head_y_m,head_z_m\n0,1,2\n").find("s: never shows hip_centre, spine"), 0u);
+  EXPECT_NE(ComplaintOf(WithClock(rows, 5, -0.03)).find("a first column that is no clock"), std::string::npos);
+  EXPECT_EQ(ComplaintOf(WithClock(rows, 1, 0.03) + WithClock(rows, 0.5, 0.03)).find("s:3: time 0.5 s after"), 0u);
+}
+
+TEST(Streams, NobodyAndTooSmallOrTooLargeBodiesAreRefused) {
+  std::string nobody;
+  for (int i = 0; i < 60; ++i) nobody += "0 ";
+  EXPECT_EQ(ComplaintOf(nobody + "\n"), "s: no frame shows a body");
+  BodyMotion giant = WavingMotion(2);
+  for (auto& joint : giant.poses[0].joints) joint *= 4.0;
+  for (auto& joint : giant.poses[1].joints) joint *= 4.0;
+  EXPECT_NE(ComplaintOf(KinectV1Text(giant)).find("a trunk of 1.88"), std::string::npos)
+      << ComplaintOf(KinectV1Text(giant));
+}
+
+}  // namespace
+}  // namespace etude

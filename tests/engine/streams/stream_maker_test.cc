@@ -1,0 +1,122 @@
+#include "engine/streams/stream_maker.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/base/angles.h"
+#include "tests/engine/streams/small_files.h"
+
+namespace etude {
+namespace {
+
+using testing::KinectV1Text;
+using testing::StandingPose;
+using testing::WavingMotion;
+
+StreamRecording Recorded(const BodyMotion& motion) {
+  StreamRecording recording{.is_level = true, .rate_hz = motion.rate_hz};
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    RecordedFrame& frame = recording.frames.emplace_back();
+    frame.time_s = static_cast<double>(t) / motion.rate_hz;
+    for (std::size_t i = 0; i < kRoleCount; ++i) frame.places[i] = motion.poses[t].joints[i];
+  }
+  return recording;
+}
+
+SkeletonStream StreamOf(const StreamRecording& recording, const StreamOptions& options = {}) {
+  const auto made = MakeStream(recording, "s", options);
+  EXPECT_TRUE(made);
+  return made ? made->stream : SkeletonStream{};
+}
+
+TEST(StreamMaker, OtherRatesBecomeThirtyFramesASecond) {
+  for (const double rate : {15.0, 25.0, 60.0}) {
+    const BodyMotion motion = WavingMotion(static_cast<int>(2 * rate) + 1, rate);
+    const SkeletonStream stream = StreamOf(Recorded(motion));
+    ASSERT_EQ(stream.frames.size(), 61u) << rate;
+    for (std::size_t t = 0; t < 61; ++t) {
+      const double y = 1.4 + 0.3 * std::sin(3.14159 * static_cast<double>(t) / 30);
+      EXPECT_NEAR(stream.frames[t][Role::kLeftHand].position.y, y, 2e-3) << rate;  // straight between samples
+    }
+  }
+}
+
+TEST(StreamMaker, AShortGapIsBridgedAndALongOneLosesTheBody) {
+  StreamRecording recording = Recorded(WavingMotion(30));
+  auto& frames = recording.frames;
+  frames.erase(frames.begin() + 20, frames.begin() + 28);
+  frames.erase(frames.begin() + 5, frames.begin() + 8);
+  const SkeletonStream stream = StreamOf(recording);
+  ASSERT_EQ(stream.frames.size(), 30u);
+  for (std::size_t t = 0; t < 30; ++t) EXPECT_EQ(stream.frames[t].body_seen, t < 20 || t >= 28) << t;
+  EXPECT_EQ(stream.frames[22][Role::kHead].state, TrackingState::kNotTracked);
+  EXPECT_EQ(stream.frames[22][Role::kHead].position, stream.frames[19][Role::kHead].position);
+}
+
+TEST(StreamMaker, AMissingJointStaysWhereItWasAndIsNotTracked) {
+  StreamRecording recording = Recorded(WavingMotion(10));
+  for (std::size_t t = 0; t < 10; ++t) {
+    if (t < 2 || t > 4) recording.frames[t].places[Index(Role::kLeftHand)].reset();
+  }
+  const SkeletonStream stream = StreamOf(recording);
+  EXPECT_EQ(stream.frames[0][Role::kLeftHand].position, stream.frames[0][Role::kLeftWrist].position);
+  EXPECT_EQ(stream.frames[9][Role::kLeftHand].position, stream.frames[4][Role::kLeftHand].position);
+  EXPECT_EQ(stream.frames[9][Role::kLeftHand].state, TrackingState::kNotTracked);
+  EXPECT_EQ(stream.frames[9][Role::kLeftWrist].state, TrackingState::kTracked);
+  EXPECT_TRUE(stream.frames[9].body_seen);
+}
+
+TEST(StreamMaker, ATiltedSensorIsLevelledByTheTrunkAndTheFloorByTheFeet) {
+  for (const double tilt_deg : {-12.0, 0.0, 20.0}) {
+    const auto recording = ReadStreamRecording(KinectV1Text(WavingMotion(), "", Radians(tilt_deg)), "s");
+    ASSERT_TRUE(recording);
+    const auto made = MakeStream(*recording, "s");
+    ASSERT_TRUE(made);
+    EXPECT_NEAR(made->level.tilt_deg, std::abs(tilt_deg), 1e-6);
+    EXPECT_EQ(made->level.up_by, StreamLevel::By::kTrunk);
+    EXPECT_NEAR(made->stream.frames[0][Role::kHipCentre].position.y, 0.95, 1e-6);
+    EXPECT_NEAR(made->stream.frames[0][Role::kHead].position.y, 1.65, 1e-6);
+    EXPECT_GT(*FeetForward(made->stream), 0.8);
+  }
+}
+
+TEST(StreamMaker, FeetThatStoodInSeveralPlacesTellTheFloorBetterThanALeaningTrunk) {
+  BodyMotion motion;
+  for (int place = 0; place < 4; ++place) {
+    for (int t = 0; t < 30; ++t) {
+      BodyPose pose = StandingPose();
+      for (auto& joint : pose.joints) {
+        joint.z += 0.1 * joint.y;  // leans
+        joint += glm::dvec3(0.6 * (place % 2), 0, 0.6 * (place / 2));
+      }
+      motion.poses.push_back(pose);
+    }
+  }
+  const auto recording = ReadStreamRecording(KinectV1Text(motion, "", Radians(8)), "s");
+  ASSERT_TRUE(recording);
+  const StreamLevel level = EstimateLevel(recording->frames, 30);
+  EXPECT_EQ(level.up_by, StreamLevel::By::kFeet);
+  EXPECT_NEAR(level.tilt_deg, 8, 1e-6);
+}
+
+TEST(StreamMaker, AMirroredRecordingIsNoticedByItsFeetAndMendedByReflection) {
+  StreamRecording recording = Recorded(WavingMotion());
+  for (RecordedFrame& frame : recording.frames) {
+    for (auto& place : frame.places) place->x = -place->x;
+  }
+  EXPECT_LT(*FeetForward(StreamOf(recording)), -0.8);
+  const SkeletonStream mended = StreamOf(recording, {.reflects = true});
+  EXPECT_GT(*FeetForward(mended), 0.8);
+  EXPECT_NEAR(mended.frames[15][Role::kLeftHand].position.y, 1.7, 1e-3);
+}
+
+TEST(StreamMaker, AClockThatStopsForLongIsRefused) {
+  StreamRecording recording = Recorded(WavingMotion(3));
+  recording.frames[2].time_s = 1e6;
+  recording.frames[2].line = 3;
+  const auto made = MakeStream(recording, "s");
+  ASSERT_FALSE(made);
+  EXPECT_EQ(ToString(made.error()).find("s:3: time 1e+06 s after"), 0u);
+}
+
+}  // namespace
+}  // namespace etude

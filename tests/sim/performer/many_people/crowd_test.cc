@@ -1,0 +1,28 @@
+// The figures of fidelity_test.cc, of a crowd, and how they order the presets.
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/performer/neighbours.h"
+
+namespace etude {
+namespace {
+
+TEST(Crowd, IsAsAlikeAndAsDifferentAsRealPeople) {
+  const Neighbours crowd = MeasureNeighbours(People::kMixed, 150, 6);
+  RecordProperty("found", std::to_string(crowd.found));
+  EXPECT_GE(crowd.found, 0.75);
+  EXPECT_LE(crowd.found, 0.90);
+  EXPECT_GE(crowd.duration_variation, 0.2);
+  EXPECT_LE(crowd.duration_variation, 0.35);
+}
+
+TEST(Crowd, ToddlersAreHardestToTellAndExpertsEasiest) {
+  const auto found = [](People people) { return MeasureNeighbours(people, 60, 4).found; };
+  const double toddler = found(People::kToddler), child = found(People::kSchoolChild), adult = found(People::kAdult);
+  EXPECT_LT(toddler, child);
+  EXPECT_LT(child, adult);
+  EXPECT_LT(adult, found(People::kExpert));
+}
+
+}  // namespace
+}  // namespace etude
