@@ -81,10 +81,10 @@ Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const Op
   const SplitReference wanted = Split(reference);
   ASSIGN_OR_RETURN(auto file, ReadClipFile(wanted.path));
   const std::string stem = fs::path(wanted.path).stem().string();
-  if (file.format == ClipFormat::kBvh) {
+  if (file.format == ClipFormat::kBvh || file.format == ClipFormat::kDeepMimic) {
     if (wanted.animation) {
-      return Fail({wanted.path, 0, 0}, "a BVH file has one motion; '#{}' chooses one of a glTF file",
-                  *wanted.animation);
+      return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
+                  FormatName(file.format), *wanted.animation);
     }
     return std::vector<SourceClip>{{stem, wanted.path, file.format, std::move(file.clips.front()), nullptr}};
   }
