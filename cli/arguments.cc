@@ -9,6 +9,7 @@
 #include "cli/bridge_arguments.h"
 #include "cli/calibrate_command.h"
 #include "cli/capture_command.h"
+#include "cli/coach_command.h"
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
 #include "cli/sensor_arguments.h"
@@ -286,6 +287,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineSensor(app, action);
   DefineCalibrate(app, action);
   DefineCapture(app, action);
+  DefineCoach(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

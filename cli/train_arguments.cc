@@ -16,19 +16,22 @@ constexpr const char* kTrainExamples =
     "(after turning and moving one onto the other on the floor), and looks for the system by which d < 0.4 tells\n"
     "the close pairs best. Clips held out are never learnt from: only what is known about them counts.\n\n"
     "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md tells what is in it.\n\n"
+    "With --recogniser it makes the model of the recogniser `learnt` anew (docs/detection.md): simulated people dance\n"
+    "the labelled clips, right and wrong, and the model learns to tell which.\n\n"
     "Try:\n"
     "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
     "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
     "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
-    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judge by these";
+    "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judge by these\n"
+    "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows";
 
 }  // namespace
 
 void DefineTrain(CLI::App& app, Action& action) {
   auto options = std::make_shared<TrainOptions>();
-  CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system from clips");
+  CLI::App* command = app.add_subcommand("train", "Learn a fuzzy system or a recogniser from clips");
   command->add_option("clips", options->clips, "Clips to learn from, and to judge by")->required();
-  command->add_option("-o,--output", options->output, "The fuzzy system file to write (YAML)")->required();
+  command->add_option("-o,--output", options->output, "The file to write (YAML)")->required();
   command->add_option("--method", options->method, "How to learn")
       ->check(CLI::IsMember({"adaptive", "genetic"}))
       ->capture_default_str();
@@ -46,10 +49,20 @@ void DefineTrain(CLI::App& app, Action& action) {
   command->add_option("--generations", options->generations, "How long the genetic algorithm searches")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
+  command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
+  command->add_option("--sessions", options->sessions, "Of simulated people, 16 performances each (recogniser)")
+      ->check(CLI::Range(10, 10000))
+      ->capture_default_str()
+      ->needs("--recogniser");
+  for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {
+    command->get_option(other)->excludes("--recogniser");
+  }
   command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
   AddReading(*command, options->reading);
   command->footer(kTrainExamples);
-  command->callback([=, &action] { action = [=] { return TrainCommand(*options); }; });
+  command->callback([=, &action] {
+    action = [=] { return options->recogniser ? TrainRecogniserCommand(*options) : TrainCommand(*options); };
+  });
 }
 
 }  // namespace etude

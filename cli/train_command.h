@@ -15,11 +15,15 @@ struct TrainOptions {
   bool memberships = false;        ///< tune the membership functions, too
   std::uint64_t seed = 1;
   int population = 40, generations = 60;
+  bool recogniser = false;       ///< learn the recogniser `learnt` instead, from simulated people who dance the clips
+  int sessions = 400;            ///< of those people, with `recogniser`
   std::string hold_out = "0.3";  ///< a share of the clips, or a pattern of their names
   bool overwrite = false;
   ClipReading reading;
 };
 /// `etude train`: learns a fuzzy system from clips, writes its file, and prints what it knows of clips held out.
 int TrainCommand(const TrainOptions& options);
+/// The same with `recogniser`: writes a model file as scenarios/recognisers/learnt.yaml is one.
+int TrainRecogniserCommand(const TrainOptions& options);
 
 }  // namespace etude

@@ -27,6 +27,20 @@ std::optional<double> Recall(const Confusion& confusion) {
   return Share(confusion.true_positives, confusion.true_positives + confusion.false_negatives);
 }
 
+std::optional<double> FaultFound(const Confusion& confusion) {
+  return Share(confusion.true_negatives, confusion.true_negatives + confusion.false_positives);
+}
+
+std::optional<double> GreyCalledRight(const std::vector<bool>& called) {
+  return Share(static_cast<int>(std::ranges::count(called, true)), static_cast<int>(called.size()));
+}
+
+std::optional<double> MoveNamed(std::span<const NamedMove> performances) {
+  const auto named =
+      std::ranges::count_if(performances, [](const NamedMove& each) { return each.named == each.danced; });
+  return Share(static_cast<int>(named), static_cast<int>(performances.size()));
+}
+
 std::optional<double> F1(const Confusion& confusion) {
   const int doubled = 2 * confusion.true_positives;
   return Share(doubled, doubled + confusion.false_positives + confusion.false_negatives);

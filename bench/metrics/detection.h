@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace etude {
 
-/// An event is one scripted performance of a move (docs/metrics.md). Positive = "right".
+/// An event is one scripted performance of a move that was truly right or wrong (docs/metrics.md); grey ones are none.
+/// Positive = "right".
 struct JudgedEvent {
   bool is_right = false;      ///< the truth
   bool called_right = false;  ///< what the recogniser said by the end of the event's window
@@ -28,12 +30,26 @@ Confusion CountConfusion(std::span<const JudgedEvent> events);
 std::optional<double> Precision(const Confusion& confusion);
 /// Empty when nothing was right.
 std::optional<double> Recall(const Confusion& confusion);
+/// The share of wrong events not called right; empty when nothing was wrong.
+std::optional<double> FaultFound(const Confusion& confusion);
 /// 2 TP / (2 TP + FP + FN); empty when nothing was right and nothing was called so.
 std::optional<double> F1(const Confusion& confusion);
 
 /// The chance that a right event scores higher than a wrong one, ties counting half (Mann–Whitney).
 /// Empty when all events are right or none is.
 std::optional<double> RocAuc(std::span<const JudgedEvent> events);
+
+/// Of grey performances, by whether each was called right: the share that was. Empty when there are none.
+std::optional<double> GreyCalledRight(const std::vector<bool>& called);
+
+/// A performance in which a move was danced, and the move that a recogniser spotted there most.
+struct NamedMove {
+  std::string danced;
+  std::string named;  ///< empty: none
+};
+
+/// The share of performances whose move was named; empty when there are none.
+std::optional<double> MoveNamed(std::span<const NamedMove> performances);
 
 /// A time until something happened, or until it was given up waiting for.
 struct Wait {

@@ -43,7 +43,7 @@ const SettingTable<FadingOptions>& FadingSettings() {
 }
 
 PolicyDecision AfterMistakes(const PolicyInput& input, int wanted) {
-  if (input.verdict != Verdict::kWrong) return {false, "no mistake"};
+  if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const int found = input.move.mistakes_in_row;
   return {found >= wanted, fmt::format("{} mistakes in a row of this move; corrects from {} on", found, wanted)};
 }
@@ -57,7 +57,7 @@ PolicyDecision AfterN(const PolicyInput& input, Values values) {
 }
 
 PolicyDecision Confident(const PolicyInput& input, Values values) {
-  if (input.verdict != Verdict::kWrong) return {false, "no mistake"};
+  if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
   return {input.evidence < sure || input.evidence == 0,
           fmt::format("evidence {:.2f} of a right performance; sure of a mistake below {:.2f}", input.evidence, sure)};

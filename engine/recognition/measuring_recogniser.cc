@@ -38,7 +38,9 @@ class RecentCosts {
  public:
   explicit RecentCosts(std::size_t moves) : moves_(moves), costs_(moves * kKept, kUnaligned) {}
 
-  void Next() { std::fill_n(costs_.begin() + static_cast<std::ptrdiff_t>(++step_ % kKept * moves_), moves_, kUnaligned); }
+  void Next() {
+    std::fill_n(costs_.begin() + static_cast<std::ptrdiff_t>(++step_ % kKept * moves_), moves_, kUnaligned);
+  }
   void Lower(std::size_t move, double cost) {
     double& known = costs_[step_ % kKept * moves_ + move];
     known = std::min(known, cost);
@@ -78,6 +80,9 @@ class MeasuringFollower final : public StepFollower {
   }
 
   void Open(std::optional<std::size_t> move) override {
+    if (nearest_in_window_) usual_.Add(*nearest_in_window_);
+    nearest_in_window_.reset();
+    nearest_cost_ = kUnaligned;
     in_window_.clear();
     opened_at_ = steps_.Count();
     for (const TaughtExample& example : examples_) {
@@ -101,27 +106,33 @@ class MeasuringFollower final : public StepFollower {
     }
     if (lowest < kUnaligned) {
       const TaughtExample& example = examples_[nearest];
-      spotted[example.move] = Judge(Occasion::kSpotted, example, always_[nearest], 0);
+      spotted[example.move] = judge_(Occasion::kSpotted, example.move, MeasureNow(example, always_[nearest], 0));
     }
     double evidence = 0;
     for (auto& [example, aligner] : in_window_) {
       aligner.Update(step);
-      if (aligner.Cost() < kUnaligned)
-        evidence = std::max(evidence, Judge(Occasion::kAsked, *example, aligner, opened_at_));
+      if (aligner.Cost() == kUnaligned) continue;
+      const PerformanceMeasures measures = MeasureNow(*example, aligner, opened_at_);
+      evidence = std::max(evidence, judge_(Occasion::kAsked, example->move, measures));
+      if (aligner.Cost() < nearest_cost_) {
+        nearest_cost_ = aligner.Cost();
+        nearest_in_window_ = measures;
+      }
     }
     return evidence;
   }
 
   /// `first`: the number of the step that the aligner calls its first.
-  double Judge(Occasion occasion, const TaughtExample& example, const SubsequenceAligner& aligner, int first) const {
+  PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first) const {
     const std::vector<StepPair> path = aligner.Path();
     const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
-    return judge_(occasion, example.move,
-                  Measure({.path = path,
-                           .seen = seen,
-                           .pattern = example.pattern,
-                           .cost = aligner.Cost(),
-                           .other_cost = costs_.LowestOther(example.move)}));
+    PerformanceMeasures measures = Measure({.path = path,
+                                            .seen = seen,
+                                            .pattern = example.pattern,
+                                            .cost = aligner.Cost(),
+                                            .other_cost = costs_.LowestOther(example.move)});
+    usual_.Relate(measures);
+    return measures;
   }
 
   struct InWindow {
@@ -136,6 +147,9 @@ class MeasuringFollower final : public StepFollower {
   std::vector<SubsequenceAligner> always_;  // one per example
   std::vector<InWindow> in_window_;
   int opened_at_ = 0;
+  PersonsUsual usual_;
+  std::optional<PerformanceMeasures> nearest_in_window_;
+  double nearest_cost_ = kUnaligned;
 };
 
 class MeasuringRecogniser final : public Recogniser {

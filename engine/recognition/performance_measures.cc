@@ -23,6 +23,17 @@ struct LimbSums {
   }
 };
 
+struct Mean {
+  double sum = 0;
+  int count = 0;
+
+  void Add(double value) {
+    sum += value;
+    ++count;
+  }
+  double Root() const { return count > 0 ? std::sqrt(sum / count) : 0.0; }
+};
+
 /// Lengths of differences of unit vectors: 1 is 60 degrees.
 struct LimbMeasures {
   double error = 0;    ///< root mean square
@@ -52,6 +63,7 @@ struct ClockMeasures {
   double lag = 0;       ///< mean, from the first step seen
   double stretch = 0;   ///< 0 at the taught tempo, 1 at half of it
   double unsteady = 0;  ///< root mean square about a steady tempo
+  double worst = 0;     ///< likewise, at most
 };
 
 ClockMeasures MeasureClock(std::span<const StepPair> path) {
@@ -69,9 +81,15 @@ ClockMeasures MeasureClock(std::span<const StepPair> path) {
   const double taught_variance = taught_squares - taught * taught;
   const double seen_variance = seen_squares - seen * seen;
   const double tempo = taught_variance > 0 ? covariance / taught_variance : 1.0;
+  double worst = 0;
+  for (const StepPair& pair : path) {
+    const double beyond = (pair.seen / kStepsPerSecond - seen) - tempo * (pair.taught / kStepsPerSecond - taught);
+    worst = std::max(worst, std::abs(beyond));
+  }
   return {.lag = seen - taught,
           .stretch = tempo - 1,
-          .unsteady = std::sqrt(std::max(0.0, seen_variance - tempo * covariance))};
+          .unsteady = std::sqrt(std::max(0.0, seen_variance - tempo * covariance)),
+          .worst = worst};
 }
 
 }  // namespace
@@ -85,9 +103,12 @@ const std::vector<std::string>& MeasureNames() {
         list.push_back(std::string(what) + " of " + part);
       }
     }
-    for (const char* other : {"distance", "worst error", "mean error", "lag", "stretch", "unsteady", "nearest other"}) {
+    for (const char* other :
+         {"distance", "distance in the first third", "distance in the second third", "distance in the last third",
+          "worst error", "mean error", "lag", "stretch", "unsteady", "unsteady at worst", "nearest other"}) {
       list.emplace_back(other);
     }
+    for (std::size_t i = 0; i < kOwnMeasures; ++i) list.push_back(list[i] + ", beyond the usual");
     return list;
   }();
   return names;
@@ -95,9 +116,12 @@ const std::vector<std::string>& MeasureNames() {
 
 PerformanceMeasures Measure(const AlignedPerformance& performance) {
   std::array<LimbSums, kPosePartCount> sums;
+  std::array<Mean, 3> thirds;
   for (const StepPair& pair : performance.path) {
     const PoseVector& seen = performance.seen(pair.seen);
-    const PoseVector& taught = performance.pattern[static_cast<std::size_t>(pair.taught)];
+    const auto index = static_cast<std::size_t>(pair.taught);
+    const PoseVector& taught = performance.pattern[index];
+    thirds[3 * index / performance.pattern.size()].Add(SquaredDistance(seen, taught));
     for (std::size_t i = 0; i < kPosePartCount; ++i) sums[i].Add(seen.parts[i], taught.parts[i], seen.weights[i]);
   }
   std::array<LimbMeasures, kPosePartCount> limbs;
@@ -119,11 +143,30 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
   }
   const ClockMeasures clock = MeasureClock(performance.path);
   const double both = performance.cost + performance.other_cost;
-  for (double value : {std::sqrt(performance.cost), worst, mean, clock.lag, clock.stretch, clock.unsteady,
-                       std::isfinite(both) && both > 0 ? performance.cost / both : 0.0}) {
+  for (double value :
+       {std::sqrt(performance.cost), thirds[0].Root(), thirds[1].Root(), thirds[2].Root(), worst, mean, clock.lag,
+        clock.stretch, clock.unsteady, clock.worst, std::isfinite(both) && both > 0 ? performance.cost / both : 0.0}) {
     measures[next++] = value;
   }
   return measures;
+}
+
+void PersonsUsual::Add(const PerformanceMeasures& performance) {
+  constexpr std::size_t kLatest = 32;
+  if (latest_.size() == kLatest) latest_.erase(latest_.begin());
+  latest_.push_back(performance);
+  std::vector<double> values(latest_.size());
+  for (std::size_t m = 0; m < kOwnMeasures; ++m) {
+    for (std::size_t i = 0; i < latest_.size(); ++i) values[i] = latest_[i][m];
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    usual_[m] = *middle;
+  }
+}
+
+void PersonsUsual::Relate(PerformanceMeasures& performance) const {
+  if (latest_.empty()) return;
+  for (std::size_t m = 0; m < kOwnMeasures; ++m) performance[kOwnMeasures + m] = performance[m] - usual_[m];
 }
 
 }  // namespace etude

@@ -12,8 +12,10 @@ namespace etude {
 
 /// What is measured of one performance against one example, of whatever move: per limb how far it is off, how far once
 /// its mean direction is forgiven, and what share of its amplitude is missing; left and right as the larger and the
-/// smaller of both; the clock; the nearest other move.
-constexpr std::size_t kMeasureCount = 43;
+/// smaller of both; how far the body is off in each third of the example; the clock; the nearest other move.
+constexpr std::size_t kOwnMeasures = 47;
+/// Then the same once more, each beyond what is usual of this person: 0 as long as nothing is known of them.
+constexpr std::size_t kMeasureCount = 2 * kOwnMeasures;
 using PerformanceMeasures = std::array<double, kMeasureCount>;
 
 /// Their names, for people, in their order.
@@ -28,6 +30,21 @@ struct AlignedPerformance {
   double other_cost = 0;                       ///< of the nearest other move lately; infinite: of none
 };
 
+/// The second half is left 0 (PersonsUsual fills it in).
 PerformanceMeasures Measure(const AlignedPerformance& performance);
+
+/// What is usual of a person: the medians of what was measured of their performances so far. People differ in how far
+/// they swing and how late they are; a fault is what they do not do otherwise.
+class PersonsUsual {
+ public:
+  /// One more performance, right or not; the latest 32 count.
+  void Add(const PerformanceMeasures& performance);
+  /// Fills in the second half.
+  void Relate(PerformanceMeasures& performance) const;
+
+ private:
+  std::vector<PerformanceMeasures> latest_;
+  std::array<double, kOwnMeasures> usual_{};
+};
 
 }  // namespace etude

@@ -6,6 +6,7 @@
 #include "engine/recognition/dtw.h"
 #include "engine/recognition/fuzzy_rules.h"
 #include "engine/recognition/key_pose.h"
+#include "engine/recognition/learnt_model.h"
 #include "engine/recognition/nearest.h"
 
 namespace etude {
@@ -98,8 +99,13 @@ std::span<const RecogniserKind> AllRecognisers() {
        .description =
            "nearest neighbour of joints: examples against their mirror image, their half, other moves, standing",
        .needs_examples = true,
+       .teach = [](std::span<const TaughtMove> taught,
+                   const RecogniserOptions& options) { return MakeNearestRecogniser(taught, options.weights); }},
+      {.name = "learnt",
+       .description = "ours: limbs aligned with the taught examples, judged by what simulated people taught a model",
+       .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
-         return MakeNearestRecogniser(taught, options.weights);
+         return MakeLearntRecogniser(taught, options.weights, BuiltinLearntModel());
        }}};
   return recognisers;
 }

@@ -27,7 +27,7 @@ MAY_INCLUDE = {
     "engine/kinematics": "engine/base engine/motion",
     "engine/kinematics/solvers": "engine/base engine/kinematics",
     "engine/motion": "engine/base",
-    "engine/recognition": "engine/base engine/fuzzy engine/motion",
+    "engine/recognition": "engine/base engine/document engine/fuzzy engine/motion",
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
@@ -57,7 +57,7 @@ MAY_INCLUDE = {
     "sim/choreography":
         "engine/base engine/coaching engine/document engine/fuzzy engine/motion sim/random",
     "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
-    "sim/music": "engine/motion sim/random",
+    "sim/music": "engine/base engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
@@ -140,6 +140,7 @@ MAY_INCLUDE = {
     "reports/clips":
         "engine/base engine/motion engine/retargeting engine/transitions/joins sim/body sim/character sim/choreography "
         "sim/render bench/clips bench/files reports/films reports/words",
+    "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/camera sim/character sim/render sim/sensors "
         "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",

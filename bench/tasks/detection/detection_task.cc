@@ -9,6 +9,7 @@
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/detection/exchange.h"
+#include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/run.h"
 #include "bench/tasks/detection/score.h"
@@ -34,24 +35,27 @@ class UnlabelledWorld final : public TaskWorld {
   std::string reason_;
 };
 
-/// A method whose recogniser was taught all moves.
-struct ReadyMethod {
-  DetectionMethod method;
-  std::unique_ptr<Recogniser> recogniser;
-};
-
 /// One session, and the methods run and judged in it.
 class DetectionTaskWorld final : public TaskWorld {
  public:
-  /// `methods` and `repertoire` must outlive this.
-  DetectionTaskWorld(const std::vector<ReadyMethod>& methods, const Repertoire& repertoire, DetectionWorld world,
-                     bool keeps_motion)
-      : methods_(methods), repertoire_(repertoire), world_(std::move(world)), keeps_motion_(keeps_motion) {}
+  /// The first three must outlive this.
+  DetectionTaskWorld(const std::vector<ReadyMethod>& methods, MethodDecisions& decisions, const Repertoire& repertoire,
+                     const WorldKey& key, DetectionWorld world, bool keeps_motion)
+      : methods_(methods),
+        decisions_(decisions),
+        repertoire_(repertoire),
+        suite_seed_(key.suite_seed),
+        scenario_(key.scenario),
+        world_(std::move(world)),
+        keeps_motion_(keeps_motion) {}
+
+  /// The thresholds, which all worlds of the condition share.
+  void PrepareShared() override { decisions_.For({suite_seed_, scenario_, 0}); }
 
   CellResult Run(std::size_t index) override {
     const auto& [method, recogniser] = methods_[index];
-    const auto verdict = JudgeSession(world_, SeenBy(method), repertoire_, *recogniser, method.Decision());
-    return verdict ? Score(*verdict) : CellResult::Ended(Status::kFailed, ToString(verdict.error()));
+    const DecisionOptions& decision = decisions_.For({suite_seed_, scenario_, 0})[index];
+    return Score(JudgeSession(world_, SeenBy(method), repertoire_, *recogniser, decision));
   }
 
   Result<Payload> MakeProblem() override { return SessionPayload(world_); }
@@ -76,9 +80,10 @@ class DetectionTaskWorld final : public TaskWorld {
 
   CellResult Score(const SessionVerdict& verdict) const {
     CellResult result = CellResult::Ended(Status::kOk, "");
-    ScoreSession(world_, verdict, result);
+    ScoreSession(world_, verdict, repertoire_, result);
     result.digests = world_digests_;
     for (auto& stage : VerdictDigests(verdict, repertoire_)) result.digests.push_back(std::move(stage));
+    result.series = PerformanceSeries(world_, verdict, repertoire_);
     result.series.push_back(ScoreSeries(world_, verdict));
     if (keeps_motion_) result.recording = RecordSession(world_, verdict, repertoire_);
     return result;
@@ -91,7 +96,10 @@ class DetectionTaskWorld final : public TaskWorld {
   };
 
   const std::vector<ReadyMethod>& methods_;
+  MethodDecisions& decisions_;
   const Repertoire& repertoire_;
+  const std::uint64_t suite_seed_;
+  const std::string scenario_;
   const DetectionWorld world_;
   const StageDigests world_digests_ = WorldDigests(world_);
   const bool keeps_motion_;
@@ -109,8 +117,8 @@ class DetectionTask final : public Task {
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
     const TrialClip& clip = ClipAt(key);
     if (!clip.is_labelled) return std::make_unique<UnlabelledWorld>(clip.name);
-    return std::make_unique<DetectionTaskWorld>(methods_, repertoire_, MakeDetectionWorld(repertoire_, options_, key),
-                                                keeps_motion);
+    return std::make_unique<DetectionTaskWorld>(methods_, decisions_, repertoire_, key,
+                                                MakeDetectionWorld(repertoire_, options_, key), keeps_motion);
   }
 
   /// A session mixes all labelled clips, so only a clip that has to be left out is named.
@@ -140,6 +148,7 @@ class DetectionTask final : public Task {
   const DetectionOptions options_;
   const std::vector<ReadyMethod> methods_;
   const Repertoire repertoire_;
+  mutable MethodDecisions decisions_{methods_, repertoire_, options_};  // a memory of what depends on keys alone
   std::vector<TrialClip> clips_;
 };
 

@@ -40,6 +40,16 @@ std::vector<MethodKey> FilterFields() {
 
 }  // namespace
 
+const FieldTable<OperatingPoint>& OperatingPointFields() {
+  using Key = Field<OperatingPoint>;
+  static const FieldTable<OperatingPoint> table{
+      {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
+                   "How many false alarms a minute are borne."),
+       Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
+                   "On how many sessions of other people the thresholds are set.")}};
+  return table;
+}
+
 const FieldTable<DetectionOptions>& DetectionConditionFields() {
   using Options = DetectionOptions;
   using Key = Field<Options>;
@@ -84,7 +94,18 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
                  "What stands between the sensor and the performer."),
        Key::Number("threshold", &Options::threshold, kThresholds,
                    "The evidence from which on a move counts as performed; for all methods.")
-           .WhenAbsent("(each recogniser's own)")}};
+           .WhenAbsent("(each recogniser's own)"),
+       Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
+            "Sets each method's threshold on other people, to so many false alarms a minute."},
+           [](Fields& condition, Options& o) {
+             if (condition.Raw("operating_point") == nullptr) return;
+             ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());
+           }}},
+      [](Fields& condition, Options& o) {
+        if (!o.threshold || !o.operating_point) return;
+        condition.Complain(condition.Raw("threshold")->place,
+                           "'threshold' and 'operating_point' both set thresholds; allowed: one of them");
+      }};
   return table;
 }
 

@@ -15,6 +15,13 @@ namespace etude {
 /// What stands between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
+/// Where methods are compared: each at the threshold that gives so many false alarms on other people, under the same
+/// condition, so that none is better only because it says yes more often.
+struct OperatingPoint {
+  double false_alarms_per_min = 1;
+  int sessions = 24;  ///< of those people, one each
+};
+
 /// One condition of a detection scenario: who dances, and how well the sensor sees it.
 ///
 ///     events: 8        # performances in one session
@@ -33,7 +40,8 @@ struct DetectionOptions {
   std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
-  std::optional<double> threshold;  ///< of methods that say none of their own
+  std::optional<double> threshold;                ///< of methods that say none of their own
+  std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
 };
 
 /// One way from stream to verdict.

@@ -13,15 +13,22 @@ namespace etude {
 struct SessionVerdict {
   SkeletonStream filtered;
   std::vector<Judgement> events;  ///< one per event; frames count from its window's first
+  /// One per event: the move (Repertoire::taught) with the most evidence in its window. None at all: an answer from
+  /// outside, which names no moves.
+  std::vector<std::optional<std::size_t>> named = {};
   std::vector<Detection> alarms;  ///< false ones: by move (Repertoire::taught), then by time
 };
 
 /// Filters what the sensor saw, or, for an oracle, how it was truly performed.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
-/// Lets the method's recogniser follow the whole session (it is told what is asked for when its window opens), then
-/// keeps the false alarms. `seen` must be what the method sees of the world.
-Result<SessionVerdict> JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                                    const Recogniser& recogniser, const DecisionOptions& decision);
+/// The evidence of the whole session: the recogniser is told what is asked for when its window opens.
+EvidenceTrace FollowSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
+                            const Recogniser& recogniser);
+
+/// What that evidence comes to: a judgement of every performance asked for, and the false alarms. `seen` must be what
+/// the method sees of the world.
+SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
+                            const Recogniser& recogniser, const DecisionOptions& decision);
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #include "bench/tasks/detection/score.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/detection.h"
@@ -12,9 +13,32 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const Session
   std::vector<JudgedEvent> events;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const Judgement& judgement = verdict.events[i];
-    events.push_back({world.session.events[i].IsRight(), judgement.recognised_at.has_value(), judgement.score});
+    const SessionEvent& event = world.session.events[i];
+    if (event.truth == Truth::kGrey) continue;
+    events.push_back({event.IsRight(), judgement.recognised_at.has_value(), judgement.score});
   }
   return events;
+}
+
+std::vector<bool> GreyEvents(const DetectionWorld& world, const SessionVerdict& verdict) {
+  std::vector<bool> called;
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    if (world.session.events[i].truth != Truth::kGrey) continue;
+    called.push_back(verdict.events[i].recognised_at.has_value());
+  }
+  return called;
+}
+
+void ScoreNames(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
+                CellResult& result) {
+  if (verdict.named.empty()) return result.Missing("move_named", "the method names no moves");
+  std::vector<NamedMove> performances;
+  for (std::size_t i = 0; i < verdict.named.size(); ++i) {
+    const std::string& danced = world.session.events[i].danced;
+    if (danced.empty()) continue;
+    performances.push_back({danced, verdict.named[i] ? repertoire.taught[*verdict.named[i]].name : ""});
+  }
+  result.MeasureOr("move_named", MoveNamed(performances), "no move was danced");
 }
 
 /// How long each right performance had to wait for its praise; a miss waited in vain until its window closed.
@@ -68,14 +92,18 @@ std::string EventsDigest(const SessionVerdict& verdict, const Repertoire& repert
 
 }  // namespace
 
-void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result) {
+void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
+                  CellResult& result) {
   const std::vector<JudgedEvent> events = JudgedEvents(world, verdict);
   const Confusion confusion = CountConfusion(events);
   const std::vector<Wait> waits = WaitsOf(world, verdict);
   result.MeasureOr("f1", F1(confusion), "no performance was right, and none was called right");
   result.MeasureOr("precision", Precision(confusion), "no performance was called right");
   result.MeasureOr("recall", Recall(confusion), "no performance was right");
-  result.MeasureOr("roc_auc", RocAuc(events), "all performances were right, or all were wrong");
+  result.MeasureOr("fault_found", FaultFound(confusion), "no performance was wrong");
+  result.MeasureOr("grey_called_right", GreyCalledRight(GreyEvents(world, verdict)), "no performance was grey");
+  ScoreNames(world, verdict, repertoire, result);
+  result.MeasureOr("roc_auc", RocAuc(events), "all performances that are not grey were right, or all wrong");
   result.MeasureOr(
       "latency_s", KaplanMeierMedian(waits),
       waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
@@ -84,7 +112,8 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, Ce
 }
 
 std::vector<std::string> DetectionMetrics() {
-  return {"f1", "precision", "recall", "roc_auc", "latency_s", "false_alarms_per_min"};
+  return {"f1",         "precision", "recall",    "fault_found",         "grey_called_right",
+          "move_named", "roc_auc",   "latency_s", "false_alarms_per_min"};
 }
 
 std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right) {
@@ -117,6 +146,33 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
     std::copy(scores.begin(), scores.end(), series.values.begin() + window.begin);
   }
   return series;
+}
+
+std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
+                                      const Repertoire& repertoire) {
+  std::vector<double> score, truth, called, fault, severity, asked, danced, named;
+  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
+    const SessionEvent& event = world.session.events[i];
+    score.push_back(verdict.events[i].score);
+    called.push_back(verdict.events[i].recognised_at ? 1 : 0);
+    truth.push_back(event.IsRight() ? 1 : event.truth == Truth::kGrey ? 0.5 : 0);
+    const auto worst = std::ranges::max_element(event.faults, {}, &GradedFault::severity);
+    const bool has_fault = worst != event.faults.end();
+    fault.push_back(has_fault ? static_cast<double>(std::ranges::find(AllFaults(), worst->fault) - AllFaults().begin())
+                              : -1);
+    severity.push_back(has_fault ? worst->severity : 0);
+    asked.push_back(static_cast<double>(repertoire.IndexOf(event.move)));
+    danced.push_back(event.danced.empty() ? -1 : static_cast<double>(repertoire.IndexOf(event.danced)));
+    if (!verdict.named.empty()) named.push_back(verdict.named[i] ? static_cast<double>(*verdict.named[i]) : -1);
+  }
+  return {{"performance_score", "performance", std::move(score)},
+          {"performance_truth", "performance", std::move(truth)},
+          {"performance_called", "performance", std::move(called)},
+          {"performance_fault", "performance", std::move(fault)},
+          {"performance_severity", "performance", std::move(severity)},
+          {"performance_asked", "performance", std::move(asked)},
+          {"performance_danced", "performance", std::move(danced)},
+          {"performance_named", "performance", std::move(named)}};
 }
 
 Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {

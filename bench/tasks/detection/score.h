@@ -12,7 +12,8 @@
 namespace etude {
 
 /// The metrics of a session (docs/metrics.md).
-void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, CellResult& result);
+void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
+                  CellResult& result);
 
 /// The ids of all of them, in the order in which they are measured.
 std::vector<std::string> DetectionMetrics();
@@ -35,6 +36,12 @@ std::string StateLetters(const SensedFrame& frame);
 
 /// Per frame, how well the move asked for was seen to be performed so far in its window; 0 between windows.
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
+
+/// One value per performance, for curves over many sessions (reports/plots): `performance_score`; `_truth`, 1 right, ½
+/// grey, 0 wrong; `_called`, 1 right; `_fault`, the worst one's place in AllFaults, −1 none, and its `_severity`;
+/// `_asked`, `_danced` and `_named`, places in Repertoire::taught, −1 none.
+std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
+                                      const Repertoire& repertoire);
 
 /// The session: tracks "truth" and "sensed" (as the recogniser saw it), and in `extras_json`
 ///

@@ -17,6 +17,22 @@ std::vector<JudgedEvent> EventsOf(const Json& in) {
 
 Confusion ConfusionOf(const Json& in) { return CountConfusion(EventsOf(in)); }
 
+Value Grey(const Json& in) {
+  std::vector<bool> called;
+  for (const Json& performance : in.at("graded")) {
+    if (performance.at("truth").get<std::string>() == "grey") called.push_back(performance.at("called").get<bool>());
+  }
+  return GreyCalledRight(called);
+}
+
+Value Named(const Json& in) {
+  std::vector<NamedMove> performances;
+  for (const Json& performance : in.at("dances")) {
+    performances.push_back({performance.at("danced").get<std::string>(), performance.at("named").get<std::string>()});
+  }
+  return MoveNamed(performances);
+}
+
 Value Latency(const Json& in) {
   std::vector<Wait> waits;
   for (const Json& event : in.at("performances")) {
@@ -48,6 +64,9 @@ std::span<const Evaluator> DetectionEvaluators() {
       {"precision", [](const Json& in) -> Value { return Precision(ConfusionOf(in)); }},
       {"recall", [](const Json& in) -> Value { return Recall(ConfusionOf(in)); }},
       {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
+      {"fault_found", [](const Json& in) -> Value { return FaultFound(ConfusionOf(in)); }},
+      {"grey_called_right", Grey},
+      {"move_named", Named},
       {"roc_auc", [](const Json& in) -> Value { return RocAuc(EventsOf(in)); }},
       {"latency_s", Latency},
       {"false_alarms_per_min", [](const Json& in) -> Value { return FalseAlarms(in); }},

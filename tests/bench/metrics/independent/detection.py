@@ -16,6 +16,18 @@ def f1(given):
     return 2 * both / either if either else None
 
 
+def fault_found(given):
+    return common.share([not event["called"] for event in given["events"] if not event["right"]])
+
+
+def grey_called_right(given):
+    return common.share([each["called"] for each in given["graded"] if each["truth"] == "grey"])
+
+
+def move_named(given):
+    return common.share([each["named"] == each["danced"] for each in given["dances"]])
+
+
 def roc_auc(given):
     right = [event["score"] for event in given["events"] if event["right"]]
     wrong = [event["score"] for event in given["events"] if not event["right"]]
@@ -58,6 +70,9 @@ METRICS = {
     "precision": precision,
     "recall": recall,
     "f1": f1,
+    "fault_found": fault_found,
+    "grey_called_right": grey_called_right,
+    "move_named": move_named,
     "roc_auc": roc_auc,
     "latency_s": latency,
     "false_alarms_per_min": false_alarms,

@@ -70,7 +70,7 @@ TEST_F(DetectionTask, RecordsWhatHappened) {
   EXPECT_EQ(cell.recording->tracks[1].name, "sensed");
   const std::size_t frames = cell.recording->tracks[0].motion.poses.size();
   EXPECT_EQ(cell.recording->tracks[1].motion.poses.size(), frames);
-  EXPECT_EQ(cell.series.front().values.size(), frames);
+  EXPECT_EQ(cell.series.back().values.size(), frames);
 
   const auto extras = nlohmann::json::parse(cell.recording->extras_json);
   EXPECT_EQ(extras["format"], "etude-detection");

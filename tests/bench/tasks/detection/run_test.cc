@@ -43,7 +43,7 @@ TEST(JudgeSession, CountsAnAlarmOnlyWhereTheMoveWasNeitherAskedForNorDanced) {
     world.session.events = events;
     const DetectionMethod method;
     const auto recogniser = *MakeRecogniser(method.recogniser, repertoire.taught);
-    return JudgeSession(world, SeeSession(world, method), repertoire, *recogniser, method.Decision())->alarms.size();
+    return JudgeSession(world, SeeSession(world, method), repertoire, *recogniser, method.Decision()).alarms.size();
   };
   EXPECT_EQ(alarms({}), 1u);
   EXPECT_EQ(alarms({AskedFor("raise", "raise")}), 0u);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace etude {
 namespace {
 
@@ -15,6 +17,8 @@ SessionEvent Event(Truth truth, double start_s, std::optional<double> first_righ
   event.first_right_s = first_right_s;
   return event;
 }
+
+const Repertoire kMoves{.moves = {}, .taught = {{.name = "boxing"}, {.name = "clap"}, {.name = "sway"}}};
 
 Judgement Called(std::optional<int> right_at, double score) {
   return {.recognised_at = right_at, .score = score, .running_score = std::vector<double>(60, score)};
@@ -32,20 +36,26 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   DetectionWorld world;
   world.session.motion.poses.resize(900);  // half a minute
   world.stream.frames.resize(900);
-  world.session.events = {Event(Truth::kRight, 1, 2.0), Event(Truth::kRight, 5, 6.0), Event(Truth::kRight, 9, 10.0),
-                          Event(Truth::kWrong, 13, std::nullopt), Event(Truth::kWrong, 17, std::nullopt)};
+  world.session.events = {Event(Truth::kRight, 1, 2.0),           Event(Truth::kRight, 5, 6.0),
+                          Event(Truth::kRight, 9, 10.0),          Event(Truth::kWrong, 13, std::nullopt),
+                          Event(Truth::kWrong, 17, std::nullopt), Event(Truth::kGrey, 21, std::nullopt)};
+  world.session.events[4].danced = "";
   SessionVerdict verdict;
-  // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong.
-  verdict.events = {Called(33, 0.9), Called(39, 0.8), Called(std::nullopt, 0.4), Called(20, 0.6),
-                    Called(std::nullopt, 0)};
+  // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong; grey.
+  verdict.events = {Called(33, 0.9), Called(39, 0.8),         Called(std::nullopt, 0.4),
+                    Called(20, 0.6), Called(std::nullopt, 0), Called(50, 0.7)};
+  verdict.named = {1, 1, 2, 1, 0, std::nullopt};
   verdict.alarms = {{1, 120}, {0, 400}, {0, 800}};
 
   CellResult cell;
-  ScoreSession(world, verdict, cell);
+  ScoreSession(world, verdict, kMoves, cell);
   EXPECT_DOUBLE_EQ(Value(cell, "precision"), 2.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "recall"), 2.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "f1"), 2.0 / 3);
-  EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);  // 0.4 loses to 0.6
+  EXPECT_DOUBLE_EQ(Value(cell, "fault_found"), 0.5);
+  EXPECT_DOUBLE_EQ(Value(cell, "grey_called_right"), 1);
+  EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // of one nothing was danced
+  EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses to 0.6
   // Waits 0.1, 0.3 and one given up after 1 s: the median of all three is 0.3; of those that came it were 0.2.
   EXPECT_NEAR(Value(cell, "latency_s"), 0.3, 1e-9);
   EXPECT_DOUBLE_EQ(Value(cell, "false_alarms_per_min"), 6.0);
@@ -59,15 +69,36 @@ TEST(ScoreSession, SaysWhyAValueIsMissing) {
   SessionVerdict verdict;
   verdict.events = {Called(std::nullopt, 0.2)};
   CellResult cell;
-  ScoreSession(world, verdict, cell);
+  ScoreSession(world, verdict, kMoves, cell);
   int missing = 0;
   for (const MetricValue& metric : cell.metrics) {
     if (metric.value) continue;
     ++missing;
     EXPECT_FALSE(metric.null_reason.empty()) << metric.id;
   }
-  EXPECT_EQ(missing, 3);  // precision, roc_auc, latency_s
+  EXPECT_EQ(missing, 6);  // precision, fault_found, grey_called_right, move_named, roc_auc, latency_s
   EXPECT_EQ(Value(cell, "recall"), 0.0);
+}
+
+TEST(PerformanceSeries, TellsWhatWasDoneAndSaid) {
+  DetectionWorld world;
+  SessionEvent late = Event(Truth::kWrong, 1, std::nullopt);
+  late.faults = {{Fault::kAmplitude, 0.2}, {Fault::kLate, 0.7}};
+  world.session.events = {late, Event(Truth::kGrey, 5, std::nullopt)};
+  SessionVerdict verdict;
+  verdict.events = {Called(9, 0.6), Called(std::nullopt, 0.1)};
+  verdict.named = {2, std::nullopt};
+  std::map<std::string, std::vector<double>> told;
+  for (const Series& series : PerformanceSeries(world, verdict, kMoves)) told[series.name] = series.values;
+  using Values = std::vector<double>;
+  EXPECT_EQ(told["performance_score"], (Values{0.6, 0.1}));
+  EXPECT_EQ(told["performance_truth"], (Values{0, 0.5}));
+  EXPECT_EQ(told["performance_called"], (Values{1, 0}));
+  EXPECT_EQ(told["performance_fault"], (Values{4, -1})) << "the worst one";
+  EXPECT_EQ(told["performance_severity"], (Values{0.7, 0}));
+  EXPECT_EQ(told["performance_asked"], (Values{1, 1}));
+  EXPECT_EQ(told["performance_danced"], (Values{1, 1}));
+  EXPECT_EQ(told["performance_named"], (Values{2, -1}));
 }
 
 }  // namespace

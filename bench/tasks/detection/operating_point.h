@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/detection/options.h"
+#include "bench/tasks/detection/world.h"
+#include "engine/recognition/recogniser.h"
+
+namespace etude {
+
+/// A method whose recogniser was taught all moves.
+struct ReadyMethod {
+  DetectionMethod method;
+  std::unique_ptr<Recogniser> recogniser;
+};
+
+/// The evidence of a session, and what is no false alarm in it.
+struct AlarmTrial {
+  EvidenceTrace trace;
+  double rate_hz = kJudgedRateHz;
+  std::function<bool(const Detection&)> is_performance;
+};
+
+/// The least threshold, to 1 in 2¹⁶, at which the trials together give at most so many false alarms a minute; alarms
+/// become fewer as it rises, but for some that a refractory time hides. 1 where even that gives more. At least one
+/// trial, none without frames.
+double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
+
+/// What each method of a scenario decides by. With an operating point, thresholds that methods do not say themselves
+/// are set the first time they are asked for, on sessions of people that are keyed apart from those judged.
+class MethodDecisions {
+ public:
+  /// The arguments must outlive this.
+  MethodDecisions(const std::vector<ReadyMethod>& methods, const Repertoire& repertoire,
+                  const DetectionOptions& options)
+      : methods_(methods), repertoire_(repertoire), options_(options) {}
+
+  /// One per method, for all worlds of this key's scenario and seed.
+  const std::vector<DecisionOptions>& For(const WorldKey& key);
+
+ private:
+  std::vector<DecisionOptions> Set(const WorldKey& key) const;
+
+  const std::vector<ReadyMethod>& methods_;
+  const Repertoire& repertoire_;
+  const DetectionOptions& options_;
+  std::map<std::pair<std::uint64_t, std::string>, std::vector<DecisionOptions>> known_;
+};
+
+}  // namespace etude

@@ -1,0 +1,140 @@
+#include "bench/tasks/detection/train_recogniser.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "engine/recognition/measuring_recogniser.h"
+#include "engine/recognition/sight.h"
+
+namespace etude {
+namespace {
+
+/// A performance that may have ended in a frame, as it was measured.
+struct Measured {
+  Occasion occasion;
+  std::size_t move;
+  int frame;
+  PerformanceMeasures measures;
+};
+
+/// Where `distance` stands among the measures.
+std::size_t DistanceIndex() {
+  const auto& names = MeasureNames();
+  return static_cast<std::size_t>(std::ranges::find(names, "distance") - names.begin());
+}
+
+/// Bags of one kind: what each holds, nearest first, and not more than can matter.
+class BagMaker {
+ public:
+  /// A bag of its own for every `key`.
+  void Add(const std::array<int, 3>& key, bool is_right, const PerformanceMeasures& performance) {
+    LabelledBag& bag = bags_[key];
+    bag.is_right = is_right;
+    bag.performances.push_back(performance);
+  }
+
+  void Into(std::vector<LabelledBag>& all) {
+    constexpr std::size_t kMost = 12;
+    static const std::size_t distance = DistanceIndex();
+    for (auto& [key, bag] : bags_) {
+      std::ranges::stable_sort(bag.performances, {}, [](const auto& each) { return each[distance]; });
+      bag.performances.resize(std::min(bag.performances.size(), kMost));
+      all.push_back(std::move(bag));
+    }
+    bags_.clear();
+  }
+
+ private:
+  std::map<std::array<int, 3>, LabelledBag> bags_;
+};
+
+/// A session under a condition thrown for it.
+DetectionOptions ThrowCondition(const WorldKey& key) {
+  RandomStream dice(key, "condition");
+  constexpr std::array<double, 4> kNoises = {0.5, 1, 1, 2};
+  constexpr std::array<double, 5> kTurns = {0, 0, 0, 30, 60};
+  DetectionOptions options;
+  options.session.events = 16;
+  options.noise = kNoises[dice.IndexBelow(kNoises.size())];
+  options.turn_deg = kTurns[dice.IndexBelow(kTurns.size())] * (dice.Chance(0.5) ? 1 : -1);
+  if (dice.Chance(0.5)) options.sensor = SensorV1();
+  if (dice.Chance(0.25)) options.distance_m = dice.Uniform(1.5, 4.5);
+  return options;
+}
+
+/// Everything that was measured while the session was followed.
+std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoire& repertoire,
+                                     const SightWeights& weights) {
+  std::vector<Measured> measured;
+  int frame = 0;
+  const auto recogniser = MakeMeasuringRecogniser(
+      repertoire.taught, weights, [&](Occasion occasion, std::size_t move, const PerformanceMeasures& measures) {
+        measured.push_back({occasion, move, frame, measures});
+        return 0.0;
+      });
+  const auto follower = recogniser->Follow(world.stream.rate_hz);
+  LiveSight sight({}, world.stream.rate_hz);
+  auto event = world.session.events.begin();
+  for (const SensedFrame& sensed : world.stream.frames) {
+    if (event != world.session.events.end()) {
+      const FrameInterval window = WindowOf(*event, world.stream);
+      if (frame == window.begin) follower->Ask(repertoire.IndexOf(event->move));
+      if (frame == window.end) {
+        follower->Ask(std::nullopt);
+        ++event;
+      }
+    }
+    follower->Update(sight.Update(sensed));
+    ++frame;
+  }
+  return measured;
+}
+
+/// The event in whose window the frame lies; -1: in none.
+int EventAt(int frame, const DetectionWorld& world) {
+  for (std::size_t i = 0; i < world.session.events.size(); ++i) {
+    const FrameInterval window = WindowOf(world.session.events[i], world.stream);
+    if (frame >= window.begin && frame < window.end) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const std::vector<Measured>& measured,
+                std::vector<LabelledBag>& asked, std::vector<LabelledBag>& spotted) {
+  BagMaker asked_bags, spotted_bags;
+  for (const Measured& each : measured) {
+    const int index = EventAt(each.frame, world);
+    const SessionEvent* event = index >= 0 ? &world.session.events[static_cast<std::size_t>(index)] : nullptr;
+    const std::string& name = repertoire.taught[each.move].name;
+    const bool is_asked_for = event != nullptr && event->move == name;
+    const bool is_danced = event != nullptr && event->danced == name;
+    const bool is_grey = event != nullptr && event->truth == Truth::kGrey;
+    if (each.occasion == Occasion::kAsked) {
+      if (!is_grey && event != nullptr) asked_bags.Add({index, 0, 0}, event->IsRight(), each.measures);
+    } else if (is_asked_for || is_danced) {
+      if (!is_grey && is_asked_for)
+        spotted_bags.Add({index, static_cast<int>(each.move), 0}, event->IsRight(), each.measures);
+    } else {
+      const int second = each.frame / static_cast<int>(world.stream.rate_hz);
+      spotted_bags.Add({-1, static_cast<int>(each.move), second}, false, each.measures);
+    }
+  }
+  asked_bags.Into(asked);
+  spotted_bags.Into(spotted);
+}
+
+}  // namespace
+
+LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training) {
+  std::vector<LabelledBag> asked, spotted;
+  for (int session = 0; session < training.sessions; ++session) {
+    const WorldKey key{.suite_seed = training.seed, .scenario = "recogniser-training", .trial = session};
+    const DetectionWorld world = MakeDetectionWorld(repertoire, ThrowCondition(key), key);
+    const SightWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
+    AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked, spotted);
+  }
+  return {.asked = FitBoostedTrees(asked, training.boosting), .spotted = FitBoostedTrees(spotted, training.boosting)};
+}
+
+}  // namespace etude

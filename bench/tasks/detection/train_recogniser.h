@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "bench/tasks/detection/world.h"
+#include "engine/recognition/learnt_model.h"
+
+namespace etude {
+
+struct RecogniserTraining {
+  int sessions = 400;  ///< every one of another person, 16 performances each
+  std::uint64_t seed = 1;
+  BoostingOptions boosting{};
+};
+
+/// What `learnt` knows: simulated people perform the repertoire's moves before both sensors, at many noises, turns and
+/// distances; the program that is judged measures what it sees, and the model is fitted to what they truly did. Grey
+/// performances teach nothing. The worlds are keyed apart from those of every scenario, so nobody judged is among them.
+LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraining& training);
+
+}  // namespace etude

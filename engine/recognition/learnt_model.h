@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/base/embedded_text.h"
+#include "engine/base/result.h"
+#include "engine/recognition/boosted_trees.h"
+#include "engine/recognition/recogniser.h"
+#include "engine/recognition/taught_move.h"
+#include "engine/recognition/weighting.h"
+
+namespace etude {
+
+/// What was learnt of right and faulty performances, whatever the move: kept in a file, so that nobody need train.
+struct LearntModel {
+  BoostedTrees asked, spotted;
+};
+
+/// Reads the text of a model file (`etude train --recogniser`); `file` is what complaints call it.
+Result<LearntModel> ReadLearntModel(std::string_view text, const std::string& file);
+/// The text that ReadLearntModel reads back to the same model, to the last bit.
+std::string WriteLearntModel(const LearntModel& model);
+
+/// scenarios/recognisers/*.yaml (written by the build).
+std::span<const EmbeddedText> BuiltinLearntModelFiles();
+/// The one that recogniser `learnt` has: scenarios/recognisers/learnt.yaml.
+const LearntModel& BuiltinLearntModel();
+
+/// Ours: performances are aligned with the taught examples, measured, and judged by what simulated people taught the
+/// model. The moves are those taught: the model knows none.
+std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
+                                                 const LearntModel& model);
+
+}  // namespace etude
