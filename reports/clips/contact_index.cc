@@ -12,7 +12,8 @@
 namespace etude {
 namespace {
 
-constexpr double kWidth = 960, kLeft = 70, kRight = 20, kPanelHeight = 90, kBarHeight = 12, kGap = 22, kTop = 44;
+constexpr double kPictureWidth = 960, kLabelWidth = 70, kRightEdge = 20, kPanelHeight = 90, kBarHeight = 12,
+                 kBetween = 22, kTitleHeight = 44;
 constexpr double kCm = 100;
 constexpr std::array kSides = {"left foot", "right foot"};
 
@@ -37,19 +38,20 @@ class Picture {
       body_ += fmt::format(
           R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" class="threshold"/><text x="{}" y="{:.1f}" class="tick">{:g}</text>)"
           "\n",
-          kLeft, kWidth - kRight, y(threshold), y(threshold), kLeft - 6, y(threshold) + 4, threshold);
+          kLabelWidth, kPictureWidth - kRightEdge, y(threshold), y(threshold), kLabelWidth - 6, y(threshold) + 4,
+          threshold);
     }
     std::string points;
     for (std::size_t f = 0; f < panel.values.size(); ++f) {
       points += fmt::format("{:.1f},{:.1f} ", X(static_cast<double>(f)), y(panel.values[f]));
     }
-    body_ += fmt::format("<polyline points=\"{}\"/>\n<text x=\"{}\" y=\"{:.1f}\">{}, {}</text>\n", points, kLeft,
+    body_ += fmt::format("<polyline points=\"{}\"/>\n<text x=\"{}\" y=\"{:.1f}\">{}, {}</text>\n", points, kLabelWidth,
                          y_ - 4, panel.label, panel.unit);
-    y_ += kPanelHeight + kGap;
+    y_ += kPanelHeight + kBetween;
   }
 
   void AddBars(const std::vector<bool>& stands) {
-    y_ -= kGap - 4;
+    y_ -= kBetween - 4;
     for (std::size_t first = 0; first < stands.size();) {
       std::size_t end = first;
       while (end < stands.size() && stands[end] == stands[first]) ++end;
@@ -60,7 +62,7 @@ class Picture {
       }
       first = end;
     }
-    y_ += kBarHeight + kGap + 8;
+    y_ += kBarHeight + kBetween + 8;
   }
 
   std::string Svg(const std::string& title) {
@@ -75,14 +77,16 @@ class Picture {
         "polyline{{fill:none;stroke:#316f93}}.threshold{{stroke:#9c5201;stroke-dasharray:4 "
         "3}}rect{{fill:#1ea194}}</style>\n"
         "<rect width=\"100%\" height=\"100%\" style=\"fill:#fff\"/>\n<text x=\"{2}\" y=\"20\">{3}</text>\n{4}</svg>\n",
-        kWidth, y_ + 12, kLeft, EscapeMarkup(title), body_);
+        kPictureWidth, y_ + 12, kLabelWidth, EscapeMarkup(title), body_);
   }
 
  private:
-  double X(double frame) const { return kLeft + (kWidth - kLeft - kRight) * frame / (seconds_ * rate_hz_); }
+  double X(double frame) const {
+    return kLabelWidth + (kPictureWidth - kLabelWidth - kRightEdge) * frame / (seconds_ * rate_hz_);
+  }
 
   const double seconds_, rate_hz_;
-  double y_ = kTop;
+  double y_ = kTitleHeight;
   std::string body_;
 };
 

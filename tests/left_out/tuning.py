@@ -91,6 +91,20 @@ def mean_of(table):
     return {"library": "mean", **{key: statistics.fmean(line[key] for line in table) for key in means}}
 
 
+def kept(table, trials):
+    """As scripts/figures reads it: pages bind `left-out/library=NAME/played/METRIC, mean`, shares with `, times 100`."""
+    figures = {}
+    for line in [*table, mean_of(table)]:
+        for metric in METRICS:
+            is_share = metric.endswith("_share")
+            for method, key in (("played", metric), (YARDSTICK, f"unbroken_{metric}")):
+                path = f"left-out/library={line['library']}/{method}/{metric}, mean" + (", times 100" if is_share else "")
+                figures[path] = line[key] * (100 if is_share else 1)
+    weights = {line["library"]: [line["excess_per_s"], line["invented_per_s"]] for line in table}
+    return {"runs": [{"suite": "left-out", "seed": seed, "trials": trials} for seed in (TUNING_SEED, JUDGED_SEED)],
+            "weights": weights, "figures": figures}
+
+
 def run(etude, scenario, seed, arguments, folder):
     command = [etude, "run", str(scenario), "--seed", str(seed), "--trials", str(arguments.trials), "-o", str(folder)]
     for library in arguments.library:
@@ -117,9 +131,7 @@ def main():
     table = judge(tuning, judged)
     print(printed(table))
     if arguments.keep:
-        kept = {"trials": arguments.trials, "seeds": [TUNING_SEED, JUDGED_SEED], "libraries": table,
-                "mean": mean_of(table)}
-        arguments.keep.write_text(json.dumps(kept, indent=1) + "\n")
+        arguments.keep.write_text(json.dumps(kept(table, arguments.trials), indent=1) + "\n")
 
 
 if __name__ == "__main__":

@@ -42,6 +42,9 @@ class LeftOut(unittest.TestCase):
         self.assertEqual(table["b"]["clean_share"], 0.75, "of equal ones the first")
         self.assertEqual(table["a"]["requests"], 1, "skipped requests are none")
         self.assertIn("mean", tuning.printed(list(table.values())))
+        figures = tuning.kept(list(table.values()), 100)["figures"]
+        self.assertEqual(figures["left-out/library=mean/played/clean_share, mean, times 100"], 50)
+        self.assertEqual(figures["left-out/library=a/unbroken/join_slide_cmps, mean"], 2)
 
     def test_one_library_is_not_enough(self):
         with self.assertRaises(ValueError):

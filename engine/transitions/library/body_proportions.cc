@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,12 @@ bool AreEqual(const LegLengths& a, const LegLengths& b) {
 
 double LowerFoot(const BodyPose& pose) {
   return std::min({pose[kLeftFoot].y, pose[kRightFoot].y, pose[kLeftAnkle].y, pose[kRightAnkle].y});
+}
+
+std::vector<double> FootHeights(const BodyMotion& motion) {
+  std::vector<double> heights;
+  std::ranges::transform(motion.poses, std::back_inserter(heights), LowerFoot);
+  return heights;
 }
 
 /// Where the floor is: not the lowest frame of all, which one bad frame would decide. Needs a height.
@@ -97,11 +104,10 @@ std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::spa
   for (const BodyMotion& motion : motions) performed.push_back(PerformedInTheAir(proportions, motion));
   for (const std::vector<std::size_t>& clips : ByPerson(motions)) {
     std::vector<double> heights;
+    for (std::size_t clip : clips) std::ranges::copy(FootHeights(performed[clip]), std::back_inserter(heights));
+    const double common = FloorHeight(std::move(heights));
     for (std::size_t clip : clips) {
-      for (const BodyPose& pose : performed[clip].poses) heights.push_back(LowerFoot(pose));
-    }
-    const double floor = FloorHeight(std::move(heights));
-    for (std::size_t clip : clips) {
+      const double floor = std::min(common, FloorHeight(FootHeights(performed[clip])));
       for (BodyPose& pose : performed[clip].poses) {
         for (glm::dvec3& joint : pose.joints) joint.y -= floor;
       }

@@ -22,10 +22,11 @@ BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_he
 /// come from many people, and a transition between two bodies would be seen whatever the pose.
 ///
 /// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clips
-/// are set down, so that the lower foot is on or below the floor in 5 % of the frames. Clips whose legs are equally long
-/// (to a tenth of a millimetre, in their first frame) are one person's and set down together: who only sits in one clip
-/// sits as high there as after sitting down in another. A limb of zero length in the source follows its parent limb's
-/// direction.
+/// are set down, so that the lower foot is on or below the floor in 5 % of the frames. Clips whose legs are equally
+/// long (to a tenth of a millimetre, in their first frame) are one person's and set down together: who only sits in one
+/// clip sits as high there as after sitting down in another. None of them goes below the floor for that: limbs of other
+/// lengths may take it there, and it is set down by itself then. A limb of zero length in the source follows its parent
+/// limb's direction.
 std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions);
 
 }  // namespace etude

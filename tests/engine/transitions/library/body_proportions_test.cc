@@ -35,11 +35,16 @@ TEST(PerformedBy, SetsClipsOfOnePersonDownTogetherAndOthersByThemselves) {
     for (glm::dvec3& joint : pose.joints)
       joint = 0.5 * joint + glm::dvec3(0, 0.4, 0);  // a child's file with its own floor
   }
+  clips.push_back(StandingClip(4, 0));  // few frames, a hand's breadth below the others
+  for (BodyPose& pose : clips[3].poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y -= 0.1;
+  }
   const std::vector<BodyMotion> performed = PerformedBy(character, clips);
   const double scale = 0.9 / StandingHipHeight(clips[0].poses[0]);
   EXPECT_NEAR(performed[0].poses[0][Role::kLeftFoot].y, 0, 1e-12);
   EXPECT_NEAR(performed[1].poses[0][Role::kLeftFoot].y, 0.4 * scale, 1e-12);
   EXPECT_NEAR(performed[2].poses[0][Role::kLeftFoot].y, 0, 1e-12);
+  EXPECT_NEAR(performed[3].poses[0][Role::kLeftFoot].y, 0, 1e-12) << "not below the floor";
 }
 
 }  // namespace
