@@ -1,9 +1,16 @@
 """`etude coach`: skeletons in, what to show out, as a stage would read it."""
 import json
+import pathlib
+import sys
 import unittest
 import wave
 
 from etude_case import EtudeCase
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from json_schema import complaints, load_schema  # noqa: E402
+
+SCHEMA = load_schema("coach-line.schema.json")
 
 
 class Coach(EtudeCase):
@@ -18,6 +25,8 @@ class Coach(EtudeCase):
         result = self.etude("coach", "warm_up", *arguments, text=text)
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = [json.loads(line) for line in result.stdout.splitlines()]
+        for line in [line for line in lines[1:] if "events" in line or "music" in line] + lines[1:20]:
+            self.assertEqual(complaints(line, SCHEMA), [])
         return lines[0], lines[1:]
 
     def refuses(self, *arguments, says, text=None):

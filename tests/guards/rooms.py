@@ -32,6 +32,7 @@ MAY_INCLUDE = {
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
     "engine/streams": "engine/base engine/formats engine/recognition",
+    "engine/teaching": "engine/base engine/document engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
@@ -97,8 +98,10 @@ MAY_INCLUDE = {
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "sim/random bench/metrics bench/model",
+    "bench/streams":
+        "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
     "bench/tasks":
-        "engine/base bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik "
+        "engine/base bench/tasks/base bench/tasks/capture bench/tasks/coach bench/tasks/detection bench/tasks/ik "
         "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
     "bench/tasks/base":
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
@@ -107,6 +110,10 @@ MAY_INCLUDE = {
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
         "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
+    "bench/tasks/coach":
+        "engine/base engine/coaching engine/motion engine/recognition "
+        "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
+        "bench/tasks/base bench/tasks/detection bench/tasks/transition",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "
         "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base",

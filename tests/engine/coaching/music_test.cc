@@ -51,8 +51,8 @@ Dance LongDance() {
 
 /// Beat errors, seconds, of every frame of a session of two minutes that nothing interrupts.
 std::vector<double> BeatErrors(const MusicClockOptions& music, bool follows_tags, int trial) {
-  const auto library = DanceLibrary::Make(LongDance());
-  const DanceTransitions transitions(*library, {.choice = FindChoice("now"), .join = FindJoin("cut")});
+  static const DanceLibrary library = DanceLibrary::Make(LongDance()).value();
+  const DanceTransitions transitions(library, {.choice = FindChoice("now"), .join = FindJoin("cut")});
   const Coach coach(transitions, {.idle_s = 1000, .follows_tags = follows_tags}, {FindPolicy("never"), {}});
   MusicClock clock(music, {.suite_seed = 3, .scenario = "music", .trial = trial});
   CoachState state = coach.BeginDancing();

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// Paper A's scene, generated: a meadow before a forest's edge and the sky. Stands behind z = −1, and hides the room's
+/// wall and floor from a camera that looks at the origin from +Z.
+Figure ForestFigure();
+
+}  // namespace etude
