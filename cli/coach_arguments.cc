@@ -29,7 +29,7 @@ constexpr const char* kCoachExamples =
     "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
     "  my_sensor | etude coach groove --stream - | my_stage   live\n"
     "  etude coach my_song.yaml --beats my_song.txt --click clicks.wav --stream - --policy after-n\n"
-    "  etude clip convert builtin:warm_up -o me.csv && etude coach warm_up --now --brief --stream me.csv";
+    "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
 }  // namespace
 

@@ -171,6 +171,7 @@ void Stepping::DanceOn() {
     if (state_.moment_waits && policy_.policy->takes_moments) AnswerMoment(dance_frame);
     if (state_.mode == CoachMode::kDance) CloseWindow();
     if (state_.mode == CoachMode::kDance && IsIdleFor(options_.idle_s)) {
+      if (state_.open && !state_.decided) Remember(WindowVerdict::kUnknown);
       StopMusic();
       return Enter(CoachMode::kAttract, "attract", CoachEvent::kAttracts,
                    fmt::format("nobody has moved for {:.0f} s", options_.idle_s));
