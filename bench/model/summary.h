@@ -158,8 +158,8 @@ struct ScenarioSummary {
   std::vector<std::string> headline_metrics;
   std::vector<ConditionSummary> conditions;
   std::vector<ExpectationResult> expectations;
-  std::vector<AcrossVerdict> across = {};  ///< empty where verdicts need not hold across anything
   int family = 0;  ///< comparisons in all conditions and headline metrics, over which Holm's correction runs
+  std::vector<AcrossVerdict> across = {};  ///< empty where verdicts need not hold across anything
 };
 
 }  // namespace etude

@@ -302,8 +302,8 @@ Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Pla
                                entry.at("headline_metrics").get<std::vector<std::string>>(),
                                {},
                                {},
-                               {},
-                               entry.at("comparisons_in_family").get<int>()};
+                               entry.at("comparisons_in_family").get<int>(),
+                               {}};
       if (entry.contains("across")) {
         for (const Json& verdict : entry.at("across")) scenario.across.push_back(DecodeAcross(verdict));
       }

@@ -125,10 +125,12 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
       RETURN_IF_ERROR(AddFolder(reference, reading, options, loaded));
       continue;
     }
-    ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, {}));
-    for (const std::string& one : expanded) {
+    const auto expanded = ExpandReference(reference, {});
+    if (!expanded && IsClip(reference)) return tl::unexpected(expanded.error());
+    if (!expanded) return Fail({reference}, "no such recording; allowed: a file, a pattern, a folder, a clip");
+    for (const std::string& one : *expanded) {
       auto streams = LoadStream(one, reading, options);
-      if (!streams && expanded.size() == 1) return tl::unexpected(streams.error());
+      if (!streams && expanded->size() == 1) return tl::unexpected(streams.error());
       if (!streams) {
         loaded.refused.push_back(streams.error());
         continue;

@@ -15,8 +15,9 @@ namespace etude {
 namespace {
 
 constexpr Box kStage{12, 52, 1256, 520};
+constexpr Box kSaid{12, 52, 1064, 520};  // of the stage, what words may cover
 constexpr Box kInset{1086, 372, 170, 188};
-constexpr Box kHint{1086, 64, 170, 232};
+constexpr Box kHint{1046, 64, 210, 232};
 constexpr Box kTimeline{12, 584, 1256, 124};
 constexpr double kTimelineLeft = 96, kTimelineRow = 26;
 
@@ -26,7 +27,7 @@ constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookA
 
 constexpr Paint kRight{0.36, 0.74, 0.46, 1}, kWrong{0.88, 0.36, 0.32, 1}, kGrey{0.55, 0.58, 0.60, 1};
 
-constexpr int kBeforeCorrection = 5 * kFilmRate;
+constexpr int kBeforeCorrection = 3 * kFilmRate;
 
 Paint PaintOfMode(const std::string& mode) {
   if (mode == "dance") return kAccent;
@@ -100,9 +101,12 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   inside.cx = kStage.width / 2;
   inside.cy = kStage.height / 2;
   const Camera camera = LookAt(inside, {0, kSessionEyeHeight, kSessionDistance}, {0, kSessionLookAt, 0});
-  const std::vector<Figure> figures{forest_, PosedFigure(bear_, PutAt(facts_.coach.poses[t], kCoachAt)),
-                                    PosedFigure(learner_, PutAt(facts_.learner.poses[t], kLearnerAt))};
-  canvas.DrawImage(renderer_.Render(Room{}, figures, camera, Targets::kColour).colour, kStage, kPanelRadius);
+  const BodyPose coach = PutAt(facts_.coach.poses[t], kCoachAt), learner = PutAt(facts_.learner.poses[t], kLearnerAt);
+  Figure spots;
+  spots.surfaces = {SpotBelow(coach), SpotBelow(learner)};
+  const std::vector<Figure> figures{forest_, spots, PosedFigure(bear_, coach), PosedFigure(learner_, learner)};
+  const Room meadow{.casts_shadows = false};
+  canvas.DrawImage(renderer_.Render(meadow, figures, camera, Targets::kColour).colour, kStage, kPanelRadius);
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
   std::string why;
   for (const auto& decision : facts_.decisions) {
@@ -110,7 +114,7 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
       why = fmt::format("{}: {}", decision.event, decision.why);
     }
   }
-  DrawCaption(canvas, kStage, InForce(facts_.words, frame).say, why.empty() ? "the learner dances on the right" : why);
+  DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say, why.empty() ? "the learner dances on the right" : why);
 }
 
 void CoachedScene::DrawSkeletonInset(Canvas& canvas, int frame) const {
@@ -125,7 +129,7 @@ void CoachedScene::DrawHint(Canvas& canvas, int frame) const {
   canvas.FillBox(kHint, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
   DrawStickFigure(canvas, *words.picture, {kHint.x, kHint.y + 24, kHint.width, kHint.height - 56}, 2.3, kInk);
   canvas.DrawText({kHint.x + 10, kHint.y + 18}, "key pose", 12, kSoftInk, kHint.width - 20);
-  canvas.DrawText({kHint.x + 10, kHint.y + kHint.height - 12}, words.hint, 13, kInk, kHint.width - 20, true);
+  canvas.DrawText({kHint.x + 10, kHint.y + kHint.height - 12}, words.hint, 11, kInk, kHint.width - 20, true);
 }
 
 double CoachedScene::PlaceOf(int frame) const {

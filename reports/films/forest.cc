@@ -54,17 +54,31 @@ void AddTree(const glm::dvec3& foot, double height, std::size_t kind, Figure& fo
 
 }  // namespace
 
+Surface SpotBelow(const BodyPose& pose) {
+  constexpr int kCorners = 24;
+  constexpr Rgb8 kShade{92, 128, 70};
+  const glm::dvec3 left = pose[Role::kLeftAnkle], right = pose[Role::kRightAnkle];
+  const glm::dvec3 middle = 0.5 * (left + right);
+  const double half = 0.22 + 0.5 * std::abs(left.x - right.x);
+  std::vector<glm::dvec3> rim;
+  for (int i = 0; i < kCorners; ++i) {
+    const double turn = -2 * kPi * i / kCorners;
+    rim.push_back({middle.x + half * std::cos(turn), 0.012, middle.z + 0.17 * std::sin(turn)});
+  }
+  return Sheet(rim, {0, 1, 0}, kShade);
+}
+
 Figure ForestFigure() {
   constexpr double kFar = 14, kNear = 8, kBack = kWallZ + 0.02;
   Figure forest;
   forest.surfaces.push_back(
       Sheet({{-kFar, 0, kBack}, {kFar, 0, kBack}, {kFar, 10, kBack}, {-kFar, 10, kBack}}, {0, 0, 1}, kSky));
-  std::vector<glm::dvec3> hills = {{-kFar, 0, kBack + 0.02}, {kFar, 0, kBack + 0.02}};
-  for (int i = 0; i <= 40; ++i) {
-    const double x = kFar - 2 * kFar * i / 40;
-    hills.push_back({x, 1.5 + 0.28 * std::sin(0.9 * x + 0.6) + 0.16 * std::sin(2.3 * x), kBack + 0.02});
+  const auto hill = [](double x) { return 1.5 + 0.28 * std::sin(0.9 * x + 0.6) + 0.16 * std::sin(2.3 * x); };
+  constexpr double kStep = 0.5;
+  for (double x = -kFar; x < kFar; x += kStep) {
+    const double z = kBack + 0.05, end = x + kStep;
+    forest.surfaces.push_back(Sheet({{x, 0, z}, {end, 0, z}, {end, hill(end), z}, {x, hill(x), z}}, {0, 0, 1}, kHills));
   }
-  forest.surfaces.push_back(Sheet(hills, {0, 0, 1}, kHills));
   forest.surfaces.push_back(Sheet(
       {{-kFar, 0.004, kNear}, {kFar, 0.004, kNear}, {kFar, 0.004, kBack}, {-kFar, 0.004, kBack}}, {0, 1, 0}, kMeadow));
   // Where trees stand and how high they are: thrown once by hand, the middle left free for the dancers.

@@ -128,7 +128,7 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
 /// A coached session around a correction; or, in words, why there is no film of it.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
                      LazyRenderer& lazy) {
-  constexpr int kLongest = 20 * kFilmRate;
+  constexpr int kLongest = 12 * kFilmRate;
   Film film;
   film.file = path.filename().string();
   if (!cell) {
@@ -146,14 +146,14 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
   return Shoot(scene, path);
 }
 
-/// A typical session, and the worst where that is another one.
+/// A typical session, and the worst where that is another learner's.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, LazyRenderer& lazy,
                       Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
   const auto typical = ChooseCell(run, scenario, "coach"), worst = ChooseWorstSession(run, scenario);
   media.scenario_films.push_back({scenario.name, MakeSessionFilm(typical, "a typical session",
                                                                  paths.films / FilmName(run, index, "session"), lazy)});
-  if (!worst || (typical && worst->row == typical->row)) return;
+  if (!worst || (typical && worst->row->trial == typical->row->trial)) return;
   media.scenario_films.push_back(
       {scenario.name,
        MakeSessionFilm(worst, "the worst session", paths.films / FilmName(run, index, "worst-session"), lazy)});
