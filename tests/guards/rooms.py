@@ -19,6 +19,7 @@ MAY_INCLUDE = {
         "engine/transitions/joins engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
+    "engine/formats/deepmimic": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
     "engine/fuzzy": "engine/base engine/document engine/motion",
     "engine/keypoints":
@@ -70,8 +71,8 @@ MAY_INCLUDE = {
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
-        "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/character "
-        "sim/choreography bench/files",
+        "engine/base engine/formats engine/formats/deepmimic engine/formats/gltf engine/motion engine/retargeting "
+        "sim/character sim/choreography bench/files",
     "bench/dataset": "engine/base bench/files bench/run bench/scenario",
     "bench/files": "engine/base",
     "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",
@@ -144,8 +145,8 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
     "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion reports/films",
     "reports/clips":
-        "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
-        "bench/files reports/films reports/words",
+        "engine/base engine/motion engine/retargeting engine/transitions/joins sim/body sim/character sim/choreography "
+        "sim/render bench/clips bench/files reports/films reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/camera sim/character sim/render sim/sensors "
