@@ -27,8 +27,8 @@ std::optional<double> Recall(const Confusion& confusion) {
   return Share(confusion.true_positives, confusion.true_positives + confusion.false_negatives);
 }
 
-std::optional<double> FaultFound(const Confusion& confusion) {
-  return Share(confusion.true_negatives, confusion.true_negatives + confusion.false_positives);
+std::optional<double> FaultFound(const std::vector<bool>& called) {
+  return Share(static_cast<int>(std::ranges::count(called, false)), static_cast<int>(called.size()));
 }
 
 std::optional<double> GreyCalledRight(const std::vector<bool>& called) {

@@ -30,8 +30,9 @@ Confusion CountConfusion(std::span<const JudgedEvent> events);
 std::optional<double> Precision(const Confusion& confusion);
 /// Empty when nothing was right.
 std::optional<double> Recall(const Confusion& confusion);
-/// The share of wrong events not called right; empty when nothing was wrong.
-std::optional<double> FaultFound(const Confusion& confusion);
+/// Of performances with a fault, however slight, by whether each was called right: the share that was not. Empty when
+/// there are none.
+std::optional<double> FaultFound(const std::vector<bool>& called);
 /// 2 TP / (2 TP + FP + FN); empty when nothing was right and nothing was called so.
 std::optional<double> F1(const Confusion& confusion);
 

@@ -10,6 +10,7 @@
 #include "reports/plots/left_out_strip.h"
 #include "reports/plots/strips.h"
 #include "reports/plots/survival.h"
+#include "reports/plots/verdict_curves.h"
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/left_out.h"
@@ -116,8 +117,8 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
   const std::string& metric = scenario.headline_metrics.front();
   const std::string strips = Strips(run, scenario, metric);
   if (strips.empty()) return "";
-  return fmt::format("<div class=\"plots\">{}{}{}{}</div>", strips, Budgets(scenario),
-                     Comparisons(run, scenario, metric), SurvivalHtml(run, scenario));
+  return fmt::format("<div class=\"plots\">{}{}{}{}{}</div>", strips, VerdictCurvesHtml(run, scenario),
+                     Budgets(scenario), Comparisons(run, scenario, metric), SurvivalHtml(run, scenario));
 }
 
 }  // namespace etude

@@ -80,7 +80,7 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
+        "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
         "sim/character sim/choreography sim/random sim/render sim/stage bench/clips",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",

@@ -20,13 +20,20 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const Session
   return events;
 }
 
-std::vector<bool> GreyEvents(const DetectionWorld& world, const SessionVerdict& verdict) {
+/// Whether each performance of which `is_meant` holds was called right.
+template <typename IsMeant>
+std::vector<bool> CalledRight(const DetectionWorld& world, const SessionVerdict& verdict, IsMeant is_meant) {
   std::vector<bool> called;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    if (world.session.events[i].truth != Truth::kGrey) continue;
-    called.push_back(verdict.events[i].recognised_at.has_value());
+    if (is_meant(world.session.events[i])) called.push_back(verdict.events[i].recognised_at.has_value());
   }
   return called;
+}
+
+bool IsGrey(const SessionEvent& event) { return event.truth == Truth::kGrey; }
+
+bool HasFault(const SessionEvent& event) {
+  return std::ranges::any_of(event.faults, [](const GradedFault& fault) { return fault.severity > 0; });
 }
 
 void ScoreNames(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
@@ -100,8 +107,9 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   result.MeasureOr("f1", F1(confusion), "no performance was right, and none was called right");
   result.MeasureOr("precision", Precision(confusion), "no performance was called right");
   result.MeasureOr("recall", Recall(confusion), "no performance was right");
-  result.MeasureOr("fault_found", FaultFound(confusion), "no performance was wrong");
-  result.MeasureOr("grey_called_right", GreyCalledRight(GreyEvents(world, verdict)), "no performance was grey");
+  result.MeasureOr("fault_found", FaultFound(CalledRight(world, verdict, HasFault)), "no performance had a fault");
+  result.MeasureOr("grey_called_right", GreyCalledRight(CalledRight(world, verdict, IsGrey)),
+                   "no performance was grey");
   ScoreNames(world, verdict, repertoire, result);
   result.MeasureOr("roc_auc", RocAuc(events), "all performances that are not grey were right, or all wrong");
   result.MeasureOr(

@@ -17,6 +17,14 @@ std::vector<JudgedEvent> EventsOf(const Json& in) {
 
 Confusion ConfusionOf(const Json& in) { return CountConfusion(EventsOf(in)); }
 
+Value Found(const Json& in) {
+  std::vector<bool> called;
+  for (const Json& performance : in.at("rehearsals")) {
+    if (performance.at("severity").get<double>() > 0) called.push_back(performance.at("called").get<bool>());
+  }
+  return FaultFound(called);
+}
+
 Value Grey(const Json& in) {
   std::vector<bool> called;
   for (const Json& performance : in.at("graded")) {
@@ -64,7 +72,7 @@ std::span<const Evaluator> DetectionEvaluators() {
       {"precision", [](const Json& in) -> Value { return Precision(ConfusionOf(in)); }},
       {"recall", [](const Json& in) -> Value { return Recall(ConfusionOf(in)); }},
       {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
-      {"fault_found", [](const Json& in) -> Value { return FaultFound(ConfusionOf(in)); }},
+      {"fault_found", Found},
       {"grey_called_right", Grey},
       {"move_named", Named},
       {"roc_auc", [](const Json& in) -> Value { return RocAuc(EventsOf(in)); }},

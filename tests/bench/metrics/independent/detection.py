@@ -17,7 +17,7 @@ def f1(given):
 
 
 def fault_found(given):
-    return common.share([not event["called"] for event in given["events"] if not event["right"]])
+    return common.share([not each["called"] for each in given["rehearsals"] if each["severity"] > 0])
 
 
 def grey_called_right(given):

@@ -40,6 +40,8 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
                           Event(Truth::kRight, 9, 10.0),          Event(Truth::kWrong, 13, std::nullopt),
                           Event(Truth::kWrong, 17, std::nullopt), Event(Truth::kGrey, 21, std::nullopt)};
   world.session.events[4].danced = "";
+  for (std::size_t faulty : {1, 3, 4}) world.session.events[faulty].faults = {{Fault::kAmplitude, 0.5}};
+  world.session.events[0].faults = {{Fault::kLate, 0}};  // changes nothing, is none
   SessionVerdict verdict;
   // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong; grey.
   verdict.events = {Called(33, 0.9), Called(39, 0.8),         Called(std::nullopt, 0.4),
@@ -52,7 +54,7 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   EXPECT_DOUBLE_EQ(Value(cell, "precision"), 2.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "recall"), 2.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "f1"), 2.0 / 3);
-  EXPECT_DOUBLE_EQ(Value(cell, "fault_found"), 0.5);
+  EXPECT_DOUBLE_EQ(Value(cell, "fault_found"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "grey_called_right"), 1);
   EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // of one nothing was danced
   EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses to 0.6

@@ -1,0 +1,50 @@
+#include "reports/plots/verdict_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace etude {
+namespace {
+
+JudgedPerformance Right(double score, int person = 0) { return {.person = person, .score = score, .truth = 1}; }
+JudgedPerformance Wrong(double score, int person = 0) { return {.person = person, .score = score, .truth = 0}; }
+
+TEST(PooledRoc, GoesThroughItsPointsAndLeavesOutWhatIsGrey) {
+  std::vector<JudgedPerformance> all = {Right(0.9), Wrong(0.7), Right(0.7), Wrong(0.1), {.score = 0.8, .truth = 0.5}};
+  const auto curve = PooledRoc(all);
+  const std::vector<std::pair<double, double>> expected = {{0, 0}, {0, 0.5}, {0.5, 1}, {1, 1}};
+  EXPECT_EQ(curve, expected);
+  EXPECT_DOUBLE_EQ(AreaUnder(curve), 0.875) << "Mann-Whitney: (1 + 1 + ½ + 1) / 4";
+  EXPECT_TRUE(PooledRoc(std::vector{Right(0.5)}).empty());
+}
+
+TEST(PooledArea, HasAnIntervalOverPeople) {
+  std::vector<JudgedPerformance> alike, different;
+  for (int person = 0; person < 6; ++person) {
+    for (auto* all : {&alike, &different}) all->push_back(Wrong(0.5, person));
+    alike.push_back(Right(0.9, person));
+    different.push_back(Right(person % 2 == 0 ? 0.9 : 0.1, person));
+  }
+  EXPECT_NEAR(PooledArea(alike)->value, 1, 1e-12);
+  EXPECT_NEAR(PooledArea(alike)->low, 1, 1e-12);
+  EXPECT_DOUBLE_EQ(PooledArea(different)->value, 0.5);
+  // Without one of three that win, 2/5; of three that lose, 3/5: √(5/6 · 6 · 0.01) either way, twice nearly.
+  EXPECT_NEAR(PooledArea(different)->low, 0.5 - 1.96 * std::sqrt(0.05), 1e-12);
+  EXPECT_FALSE(PooledArea(std::vector{Right(0.9, 0), Wrong(0.1, 1)})) << "a person is needed for the curve";
+}
+
+TEST(FoundBySeverity, CountsFaultsInFifths) {
+  std::vector<JudgedPerformance> all;
+  for (double severity : {0.1, 0.15, 0.5, 0.55, 0.9, 1.0})
+    all.push_back({.is_called = severity < 0.53, .severity = severity});
+  all.push_back({.is_called = true, .severity = 0});
+  const auto curve = FoundBySeverity(all);
+  const std::vector<std::pair<double, double>> expected = {{0.1, 0}, {0.5, 0.5}, {0.9, 1}};
+  EXPECT_EQ(curve, expected);
+  EXPECT_DOUBLE_EQ(*HalfFoundAt(curve), 0.5);
+  EXPECT_FALSE(HalfFoundAt(std::vector<std::pair<double, double>>{{0.1, 0.6}, {0.9, 0.7}}));
+}
+
+}  // namespace
+}  // namespace etude
