@@ -9,9 +9,11 @@
 #include "cli/bridge_arguments.h"
 #include "cli/calibrate_command.h"
 #include "cli/capture_command.h"
+#include "cli/coach_command.h"
 #include "cli/clip_arguments.h"
 #include "cli/commands.h"
 #include "cli/sensor_arguments.h"
+#include "cli/stream_arguments.h"
 #include "cli/train_arguments.h"
 #include "cli/validators.h"
 
@@ -214,22 +216,27 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
 void DefineCheckMethod(CLI::App& app, Action& action) {
   struct Options {
     std::vector<std::string> command;
-    std::string task;
+    std::string task, seat;
     double time_s = 10, memory_mb = 4096;
   };
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
-  command->add_option("--task", options->task, "ik, tracking, transition, detection, capture, pose-distance or search")
+  command
+      ->add_option("--task", options->task,
+                   "ik, tracking, transition, detection, capture, pose-distance, search or coach")
       ->required();
-  command->add_option("--time", options->time_s, "Seconds per problem")
+  command->add_option("--seat", options->seat, "Of task coach: recogniser, policy or learner");
+  command->add_option("--time", options->time_s, "Seconds per problem, or per step of a session")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
   command->add_option("--memory", options->memory_mb, "MB of memory")
       ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
   command->callback([=, &action] {
-    action = [=] { return CheckMethodCommand(options->command, options->task, options->time_s, options->memory_mb); };
+    action = [=] {
+      return CheckMethodCommand(options->command, options->task, options->seat, options->time_s, options->memory_mb);
+    };
   });
 }
 
@@ -283,9 +290,12 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineClip(app, action);
   DefineBridge(app, action);
   DefineTrain(app, action);
+  DefineTeach(app, action);
+  DefineRecognise(app, action);
   DefineSensor(app, action);
   DefineCalibrate(app, action);
   DefineCapture(app, action);
+  DefineCoach(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

@@ -12,13 +12,14 @@ namespace etude {
 namespace {
 
 constexpr const char* kClipExamples =
-    "\nA clip is a BVH file, an animation of a glTF file (dance.glb#Jump; without # all of them), a pattern of files\n"
+    "\nA clip is a BVH or DeepMimic file, an animation of a glTF file (dance.glb#Jump; without # all of them), a pattern of files\n"
     "('mocap/*.bvh'), or builtin:NAME (builtin:* all moves, builtin:acts, builtin:songs). docs/clips.md tells more.\n\n"
     "Try:\n"
     "  etude clip info 'mocap/*.bvh'                          what is in these files, and are they understood?\n"
     "  etude clip render dance.bvh -o dance.png               a contact sheet\n"
     "  etude clip render builtin:clap -o clap.mp4             the bear, as a film\n"
     "  etude clip convert dance.bvh bear.glb --character bear a file for other viewers\n"
+    "  etude clip contacts dance.bvh -o contacts.svg          when its feet stand\n"
     "  etude clip map odd.bvh -o odd.yaml                     to teach names: edit it, then --joint-map odd.yaml";
 
 void DefineInfo(CLI::App& clip, Action& action) {
@@ -89,6 +90,16 @@ void DefineGrades(CLI::App& clip, Action& action) {
   command->callback([=, &action] { action = [=] { return ClipGradesCommand(*options); }; });
 }
 
+void DefineContacts(CLI::App& clip, Action& action) {
+  auto options = std::make_shared<ClipContactsOptions>();
+  CLI::App* command = clip.add_subcommand("contacts", "When the feet stand: their heights, speeds and contacts (SVG)");
+  command->add_option("clip", options->clip, "A clip")->required();
+  command->add_option("-o,--output", options->output, "The picture: .svg")->required();
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddReading(*command, options->reading);
+  command->callback([=, &action] { action = [=] { return ClipContactsCommand(*options); }; });
+}
+
 void DefineMap(CLI::App& clip, Action& action) {
   auto options = std::make_shared<ClipMapOptions>();
   CLI::App* command = clip.add_subcommand("map", "Which joint plays which role");
@@ -117,6 +128,7 @@ void DefineClip(CLI::App& app, Action& action) {
   DefineInfo(*clip, action);
   DefineConvert(*clip, action);
   DefineRender(*clip, action);
+  DefineContacts(*clip, action);
   DefineMap(*clip, action);
   DefineGrades(*clip, action);
 }

@@ -46,6 +46,15 @@ struct ClipRenderOptions {
 /// `etude clip render`: a contact sheet of any clips, or a film of one.
 int ClipRenderCommand(const ClipRenderOptions& options);
 
+struct ClipContactsOptions {
+  std::string clip;
+  std::string output;  ///< an SVG picture
+  bool overwrite = false;
+  ClipReading reading;
+};
+/// `etude clip contacts`: when the feet stand, as transitions see it.
+int ClipContactsCommand(const ClipContactsOptions& options);
+
 struct ClipMapOptions {
   std::string clip;
   std::string output;  ///< a joint-map file, "" = only printed

@@ -24,7 +24,7 @@ Result<std::string> Convert(const ClipConvertOptions& given) {
   if (references.size() > 1) {
     return Fail({}, "'{}' stands for {} clips; one file is converted at a time", given.input, references.size());
   }
-  ASSIGN_OR_RETURN(auto clips, ReadClips(references.front()));
+  ASSIGN_OR_RETURN(auto clips, ReadClips(references.front(), reading));
 
   ConvertOptions options{.trim = trim,
                          .rate_hz = std::nullopt,

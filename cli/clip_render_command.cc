@@ -50,7 +50,7 @@ Result<std::vector<ClipActor>> Cast(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
   std::vector<ClipActor> actors;
   for (const std::string& reference : references) {
-    ASSIGN_OR_RETURN(auto clips, ReadClips(reference));
+    ASSIGN_OR_RETURN(auto clips, ReadClips(reference, reading));
     for (SourceClip& clip : clips) {
       auto part = TrimTo(clip.clip, trim);
       if (!part) return Fail({clip.source, 0, 0}, "{}", part.error().message);

@@ -49,8 +49,8 @@ int GateCommand(const GateOptions& options);
 int CompareCommand(const std::string& a, const std::string& b, Sealing sealing);
 /// `etude check-method [--task T] [--time S] [--memory MB] -- CMD…`: whether a program speaks the protocol of methods
 /// outside; exit 1 when it does not.
-int CheckMethodCommand(const std::vector<std::string>& command, const std::string& task, double time_s,
-                       double memory_mb);
+int CheckMethodCommand(const std::vector<std::string>& command, const std::string& task, const std::string& seat,
+                       double time_s, double memory_mb);
 /// `etude export`: writes problems, and their truth apart.
 int ExportCommand(const ExportOptions& options);
 /// `etude score`: scores a folder of answers into a result folder.

@@ -43,7 +43,7 @@ int ListClips() {
     fmt::print("  builtin:{:<14} {} moves at {:g} per minute, {:.0f} s\n", name, song->parts.size(), song->tempo_bpm,
                song->motion.DurationSeconds());
   }
-  fmt::print("Your own: BVH and glTF files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
+  fmt::print("Your own: BVH, glTF and DeepMimic files, 'dance.glb#Jump', patterns such as '~/mocap/*.bvh' (docs/clips.md).\n");
   return kSuccess;
 }
 

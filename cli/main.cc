@@ -34,6 +34,8 @@ constexpr const char* kExamples =
     "  etude clip render '~/mocap/*.bvh' -o mocap.png      what is in these clips; also info, convert, map\n"
     "  etude bridge '~/mocap/*.bvh' -o tags.xml       where these clips lead into each other, and how well\n"
     "  etude train 'builtin:*' -o mine.yaml           a fuzzy system learnt from clips, for a scenario's fuzzy: key\n"
+    "  etude teach takes/*.txt --labels labels.csv -o moves.yaml      moves learnt from recordings of real people\n"
+    "  etude recognise new.txt --moves moves.yaml     which of them a recording, or a device, shows\n"
     "  etude calibrate left/ right/ -o rig.yaml       cameras from pictures of a board, or from measured points\n"
     "  etude capture --rig rig.yaml left.mp4 right.mp4 --keypoints json/ -o motion.bvh     films to a motion\n\n"
     "Exit codes: 0 fine, 1 no cell was ok (gate: regression; replay: a difference), 2 bad input (nothing is\n"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "reports/across_table.h"
 #include "reports/comparison_table.h"
 #include "reports/overview_table.h"
 #include "reports/paper/paper_a_section.h"
@@ -57,6 +58,7 @@ std::string ScenarioText(const RunData& run, const ScenarioSummary& scenario) {
   std::string text = fmt::format("\n## {}\n\n{}\n\n{}", EscapeMarkdown(scenario.name),
                                  EscapeMarkdown(scenario.question), AnswerText(findings));
   text += MethodsText(findings) + PosePairsMarkdown(run, scenario) + OverviewTableMarkdown(scenario) + '\n';
+  text += AcrossTableMarkdown(scenario);
   for (const ExpectationResult& e : scenario.expectations) {
     const std::string_view ruling = e.ruling == Ruling::kMet     ? "met"
                                     : e.ruling == Ruling::kUnmet ? "**not met**"

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "bench/files/json.h"
+#include "reports/across_table.h"
 #include "reports/badge.h"
 #include "reports/charts.h"
 #include "reports/comparison_table.h"
@@ -174,6 +175,7 @@ std::string WriteScenarioCard(const RunData& run, std::size_t index, const Scena
   html += ScenarioFilms(scenario, media);
   html += Charts(run, scenario, index);
   html += Methods(findings);
+  html += AcrossTableHtml(scenario);
   html += Expectations(scenario);
   html += StatusBar(findings);
   html += PosePairsHtml(run, scenario);

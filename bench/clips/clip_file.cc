@@ -6,6 +6,7 @@
 #include "bench/files/files.h"
 #include "engine/base/names.h"
 #include "engine/formats/bvh.h"
+#include "engine/formats/deepmimic/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/text_scanner.h"
 
@@ -55,6 +56,14 @@ std::string WhatElse(std::string_view bytes, const std::string& first_word) {
   return "a file that begins with " + Quote(first_word);
 }
 
+ClipFile FileOfOne(ClipFormat format, Clip clip) {
+  ClipFile file{.format = format,
+                .figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}},
+                .clips = {}};
+  file.clips.push_back(std::move(clip));
+  return file;
+}
+
 }  // namespace
 
 std::string_view FormatName(ClipFormat format) {
@@ -65,6 +74,8 @@ std::string_view FormatName(ClipFormat format) {
       return "glTF";
     case ClipFormat::kGlb:
       return "GLB";
+    case ClipFormat::kDeepMimic:
+      return "DeepMimic";
     case ClipFormat::kBuiltin:
       break;
   }
@@ -79,6 +90,10 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   const Token first = has_text ? scanner.Next() : Token{};
 
   ClipFile file;
+  if (first.text == "{" && IsDeepMimicMotion(bytes)) {
+    ASSIGN_OR_RETURN(auto clip, ReadDeepMimicMotion(bytes, path));
+    return FileOfOne(ClipFormat::kDeepMimic, std::move(clip));
+  }
   if (bytes.starts_with("glTF") || first.text == "{") {
     file.format = first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
     ASSIGN_OR_RETURN(auto content,
@@ -89,13 +104,12 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   }
   constexpr std::string_view kBvhStart = "HIERARCHY";
   if (!std::ranges::equal(first.text, kBvhStart, {}, [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; })) {
-    return Fail(scanner.At(first), "{}; allowed: BVH (it begins with HIERARCHY) and glTF 2.0 (.glb, .gltf)",
+    return Fail(scanner.At(first),
+                "{}; allowed: BVH (it begins with HIERARCHY), glTF 2.0 (.glb, .gltf), DeepMimic's motions",
                 WhatElse(bytes, std::string(first.text)));
   }
   ASSIGN_OR_RETURN(auto clip, ReadBvh(bytes, path));
-  file.figure = {.name = clip.name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}};
-  file.clips.push_back(std::move(clip));
-  return file;
+  return FileOfOne(ClipFormat::kBvh, std::move(clip));
 }
 
 }  // namespace etude

@@ -11,8 +11,8 @@
 
 namespace etude {
 
-enum class ClipFormat { kBvh, kGltf, kGlb, kBuiltin };
-/// "BVH", "glTF", "GLB", "built-in"
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kBuiltin };
+/// "BVH", "glTF", "GLB", "DeepMimic", "built-in"
 std::string_view FormatName(ClipFormat format);
 
 /// What a motion file holds.
@@ -25,7 +25,7 @@ struct ClipFile {
 /// Larger files, or a .gltf with more in its buffers, are refused before memory is taken.
 constexpr std::uintmax_t kLargestClipFile = 500'000'000;
 
-/// Reads a BVH or glTF file, told by its content, whatever it is called. The buffers of a .gltf are read from its own
+/// Reads a BVH or glTF file or a motion of DeepMimic, told by its content, whatever it is called. The buffers of a .gltf are read from its own
 /// folder and below only, links leading out of it are refused.
 Result<ClipFile> ReadClipFile(const std::string& path);
 

@@ -16,7 +16,7 @@ Result<void> AddBuiltin(const std::string& reference, const Place& place, ClipLi
 }
 
 Result<void> AddFile(const std::string& reference, const OpenOptions& options, ClipLibrary& library) {
-  ASSIGN_OR_RETURN(auto clips, ReadClips(reference));
+  ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
   for (SourceClip& clip : clips) {
     ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), options));
     RestBody body = MeasureBody(opened.source.clip, opened.map, opened.body);

@@ -78,7 +78,8 @@ Result<Converted> ConvertOwnSkeletons(std::vector<SourceClip> sources, MotionFor
   for (const SourceClip& source : sources) {
     auto edited = Edited(source.clip, options);
     if (!edited) return Fail({source.source, 0, 0}, "{}", edited.error().message);
-    if (format == MotionFormat::kGlb && source.format == ClipFormat::kBvh) {
+    if (format == MotionFormat::kGlb &&
+        (source.format == ClipFormat::kBvh || source.format == ClipFormat::kDeepMimic)) {
       ASSIGN_OR_RETURN(const auto unit, FindUnit(source, options.open));
       *edited = InMetres(std::move(*edited), unit.metres_per_unit, unit.up);
       if (clips.empty()) {

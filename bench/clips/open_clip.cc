@@ -48,6 +48,15 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
   return {};
 }
 
+const TaughtRoles* TaughtBy(const OpenOptions& options) { return options.roles ? &*options.roles : nullptr; }
+
+/// A skeleton without roles has no ground; UnderstandClip says what it lacks.
+std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
+  if (file.clips.size() < 2) return std::nullopt;
+  const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options));
+  return map ? FindGround(file.clips, *map, options.body) : std::nullopt;
+}
+
 /// Our own skeleton: a joint of the name of every role, exactly there.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
@@ -67,34 +76,39 @@ Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& optio
 
 }  // namespace
 
-Result<std::vector<SourceClip>> ReadClips(const std::string& reference) {
+Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options) {
   if (reference.starts_with(kBuiltinPrefix)) return ReadBuiltin(reference);
   const SplitReference wanted = Split(reference);
   ASSIGN_OR_RETURN(auto file, ReadClipFile(wanted.path));
   const std::string stem = fs::path(wanted.path).stem().string();
-  if (file.format == ClipFormat::kBvh) {
+  if (file.format == ClipFormat::kBvh || file.format == ClipFormat::kDeepMimic) {
     if (wanted.animation) {
-      return Fail({wanted.path, 0, 0}, "a BVH file has one motion; '#{}' chooses one of a glTF file",
-                  *wanted.animation);
+      return Fail({wanted.path, 0, 0}, "a {} file has one motion; '#{}' chooses one of a glTF file",
+                  FormatName(file.format), *wanted.animation);
     }
     return std::vector<SourceClip>{{stem, wanted.path, file.format, std::move(file.clips.front()), nullptr}};
   }
+  const std::optional<Ground> ground = GroundOf(file, wanted.path, options);
   RETURN_IF_ERROR(KeepWanted(wanted, file.figure, file.clips));
   const bool has_meshes = !file.figure.meshes.empty();
   const auto figure = has_meshes ? std::make_shared<const Character>(std::move(file.figure)) : nullptr;
   std::vector<SourceClip> clips;
   for (Clip& clip : file.clips) {
     const std::string animation = "#" + clip.name;
-    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure});
+    clips.push_back({stem + animation, wanted.path + animation, file.format, std::move(clip), figure, ground});
   }
   return clips;
 }
 
 Result<OpenedClip> UnderstandClip(SourceClip source, const OpenOptions& options) {
   if (source.format == ClipFormat::kBuiltin) return UnderstandBuiltin(std::move(source), options.body);
-  const TaughtRoles* taught = options.roles ? &*options.roles : nullptr;
-  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, taught));
-  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, options.body));
+  ASSIGN_OR_RETURN(auto map, FindJointMap(source.clip.skeleton, source.source, TaughtBy(options)));
+  BodyOptions told = options.body;
+  if (source.ground) {
+    told.up = source.ground->up;
+    told.floor = source.ground->floor;
+  }
+  ASSIGN_OR_RETURN(auto body, ToBodyMotion(source.clip, map, source.source, told));
   return OpenedClip{std::move(source), std::move(map), std::move(body)};
 }
 

@@ -30,12 +30,13 @@ struct SourceClip {
   Clip clip;
   /// The file's own figure, when it has meshes; its skeleton is the clip's. Shared by all clips of the file.
   std::shared_ptr<const Character> character;
+  std::optional<Ground> ground = {};  ///< of all clips of the file, where there are several
 };
 
 /// The clips of one file or built-in name (ExpandReference gives them): one of a BVH, all animations of a glTF, or the
 /// one behind '#', which may leave out what exporters put before it ("Jump" of "Armature|Jump"). Fails when there is
-/// none, saying what there is instead.
-Result<std::vector<SourceClip>> ReadClips(const std::string& reference);
+/// none, saying what there is instead. `options` only help to find the ground.
+Result<std::vector<SourceClip>> ReadClips(const std::string& reference, const OpenOptions& options = {});
 
 /// A clip with its roles found and its body's motion.
 struct OpenedClip {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "bench/metrics/detection.h"
 #include "bench/metrics/percentile.h"
@@ -83,9 +84,9 @@ std::optional<double> RepetitionsUntilRight(std::span<const std::vector<Performa
   return KaplanMeierMedian(waits);
 }
 
-std::optional<double> Retention(std::span<const PerformanceTruth> performances) {
-  const auto right = std::ranges::count(performances, kRight);
-  return Share(right, right + std::ranges::count(performances, kWrong));
+std::optional<double> Retention(std::span<const double> chances) {
+  if (chances.empty()) return std::nullopt;
+  return std::accumulate(chances.begin(), chances.end(), 0.0) / static_cast<double>(chances.size());
 }
 
 std::optional<double> BeatErrorMs(std::span<const double> errors_s) {

@@ -58,8 +58,8 @@ std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
 /// given up after the last one.
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves);
 
-/// `retention`: the share of right performances among those that are right or wrong. Empty when there are none.
-std::optional<double> Retention(std::span<const PerformanceTruth> performances);
+/// `retention`: the mean of the chances to be right in a test. Empty when there are none.
+std::optional<double> Retention(std::span<const double> chances);
 
 /// `beat_error_ms`: the 95th percentile of the errors' sizes, seconds in, milliseconds out. Empty without any.
 std::optional<double> BeatErrorMs(std::span<const double> errors_s);

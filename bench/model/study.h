@@ -65,6 +65,7 @@ struct Study {
   std::vector<ComparedMethod> methods;              ///< at least one
   std::vector<std::vector<SweptValue>> conditions;  ///< at least one
   std::vector<std::string> metrics;                 ///< headline metrics, most important first
+  std::vector<std::string> across;  ///< swept parameters under all of whose values a verdict must be the same
   std::string rival;                                ///< the method that all others must beat; "" = the best is found
   std::vector<Expectation> expectations;
   GateRules gate;

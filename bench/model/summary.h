@@ -120,6 +120,24 @@ struct ConditionSummary {
   std::vector<ErrorBudget> budgets = {};  ///< of the first headline metric, where methods differ in oracles alone
 };
 
+/// One comparison under every value of the parameters that a verdict must hold for (`across`): a model of our own, such
+/// as how people learn, says nothing about methods where another such model says otherwise.
+struct AcrossVerdict {
+  std::vector<SweptValue> condition;  ///< of what is swept beside them
+  std::string metric;
+  std::string baseline;
+  std::string method;
+  struct Each {
+    std::string value;  ///< "learning=power"
+    Verdict verdict = Verdict::kInconclusive;
+    std::optional<double> difference;
+  };
+  std::vector<Each> each;
+  Verdict verdict = Verdict::kInconclusive;  ///< the one that all agree in, else inconclusive
+
+  bool Holds() const { return verdict != Verdict::kInconclusive; }
+};
+
 /// Whether something that was said to come out did: an expectation, a time rule.
 enum class Ruling { kMet, kUnmet, kUndecided };
 std::string_view RulingName(Ruling ruling);
@@ -141,6 +159,7 @@ struct ScenarioSummary {
   std::vector<ConditionSummary> conditions;
   std::vector<ExpectationResult> expectations;
   int family = 0;  ///< comparisons in all conditions and headline metrics, over which Holm's correction runs
+  std::vector<AcrossVerdict> across = {};  ///< empty where verdicts need not hold across anything
 };
 
 }  // namespace etude

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bench/outside/messages.h"
+#include "bench/outside/seated_program.h"
 #include "bench/outside/specimens.h"
 
 namespace etude {
@@ -20,11 +21,27 @@ struct Attempt {
   bool was_put = true;  ///< else the program could not be started
 };
 
+/// A program in a seat that is told more than it knows of.
+class WordierProgram final : public SeatedProgram {
+ public:
+  using SeatedProgram::SeatedProgram;
+  bool Begin(const Payload& session) override {
+    Payload shown = PayloadOf(*session.json);
+    (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
+    return SeatedProgram::Begin(shown);
+  }
+  JsonPtr Step(const Json& step) override {
+    Json shown = step;
+    shown["of_a_later_version"] = true;
+    return SeatedProgram::Step(shown);
+  }
+};
+
 class Examination {
  public:
-  Examination(const OutsideOptions& options, const std::vector<Specimen>& specimens,
+  Examination(const OutsideOptions& options, bool takes_seat, const std::vector<Specimen>& specimens,
               const std::function<void(const ConformanceCheck&)>& report)
-      : method_(options), time_s_(options.time_s), specimens_(specimens), report_(report) {}
+      : method_(options), takes_seat_(takes_seat), time_s_(options.time_s), specimens_(specimens), report_(report) {}
 
   /// Whether all checks were passed.
   Result<bool> Run() {
@@ -47,6 +64,7 @@ class Examination {
   }
 
   Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem) {
+    if (takes_seat_) return Play<SeatedProgram>(specimen, problem, problem.id);
     return Ask(specimen, problem, problem.id, problem.problem);
   }
 
@@ -65,6 +83,27 @@ class Examination {
     } else if (reply.status != Status::kUnsolved) {
       attempt.fault = fmt::format("{}: {}", StatusName(reply.status), reply.reason);
     }
+    return attempt;
+  }
+
+  /// A whole session with the program in its seat; what it said is told by a digest of all steps.
+  template <typename Program>
+  Attempt Play(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id) {
+    const auto start = std::chrono::steady_clock::now();
+    Program program(method_, specimen.setting_id, specimen.setting, id);
+    const auto result = problem.world->RunWith(program, 0);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    slowest_s_ = std::max(slowest_s_, took.count());
+    peak_mb_ = std::max(peak_mb_, program.peak_mb());
+    if (const auto& failure = program.failure()) {
+      Attempt attempt{failure->status, failure->reason, "", failure->status != Status::kFailed};
+      if (failure->status != Status::kUnsolved) {
+        attempt.fault = fmt::format("{}: {}", StatusName(failure->status), failure->reason);
+      }
+      return attempt;
+    }
+    Attempt attempt{result ? result->status : Status::kBadOutput, "answers " + program.AnswersDigest(), "", true};
+    if (!result) attempt.fault = "its answers cannot be used: " + result.error().message;
     return attempt;
   }
 
@@ -136,15 +175,21 @@ class Examination {
   }
 
   void CheckLongLines() {
+    const std::string id = "a \"long\" one, größer";
+    ReportDifference("takes long lines, keys it does not know, and ids of any text", Compare(AskAtLength(id), 0));
+  }
+
+  /// The first problem, with more said than the program knows of.
+  Attempt AskAtLength(const std::string& id) {
     const SpecimenProblem& problem = specimens_[0].problems[0];
+    if (takes_seat_) return Play<WordierProgram>(specimens_[0], problem, id);
     Payload shown = PayloadOf(*problem.problem.json, problem.problem.files);
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
-    const std::string id = "a \"long\" one, größer";
-    ReportDifference("takes long lines, keys it does not know, and ids of any text",
-                     Compare(Ask(specimens_[0], problem, id, shown), 0));
+    return Ask(specimens_[0], problem, id, shown);
   }
 
   OutsideMethod method_;
+  const bool takes_seat_;
   const double time_s_;
   const std::vector<Specimen>& specimens_;
   const std::function<void(const ConformanceCheck&)>& report_;
@@ -155,10 +200,10 @@ class Examination {
 
 }  // namespace
 
-Result<bool> CheckConformance(const OutsideOptions& options,
+Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report) {
-  ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task));
-  return Examination(options, specimens, report).Run();
+  ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task, seat));
+  return Examination(options, !seat.empty(), specimens, report).Run();
 }
 
 }  // namespace etude

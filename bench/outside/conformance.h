@@ -17,9 +17,9 @@ struct ConformanceCheck {
 /// Puts small worlds of the method's task to it and reports every check as it is done: that it greets, that its
 /// answers can be scored, that they depend on the problem alone (not on what was asked before, nor on the setting
 /// before), that it takes long lines, and that it ends with its input. Ends early when no problem is answered.
-/// Whether all were passed; fails when the task does not exist, its worlds cannot be made, or the program cannot be
-/// found.
-Result<bool> CheckConformance(const OutsideOptions& options,
+/// Whether all were passed; fails when the task does not exist, its worlds cannot be made, `seat` is none of its seats
+/// ("" where it has none), or the program cannot be found.
+Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report);
 
 }  // namespace etude

@@ -1,5 +1,8 @@
 #include "bench/outside/specimens.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <array>
 
 #include "bench/tasks/registry.h"
@@ -30,25 +33,34 @@ const std::vector<Recipe>& Recipes() {
       {"search",
        {"builtin:clap", "builtin:sway"},
        {"{frames: 500, queries: 5}", "{frames: 500, queries: 5, query: within}"}},
-      {"capture", {"builtin:clap"}, {"{duration_s: 0.1}", "{duration_s: 0.1, clothes: everyday}"}}};
+      {"capture", {"builtin:clap"}, {"{duration_s: 0.1}", "{duration_s: 0.1, clothes: everyday}"}},
+      {"coach", {}, {"{session_s: 10, people: adult}", "{session_s: 12, people: adult, noise: 2, song: sprint}"}}};
   return recipes;
 }
 
-Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const std::string& condition) {
+Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const std::string& condition,
+                              const std::string& seat) {
   Specimen specimen;
   specimen.setting_id = kind.name + " " + condition;
   ASSIGN_OR_RETURN(auto clips, LoadClips(recipe.clips, {}));
   specimen.clips = std::make_unique<ClipLibrary>(std::move(clips));
   ASSIGN_OR_RETURN(const auto node, ParseYaml(condition, specimen.setting_id));
   Fields fields(node, "a specimen of task " + kind.name);
-  TaskInput input{fields, {}, *specimen.clips};
+  std::vector<Node> methods;
+  if (!seat.empty()) {
+    ASSIGN_OR_RETURN(methods.emplace_back(), ParseYaml("{name: specimen, seat: " + seat + "}", specimen.setting_id));
+  }
+  TaskInput input{fields, methods, *specimen.clips};
   ASSIGN_OR_RETURN(auto task, kind.make(input));
   specimen.task = std::move(task);
   ASSIGN_OR_RETURN(auto setting, specimen.task->Setting());
   specimen.setting = std::move(setting);
   for (int trial = 0; trial < kProblems; ++trial) {
     auto world = specimen.task->MakeWorld({1, "check-method", trial}, false);
-    ASSIGN_OR_RETURN(auto problem, world->MakeProblem());
+    Payload problem;
+    if (seat.empty()) {
+      ASSIGN_OR_RETURN(problem, world->MakeProblem());
+    }
     specimen.problems.push_back(
         {fmt::format("{} {}", specimen.setting_id, trial), std::move(world), std::move(problem)});
   }
@@ -57,16 +69,21 @@ Result<Specimen> MakeSpecimen(const TaskKind& kind, const Recipe& recipe, const 
 
 }  // namespace
 
-Result<std::vector<Specimen>> MakeSpecimens(const std::string& task) {
+Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat) {
   std::vector<std::string> known;
   for (const Recipe& recipe : Recipes()) known.push_back(recipe.task);
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, known));
+  if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
+  if (!kind->seats.empty() && std::ranges::find(kind->seats, seat) == kind->seats.end()) {
+    if (seat.empty()) return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
+    return Fail({}, "{}", UnknownName("seat", seat, kind->seats));
+  }
   std::vector<Specimen> specimens;
   for (const Recipe& recipe : Recipes()) {
     if (recipe.task != task) continue;
     for (const char* condition : recipe.conditions) {
-      ASSIGN_OR_RETURN(auto specimen, MakeSpecimen(*kind, recipe, condition));
+      ASSIGN_OR_RETURN(auto specimen, MakeSpecimen(*kind, recipe, condition, seat));
       specimens.push_back(std::move(specimen));
     }
   }

@@ -12,7 +12,7 @@ namespace etude {
 struct SpecimenProblem {
   std::string id;
   std::unique_ptr<TaskWorld> world;
-  Payload problem;
+  Payload problem;  ///< empty where programs take a seat
 };
 
 /// Problems that share a setting.
@@ -24,8 +24,8 @@ struct Specimen {
   std::vector<SpecimenProblem> problems;
 };
 
-/// Two settings of a task with three problems each; the same every time. Fails when there is no such task, or its
-/// worlds cannot be made here (no renderer).
-Result<std::vector<Specimen>> MakeSpecimens(const std::string& task);
+/// Two settings of a task with three problems each; the same every time. Fails when there is no such task, its worlds
+/// cannot be made here (no renderer), or `seat` is none of its seats ("" where it has none).
+Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::string& seat);
 
 }  // namespace etude

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPackVersion = 2;
+constexpr int kPackVersion = 3;
 
-/// The clips of a scenario, in order: built-in ones by name, others as files with their bytes, each file once.
+/// Clips, in order: built-in ones by name, others as files with their bytes, each file once.
 Result<Json> PackClips(const ClipLibrary& library) {
   Json clips = Json::array(), files = Json::array();
   std::map<std::string, std::size_t> number_of;
@@ -69,10 +69,35 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
   return references;
 }
 
+/// What a scenario's worlds are made of: {"clips": what PackClips gives, "libraries": {name: likewise, …}}.
+Result<Json> PackMotions(const PreparedScenario& scenario) {
+  Json motions{{"clips", nullptr}, {"libraries", Json::object()}};
+  for (const auto& [name, library] : scenario.libraries()) {
+    ASSIGN_OR_RETURN(motions["libraries"][name], PackClips(library));
+  }
+  if (scenario.libraries().empty()) {
+    ASSIGN_OR_RETURN(motions["clips"], PackClips(scenario.clips()));
+  }
+  return motions;
+}
+
+/// Has the scenario take its clips from `folder`.
+Result<void> UnpackMotions(const Json& motions, const fs::path& folder, ScenarioSetup& scenario) {
+  if (!motions.at("clips").is_null()) {
+    ASSIGN_OR_RETURN(scenario.clips, UnpackClips(motions.at("clips"), folder));
+  }
+  for (std::size_t i = 0; i < scenario.libraries.size(); ++i) {
+    NamedClips& library = scenario.libraries[i];
+    ASSIGN_OR_RETURN(library.clips,
+                     UnpackClips(motions.at("libraries").at(library.name), folder / ("library-" + std::to_string(i))));
+  }
+  return {};
+}
+
 struct Pack {
   SuiteSetup suite;  ///< of one scenario
   Row row;
-  Json motions;  ///< what PackClips gives
+  Json motions;  ///< what PackMotions gives
 };
 
 Result<Pack> ReadPack(const std::string& file) {
@@ -104,11 +129,8 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
     return scenario.scenario().name == row->scenario;
   });
   if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
-  if (!prepared->setup().libraries.empty()) {
-    return Fail({folder, 0, 0}, "scenario {} is about libraries, whose cells cannot be packed", row->scenario);
-  }
   SuiteSetup suite = whole.suite;
-  ASSIGN_OR_RETURN(auto clips, PackClips(prepared->clips()));
+  ASSIGN_OR_RETURN(auto clips, PackMotions(*prepared));
   if (suite.scored && row->method == suite.scored->name) {
     return Fail({folder, 0, 0}, "'{}' is an answer that was scored, not run", cell);
   }
@@ -127,8 +149,7 @@ Result<CellCheck> ReplayPack(const std::string& file) {
   ASSIGN_OR_RETURN(auto pack, ReadPack(file));
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("replay"));
   try {
-    ASSIGN_OR_RETURN(auto clips, UnpackClips(pack.motions, folder.path()));
-    pack.suite.scenarios.front().clips = std::move(clips);
+    RETURN_IF_ERROR(UnpackMotions(pack.motions, folder.path(), pack.suite.scenarios.front()));
   } catch (const std::exception& error) {  // Json's, or a file that the pack does not have
     return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
   }

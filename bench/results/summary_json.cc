@@ -220,6 +220,37 @@ Comparison DecodeComparison(const Json& json) {
   return comparison;
 }
 
+Json Encode(const AcrossVerdict& verdict) {
+  Json each = Json::array();
+  for (const AcrossVerdict::Each& under : verdict.each) {
+    each.push_back(
+        {{"value", under.value}, {"verdict", VerdictName(under.verdict)}, {"difference", Number(under.difference)}});
+  }
+  return {{"condition", Encode(verdict.condition)},
+          {"metric", verdict.metric},
+          {"baseline", verdict.baseline},
+          {"method", verdict.method},
+          {"verdict", VerdictName(verdict.verdict)},
+          {"each", std::move(each)}};
+}
+
+AcrossVerdict DecodeAcross(const Json& json) {
+  const auto verdict_in = [](const Json& name) {
+    return ByName<Verdict>(name.get<std::string>(), VerdictName, kVerdicts);
+  };
+  AcrossVerdict verdict{.condition = DecodeCondition(json.at("condition")),
+                        .metric = json.at("metric").get<std::string>(),
+                        .baseline = json.at("baseline").get<std::string>(),
+                        .method = json.at("method").get<std::string>(),
+                        .each = {},
+                        .verdict = verdict_in(json.at("verdict"))};
+  for (const Json& under : json.at("each")) {
+    verdict.each.push_back(
+        {under.at("value").get<std::string>(), verdict_in(under.at("verdict")), AsOptional(under.at("difference"))});
+  }
+  return verdict;
+}
+
 }  // namespace
 
 Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
@@ -243,6 +274,8 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
       expectations.push_back(
           {{"text", expectation.text}, {"outcome", RulingName(expectation.ruling)}, {"detail", expectation.detail}});
     }
+    Json across = Json::array();
+    for (const AcrossVerdict& verdict : scenario.across) across.push_back(Encode(verdict));
     list.push_back({{"name", scenario.name},
                     {"task", scenario.task},
                     {"question", scenario.question},
@@ -252,6 +285,7 @@ Json EncodeSummaries(const std::vector<ScenarioSummary>& scenarios) {
                     {"comparisons_in_family", scenario.family},
                     {"conditions", std::move(conditions)},
                     {"expectations", std::move(expectations)}});
+    if (!across.empty()) list.back()["across"] = std::move(across);  // most scenarios have none
   }
   return {{"scenarios", std::move(list)}};
 }
@@ -268,7 +302,11 @@ Result<std::vector<ScenarioSummary>> DecodeSummaries(const Json& json, const Pla
                                entry.at("headline_metrics").get<std::vector<std::string>>(),
                                {},
                                {},
-                               entry.at("comparisons_in_family").get<int>()};
+                               entry.at("comparisons_in_family").get<int>(),
+                               {}};
+      if (entry.contains("across")) {
+        for (const Json& verdict : entry.at("across")) scenario.across.push_back(DecodeAcross(verdict));
+      }
       for (const Json& part : entry.at("conditions")) {
         ConditionSummary condition{DecodeCondition(part.at("condition")), {}, {}, {}, {}};
         for (const Json& method : part.at("methods")) condition.methods.push_back(DecodeMethod(method));

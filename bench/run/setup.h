@@ -49,6 +49,8 @@ class PreparedScenario {
   const Scenario& scenario() const { return scenario_; }
   /// Those of all libraries, where there are any.
   const ClipLibrary& clips() const { return *clips_; }
+  /// By name, where there are any.
+  const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
   /// What keys the dice of a trial.

@@ -131,6 +131,14 @@ const FieldTable<Scenario>& ScenarioFields() {
          "",
          "What is compared, on the same worlds."},
         when_right([](Fields& fields, Scenario& s, const TaskKind& kind) { s.methods = ReadMethods(fields, kind); })},
+       {{"across", ListKind("a list of swept parameters", TextKind("")), "[]",
+         "A verdict counts only when it is the same under all of their values: for what the simulation itself "
+         "invents."},
+        when_right([](Fields& fields, Scenario& s, const TaskKind&) {
+          std::vector<std::string> swept;
+          for (const SweptValue& value : s.conditions.front().swept) swept.push_back(value.key);
+          s.across = ReadNames(fields, "across", swept);
+        })},
        {{"rival", TextKind("a method"), "(the best is found)",
          "The strongest method, against which all others are judged beside their baseline."},
         when_right([](Fields& fields, Scenario& s, const TaskKind&) {

@@ -68,6 +68,7 @@ struct Scenario {
   std::vector<Condition> conditions;  ///< at least one
   std::vector<MethodEntry> methods;   ///< at least one
   std::vector<std::string> metrics;   ///< headline metrics; the task's own when the file names none
+  std::vector<std::string> across;    ///< swept parameters under all of whose values a verdict must be the same
   std::string rival;                  ///< "" = the best method is found
   std::vector<Expectation> expectations;
   RecordingSelection recordings;

@@ -55,13 +55,14 @@ Json SweepSchema(const TaskKind& kind) {
   return {{"type", "object"}, {"properties", std::move(parameters)}, {"additionalProperties", false}};
 }
 
-/// A method with `exec` is a program; any other has the keys of its task.
+/// A method with `exec` is a program; any other has the keys of its task. A program in a seat has both.
 Json MethodSchema(const TaskKind& kind) {
   std::vector<KeyInfo> keys;
   for (const KeyInfo& common : OutsideMethodFields().Describe()) {
-    if (common.key == "name" || common.key == "against") keys.push_back(common);
+    if (!kind.seats.empty() || common.key == "name" || common.key == "against") keys.push_back(common);
   }
   keys.insert(keys.end(), kind.method_keys.begin(), kind.method_keys.end());
+  if (!kind.seats.empty()) return MappingSchema(keys);
   return {{"if", Has("exec")}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
 }
 

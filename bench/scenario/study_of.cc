@@ -37,6 +37,7 @@ Study StudyOf(const Scenario& scenario) {
               .methods = {},
               .conditions = {},
               .metrics = scenario.metrics,
+              .across = scenario.across,
               .rival = scenario.rival,
               .expectations = scenario.expectations,
               .gate = scenario.gate};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/statistics/across.h"
 #include "bench/statistics/beyond.h"
 #include "bench/statistics/bootstrap.h"
 #include "bench/statistics/error_budget.h"
@@ -192,6 +193,7 @@ ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::u
        against_rivals = AskAgainstRivals(study, table, seed);
   summary.family = JudgeTogether(against_baselines, study.unit, &ConditionSummary::comparisons, summary.conditions);
   JudgeTogether(against_rivals, study.unit, &ConditionSummary::rivals, summary.conditions);
+  summary.across = JudgeAcross(study, summary.conditions);
   for (const Expectation& expectation : study.expectations) {
     summary.expectations.push_back(JudgeExpectation(expectation, study, table, seed));
   }

@@ -1,6 +1,7 @@
 #include "bench/tasks/registry.h"
 
 #include "bench/tasks/capture/capture_task.h"
+#include "bench/tasks/coach/coach_task.h"
 #include "bench/tasks/detection/detection_task.h"
 #include "bench/tasks/ik/ik_task.h"
 #include "bench/tasks/pose_distance/pose_distance_task.h"
@@ -12,9 +13,9 @@
 namespace etude {
 
 std::span<const TaskKind> AllTaskKinds() {
-  static const std::vector<TaskKind> kinds = {MakeTransitionTaskKind(),  MakeDetectionTaskKind(), MakeIkTaskKind(),
-                                              MakeTrackingTaskKind(),    MakeCaptureTaskKind(),   MakeSearchTaskKind(),
-                                              MakePoseDistanceTaskKind()};
+  static const std::vector<TaskKind> kinds = {MakeTransitionTaskKind(),   MakeDetectionTaskKind(), MakeIkTaskKind(),
+                                              MakeTrackingTaskKind(),     MakeCaptureTaskKind(),   MakeSearchTaskKind(),
+                                              MakePoseDistanceTaskKind(), MakeCoachTaskKind()};
   return kinds;
 }
 

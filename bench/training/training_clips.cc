@@ -23,8 +23,8 @@ std::vector<TrainingFrame> SampleFrames(const BodyMotion& motion, double standin
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions) {
   TrainingClips training{.identities = std::move(identities), .frames = {}};
-  for (const BodyMotion& clip : clips) {
-    training.frames.push_back(SampleFrames(PerformedBy(proportions, clip), proportions.standing_hip_height));
+  for (const BodyMotion& clip : PerformedBy(proportions, clips)) {
+    training.frames.push_back(SampleFrames(clip, proportions.standing_hip_height));
   }
   return training;
 }

@@ -6,7 +6,7 @@ namespace etude {
 namespace {
 
 /// Of the hand tips. Ours: a Kinect's hands are some 5 cm off while they move, and palms are thick.
-constexpr double kTogether = 0.2, kApart = 0.4;
+constexpr double kTogether = 0.15, kApart = 0.4;
 constexpr int kTogetherFrames = 2, kSwingFrames = 15;
 
 }  // namespace

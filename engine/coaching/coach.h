@@ -143,6 +143,10 @@ class Coach {
   /// In the dance's first frame, as if somebody had clapped.
   CoachState BeginDancing() const;
 
+  /// Plans what a dance will most likely need, so that no frame of a live session has to wait for it: the ways out of
+  /// every window into every corrective act, and on from there. Answers stay the same.
+  void PlanAhead() const;
+
   /// The same inputs give the same outputs, and nothing else changes.
   CoachStep Step(CoachState state, const CoachInput& input) const;
 

@@ -43,12 +43,12 @@ struct CoachAct {
 struct Dance {
   std::string title;
   double tempo_bpm = 120;
-  BodyMotion motion;                    ///< 30 Hz, the whole song
-  std::vector<DanceMove> moves;         ///< names all different
-  std::vector<Repetition> repetitions;  ///< in order, none overlaps the next
-  std::vector<MusicTag> tags;           ///< frames and moments ascend strictly; at most one per frame
-  std::vector<CoachAct> acts;           ///< those of RequiredActs() at least
-  std::vector<double> beats_s = {};     ///< of the music: when each beat sounds, ascending (click tracks, beat errors)
+  BodyMotion motion = {};                    ///< 30 Hz, the whole song
+  std::vector<DanceMove> moves = {};         ///< names all different
+  std::vector<Repetition> repetitions = {};  ///< in order, none overlaps the next
+  std::vector<MusicTag> tags = {};           ///< frames and moments ascend strictly; at most one per frame
+  std::vector<CoachAct> acts = {};           ///< those of RequiredActs() at least
+  std::vector<double> beats_s = {};  ///< of the music: when each beat sounds, ascending (click tracks, beat errors)
 
   const CoachAct* FindAct(std::string_view name) const;
 };

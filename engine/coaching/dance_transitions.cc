@@ -76,7 +76,8 @@ std::shared_ptr<const ShownPath> DanceTransitions::Splice(int from, int frame, c
 
   auto path = std::make_shared<ShownPath>();
   const auto record = Plan(from, frame, to);
-  if (record->segments.empty()) {
+  const bool arrives = !record->segments.empty() && record->segments.back().clip == to;
+  if (!arrives) {
     *path = CutTo(clips[0].poses[frame - skipped], clips[1], home_from != nullptr);
   } else {
     std::vector<Segment> segments = Renumbered(*record, from, to, skipped);

@@ -96,7 +96,8 @@ BodyPose ShownPose(const Playback& playback, const DanceLibrary& library) {
 
 bool IsOver(const Playback& playback, const DanceLibrary& library, double before) {
   if (!playback.path) {
-    return playback.dance_frame + before >= static_cast<double>(library.dance().motion.poses.size() - 1);
+    constexpr double kRounding = 1e-6;  // of rates summed up
+    return playback.dance_frame + before + kRounding >= static_cast<double>(library.dance().motion.poses.size() - 1);
   }
   if (library.IsLoop(playback.path->clip)) return false;
   const PlayedClip played = PlayedOf(playback, library);

@@ -15,7 +15,7 @@ struct AfterOptions {
 };
 const SettingTable<AfterOptions>& AfterSettings() {
   static const SettingTable<AfterOptions> table({
-      {"mistakes", &AfterOptions::mistakes, 1, 100, "mistakes in a row of a move, from which on it is corrected"},
+      {"mistakes", &AfterOptions::mistakes, 1, 100, "From so many mistakes in a row of a move on it is corrected."},
   });
   return table;
 }
@@ -26,7 +26,7 @@ struct ConfidenceOptions {
 const SettingTable<ConfidenceOptions>& ConfidenceSettings() {
   static const SettingTable<ConfidenceOptions> table({
       {"sure_below", &ConfidenceOptions::sure_below, 0, 1,
-       "corrects where the evidence stays below this share of what counts as right"},
+       "Corrects where the evidence stays below this share of what counts as right."},
   });
   return table;
 }
@@ -37,13 +37,13 @@ struct FadingOptions {
 const SettingTable<FadingOptions>& FadingSettings() {
   static const SettingTable<FadingOptions> table({
       {"mistakes_per_correction", &FadingOptions::mistakes_per_correction, 0, 10,
-       "so many mistakes more in a row are let pass for every correction that the move has had"},
+       "So many mistakes more in a row are let pass for every correction that the move has had."},
   });
   return table;
 }
 
 PolicyDecision AfterMistakes(const PolicyInput& input, int wanted) {
-  if (input.verdict != Verdict::kWrong) return {false, "no mistake"};
+  if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const int found = input.move.mistakes_in_row;
   return {found >= wanted, fmt::format("{} mistakes in a row of this move; corrects from {} on", found, wanted)};
 }
@@ -57,7 +57,7 @@ PolicyDecision AfterN(const PolicyInput& input, Values values) {
 }
 
 PolicyDecision Confident(const PolicyInput& input, Values values) {
-  if (input.verdict != Verdict::kWrong) return {false, "no mistake"};
+  if (input.verdict != WindowVerdict::kWrong) return {false, "no mistake"};
   const double sure = ConfidenceSettings().Apply(values).sure_below * input.right_from;
   return {input.evidence < sure || input.evidence == 0,
           fmt::format("evidence {:.2f} of a right performance; sure of a mistake below {:.2f}", input.evidence, sure)};

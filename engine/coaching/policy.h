@@ -10,7 +10,7 @@
 namespace etude {
 
 /// What a window came to.
-enum class Verdict {
+enum class WindowVerdict {
   kRight,
   kWrong,
   kUnknown,  ///< the player was not seen, or the one who knows did not say
@@ -26,7 +26,7 @@ struct MoveMemory {
 
 /// What a policy decides by, once a window has closed.
 struct PolicyInput {
-  Verdict verdict = Verdict::kUnknown;
+  WindowVerdict verdict = WindowVerdict::kUnknown;
   double evidence = 0;    ///< Evidence::asked at the window's end
   double right_from = 0;  ///< from which evidence on a performance counts as right, > 0
   MoveMemory move;        ///< of the move asked for, this window included

@@ -11,8 +11,6 @@
 namespace etude {
 namespace {
 
-/// An act is left so long before its end, while it is at rest in the ready stance: a join has something to go on with.
-constexpr double kBeforeEndFrames = 15;
 constexpr double kWordsSeconds = 2;
 /// A hint where to stand must be due for so long before it changes.
 constexpr int kHintFrames = 15;
@@ -173,6 +171,7 @@ void Stepping::DanceOn() {
     if (state_.moment_waits && policy_.policy->takes_moments) AnswerMoment(dance_frame);
     if (state_.mode == CoachMode::kDance) CloseWindow();
     if (state_.mode == CoachMode::kDance && IsIdleFor(options_.idle_s)) {
+      if (state_.open && !state_.decided) Remember(WindowVerdict::kUnknown);
       StopMusic();
       return Enter(CoachMode::kAttract, "attract", CoachEvent::kAttracts,
                    fmt::format("nobody has moved for {:.0f} s", options_.idle_s));
@@ -291,7 +290,8 @@ void Stepping::FollowMusic(double dance_frame) {
     state_.next_tag = NextTag(dance_, dance_frame);
     return;
   }
-  if (!input_.music_s) return;
+  // The last frame is kept until the music comes to it.
+  if (!input_.music_s || IsOver(state_.playback, library_)) return;
   const double error_s = *input_.music_s - MusicAt(dance_, dance_frame);
   out_.beat_error_s = error_s;
   const int count = static_cast<int>(dance_.tags.size());
@@ -320,38 +320,38 @@ void Stepping::OpenWindowAt(double dance_frame) {
   CountAnew(state_.stillness);
 }
 
-Verdict Stepping::Judge(Mistake& mistake) const {
+WindowVerdict Stepping::Judge(Mistake& mistake) const {
   mistake = Mistake::kNone;
   if (policy_.policy->asks_truth) {
-    if (!input_.told_right) return Verdict::kUnknown;
+    if (!input_.told_right) return WindowVerdict::kUnknown;
     mistake = *input_.told_right ? Mistake::kNone : Mistake::kNotReached;
-    return *input_.told_right ? Verdict::kRight : Verdict::kWrong;
+    return *input_.told_right ? WindowVerdict::kRight : WindowVerdict::kWrong;
   }
-  if (2 * state_.stillness.seen < state_.stillness.frames) return Verdict::kUnknown;
+  if (2 * state_.stillness.seen < state_.stillness.frames) return WindowVerdict::kUnknown;
   if (state_.stillness.moving < options_.still_share * state_.stillness.seen) {
     mistake = Mistake::kStoodStill;
   } else if (input_.evidence.asked < options_.right_from) {
     const bool is_mirrored = input_.other_side && *input_.other_side >= options_.right_from;
     mistake = is_mirrored ? Mistake::kWrongSide : Mistake::kNotReached;
   }
-  return mistake == Mistake::kNone ? Verdict::kRight : Verdict::kWrong;
+  return mistake == Mistake::kNone ? WindowVerdict::kRight : WindowVerdict::kWrong;
 }
 
 void Stepping::JudgeEarly() {
   if (!state_.open || state_.decided || policy_.policy->asks_truth) return;
   if (input_.evidence.asked < options_.right_from) return;
   Mistake mistake{};
-  if (Judge(mistake) == Verdict::kRight) Remember(Verdict::kRight);
+  if (Judge(mistake) == WindowVerdict::kRight) Remember(WindowVerdict::kRight);
 }
 
-void Stepping::Remember(Verdict verdict) {
+void Stepping::Remember(WindowVerdict verdict) {
   const OpenWindow window = *state_.open;
   const bool was_wrong = state_.moves[window.move].mistakes_in_row > 0;
-  if (verdict != Verdict::kUnknown) {
+  if (verdict != WindowVerdict::kUnknown) {
     for (MoveMemory* memory : {&state_.moves[window.move], &state_.song}) {
       ++memory->judged;
-      memory->mistakes += verdict == Verdict::kWrong ? 1 : 0;
-      memory->mistakes_in_row = verdict == Verdict::kWrong ? memory->mistakes_in_row + 1 : 0;
+      memory->mistakes += verdict == WindowVerdict::kWrong ? 1 : 0;
+      memory->mistakes_in_row = verdict == WindowVerdict::kWrong ? memory->mistakes_in_row + 1 : 0;
     }
   }
   state_.decided = true;
@@ -363,9 +363,9 @@ void Stepping::Remember(Verdict verdict) {
     return &record;
   };
   const double evidence = input_.evidence.asked;
-  if (verdict == Verdict::kUnknown) {
+  if (verdict == WindowVerdict::kUnknown) {
     note(CoachEvent::kUnjudged, fmt::format("seen in {} of {} frames", state_.stillness.seen, state_.stillness.frames));
-  } else if (verdict == Verdict::kRight) {
+  } else if (verdict == WindowVerdict::kRight) {
     note(CoachEvent::kRight, fmt::format("evidence {:.2f}; right from {:.2f} on", evidence, options_.right_from));
     if (state_.correcting == window.repetition) state_.corrections_here = 0;
     if (!was_wrong) return;
@@ -382,9 +382,9 @@ void Stepping::CloseWindow() {
   if (!ends && dance_frame < static_cast<double>(repetition.end) + options_.reaction_s * kJudgedRateHz) return;
   Mistake mistake = Mistake::kNone;
   if (!state_.decided) {
-    const Verdict verdict = Judge(mistake);
+    const WindowVerdict verdict = Judge(mistake);
     Remember(verdict);
-    if (verdict == Verdict::kWrong) AnswerMistake(mistake);
+    if (verdict == WindowVerdict::kWrong) AnswerMistake(mistake);
   }
   state_.open.reset();
 }
@@ -400,7 +400,7 @@ void Stepping::AnswerMistake(Mistake mistake) {
   record.move = window.move;
   record.mistake = mistake;
   record.evidence = evidence;
-  const PolicyInput asked{.verdict = Verdict::kWrong,
+  const PolicyInput asked{.verdict = WindowVerdict::kWrong,
                           .evidence = evidence,
                           .right_from = options_.right_from,
                           .move = state_.moves[window.move]};
@@ -420,7 +420,7 @@ void Stepping::AnswerMoment(double dance_frame) {
   const int repetition = state_.open ? state_.open->repetition : library_.RepetitionAt(dance_frame);
   if (repetition < 0) return;
   state_.moment_waits = false;
-  if (state_.open && !state_.decided) Remember(Verdict::kUnknown);
+  if (state_.open && !state_.decided) Remember(WindowVerdict::kUnknown);
   Interrupt(repetition, "a moment that was given");
 }
 

@@ -7,6 +7,9 @@
 
 namespace etude {
 
+/// An act is left so long before its end, while it is at rest in the ready stance: a join has something to go on with.
+constexpr int kBeforeEndFrames = 15;
+
 /// One frame of Coach::Step: takes the player in, goes on playing, shows that, and decides what comes next.
 class Stepping {
  public:
@@ -37,8 +40,8 @@ class Stepping {
   void OpenWindowAt(double dance_frame);
   void CloseWindow();
   void JudgeEarly();
-  void Remember(Verdict verdict);
-  Verdict Judge(Mistake& mistake) const;
+  void Remember(WindowVerdict verdict);
+  WindowVerdict Judge(Mistake& mistake) const;
   void AnswerMistake(Mistake mistake);
   void AnswerMoment(double dance_frame);
 

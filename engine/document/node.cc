@@ -11,7 +11,6 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kLargestDocument = 1 << 20;
 constexpr int kDeepestNesting = 32;
 constexpr int kMostValues = 10'000;  // yaml-cpp takes quadratic time to load them
 
@@ -123,10 +122,10 @@ const Node* Node::Find(std::string_view key) const {
   return nullptr;
 }
 
-Result<Node> ParseYaml(std::string_view text, const std::string& file) {
+Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t largest) {
   const Place whole{file, 0, 0};
-  if (text.size() > kLargestDocument) {
-    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), kLargestDocument);
+  if (text.size() > largest) {
+    return Fail(whole, "{} bytes of YAML; at most {} are read", text.size(), largest);
   }
   if (auto utf8 = CheckUtf8(text, file); !utf8) return tl::unexpected(utf8.error());
   if (EstimateNesting(text) > kDeepestNesting) return Fail(whole, "nested deeper than {} levels", kDeepestNesting);

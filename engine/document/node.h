@@ -31,8 +31,9 @@ struct Node::Entry {
 };
 
 /// Reads one YAML document. `file` names it in complaints. Refused: syntax errors, duplicate keys,
-/// aliases, a second document, more than 1 MiB of text or 10,000 values, nesting deeper than 32 levels.
-Result<Node> ParseYaml(std::string_view text, const std::string& file);
+/// aliases, a second document, more than `largest` bytes of text (1 MiB unless texts hold data) or 10,000 values, nesting
+/// deeper than 32 levels.
+Result<Node> ParseYaml(std::string_view text, const std::string& file, std::size_t largest = std::size_t{1} << 20);
 
 /// How many values a document or a part of it holds, itself among them.
 std::size_t CountValues(const Node& node);

@@ -144,11 +144,24 @@ void FindUnit(double stature, const std::optional<double>& given, BodyConversion
   }
 }
 
-/// Puts the body on the floor, in metres.
-void Ground(std::vector<BodyPose>& poses, BodyConversion& done) {
+double FindFloor(const std::vector<BodyPose>& poses) {
   // Not the very lowest: a single frame in which a marker was lost must not lift the whole clip.
   constexpr double kLow = 0.05;
-  done.floor = Percentile(OverFrames(poses, LowestPoint), kLow);
+  return Percentile(OverFrames(poses, LowestPoint), kLow);
+}
+
+double LegLength(const BodyPose& pose) {
+  return glm::distance(pose[kLeftHip], pose[kLeftKnee]) + glm::distance(pose[kLeftKnee], pose[kLeftAnkle]);
+}
+
+/// The floor told, unless the body stays out of its reach.
+double FloorOf(const std::vector<BodyPose>& poses, const std::optional<double>& told) {
+  const double own = FindFloor(poses);
+  return told && std::abs(own - *told) <= LegLength(poses.front()) ? *told : own;
+}
+
+/// Puts the body on the floor, in metres.
+void SetDown(std::vector<BodyPose>& poses, const BodyConversion& done) {
   for (BodyPose& pose : poses) {
     for (glm::dvec3& joint : pose.joints) joint = (joint - glm::dvec3(0, done.floor, 0)) * done.metres_per_unit;
   }
@@ -181,6 +194,22 @@ glm::dmat4 WorldFromFile(const BodyConversion& body) {
   return glm::scale(glm::dmat4(1), glm::dvec3(body.metres_per_unit)) * on_floor * upright;
 }
 
+std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options) {
+  std::vector<BodyPose> poses, glimpses;
+  BodyPose rest;
+  for (const Clip& clip : clips) {
+    BodySampler sampler(clip, map);
+    rest = sampler.Rest();
+    for (std::size_t f = 0; f < clip.frames.size(); ++f) poses.push_back(sampler.At(static_cast<double>(f)));
+    for (const BodyPose& pose : Glimpses(clip, sampler)) glimpses.push_back(pose);
+  }
+  if (poses.empty() || !std::ranges::all_of(poses, IsFinite)) return std::nullopt;
+  Ground ground{.up = options.up.value_or(FindUpAxis(rest, glimpses))};
+  for (BodyPose& pose : poses) pose = Upright(pose, ground.up);
+  ground.floor = options.floor.value_or(FindFloor(poses));
+  return ground;
+}
+
 bool IsTPose(const BodyPose& pose) {
   const glm::dvec3 up(0, 1, 0);
   const glm::dvec3 left = glm::cross(up, Facing(pose));
@@ -211,7 +240,8 @@ Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const
   const double stature = FindStature(rest, poses);
   if (stature < kSmallestBody) return Fail({file}, "the body's joints all lie in one point; it needs a size");
   FindUnit(stature, options.metres_per_unit, done);
-  Ground(poses, done);
+  done.floor = FloorOf(poses, options.floor);
+  SetDown(poses, done);
   done.note = Note(done, map, lies_along_z);
   done.motion = {.rate_hz = options.rate_hz, .poses = std::move(poses)};
   return done;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "engine/base/result.h"
@@ -16,7 +17,8 @@ struct BodyOptions {
   double rate_hz = kJudgedRateHz;
   std::optional<double> metres_per_unit = std::nullopt;
   std::optional<UpAxis> up = std::nullopt;
-  bool drop_t_pose = true;  ///< a leading one that the motion jumps away from
+  std::optional<double> floor = std::nullopt;  ///< its height along that axis, in the file's unit
+  bool drop_t_pose = true;                     ///< a leading one that the motion jumps away from
 };
 
 /// A clip as the twenty joints: metres, Y up, feet on the floor.
@@ -40,13 +42,25 @@ struct BodyConversion {
 ///   ankle over knee, hip, spine and neck to the head, divided by 0.92, at rest; if that is less than half or more than
 ///   double of the median over the frames, that median;
 /// - floor: the lowest joint (finger tips aside), 5th percentile over the frames, comes to y = 0. Where it
-///   stands on the floor and where it faces stay as in the file.
+///   stands on the floor and where it faces stay as in the file. Clips of one file share a floor: tell them FindGround;
+///   one that stays farther from it than its legs are long has another root, and its own floor.
 ///
 /// Refused, naming `file`: no frames, over an hour, over half a million poses, a body of no size, one whose left arm is
 /// on the side of its right leg, or whose feet point backwards (for composed feet: whose knees do): left and right are
 /// swapped then, or the axes left-handed.
 Result<BodyConversion> ToBodyMotion(const Clip& clip, const JointMap& map, const std::string& file,
                                     const BodyOptions& options = {});
+
+/// Which axis is up in a file, and where its floor is.
+struct Ground {
+  UpAxis up = UpAxis::kY;
+  double floor = 0;  ///< along that axis, in the file's unit
+};
+
+/// The ground that clips of one skeleton in one file stand on, by the rules of ToBodyMotion over the frames of all of
+/// them: who sits on a chair in one and stands up from it in another has no floor of his own in each. `options` may
+/// tell either. Nothing when no clip has a frame, or joints lie beyond all measure.
+std::optional<Ground> FindGround(std::span<const Clip> clips, const JointMap& map, const BodyOptions& options = {});
 
 /// From the file's unit and axes to where ToBodyMotion has put the body: for what else the clip moves, its meshes.
 glm::dmat4 WorldFromFile(const BodyConversion& body);

@@ -11,8 +11,9 @@ namespace etude {
 struct TransitionWay {
   const Choice* choice = nullptr;
   const Join* join = nullptr;
-  MatchRules rules;
-  std::vector<double> choice_settings, join_settings;  ///< one per setting of the choice, of the join; none: defaults
+  MatchRules rules = {};
+  std::vector<double> choice_settings = {},
+                      join_settings = {};  ///< one per setting of the choice, of the join; none: defaults
 };
 
 /// What a way made of a request.

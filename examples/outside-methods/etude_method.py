@@ -2,6 +2,13 @@
 
     run("my-solver", "1.0", prepare, answer)
 
+A program that takes a seat in a loop is spoken to step by step:
+
+    run_seat("my-policy", "1.0", prepare, begin, step)
+
+begin(kept, session) is called when a session begins, and gives what the method wants to remember during it;
+step(memory, step) gives the answer to one step.
+
 prepare(setting, options, files) is called when a setting is told, and gives what the method wants to keep of it.
 `options` are those of the scenario. answer(kept, problem, files) gives the answer, or raises NoAnswer. `files` is a
 folder of attachments, or None.
@@ -19,6 +26,22 @@ class NoAnswer(Exception):
 
 
 def run(name, version, prepare, answer):
+    converse(name, version, prepare, {"problem": lambda kept, message: answer(kept, message["problem"],
+                                                                             message.get("files"))})
+
+
+def run_seat(name, version, prepare, begin, step):
+    memory = {}
+
+    def begin_session(kept, message):
+        memory["session"] = begin(kept, message["begin"])
+
+    converse(name, version, prepare, {"begin": begin_session,
+                                      "step": lambda kept, message: step(memory["session"], message["step"])})
+
+
+def converse(name, version, prepare, replies):
+    """`replies`: by the type of a message, what it is answered with; None: `ready`."""
     output, sys.stdout = sys.stdout, sys.stderr
 
     def say(**message):
@@ -36,9 +59,13 @@ def run(name, version, prepare, answer):
         elif message["type"] == "setting":
             kept = prepare(message["setting"], options, message.get("files"))
             say(type="ready")
-        elif message["type"] == "problem":
+        elif message["type"] in replies:
+            number = {"number": message["number"]} if "number" in message else {}
             try:
-                found = answer(kept, message["problem"], message.get("files"))
-                say(type="answer", id=message["id"], answer=found)
+                found = replies[message["type"]](kept, message)
+                if found is None:
+                    say(type="ready")
+                else:
+                    say(type="answer", id=message["id"], answer=found, **number)
             except NoAnswer as reason:
                 say(type="no_answer", id=message["id"], reason=str(reason))

@@ -65,7 +65,7 @@ ClipFacts FactsWithoutClip(const std::string& reference, Error complaint) {
 }  // namespace
 
 std::vector<ClipFacts> FactsOf(const std::string& reference, const OpenOptions& options) {
-  auto clips = ReadClips(reference);
+  auto clips = ReadClips(reference, options);
   if (!clips) return {FactsWithoutClip(reference, clips.error())};
   std::vector<ClipFacts> all;
   for (SourceClip& clip : *clips) {

@@ -8,6 +8,8 @@
 
 #include "reports/films/capture_plate.h"
 #include "reports/films/cast.h"
+#include "reports/films/coached_scene.h"
+#include "reports/films/coached_session.h"
 #include "reports/films/convergence_scene.h"
 #include "reports/films/film.h"
 #include "reports/films/picture_strip.h"
@@ -123,6 +125,40 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
+/// A coached session around a correction; or, in words, why there is no film of it.
+Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
+                     LazyRenderer& lazy) {
+  constexpr int kLongest = 12 * kFilmRate;
+  Film film;
+  film.file = path.filename().string();
+  if (!cell) {
+    film.why_not = "There is no film of a session: no motion of one was kept.";
+    return film;
+  }
+  auto facts = ReadCoachedSession(*cell);
+  const auto renderer = facts ? lazy.Get() : Result<Renderer*>(nullptr);
+  if (!facts || !renderer) {
+    film.why_not = "There is no film of a session: " + ToString(facts ? renderer.error() : facts.error());
+    return film;
+  }
+  CoachedScene scene(std::move(*facts), fmt::format("{} · {} · {}", cell->scenario->name, cell->row->method, which),
+                     kLongest, **renderer);
+  return Shoot(scene, path);
+}
+
+/// A typical session, and the worst where that is another learner's.
+void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, LazyRenderer& lazy,
+                      Media& media) {
+  const ScenarioSummary& scenario = run.scenarios[index];
+  const auto typical = ChooseCell(run, scenario, "coach"), worst = ChooseWorstSession(run, scenario);
+  media.scenario_films.push_back({scenario.name, MakeSessionFilm(typical, "a typical session",
+                                                                 paths.films / FilmName(run, index, "session"), lazy)});
+  if (!worst || (typical && worst->row->trial == typical->row->trial)) return;
+  media.scenario_films.push_back(
+      {scenario.name,
+       MakeSessionFilm(worst, "the worst session", paths.films / FilmName(run, index, "worst-session"), lazy)});
+}
+
 }  // namespace
 
 Media MakeMedia(const RunData& run, const MediaPaths& paths) {
@@ -139,6 +175,9 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths) {
     } else if (auto race = FindTransitionRace(run, scenario)) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
                                                 paths.films / FilmName(run, i, "transitions"), renderer);
+    } else if (scenario.task == "coach") {
+      MakeSessionFilms(run, i, paths, renderer, media);
+      continue;
     } else {
       continue;
     }

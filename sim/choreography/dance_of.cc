@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/named.h"
 #include "engine/base/names.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/slow_demonstration.h"
@@ -115,6 +116,17 @@ std::string HintOf(const Move& move) {
     hint += fmt::format("{}{}", i > 0 ? "; then " : "", is_mirrored ? "the other side" : words);
   }
   return hint;
+}
+
+Result<std::vector<Move>> MovesOf(const Song& song) {
+  std::vector<Move> moves;
+  for (const SongPart& part : song.parts) {
+    if (FindByName(moves, part.move) != nullptr) continue;
+    ASSIGN_OR_RETURN(const auto move, LoadBuiltinMove(part.move));
+    ASSIGN_OR_RETURN(auto danced, AtTempo(move, part.half_time ? song.tempo_bpm / 2 : song.tempo_bpm, {}));
+    moves.push_back(std::move(danced));
+  }
+  return moves;
 }
 
 Result<Dance> DanceOf(const Song& song) {

@@ -107,13 +107,14 @@ std::vector<MusicTag> TagsOf(const Song& song) {
 
 }  // namespace
 
-Result<Song> ParseSong(std::string_view yaml, const std::string& file) {
+Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm) {
   ASSIGN_OR_RETURN(const auto document, ParseYaml(yaml, file));
 
   Fields fields(document, "a song");
   Song song;
   song.name = fields.RequiredText("song");
   song.tempo_bpm = fields.Number("tempo_bpm", 120, {40, 240});
+  if (tempo_bpm) song.tempo_bpm = *tempo_bpm;
   const Node* parts = fields.Raw("parts");
   RETURN_IF_ERROR(fields.Finish());
   if (parts == nullptr || parts->kind != Node::Kind::kSequence) {
@@ -131,10 +132,10 @@ Result<Song> ParseSong(std::string_view yaml, const std::string& file) {
 
 std::vector<std::string> BuiltinSongNames() { return NamesOf(BuiltinSongFiles(), StemOf); }
 
-Result<Song> LoadBuiltinSong(const std::string& name) {
+Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm) {
   const EmbeddedText* file = FindByName(BuiltinSongFiles(), name, StemOf);
   if (file == nullptr) return Fail({}, "{}", UnknownName("song", name, BuiltinSongNames()));
-  return ParseSong(file->text, "scenarios/choreography/songs/" + std::string(file->name));
+  return ParseSong(file->text, "scenarios/choreography/songs/" + std::string(file->name), tempo_bpm);
 }
 
 }  // namespace etude

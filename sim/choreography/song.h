@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,9 @@ struct Song {
   BodyMotion motion;           ///< 30 Hz, from the ready stance to the ready stance, moves flowing into each other
 };
 
-/// Reads a song whose moves are the built-in ones; it may last ten minutes.
-Result<Song> ParseSong(std::string_view yaml, const std::string& file);
+/// Reads a song whose moves are the built-in ones; it may last ten minutes. `tempo_bpm`: other than the file's.
+Result<Song> ParseSong(std::string_view yaml, const std::string& file, std::optional<double> tempo_bpm = {});
 std::vector<std::string> BuiltinSongNames();
-Result<Song> LoadBuiltinSong(const std::string& name);
+Result<Song> LoadBuiltinSong(const std::string& name, std::optional<double> tempo_bpm = {});
 
 }  // namespace etude

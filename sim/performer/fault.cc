@@ -36,7 +36,7 @@ const std::vector<std::string>& FaultNameList() {
   return names;
 }
 
-Fault FindFault(std::string_view name) { return ValueNamed(kFaults, name); }
+std::optional<Fault> FindFault(std::string_view name) { return FindValue(kFaults, name); }
 
 std::string FaultNames(const std::vector<GradedFault>& faults) {
   std::string names;

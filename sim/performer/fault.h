@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +37,8 @@ const std::vector<Fault>& AllFaults();
 std::string_view FaultName(Fault fault);
 /// The names of AllFaults().
 const std::vector<std::string>& FaultNameList();
-/// `name` must be one of FaultNameList().
-Fault FindFault(std::string_view name);
+/// Nothing where no fault has this name.
+std::optional<Fault> FindFault(std::string_view name);
 /// "none", or the names joined by "+": "amplitude+late".
 std::string FaultNames(const std::vector<GradedFault>& faults);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "engine/base/smoothstep.h"
@@ -19,7 +20,7 @@ namespace {
 // knowledge much, is Salmoni, Schmidt and Walter's (1984) first finding.
 constexpr double kPractice = 0.25;
 constexpr double kDemonstration = 1;
-constexpr double kCorrection = 2;  // of the faults that were made
+constexpr double kCorrection = 4;  // of the faults that were made
 constexpr double kWrongPraise = 0.5;
 
 // Feedback guides (Winstein and Schmidt 1990): right after it errors are rarer, which does not last.
@@ -36,8 +37,29 @@ constexpr double kPraiseGain = 0.03;
 /// The severity of a fault when it happens (ours): seldom too mild to be wrong.
 constexpr double kLeastSeverity = 0.35;
 
-/// How often each fault happens to somebody without any skill (ours), in the order of Fault.
-constexpr std::array<double, 10> kProneness = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
+/// How often each fault happens to somebody without any skill, in the order of Fault (ours).
+constexpr std::array<double, 10> kUsual = {0.25, 0.10, 0.10, 0.12, 0.15, 0.10, 0.12, 0.12, 0.08, 0.10};
+using Proneness = std::array<double, 10>;
+
+/// People err in ways of their own: in each move two faults come most of the time, the others seldom (ours).
+Proneness DrawProneness(RandomStream& dice, std::span<const GradedFault> showable) {
+  constexpr std::array<double, 2> kTypical = {0.45, 0.25};
+  constexpr double kSeldom = 0.3;
+  Proneness usual{}, proneness{};
+  for (const GradedFault& fault : showable)
+    usual[static_cast<std::size_t>(fault.fault)] = kUsual[static_cast<std::size_t>(fault.fault)];
+  for (std::size_t i = 0; i < usual.size(); ++i) proneness[i] = kSeldom * usual[i];
+  for (double typical : kTypical) {
+    const double all = std::accumulate(usual.begin(), usual.end(), 0.0);
+    double left = dice.Uniform() * all;
+    if (all == 0) break;  // no further fault can be shown
+    std::size_t chosen = 0;
+    while (chosen + 1 < usual.size() && (usual[chosen] == 0 || left >= usual[chosen])) left -= usual[chosen++];
+    proneness[chosen] = typical;
+    usual[chosen] = 0;
+  }
+  return proneness;
+}
 
 /// Of people: how skilled they start, on average, and how patient they are (ours).
 struct Beginning {
@@ -57,10 +79,8 @@ Beginning BeginningOf(People kind) {
   }
 }
 
-std::vector<Skill> DrawSkills(const WorldKey& key, const Person& person, const Move& move,
-                              const LearnerOptions& options) {
+std::vector<Skill> DrawSkills(RandomStream& dice, const Person& person, const LearnerOptions& options) {
   constexpr double kSpread = 0.15, kFloor = 0.02;
-  RandomStream dice(key, "learner-skill/" + move.name);
   std::vector<Skill> skills;
   for (std::size_t i = 0; i < AllFaults().size(); ++i) {
     const double thrown = BeginningOf(person.kind).skill + kSpread * std::clamp(dice.Normal(), -2.0, 2.0);
@@ -79,6 +99,7 @@ Sway DrawSway(const WorldKey& key) {
 
 struct Learner::MoveState {
   std::vector<Skill> skills;  // in the order of Fault
+  Proneness proneness{};      // to each, without any skill
   std::unique_ptr<Style> style;
   int attempts = 0;
   std::optional<std::size_t> latest;  // performance that is over and was not cut
@@ -89,7 +110,7 @@ struct Learner::MoveState {
 
   double ChanceOf(Fault fault) const {
     const auto i = static_cast<std::size_t>(fault);
-    return kProneness[i] * skills[i].Error() * (1 - guided);
+    return proneness[i] * skills[i].Error() * (1 - guided);
   }
 };
 
@@ -134,9 +155,11 @@ Learner::Learner(const WorldKey& key, const Person& person, std::span<const Move
       rest_(RestOf(person)),
       sway_(DrawSway(key)),
       patience_(BeginningOf(person.kind).patience) {
-  for (const Move& move : moves) {
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    RandomStream dice(key, "learner-skill/" + moves[i].name);
     MoveState& known = known_.emplace_back();
-    known.skills = DrawSkills(key, person, move, options);
+    known.skills = DrawSkills(dice, person, options);
+    known.proneness = DrawProneness(dice, showable.Of(i));
   }
   layers_.emplace_back().seen_s = -1;
 }
@@ -305,24 +328,16 @@ void Learner::SpendPatience(double cost) {
 
 double Learner::ChanceOfRight(std::size_t move) const {
   double chance = 1;
-  std::optional<Fault> counted;
-  for (const GradedFault& fault : showable_.Of(move)) {
-    if (counted != fault.fault) chance *= 1 - known_[move].ChanceOf(fault.fault);
-    counted = fault.fault;
-  }
+  for (Fault fault : AllFaults()) chance *= 1 - known_[move].ChanceOf(fault);
   return chance;
 }
 
 double Learner::RetainedChanceOfRight(std::size_t move, int performances_later) const {
   double chance = 1;
-  std::optional<Fault> counted;
-  for (const GradedFault& fault : showable_.Of(move)) {
-    if (counted == fault.fault) continue;
-    counted = fault.fault;
-    const auto i = static_cast<std::size_t>(fault.fault);
+  for (std::size_t i = 0; i < AllFaults().size(); ++i) {
     Skill rested = known_[move].skills[i];
     rested.Rest(performances_later);
-    chance *= 1 - kProneness[i] * rested.Error();
+    chance *= 1 - known_[move].proneness[i] * rested.Error();
   }
   return chance;
 }

@@ -81,7 +81,8 @@ bool IsOfTheArm(SideControl control) { return control <= SideControl::kWrist; }
 std::array<double, kControlCount> DrawGains(RandomStream& random, const Preset& preset) {
   constexpr double kLeastLower = 0.25;
   const double lower = std::max(kLeastLower, preset.lower + preset.lower_spread * Bounded(random));
-  const auto own = [&] { return std::exp(preset.gain_spread * Bounded(random)); };
+  constexpr double kLeast = 0.65, kMost = 1.5;
+  const auto own = [&] { return std::clamp(std::exp(preset.gain_spread * Bounded(random)), kLeast, kMost); };
   std::array<double, kControlCount> gains{};
   for (std::size_t i = 0; i < kMiddleControlCount; ++i) gains[i] = lower * own();
   const double strong_left = std::exp(0.5 * preset.asymmetry * Bounded(random));
@@ -122,7 +123,8 @@ Person DrawPerson(const WorldKey& key, People people) {
   person.tempo = preset.tempo * std::exp(preset.tempo_spread * Bounded(random));
   person.tempo_spread = preset.own_tempo_spread;
   person.drift = preset.drift;
-  person.amplitude = preset.amplitude + preset.amplitude_spread * Bounded(random);
+  constexpr double kLeastAmplitude = 0.55;  // of who means to dance
+  person.amplitude = std::max(kLeastAmplitude, preset.amplitude + preset.amplitude_spread * Bounded(random));
   person.tiring = preset.tiring * std::exp(0.4 * Bounded(random));
   person.looseness = preset.looseness;
   person.gains = DrawGains(random, preset);
@@ -132,7 +134,7 @@ Person DrawPerson(const WorldKey& key, People people) {
 }
 
 double VigourAfter(const Person& person, double danced_s) {
-  constexpr double kLeast = 0.5;
+  constexpr double kLeast = 0.6;
   return std::max(kLeast, std::exp(-person.tiring * danced_s / 60));
 }
 

@@ -63,8 +63,9 @@ class EtudeCase(unittest.TestCase):
         path.write_text(text)
         return str(path)
 
-    def etude(self, *arguments):
-        return subprocess.run([ETUDE, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    def etude(self, *arguments, text=None):
+        """Runs the program; `text` is what it reads from its standard input."""
+        return subprocess.run([ETUDE, *map(str, arguments)], input=text, capture_output=True, text=True, timeout=120)
 
     def run_suite(self, *arguments, out=None):
         """`etude run` that must succeed; gives the rows."""

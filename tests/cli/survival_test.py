@@ -185,13 +185,20 @@ methods:
         self.assertIn("159 of 160 cells came out the same", result.stdout)
 
     def test_a_packed_cell_replays_without_anything_else(self):
+        self.check_pack("t/-/001/fuzzy", "clips: ['{glb}#clap', {bvh}, 'builtin:sway']")
+
+    def test_so_does_a_packed_cell_of_a_library(self):
+        self.check_pack("t/library=two/001/fuzzy",
+                        "libraries: {{one: ['{glb}#clap', 'builtin:sway'], two: [{bvh}, 'builtin:clap']}}")
+
+    def check_pack(self, cell, clips):
         bvh, glb = self.folder / "walk.bvh", self.folder / "clap.glb"
         shutil.copy("/usr/share/assimp/models/BVH/01_03.bvh", bvh)
         self.assertEqual(self.etude("clip", "convert", "builtin:clap", glb, "--character", "bear").returncode, 0)
         scenario = self.write("transition.yaml", f"""scenario: t
 question: Does it run?
 task: transition
-clips: ['{glb}#clap', {bvh}, 'builtin:sway']
+{clips.format(glb=glb, bvh=bvh)}
 trials: 3
 methods:
   - {{name: cut, choice: now, join: cut}}
@@ -199,14 +206,14 @@ methods:
 """)
         self.run_suite(scenario)
         pack = self.folder / "cell.etude"
-        packed = self.etude("replay", self.out, "--cell", "t/-/001/fuzzy", "--pack", pack)
+        packed = self.etude("replay", self.out, "--cell", cell, "--pack", pack)
         self.assertEqual(packed.returncode, 0, packed.stderr)
         bvh.unlink()
         glb.unlink()
         shutil.rmtree(self.out)
         replayed = subprocess.run([ETUDE, "replay", pack], cwd="/", capture_output=True, text=True, timeout=60)
         self.assertEqual(replayed.returncode, 0, replayed.stderr)
-        self.assertIn("t/-/001/fuzzy: the same, stage by stage", replayed.stdout)
+        self.assertIn(f"{cell}: the same, stage by stage", replayed.stdout)
         pack.write_bytes(pack.read_bytes()[:-20])
         torn = self.etude("replay", pack)
         self.assertEqual(torn.returncode, 2)

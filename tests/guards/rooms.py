@@ -19,6 +19,7 @@ MAY_INCLUDE = {
         "engine/transitions/joins engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
+    "engine/formats/deepmimic": "engine/base engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
     "engine/fuzzy": "engine/base engine/document engine/motion",
     "engine/keypoints":
@@ -31,6 +32,7 @@ MAY_INCLUDE = {
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
     "engine/streams": "engine/base engine/formats engine/recognition",
+    "engine/teaching": "engine/base engine/document engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
     "engine/transitions/bridge_frames":
@@ -56,7 +58,7 @@ MAY_INCLUDE = {
     "sim/choreography":
         "engine/base engine/coaching engine/document engine/fuzzy engine/motion sim/random",
     "sim/depth_camera": "engine/base engine/cameras sim/random sim/sensors sim/skeleton_sensor",
-    "sim/music": "engine/motion sim/random",
+    "sim/music": "engine/base engine/motion sim/random",
     "sim/performer": "engine/base engine/motion sim/choreography sim/random",
     "sim/random": "engine/base",
     "sim/render": "engine/base engine/cameras sim/body sim/random",
@@ -69,8 +71,8 @@ MAY_INCLUDE = {
     # bench/
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
-        "engine/base engine/formats engine/formats/gltf engine/motion engine/retargeting sim/character "
-        "sim/choreography bench/files",
+        "engine/base engine/formats engine/formats/deepmimic engine/formats/gltf engine/motion engine/retargeting "
+        "sim/character sim/choreography bench/files",
     "bench/dataset": "engine/base bench/files bench/run bench/scenario",
     "bench/files": "engine/base",
     "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",
@@ -96,8 +98,10 @@ MAY_INCLUDE = {
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "sim/random bench/metrics bench/model",
+    "bench/streams":
+        "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
     "bench/tasks":
-        "engine/base bench/tasks/base bench/tasks/capture bench/tasks/detection bench/tasks/ik "
+        "engine/base bench/tasks/base bench/tasks/capture bench/tasks/coach bench/tasks/detection bench/tasks/ik "
         "bench/tasks/pose_distance bench/tasks/search bench/tasks/tracking bench/tasks/transition",
     "bench/tasks/base":
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
@@ -106,6 +110,10 @@ MAY_INCLUDE = {
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
         "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
+    "bench/tasks/coach":
+        "engine/base engine/coaching engine/motion engine/recognition "
+        "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
+        "bench/tasks/base bench/tasks/detection bench/tasks/transition",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "
         "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base",
@@ -137,8 +145,9 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
     "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion reports/films",
     "reports/clips":
-        "engine/base engine/motion engine/retargeting sim/body sim/character sim/choreography sim/render bench/clips "
-        "bench/files reports/films reports/words",
+        "engine/base engine/motion engine/retargeting engine/transitions/joins sim/body sim/character sim/choreography "
+        "sim/render bench/clips bench/files reports/films reports/words",
+    "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/camera sim/character sim/render sim/sensors "
         "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",

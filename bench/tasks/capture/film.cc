@@ -109,11 +109,8 @@ Take Film(const CaptureWorld& world, const StudioOptions& options, const WorldKe
   for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
     std::vector<PersonFinder> finders;
     for (const PersonSource& source : sources) {
-      finders.emplace_back(
-          crew.backgrounds()[camera],
-          PersonOptions{.segmenter = source.segmenter,
-                        .change = {},
-                        .pieces = source.for_silhouettes ? PersonPieces::kLarge : PersonPieces::kLargest});
+      finders.emplace_back(crew.backgrounds()[camera],
+                           PersonOptions{.segmenter = source.segmenter, .change = {}, .pieces = source.pieces});
     }
     for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
       const Crew::Picture picture = crew.Shoot(camera, frame);

@@ -18,9 +18,9 @@ namespace etude {
 /// How the person was cut out of the pictures, by a segmenter or by the truth, and who marks what is left.
 struct PersonSource {
   Segmenter segmenter = Segmenter::kHue;
+  PersonPieces pieces = PersonPieces::kLargest;
   bool is_truth = false;
-  /// Cut out for methods that read silhouettes alone: every large piece belongs to the person, masks are kept, and
-  /// nobody marks the pictures.
+  /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
   bool for_silhouettes = false;
   bool has_true_marks = false;  ///< drawn by someone who knows where the joints are, where the picture shows them
   auto operator<=>(const PersonSource&) const = default;

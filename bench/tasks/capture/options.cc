@@ -120,6 +120,10 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
     FieldTable<Method> made{
         {Key::Name("segmenter", &Method::segmenter, SegmenterNames(), SegmenterNamed,
                    "How the person is cut out of the pictures."),
+         Key::Name("pieces", &Method::pieces, {{"largest", PersonPieces::kLargest}, {"large", PersonPieces::kLarge}},
+                   "Which pieces of what changed are the person: the largest alone (paper B), or every one of some "
+                   "size beside it, too.")
+             .With("recovery", {"ik", "ends", "bundle"}),
          Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
                    "How a camera is computed from its calibration points."),
          Key::Name("sync", &Method::sync, {{"assumed", Sync::kAssumed}, {"estimated", Sync::kEstimated}},

@@ -102,6 +102,8 @@ enum class SilhouetteStart {
 struct CaptureMethod {
   std::string name;
   Segmenter segmenter = Segmenter::kHue;
+  PersonPieces pieces =
+      PersonPieces::kLargest;  ///< of methods that read silhouettes all large ones, whatever stands here
   Calibration calibration = Calibration::kDlt;
   Sync sync = Sync::kAssumed;
   Outliers outliers = Outliers::kKeep;

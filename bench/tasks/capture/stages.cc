@@ -199,12 +199,15 @@ Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& 
 }
 
 PersonSource PersonSourceOf(const CaptureMethod& method) {
+  const bool for_silhouettes = method.recovery == Recovery::kSilhouettes;
   PersonSource source{.segmenter = method.segmenter,
+                      .pieces = for_silhouettes ? PersonPieces::kLarge : method.pieces,
                       .is_truth = false,
-                      .for_silhouettes = method.recovery == Recovery::kSilhouettes,
+                      .for_silhouettes = for_silhouettes,
                       .has_true_marks = method.oracle.marks};
   if (method.oracle.segmentation) {
     source.segmenter = Segmenter::kHue;
+    source.pieces = PersonPieces::kLargest;
     source.is_truth = true;
   }
   return source;

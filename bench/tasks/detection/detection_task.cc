@@ -7,14 +7,12 @@
 #include <deque>
 
 #include "bench/tasks/base/read_methods.h"
-#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/detection/exchange.h"
 #include "bench/tasks/detection/operating_point.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/run.h"
 #include "bench/tasks/detection/score.h"
 #include "bench/tasks/detection/world.h"
-#include "sim/skeleton_sensor/sensor_file.h"
 
 namespace etude {
 namespace {
@@ -128,7 +126,7 @@ class DetectionTask final : public Task {
     return {clip.name};
   }
 
-  Result<Payload> Setting() const override { return MovesPayload(repertoire_); }
+  Result<Payload> Setting() const override { return MovesPayload(repertoire_.moves); }
 
   std::optional<double> ValueOfFailure(std::string_view metric) const override {
     const SessionOptions& session = options_.session;  // PlanSession rounds the share to whole events
@@ -151,17 +149,6 @@ class DetectionTask final : public Task {
   mutable MethodDecisions decisions_{methods_, repertoire_, options_};  // a memory of what depends on keys alone
   std::vector<TrialClip> clips_;
 };
-
-/// The sensor that the condition names, v2 when it names none.
-Result<SkeletonSensorOptions> SensorOf(const TaskInput& input) {
-  const Node* named = input.condition.node().Find(kSensorKey);
-  if (named == nullptr) return SensorV2();
-  if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
-    return Fail(named->place, "'{}' must be v1, v2 or a sensor file, found {}", kSensorKey, Describe(*named));
-  }
-  if (const auto preset = FindSensorPreset(named->scalar)) return *preset;
-  return ReadSensorFile(input.texts.at(kSensorKey), named->scalar);
-}
 
 Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   DetectionOptions options;

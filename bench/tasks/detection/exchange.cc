@@ -51,11 +51,11 @@ Judgement ReadEvent(AnswerFields& fields, const FrameInterval& window) {
 
 }  // namespace
 
-Payload MovesPayload(const Repertoire& repertoire) {
+Payload MovesPayload(std::span<const Move> moves) {
   Payload setting = PayloadOf(DescribeBody());
-  Json& moves = (*setting.json)["moves"] = Json::array();
-  for (const Move& move : repertoire.moves) {
-    moves.push_back(DescribeMove(move));
+  Json& told = (*setting.json)["moves"] = Json::array();
+  for (const Move& move : moves) {
+    told.push_back(DescribeMove(move));
     setting.files.push_back({FileOf(move), WriteBvh(ToClip(move.motion, move.name))});
   }
   return setting;

@@ -18,7 +18,7 @@ namespace etude {
 ///
 /// `poses` is one performance of the move, done perfectly; a key pose is reached when all its angles are (features:
 /// paper A's ten, engine/fuzzy).
-Payload MovesPayload(const Repertoire& repertoire);
+Payload MovesPayload(std::span<const Move> moves);
 
 /// Problem: what the sensor saw, and what the coach asked for and when. A performance is judged in its window
 /// [begin_frame, end_frame). `states` has one letter per joint: tracked, inferred, not tracked.

@@ -2,6 +2,7 @@
 
 #include "bench/keys/setting_fields.h"
 #include "bench/tasks/base/sensor_key.h"
+#include "sim/skeleton_sensor/sensor_file.h"
 
 namespace etude {
 namespace {
@@ -40,6 +41,16 @@ std::vector<MethodKey> FilterFields() {
 
 }  // namespace
 
+Result<SkeletonSensorOptions> SensorOf(const TaskInput& input) {
+  const Node* named = input.condition.node().Find(kSensorKey);
+  if (named == nullptr) return SensorV2();
+  if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
+    return Fail(named->place, "'{}' must be v1, v2 or a sensor file, found {}", kSensorKey, Describe(*named));
+  }
+  if (const auto preset = FindSensorPreset(named->scalar)) return *preset;
+  return ReadSensorFile(input.texts.at(kSensorKey), named->scalar);
+}
+
 const FieldTable<OperatingPoint>& OperatingPointFields() {
   using Key = Field<OperatingPoint>;
   static const FieldTable<OperatingPoint> table{
@@ -68,7 +79,7 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
             "The faults that may happen; none named: all."},
            [](Fields& condition, Options& o) {
              for (const std::string& name : ReadNames(condition, "faults", FaultNameList())) {
-               o.session.faults.push_back(FindFault(name));
+               if (const auto fault = FindFault(name)) o.session.faults.push_back(*fault);
              }
            }},
        Key::Number(

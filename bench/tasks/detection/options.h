@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/keys/field_table.h"
+#include "bench/tasks/base/task.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/recognisers.h"
@@ -59,6 +60,9 @@ struct DetectionMethod {
     return {.threshold = threshold.value_or(recogniser.kind->threshold), .refractory_s = refractory_s};
   }
 };
+
+/// The sensor that the condition names, v2 when it names none.
+Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
 /// `threshold` may stand in the condition for all methods, which makes it sweepable.

@@ -11,9 +11,7 @@
 #include "sim/skeleton_sensor/skeleton_sensor.h"
 
 namespace etude {
-namespace {
-
-TaughtMove Teach(const Move& move) {
+TaughtMove TaughtOf(const Move& move) {
   constexpr double kForTheSlow = 0.5;  // seconds beyond one performance at the taught tempo
   TaughtMove taught{.name = move.name,
                     .span_s = 60.0 * move.beats / move.tempo_bpm + kForTheSlow,
@@ -29,14 +27,12 @@ TaughtMove Teach(const Move& move) {
   return taught;
 }
 
-}  // namespace
-
 Repertoire RepertoireOf(const ClipLibrary& library) {
   Repertoire repertoire;
   for (const LibraryClip& clip : library.clips) {
     if (!clip.move || clip.move->key_poses.empty() || FindByName(repertoire.moves, clip.move->name)) continue;
     repertoire.moves.push_back(*clip.move);
-    repertoire.taught.push_back(Teach(*clip.move));
+    repertoire.taught.push_back(TaughtOf(*clip.move));
   }
   std::ranges::sort(repertoire.taught, {}, &TaughtMove::name);
   return repertoire;

@@ -23,6 +23,9 @@ struct Repertoire {
 /// The labelled clips of the library, each move once. Empty when there are none.
 Repertoire RepertoireOf(const ClipLibrary& library);
 
+/// What recognisers are taught of a move.
+TaughtMove TaughtOf(const Move& move);
+
 /// One trial: a session as it was truly performed, and as the sensor saw it.
 struct DetectionWorld {
   Performance session;

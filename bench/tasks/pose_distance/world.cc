@@ -37,11 +37,13 @@ DancedClips DanceClips(const ClipLibrary& library) {
                     .names = {},
                     .identities = {},
                     .motions = {}};
+  std::vector<BodyMotion> motions;
   for (const LibraryClip& clip : library.clips) {
     clips.names.push_back(clip.name);
     clips.identities.push_back(clip.source);
-    clips.motions.push_back(PerformedBy(clips.proportions, clip.motion));
+    motions.push_back(clip.motion);
   }
+  clips.motions = PerformedBy(clips.proportions, motions);
   return clips;
 }
 

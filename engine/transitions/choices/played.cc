@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -19,8 +20,8 @@ namespace etude {
 namespace {
 
 constexpr int kPairs = 12;
-constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0};
-constexpr std::size_t kPlayedWithFeet = 4;
+constexpr std::array kLengths_s = {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2};
+constexpr std::size_t kPlayedWithFeet = 12;
 constexpr std::size_t kMostCompared = 20'000;  // pairs of frames whose features are compared
 
 struct FramePair {
@@ -125,19 +126,6 @@ OwnAccelerations OwnOf(const JoinWindow& window) {
   return own;
 }
 
-/// The largest second difference of any joint beyond the motions' own, centimetres; none is 0.
-double ExcessCm(const JoinWindow& window, const std::vector<BodyPose>& played, const OwnAccelerations& own) {
-  double worst = 0;
-  for (int f = 0; f < window.Frames(); ++f) {
-    const BodyPose& before = f > 0 ? played[f - 1] : window.shown.before;
-    for (std::size_t j = 0; j < kRoleCount; ++j) {
-      const double here = glm::length(SecondDifferenceOf(before, played[f], played[f + 1], j));
-      worst = std::max(worst, here - own[f][j]);
-    }
-  }
-  return 100 * worst;
-}
-
 double SquaredOff(const BodyPose& a, const BodyPose& b) {
   double sum = 0;
   for (std::size_t j = 0; j < kRoleCount; ++j) {
@@ -147,14 +135,41 @@ double SquaredOff(const BodyPose& a, const BodyPose& b) {
   return sum / kRoleCount;
 }
 
-/// How far the frames shown are from the nearer of both motions' own, summed over time, centimetres × seconds.
-double InventedCmSeconds(const JoinWindow& window, const std::vector<BodyPose>& played) {
-  double sum = 0;
-  for (int f = 1; f < window.Frames(); ++f) {
-    sum += std::sqrt(std::min(SquaredOff(played[f], window.old[f]), SquaredOff(played[f], window.next[f])));
+/// Adds up what the frames of a join cost, in their order, the one at the point first.
+class CostMeter {
+ public:
+  CostMeter(const JoinWindow& window, const OwnAccelerations& own, const PlayedOptions& options)
+      : window_(window), own_(own), options_(options), before_(window.shown.before) {}
+
+  void Add(const BodyPose& shown) {
+    if (count_ > 0) {
+      const std::size_t f = count_ - 1;  // of `here_`, whose neighbours are known now
+      for (std::size_t j = 0; j < kRoleCount; ++j) {
+        const double jump = glm::length(SecondDifferenceOf(before_, here_, shown, j));
+        worst_excess_ = std::max(worst_excess_, jump - own_[f][j]);
+      }
+      if (f > 0) off_ += std::sqrt(std::min(SquaredOff(here_, window_.old[f]), SquaredOff(here_, window_.next[f])));
+      before_ = here_;
+    }
+    here_ = shown;
+    ++count_;
   }
-  return 100 * sum / window.rate_hz;
-}
+
+  /// Of the frames added, seconds: it never becomes less.
+  double Seconds() const {
+    constexpr double kCm = 100;
+    return kCm * (worst_excess_ / options_.excess_per_s + off_ / window_.rate_hz / options_.invented_per_s);
+  }
+
+ private:
+  const JoinWindow& window_;
+  const OwnAccelerations& own_;
+  const PlayedOptions& options_;
+  BodyPose before_, here_;
+  std::size_t count_ = 0;
+  double worst_excess_ = 0;  // the largest second difference of any joint beyond the motions' own, metres
+  double off_ = 0;           // metres, summed over the frames
+};
 
 /// A transition that was played.
 struct PlayedWay {
@@ -191,12 +206,22 @@ class Rehearsal {
 
   double Time(const PlayedWay& way) const { return (way.pair.leave - request_.request_frame + way.frames) / rate_hz_; }
 
-  double Cost(const PlayedWay& way, bool with_feet) const {
+  /// Without feet. Not all of it is counted once it is `enough`.
+  double Cost(const PlayedWay& way, double enough) const {
+    const JoinWindow& window = windows_[way.number];
+    const MinimumJerkPlay play(window, way.frames, way.fades);
+    CostMeter meter(window, own_[way.number], options_);
+    for (int frame = 0; frame <= way.frames && Time(way) + meter.Seconds() < enough; ++frame) meter.Add(play.At(frame));
+    return Time(way) + meter.Seconds();
+  }
+
+  double CostWithFeet(const PlayedWay& way) const {
     const JoinWindow window = Shortened(windows_[way.number], way.frames);
     std::vector<BodyPose> played = PlayMinimumJerk(window, way.fades);
-    if (with_feet) PlantFeet(window, played);
-    return Time(way) + ExcessCm(window, played, own_[way.number]) / options_.excess_per_s +
-           InventedCmSeconds(window, played) / options_.invented_per_s;
+    PlantFeet(window, played);
+    CostMeter meter(window, own_[way.number], options_);
+    for (const BodyPose& pose : played) meter.Add(pose);
+    return Time(way) + meter.Seconds();
   }
 
   /// A way whose time alone costs more than the best is not played.
@@ -214,15 +239,19 @@ class Rehearsal {
       }
     }
     std::ranges::sort(open, IsBetterWay);
-    std::vector<double> costs;
+    std::vector<double> least;  // costs of as many as will be played with feet, the largest first in the heap
     for (PlayedWay& way : open) {
-      // As many as will be played with feet may cost more without them than the best does.
-      if (costs.size() >= kPlayedWithFeet) {
-        std::ranges::nth_element(costs, costs.begin() + kPlayedWithFeet - 1);
-        if (way.cost_s >= costs[kPlayedWithFeet - 1]) break;
+      const bool is_full = least.size() == kPlayedWithFeet;
+      const double enough = is_full ? least.front() : std::numeric_limits<double>::infinity();
+      if (way.cost_s >= enough) break;
+      way.cost_s = Cost(way, enough);
+      if (way.cost_s >= enough) continue;
+      if (is_full) {
+        std::ranges::pop_heap(least);
+        least.pop_back();
       }
-      way.cost_s = Cost(way, false);
-      costs.push_back(way.cost_s);
+      least.push_back(way.cost_s);
+      std::ranges::push_heap(least);
       ways_.push_back(way);
     }
     std::ranges::sort(ways_, IsBetterWay);
@@ -230,7 +259,7 @@ class Rehearsal {
 
   void PlayBestWithFeet() {
     if (ways_.size() > kPlayedWithFeet) ways_.resize(kPlayedWithFeet);
-    for (PlayedWay& way : ways_) way.cost_s = Cost(way, true);
+    for (PlayedWay& way : ways_) way.cost_s = CostWithFeet(way);
     std::ranges::sort(ways_, IsBetterWay);
   }
 

@@ -10,15 +10,15 @@ namespace etude {
 struct PlayedOptions {
   /// What a second of waiting or of joining is worth: so much acceleration, centimetres per frame², beyond the clips'
   /// own. A smaller one takes smoother transitions that come later and last longer.
-  double excess_per_s = 1;
+  double excess_per_s = 0.5;
   /// Likewise of poses that neither motion has: so many centimetres, over as many seconds, off the nearer of the two.
-  double invented_per_s = 10;
+  double invented_per_s = 5;
   double least_play_s = 1;  ///< what must be left of the wanted clip to play, as PointCloudOptions'
 };
 const SettingTable<PlayedOptions>& PlayedSettings();
 
 /// Plays transitions before it takes one. Of the pairs of frames that the budget and `least_play_s` allow, a dozen,
-/// each the nearest by MotionFeatures for its part of the wait, are joined at several lengths from 0.3 to 1 s, as far
+/// each the nearest by MotionFeatures for its part of the wait, are joined at several lengths from 0.3 to 1.2 s, as far
 /// as the wanted clip goes, in both ways of PlayMinimumJerk, and the one of least cost is taken: wait + length + the
 /// largest acceleration of any joint beyond what either clip has of its own there (`excess_per_s`) + how far the frames
 /// shown are from both clips' own, the root of the mean over joints, summed over time (`invented_per_s`). The best are

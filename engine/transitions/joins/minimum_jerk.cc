@@ -45,19 +45,8 @@ JoinWindow WindowOf(const JoinInput& input, int frames) {
 
 namespace {
 
-/// Both motions go on, and limb by limb the new one takes over.
-std::vector<BodyPose> PlayFade(const JoinWindow& window) {
-  std::vector<BodyPose> played{window.shown.now};
-  for (int frame = 1; frame <= window.Frames(); ++frame) {
-    const double share = Smootherstep(static_cast<double>(frame) / window.Frames());
-    played.push_back(PoseBetween(window.old[frame], window.next[frame], share));
-  }
-  return played;
-}
-
 /// The new motion goes on, and what the old one was off from it dies away.
-std::vector<BodyPose> PlayDecay(const JoinWindow& window) {
-  const double blend_s = window.Frames() / window.rate_hz;
+Inertialiser DecayOf(const JoinWindow& window, int frames) {
   JoinInput input{.shown = window.shown,
                   .target = {window.target_before, window.next[0]},
                   .continuation = {},
@@ -70,21 +59,31 @@ std::vector<BodyPose> PlayDecay(const JoinWindow& window) {
     input.target.before = window.next[1];
     direction = -1;
   }
-  const Inertialiser inertialiser(input, [blend_s, direction](const Offset& offset, double seconds) {
-    return MinimumJerkDecay({offset.value, direction * offset.velocity}, seconds, blend_s);
-  });
-  std::vector<BodyPose> played{window.shown.now};
-  for (int frame = 1; frame <= window.Frames(); ++frame) {
-    played.push_back(inertialiser.Apply(window.next[frame], frame / window.rate_hz));
-  }
-  return played;
+  return {input, [blend_s = frames / window.rate_hz, direction](const Offset& offset, double seconds) {
+            return MinimumJerkDecay({offset.value, direction * offset.velocity}, seconds, blend_s);
+          }};
 }
 
 }  // namespace
 
+MinimumJerkPlay::MinimumJerkPlay(const JoinWindow& window, int frames, bool fades) : window_(window), frames_(frames) {
+  if (!fades) decay_ = DecayOf(window, frames);
+}
+
+BodyPose MinimumJerkPlay::At(int frame) const {
+  if (frame == 0) return window_.shown.now;
+  if (decay_) return decay_->Apply(window_.next[frame], frame / window_.rate_hz);
+  // Both motions go on, and limb by limb the new one takes over.
+  const double share = Smootherstep(static_cast<double>(frame) / frames_);
+  return PoseBetween(window_.old[frame], window_.next[frame], share);
+}
+
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades) {
   if (window.Frames() == 0) return {window.shown.now};
-  return fades ? PlayFade(window) : PlayDecay(window);
+  const MinimumJerkPlay play(window, window.Frames(), fades);
+  std::vector<BodyPose> played;
+  for (int frame = 0; frame <= window.Frames(); ++frame) played.push_back(play.At(frame));
+  return played;
 }
 
 JoinWish WishOf(const JoinInput& input, const MinimumJerkOptions& options) {

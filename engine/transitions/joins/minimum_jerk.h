@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,13 +35,28 @@ struct JoinWindow {
 /// The window of `frames` frames after the point; where a motion ends earlier, it holds its last frame.
 JoinWindow WindowOf(const JoinInput& input, int frames);
 
-/// Every frame of the window, the first being the last one shown.
+/// What is shown of a window, frame by frame.
 ///
 /// By default the new motion plays, and limb by limb what the old one was off from it dies away along MinimumJerkDecay.
 /// Velocities are those from the point to the next frame: so the first frame shown is the old motion's next one, and
 /// how the new motion jumps at the point itself does not matter. Where the old motion has ended they are those up to
 /// the point. When it `fades`, both motions play on, and limb by limb the new one takes over by the share of the way
 /// that a movement of least jerk has made: less of what either accelerates is shown, more of how they differ.
+class MinimumJerkPlay {
+ public:
+  /// A join of `frames` ≥ 1 frames, at most the window's, which must outlive this.
+  MinimumJerkPlay(const JoinWindow& window, int frames, bool fades);
+
+  /// `frame` from 0, which is the last one shown, to `frames`.
+  BodyPose At(int frame) const;
+
+ private:
+  const JoinWindow& window_;
+  const int frames_;
+  std::optional<Inertialiser> decay_;  ///< without it the motions fade
+};
+
+/// Every frame of the window by MinimumJerkPlay.
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 #include "engine/fuzzy/features.h"
@@ -27,16 +30,60 @@ BodyPose Rebuild(const BodyProportions& proportions, const BodyPose& source, dou
   return pose;
 }
 
-/// Where the floor is: not the lowest frame of all, which one bad frame would decide.
-double FloorHeight(const BodyMotion& motion) {
+/// Thigh and shin of both sides.
+using LegLengths = std::array<double, 4>;
+
+LegLengths LegsOf(const BodyPose& pose) {
+  const auto length = [&](Role from, Role to) { return glm::distance(pose[from], pose[to]); };
+  return {length(kLeftHip, kLeftKnee), length(kLeftKnee, kLeftAnkle), length(kRightHip, kRightKnee),
+          length(kRightKnee, kRightAnkle)};
+}
+
+bool AreEqual(const LegLengths& a, const LegLengths& b) {
+  constexpr double kSame = 1e-4;
+  return std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) <= kSame; });
+}
+
+double LowerFoot(const BodyPose& pose) {
+  return std::min({pose[kLeftFoot].y, pose[kRightFoot].y, pose[kLeftAnkle].y, pose[kRightAnkle].y});
+}
+
+std::vector<double> FootHeights(const BodyMotion& motion) {
   std::vector<double> heights;
-  heights.reserve(motion.poses.size());
-  for (const BodyPose& pose : motion.poses) {
-    heights.push_back(std::min({pose[kLeftFoot].y, pose[kRightFoot].y, pose[kLeftAnkle].y, pose[kRightAnkle].y}));
-  }
+  std::ranges::transform(motion.poses, std::back_inserter(heights), LowerFoot);
+  return heights;
+}
+
+/// Where the floor is: not the lowest frame of all, which one bad frame would decide. Needs a height.
+double FloorHeight(std::vector<double> heights) {
   const auto fifth_percent = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 20);
   std::nth_element(heights.begin(), fifth_percent, heights.end());
   return *fifth_percent;
+}
+
+BodyMotion PerformedInTheAir(const BodyProportions& proportions, const BodyMotion& motion) {
+  BodyMotion performed{.rate_hz = motion.rate_hz, .poses = {}};
+  if (motion.poses.empty()) return performed;
+  const double own_height = StandingHipHeight(motion.poses.front());
+  const double scale = own_height > 0 ? proportions.standing_hip_height / own_height : 1.0;
+  performed.poses.reserve(motion.poses.size());
+  for (const BodyPose& pose : motion.poses) performed.poses.push_back(Rebuild(proportions, pose, scale));
+  return performed;
+}
+
+/// The clips of one person each, by their indices.
+std::vector<std::vector<std::size_t>> ByPerson(std::span<const BodyMotion> motions) {
+  std::vector<std::vector<std::size_t>> people;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (motions[i].poses.empty()) continue;
+    const LegLengths legs = LegsOf(motions[i].poses.front());
+    const auto is_theirs = [&](const std::vector<std::size_t>& clips) {
+      return AreEqual(legs, LegsOf(motions[clips.front()].poses.front()));
+    };
+    const auto known = std::ranges::find_if(people, is_theirs);
+    known != people.end() ? known->push_back(i) : people.push_back({i});
+  }
+  return people;
 }
 
 }  // namespace
@@ -51,16 +98,20 @@ BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_he
   return proportions;
 }
 
-BodyMotion PerformedBy(const BodyProportions& proportions, const BodyMotion& motion) {
-  BodyMotion performed{.rate_hz = motion.rate_hz, .poses = {}};
-  if (motion.poses.empty()) return performed;
-  const double own_height = StandingHipHeight(motion.poses.front());
-  const double scale = own_height > 0 ? proportions.standing_hip_height / own_height : 1.0;
-  performed.poses.reserve(motion.poses.size());
-  for (const BodyPose& pose : motion.poses) performed.poses.push_back(Rebuild(proportions, pose, scale));
-  const double floor = FloorHeight(performed);
-  for (BodyPose& pose : performed.poses) {
-    for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions) {
+  std::vector<BodyMotion> performed;
+  performed.reserve(motions.size());
+  for (const BodyMotion& motion : motions) performed.push_back(PerformedInTheAir(proportions, motion));
+  for (const std::vector<std::size_t>& clips : ByPerson(motions)) {
+    std::vector<double> heights;
+    for (std::size_t clip : clips) std::ranges::copy(FootHeights(performed[clip]), std::back_inserter(heights));
+    const double common = FloorHeight(std::move(heights));
+    for (std::size_t clip : clips) {
+      const double floor = std::min(common, FloorHeight(FootHeights(performed[clip])));
+      for (BodyPose& pose : performed[clip].poses) {
+        for (glm::dvec3& joint : pose.joints) joint.y -= floor;
+      }
+    }
   }
   return performed;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "engine/motion/body.h"
 
@@ -16,12 +18,15 @@ struct BodyProportions {
 /// Those of `pose`, scaled so that the hips stand `standing_hip_height` metres high. `pose` must have legs.
 BodyProportions MakeBodyProportions(const BodyPose& pose, double standing_hip_height);
 
-/// The same motion, performed by a body of these proportions. Paper A's clips all belong to one character; real clips
+/// The same motions, performed by a body of these proportions. Paper A's clips all belong to one character; real clips
 /// come from many people, and a transition between two bodies would be seen whatever the pose.
 ///
-/// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clip is
-/// set down, so that the lower foot is on or below the floor in 5 % of its frames. A limb of zero length in the source
-/// follows its parent limb's direction.
-BodyMotion PerformedBy(const BodyProportions& proportions, const BodyMotion& motion);
+/// Every limb keeps its direction and gets its new length; travel and hip height scale with the legs; then the clips
+/// are set down, so that the lower foot is on or below the floor in 5 % of the frames. Clips whose legs are equally
+/// long (to a tenth of a millimetre, in their first frame) are one person's and set down together: who only sits in one
+/// clip sits as high there as after sitting down in another. None of them goes below the floor for that: limbs of other
+/// lengths may take it there, and it is set down by itself then. A limb of zero length in the source follows its parent
+/// limb's direction.
+std::vector<BodyMotion> PerformedBy(const BodyProportions& proportions, std::span<const BodyMotion> motions);
 
 }  // namespace etude

@@ -21,10 +21,7 @@ MotionLibrary MakeLibraryOfOneBody(std::vector<std::string> names, std::vector<B
 
 MotionLibrary MakeLibrary(std::vector<std::string> names, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions, const TagRules& rules, const TweenRules& tween) {
-  std::vector<BodyMotion> motions;
-  motions.reserve(clips.size());
-  for (const BodyMotion& clip : clips) motions.push_back(PerformedBy(proportions, clip));
-  return MakeLibraryOfOneBody(std::move(names), std::move(motions), proportions, rules, tween);
+  return MakeLibraryOfOneBody(std::move(names), PerformedBy(proportions, clips), proportions, rules, tween);
 }
 
 }  // namespace etude

@@ -66,7 +66,7 @@ std::span<const Evaluator> CoachEvaluators() {
       {"decision_delay_s", [](const Json& in) -> Value { return DecisionDelaySeconds(SessionOf(in)); }},
       {"feedback_delay_s", [](const Json& in) -> Value { return FeedbackDelaySeconds(SessionOf(in)); }},
       {"repetitions_until_right", UntilRight},
-      {"retention", [](const Json& in) -> Value { return Retention(TruthsOf(in.at("truths"))); }},
+      {"retention", [](const Json& in) -> Value { return Retention(NumbersOf(in, "chances")); }},
       {"danced_share",
        [](const Json& in) -> Value { return Share(in.at("danced_frames").get<int>(), in.at("frames").get<int>()); }},
       {"gave_up", [](const Json& in) -> Value { return in.at("given_up").get<bool>() ? 1.0 : 0.0; }},

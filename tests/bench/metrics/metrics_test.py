@@ -28,7 +28,7 @@ MUTANTS = {
         "position_error_cm", "orientation_error_deg", "hidden_angle_error_deg", "hidden_angle_change_deg", "mpjpe_mm",
         "mpjpe_before_ik_mm", "pa_mpjpe_mm", "bone_length_error_cm", "limb_direction_error_deg",
         "triangulation_error_mm", "iou", "mask_precision", "mask_recall", "mask_f1", "shadow_error", "pwc",
-        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "ldlj", "roc_auc",
+        "mean_joint_jump_cm", "foot_slide_cmps", "sparc", "ldlj", "roc_auc", "retention",
         "iterations_per_frame", "matches_per_query", "distances_per_query", "boxes_per_query"]),
     "worst for mean": (common, {"mean": or_nothing(max)}, [
         "position_error_cm", "orientation_error_deg", "orientation_error_max_deg", "hidden_angle_error_deg",
@@ -97,9 +97,9 @@ MUTANTS = {
     "answered before the next one begins": (coach, {"next_end": lambda given, i: given["performances"][i]["end_frame"]}, [
         "corrections_missed_per_min", "answered_share"]),
     "grey for right": (coach, {"is_right": lambda truth: truth != "wrong"}, [
-        "corrections_unneeded_per_min", "repetitions_until_right", "retention"]),
+        "corrections_unneeded_per_min", "repetitions_until_right"]),
     "grey for wrong": (coach, {"is_wrong": lambda truth: truth != "right"}, [
-        "corrections_due_per_min", "answered_share", "decision_delay_s", "retention"]),
+        "corrections_due_per_min", "answered_share", "decision_delay_s"]),
     "corrections that nothing caused are needed": (coach, {"uncaused": False}, ["corrections_unneeded_per_min"]),
     "what was given up left out": (coach, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
         [time for time, happened in waits if happened])}, [

@@ -21,37 +21,39 @@ struct Examined {
   std::vector<ConformanceCheck> checks;
 };
 
-Examined Examine(const std::string& task, std::vector<std::string> command) {
+Examined Examine(const std::string& task, std::vector<std::string> command, const std::string& seat = "") {
   Examined examined;
-  examined.passed = CheckConformance({.command = std::move(command), .task = task, .time_s = 20},
+  examined.passed = CheckConformance({.command = std::move(command), .task = task, .time_s = 20}, seat,
                                      [&](const ConformanceCheck& check) { examined.checks.push_back(check); });
   return examined;
 }
 
 struct Example {
-  std::string task, file;
+  std::string task, file, seat = "";
 };
 
 class Examples : public ::testing::TestWithParam<Example> {};
 
 TEST_P(Examples, PassEveryCheck) {
-  const auto [passed, checks] = Examine(GetParam().task, {"python3", "examples/outside-methods/" + GetParam().file});
+  const auto [passed, checks] =
+      Examine(GetParam().task, {"python3", "examples/outside-methods/" + GetParam().file}, GetParam().seat);
   ASSERT_TRUE(passed) << ToString(passed.error());
   EXPECT_TRUE(*passed);
   EXPECT_EQ(checks.size(), 8u);
   for (const ConformanceCheck& check : checks) EXPECT_TRUE(check.passed) << check.name << ": " << check.found;
 }
 
-INSTANTIATE_TEST_SUITE_P(Conformance, Examples,
-                         ::testing::Values(Example{"ik", "ik_dls.py"}, Example{"tracking", "tracking_dls.py"},
-                                           Example{"transition", "transition_nearest.py"},
-                                           Example{"detection", "detection_correlation.py"},
-                                           Example{"search", "search_loop.py"}),
-                         [](const auto& tested) { return tested.param.task; });
+INSTANTIATE_TEST_SUITE_P(
+    Conformance, Examples,
+    ::testing::Values(Example{"ik", "ik_dls.py"}, Example{"tracking", "tracking_dls.py"},
+                      Example{"transition", "transition_nearest.py"}, Example{"detection", "detection_correlation.py"},
+                      Example{"search", "search_loop.py"}, Example{"coach", "coach_recogniser.py", "recogniser"},
+                      Example{"coach", "coach_policy.py", "policy"}, Example{"coach", "coach_learner.py", "learner"}),
+    [](const auto& tested) { return tested.param.task + tested.param.seat; });
 
 TEST(Conformance, KnowsEveryTask) {
   for (const TaskKind& kind : AllTaskKinds()) {
-    const auto specimens = MakeSpecimens(kind.name);
+    const auto specimens = MakeSpecimens(kind.name, kind.seats.empty() ? "" : kind.seats.front());
     ASSERT_TRUE(specimens) << kind.name << ": " << ToString(specimens.error());
     EXPECT_EQ(specimens->size(), 2u) << kind.name;
   }

@@ -114,6 +114,8 @@ const std::vector<Probe> kProbes = {{"ik", ""},
                                     {"capture", ""},
                                     {"tracking", ""},
                                     {"search", ""},
+                                    {"coach", ""},
+                                    {"coach", "weights: adaptive"},
                                     {"pose-distance", ""},
                                     {"pose-distance", "distance: point-cloud"}};
 

@@ -47,7 +47,7 @@ TEST(TrainingClips, SampleLongClipsEvenly) {
   ASSERT_EQ(training.frames.size(), 2u);
   EXPECT_EQ(training.frames[0].size(), 16u);
   EXPECT_EQ(training.frames[1].size(), 7u);
-  const BodyMotion danced = PerformedBy(proportions, clips[0]);
+  const BodyMotion danced = PerformedBy(proportions, clips).front();
   EXPECT_EQ(training.frames[0][0].pose.joints, danced.poses[31].joints) << "the middle of the first sixteenth";
   EXPECT_EQ(training.frames[0][15].pose.joints, danced.poses[968].joints);
 }

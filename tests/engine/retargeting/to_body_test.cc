@@ -220,6 +220,30 @@ TEST(ToBodyMotion, TellsWhereItFoundTheFloor) {
   EXPECT_EQ(body->note, "1 unit = 1 cm (centimetre); the floor was at 40 cm");
 }
 
+TEST(FindGround, IsThatOfAllClipsOfAFile) {
+  const Clip standing = AtRest(testing::PersonSkeleton(), 100);
+  Clip seated = AtRest(testing::PersonSkeleton(), 20), with_another_root = seated;
+  for (LocalPose& frame : seated.frames) frame[0].translation.y += 40;
+  for (LocalPose& frame : with_another_root.frames) frame[0].translation.y += 200;
+  const auto map = FindJointMap(standing.skeleton, "person.bvh");
+  const Clip clips[] = {seated, standing, with_another_root};
+  const auto ground = FindGround(clips, *map);
+  ASSERT_TRUE(ground);
+  EXPECT_EQ(ground->up, UpAxis::kY);
+  EXPECT_NEAR(ground->floor, 0, 1e-12);
+  const BodyOptions told{.floor = ground->floor};
+  const auto lowest = [&](const Clip& clip, const BodyOptions& options) {
+    const BodyPose pose = Convert(clip, options)->motion.poses[0];
+    double height = pose[kHipCentre].y;
+    for (const Role role : {kLeftFoot, kRightFoot, kLeftAnkle, kRightAnkle}) height = std::min(height, pose[role].y);
+    return height;
+  };
+  EXPECT_NEAR(lowest(seated, told), 0.4, 1e-12);
+  EXPECT_NEAR(lowest(seated, {}), 0, 1e-12) << "alone it has no other floor";
+  EXPECT_NEAR(lowest(with_another_root, told), 0, 1e-12) << "out of its legs' reach";
+  EXPECT_FALSE(FindGround({}, *map));
+}
+
 TEST(ToBodyMotion, RefusesSwappedSides) {
   Skeleton mirrored = testing::PersonSkeleton();
   for (Joint& joint : mirrored.joints) joint.rest.translation.x *= -1;

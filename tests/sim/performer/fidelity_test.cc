@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/choreography/stance.h"
 #include "tests/sim/performer/neighbours.h"
 
 namespace etude {
@@ -37,6 +38,19 @@ TEST(Fidelity, TheDefaultPeopleAreAsAlikeAndAsDifferentAsRealOnes) {
   EXPECT_LE(other, 38);
   EXPECT_GT(Neighbours::Quantile(crowd.same_cm, 0.95), Neighbours::Quantile(crowd.nearest_other_cm, 0.25))
       << "the two overlap";
+}
+
+TEST(Fidelity, HardlyAnybodysDanceIsNearerToStandingThanToTheMove) {
+  const NormalisedClip standing = Normalised({PoseOf(ReadyStance())});
+  int nearer = 0, all = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto clips = EveryMoveOf(i, People::kMixed);
+    for (std::size_t m = 0; m < clips.size(); ++m, ++all) {
+      const NormalisedClip taught = Normalised(AllMoves()[m].motion.poses);
+      nearer += WarpedDistanceCm(clips[m].clip, standing) < WarpedDistanceCm(clips[m].clip, taught);
+    }
+  }
+  EXPECT_LT(nearer, 0.03 * all);
 }
 
 TEST(Fidelity, ExpertsAreTheControl) {

@@ -82,11 +82,6 @@ def repetitions_until_right(given):
     return kaplan_meier_median(waits)
 
 
-def retention(given):
-    clear = [truth for truth in given["truths"] if is_right(truth) or is_wrong(truth)]
-    return common.share([is_right(truth) for truth in clear])
-
-
 def percentile(values):
     rank = PERCENTILE * (len(values) - 1)
     below = sorted(values)[int(rank)]
@@ -110,7 +105,7 @@ METRICS = {
     "decision_delay_s": decision_delay,
     "feedback_delay_s": feedback_delay,
     "repetitions_until_right": repetitions_until_right,
-    "retention": retention,
+    "retention": lambda given: common.mean(given["chances"]),
     "danced_share": lambda given: given["danced_frames"] / given["frames"],
     "gave_up": lambda given: float(given["given_up"]),
     "beat_error_ms": lambda given: percentile([1000 * abs(e) for e in given["errors_s"]]) if given["errors_s"] else None,

@@ -157,6 +157,18 @@ TEST(CaptureTask, IsCalibratedWithPointsOrWithBoardsFoundInThePictures) {
   EXPECT_GT(errors("calibration_noise_px: 0\ncalibration_measure_mm: 20\n").first, 1);
 }
 
+// In everyday clothes hues lose the trunk: what is left are pieces. More of them are more of the person.
+TEST(CaptureTask, FindsMoreOfThePersonInSeveralPieces) {
+  const auto task = Make(
+      "duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: largest, segmenter: hue}\n"
+      "- {name: large, segmenter: hue, pieces: large}\n- {name: true, pieces: large, oracle: [segmentation]}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, kKey, 3);
+  EXPECT_GT(*ValueOf(cells[1], "mask_recall"), *ValueOf(cells[0], "mask_recall") + 0.01);
+  EXPECT_EQ(*ValueOf(cells[2], "mask_recall"), 1) << "the truth has no pieces";
+  EXPECT_NE(DigestOf(cells[0], "marks"), DigestOf(cells[1], "marks"));
+}
+
 TEST(CaptureTask, MakesASkeletonOfWhatIsMarkedAndSaysHowLittleThatWas) {
   // Hue alone does not see dark blue trousers on a bluish floor: the feet are never marked.
   const auto task = Make("duration_s: 0.1\nclothes: everyday\nmethods:\n- {name: hue, segmenter: hue}\n");

@@ -15,13 +15,36 @@ TEST(PerformedBy, GivesEveryClipTheCharactersLimbsAndHeight) {
     for (glm::dvec3& joint : pose.joints) joint = 0.6 * joint + glm::dvec3(0, 0.3, 0);
   }
   const BodyProportions character = MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9);
-  const BodyMotion performed = PerformedBy(character, small);
-  const BodyMotion full_size = PerformedBy(character, WavingClip(40));
+  const BodyMotion performed = PerformedBy(character, {&small, 1}).front();
+  const BodyMotion waving = WavingClip(40);
+  const BodyMotion full_size = PerformedBy(character, {&waving, 1}).front();
   EXPECT_NEAR(StandingHipHeight(performed.poses[0]), 0.9, 1e-12);
   for (std::size_t f = 0; f < performed.poses.size(); ++f) {
     ExpectSamePose(performed.poses[f], full_size.poses[f], 1e-9);
   }
   EXPECT_NEAR(performed.poses[0][Role::kLeftFoot].y, 0, 1e-12) << "set down on the floor";
+}
+
+TEST(PerformedBy, SetsClipsOfOnePersonDownTogetherAndOthersByThemselves) {
+  const BodyProportions character = MakeBodyProportions(StandingClip(1, 0).poses[0], 0.9);
+  std::vector<BodyMotion> clips = {StandingClip(100, 0), StandingClip(20, 0), StandingClip(20, 0)};
+  for (BodyPose& pose : clips[1].poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y += 0.4;  // on a chair
+  }
+  for (BodyPose& pose : clips[2].poses) {
+    for (glm::dvec3& joint : pose.joints)
+      joint = 0.5 * joint + glm::dvec3(0, 0.4, 0);  // a child's file with its own floor
+  }
+  clips.push_back(StandingClip(4, 0));  // few frames, a hand's breadth below the others
+  for (BodyPose& pose : clips[3].poses) {
+    for (glm::dvec3& joint : pose.joints) joint.y -= 0.1;
+  }
+  const std::vector<BodyMotion> performed = PerformedBy(character, clips);
+  const double scale = 0.9 / StandingHipHeight(clips[0].poses[0]);
+  EXPECT_NEAR(performed[0].poses[0][Role::kLeftFoot].y, 0, 1e-12);
+  EXPECT_NEAR(performed[1].poses[0][Role::kLeftFoot].y, 0.4 * scale, 1e-12);
+  EXPECT_NEAR(performed[2].poses[0][Role::kLeftFoot].y, 0, 1e-12);
+  EXPECT_NEAR(performed[3].poses[0][Role::kLeftFoot].y, 0, 1e-12) << "not below the floor";
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace etude {
 namespace {
 
 TEST(Crowd, IsAsAlikeAndAsDifferentAsRealPeople) {
-  const Neighbours crowd = MeasureNeighbours(People::kMixed, 150, 6);
+  const Neighbours crowd = MeasureNeighbours(People::kMixed, 80, 4);
   RecordProperty("found", std::to_string(crowd.found));
   EXPECT_GE(crowd.found, 0.75);
   EXPECT_LE(crowd.found, 0.90);
@@ -17,7 +17,7 @@ TEST(Crowd, IsAsAlikeAndAsDifferentAsRealPeople) {
 }
 
 TEST(Crowd, ToddlersAreHardestToTellAndExpertsEasiest) {
-  const auto found = [](People people) { return MeasureNeighbours(people, 60, 4).found; };
+  const auto found = [](People people) { return MeasureNeighbours(people, 40, 3).found; };
   const double toddler = found(People::kToddler), child = found(People::kSchoolChild), adult = found(People::kAdult);
   EXPECT_LT(toddler, child);
   EXPECT_LT(child, adult);

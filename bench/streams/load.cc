@@ -1,0 +1,229 @@
+#include "bench/streams/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <regex>
+
+#include "bench/clips/clip_library.h"
+#include "bench/clips/references.h"
+#include "bench/files/files.h"
+#include "engine/recognition/recognise.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 100'000;
+
+bool IsClip(const std::string& reference) {
+  if (reference.starts_with("builtin:")) return true;
+  const std::string ending = fs::path(Split(reference).path).extension().string();
+  return ending == ".bvh" || ending == ".BVH" || ending == ".glb" || ending == ".gltf";
+}
+
+std::string Describe(const StreamRecording& recording, const MadeStream& made) {
+  const std::size_t frames = made.stream.frames.size();
+  std::string text =
+      fmt::format("{}, {:.1f} s, {} tracking states", StreamFormatName(recording.format),
+                  static_cast<double>(frames) / made.stream.rate_hz, recording.tells_states ? "with" : "no");
+  if (!recording.tells_times) text += fmt::format(", no clock: taken for {:g} Hz", recording.rate_hz);
+  if (!recording.is_level) text += ", " + Describe(made.level);
+  if (made.lost_frames > 0) text += fmt::format(", nobody in {} of {} frames", made.lost_frames, frames);
+  for (const std::string& remark : recording.remarks) text += ", " + remark;
+  constexpr double kBackwards = -0.35;  // as CheckSides has it for clips
+  const auto feet = FeetForward(made.stream);
+  if (feet && *feet < kBackwards) text += ", feet point backwards: mirrored? (--reflect)";
+  return text;
+}
+
+std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
+  std::vector<NamedStream> streams;
+  for (const LibraryClip& clip : library.clips) {
+    streams.push_back({.name = clip.name,
+                       .source = clip.source,
+                       .person = "",
+                       .stream = StreamOf(clip.motion),
+                       .start_s = 0,
+                       .description = fmt::format("clip, {:.1f} s", clip.motion.DurationSeconds())});
+  }
+  return streams;
+}
+
+/// All files below a folder, sorted; links to folders are not followed.
+Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    if (at->is_regular_file(error)) files.push_back(at->path().string());
+    if (files.size() > kMostFiles) return Fail({folder}, "over {} files", kMostFiles);
+  }
+  if (error) return Fail({folder}, "{}", error.message());
+  std::ranges::sort(files);
+  return files;
+}
+
+/// Whether a file of a folder may be a recording, by its beginning; labels and read-mes are none.
+Result<bool> LooksLikeStream(const std::string& path) {
+  if (IsClip(path)) return true;
+  if (fs::path(path).extension() == ".tagstream") return false;
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(path));
+  return TellStreamFormat(text).has_value();
+}
+
+Result<void> AddFolder(const std::string& folder, const StreamReading& reading, const StreamOptions& options,
+                       LoadedStreams& loaded) {
+  ASSIGN_OR_RETURN(const auto files, FilesBelow(folder));
+  for (const std::string& file : files) {
+    const auto is_stream = LooksLikeStream(file);
+    if (!is_stream || !*is_stream) {
+      ++loaded.passed_over;
+      continue;
+    }
+    auto streams = LoadStream(file, reading, options);
+    if (!streams) {
+      loaded.refused.push_back(streams.error());
+      continue;
+    }
+    std::ranges::move(*streams, std::back_inserter(loaded.streams));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
+                                            const StreamOptions& options) {
+  if (IsClip(reference)) {
+    ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips({reference}, {}));
+    return StreamsOf(library);
+  }
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(reference));
+  ASSIGN_OR_RETURN(const StreamRecording recording, ReadStreamRecording(text, reference, reading));
+  ASSIGN_OR_RETURN(MadeStream made, MakeStream(recording, reference, options));
+  const std::string name = fs::path(reference).stem().string();
+  std::vector<NamedStream> streams;
+  streams.push_back({.name = name,
+                     .source = reference,
+                     .person = PersonInName(name),
+                     .stream = {},
+                     .start_s = made.start_s,
+                     .description = Describe(recording, made)});
+  streams.back().stream = std::move(made.stream);
+  return streams;
+}
+
+Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
+                                  const StreamOptions& options) {
+  LoadedStreams loaded;
+  for (const std::string& reference : references) {
+    std::error_code ignored;
+    if (fs::is_directory(reference, ignored)) {
+      RETURN_IF_ERROR(AddFolder(reference, reading, options, loaded));
+      continue;
+    }
+    const auto expanded = ExpandReference(reference, {});
+    if (!expanded && IsClip(reference)) return tl::unexpected(expanded.error());
+    if (!expanded) return Fail({reference}, "no such recording; allowed: a file, a pattern, a folder, a clip");
+    for (const std::string& one : *expanded) {
+      auto streams = LoadStream(one, reading, options);
+      if (!streams && expanded->size() == 1) return tl::unexpected(streams.error());
+      if (!streams) {
+        loaded.refused.push_back(streams.error());
+        continue;
+      }
+      std::ranges::move(*streams, std::back_inserter(loaded.streams));
+    }
+  }
+  if (!loaded.streams.empty()) return loaded;
+  if (!loaded.refused.empty()) return tl::unexpected(loaded.refused.front());
+  return Fail({references.empty() ? "" : references.front()}, "no recordings of skeletons");
+}
+
+std::string PersonInName(std::string_view name) {
+  static const std::regex kKnown[] = {std::regex("^S\\d{3}C\\d{3}(P\\d{3})R\\d{3}A\\d{3}"),
+                                      std::regex("^P\\d_\\d_\\w*_(p\\d+)$"), std::regex("(?:^|_)(s\\d\\d)_e\\d\\d")};
+  for (const std::regex& known : kKnown) {
+    std::match_results<std::string_view::const_iterator> match;
+    if (std::regex_search(name.begin(), name.end(), match, known)) return match[1].str();
+  }
+  return "";
+}
+
+Result<std::vector<Label>> LoadLabels(const std::string& path) {
+  std::error_code ignored;
+  std::vector<std::string> files = {path};
+  if (fs::is_directory(path, ignored)) {
+    ASSIGN_OR_RETURN(files, FilesBelow(path));
+    std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
+    if (files.empty()) return Fail({path}, "no .tagstream in it; allowed: a labels file, or a folder of tag streams");
+  }
+  std::vector<Label> labels;
+  for (const std::string& file : files) {
+    ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
+    ASSIGN_OR_RETURN(const auto read, ReadLabels(text, file, fs::path(file).stem().string()));
+    labels.insert(labels.end(), read.begin(), read.end());
+  }
+  return labels;
+}
+
+Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
+                                              const std::vector<NamedStream>& streams) {
+  constexpr double kOutside = 0.5;
+  std::vector<LabelledPart> parts;
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    const NamedStream& stream = streams[s];
+    const auto count = static_cast<int>(stream.stream.frames.size());
+    const double length = count / stream.stream.rate_hz;
+    for (const Label& label : labels) {
+      if (!IsLabelOf(label, stream.name)) continue;
+      const double shift = label.by_own_clock ? stream.start_s : 0;
+      const double from = label.from_s ? *label.from_s - shift : 0, to = label.to_s ? *label.to_s - shift : length;
+      if (from < -kOutside || from > length || to > length + kOutside) {
+        return Fail({file, label.line}, "from {:.3f} to {:.3f} s of {}; allowed: its {:.3f} s", from, to, stream.name,
+                    length);
+      }
+      LabelledPart& part = parts.emplace_back();
+      part.stream = s;
+      part.move = label.move;
+      part.fault = label.fault;
+      part.person = label.person.empty() ? stream.person : label.person;
+      part.is_action_point = label.IsActionPoint();
+      part.line = label.line;
+      const FrameInterval frames = FramesBetween(from, part.is_action_point ? from : to, stream.stream);
+      part.begin = std::min(frames.begin, count - 1);
+      part.end = std::max(part.begin + 1, frames.end);
+    }
+  }
+  if (parts.empty()) return Fail({file}, "none of the labels is of a recording here, such as {}", streams.front().name);
+  std::ranges::stable_sort(parts, [](const LabelledPart& a, const LabelledPart& b) {
+    return a.stream != b.stream ? a.stream < b.stream : a.begin < b.begin;
+  });
+  return parts;
+}
+
+std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams) {
+  static const std::regex kNtuAction("^S\\d{3}C\\d{3}P\\d{3}R\\d{3}(A\\d{3})");
+  std::vector<LabelledPart> parts;
+  for (std::size_t s = 0; s < streams.size(); ++s) {
+    const NamedStream& stream = streams[s];
+    std::smatch match;
+    const bool is_ntu = std::regex_search(stream.name, match, kNtuAction);
+    LabelledPart& part = parts.emplace_back();
+    part.stream = s;
+    part.move = is_ntu ? match[1].str() : stream.name;
+    part.person = stream.person;
+    part.end = static_cast<int>(stream.stream.frames.size());
+  }
+  return parts;
+}
+
+SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end) {
+  const auto first = stream.frames.begin();
+  return {.rate_hz = stream.rate_hz, .frames = {first + begin, first + end}};
+}
+
+}  // namespace etude

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/result.h"
+#include "engine/streams/labels.h"
+#include "engine/streams/stream_maker.h"
+
+namespace etude {
+
+/// A recording of one person.
+struct NamedStream {
+  std::string name;    ///< the file's, without folder and ending; a clip's
+  std::string source;  ///< what opens it again
+  std::string person;  ///< as the file's name tells in sets that are known (PersonInName), else ""
+  SkeletonStream stream;
+  double start_s = 0;       ///< of its first frame, by the file's own clock
+  std::string description;  ///< one line, for people: format, length, states, level, remarks
+};
+
+/// Reads one recording or clip (BVH, glTF, "builtin:clap": what a sensor without errors would say of it).
+Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
+                                            const StreamOptions& options);
+
+/// All recordings of files, patterns and folders (with all below, sorted).
+struct LoadedStreams {
+  std::vector<NamedStream> streams;
+  std::vector<Error> refused;  ///< files of folders and patterns that could not be read; those named alone fail
+  int passed_over = 0;         ///< files of folders that are no recordings
+};
+/// Fails when nothing is left.
+Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, const StreamReading& reading,
+                                  const StreamOptions& options);
+
+/// Who was recorded, as file names of known sets have it: NTU's "P003" of "S001C002P003R002A013", MSRC-12's "p06" of
+/// "P1_1_1_p06", UTKinect's "s01" of "joints_s01_e02". Else "".
+std::string PersonInName(std::string_view name);
+
+/// Labels of a file, or of all tag streams of a folder.
+Result<std::vector<Label>> LoadLabels(const std::string& path);
+
+/// One performance, cut out of its recording.
+struct LabelledPart {
+  std::size_t stream = 0;  ///< index
+  std::string move, fault, person;
+  int begin = 0, end = 0;        ///< frames [begin, end)
+  bool is_action_point = false;  ///< `begin` is the frame; `end` one more
+  int line = 0;
+
+  bool IsRight() const { return fault.empty(); }
+};
+
+/// What the labels mean in these streams, in the order of the streams, then of time. A label of another recording is
+/// left out. Refused, with the label's line: times outside the recording by more than half a second; no label of any
+/// recording.
+Result<std::vector<LabelledPart>> MatchLabels(const std::vector<Label>& labels, const std::string& file,
+                                              const std::vector<NamedStream>& streams);
+
+/// Without labels one file is one move, performed right, called by the file's name; of NTU's by its action ("A013").
+std::vector<LabelledPart> WholeStreams(const std::vector<NamedStream>& streams);
+
+/// The frames [begin, end) alone.
+SkeletonStream PartOf(const SkeletonStream& stream, int begin, int end);
+
+}  // namespace etude

@@ -1,0 +1,218 @@
+#include "bench/tasks/coach/exchange.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/tasks/base/answer_fields.h"
+#include "bench/tasks/base/pose_json.h"
+#include "bench/tasks/detection/exchange.h"
+#include "bench/tasks/detection/score.h"
+
+namespace etude {
+namespace {
+
+constexpr Range kShares{0, 1};
+
+Json NameOf(const CoachStage& stage, int move) {
+  return move < 0 ? Json(nullptr) : Json(stage.dance().moves[static_cast<std::size_t>(move)].name);
+}
+
+/// What is on the screen, for whoever sees no picture.
+Json DescribeShown(const CoachStage& stage, const CoachOutput& shown) {
+  const int move =
+      shown.repetition < 0 ? -1 : stage.dance().repetitions[static_cast<std::size_t>(shown.repetition)].move;
+  return {{"mode", ModeName(shown.mode)}, {"move", NameOf(stage, move)}, {"repetition", shown.repetition}};
+}
+
+bool IsVerdict(CoachEvent event) {
+  return event == CoachEvent::kRight || event == CoachEvent::kWrong || event == CoachEvent::kUnjudged;
+}
+
+PerformanceTruth TruthIn(AnswerFields& fields) {
+  const Json* right = fields.Raw("right");
+  if (right == nullptr || right->is_null()) return PerformanceTruth::kGrey;
+  return fields.Boolean("right", false) ? PerformanceTruth::kRight : PerformanceTruth::kWrong;
+}
+
+class SeatedFollower final : public MoveFollower {
+ public:
+  SeatedFollower(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
+      : program_(program), stage_(stage), complaint_(complaint), spotted_(stage.moves.size()) {}
+
+  void Ask(std::optional<std::size_t> move) override {
+    ask_ = Json{{"move", move ? NameOf(stage_, static_cast<int>(*move)) : Json(nullptr)}};
+    asked_ = 0;
+  }
+
+  Evidence Update(const SeenFrame& frame) override {
+    Json step = {{"pose", EncodePose(PoseOf(frame.skeleton))},
+                 {"states", StateLetters(frame.skeleton)},
+                 {"body_seen", frame.skeleton.body_seen}};
+    if (ask_) step["ask"] = *std::exchange(ask_, std::nullopt);
+    if (complaint_.error()) return {0, spotted_};
+    if (const JsonPtr answer = program_.Step(step)) complaint_.Note(Read(*answer));
+    return {asked_, spotted_};
+  }
+
+ private:
+  Result<void> Read(const Json& answer) {
+    AnswerFields fields(answer);
+    asked_ = std::max(asked_, fields.Number("asked", kShares));
+    if (fields.Has("spotted")) {
+      ASSIGN_OR_RETURN(spotted_, ReadNumbers(*fields.Raw("spotted"), "spotted", spotted_.size(), kShares));
+    }
+    return fields.Finish();
+  }
+
+  LiveProgram& program_;
+  const CoachStage& stage_;
+  SeatComplaint& complaint_;
+  std::optional<Json> ask_;
+  double asked_ = 0;
+  std::vector<double> spotted_;
+};
+
+class SeatedRecogniser final : public Recogniser {
+ public:
+  SeatedRecogniser(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
+      : program_(program), stage_(stage), complaint_(complaint) {}
+
+  std::unique_ptr<MoveFollower> Follow(double /*rate_hz*/) const override {
+    return std::make_unique<SeatedFollower>(program_, stage_, complaint_);
+  }
+
+ private:
+  LiveProgram& program_;
+  const CoachStage& stage_;
+  SeatComplaint& complaint_;
+};
+
+class SeatedPolicy final : public MomentSource {
+ public:
+  SeatedPolicy(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
+      : program_(program), stage_(stage), complaint_(complaint) {}
+
+  bool Now(int /*frame*/, const CoachOutput& before) override {
+    Json step = DescribeShown(stage_, before);
+    step["verdicts"] = Json::array();
+    for (const CoachRecord& record : before.records) {
+      if (!IsVerdict(record.event)) continue;
+      step["verdicts"].push_back({{"move", NameOf(stage_, record.move)},
+                                  {"repetition", record.repetition},
+                                  {"verdict", EventName(record.event)},
+                                  {"mistake", MistakeName(record.mistake)},
+                                  {"evidence", record.evidence}});
+    }
+    if (complaint_.error()) return false;
+    const JsonPtr answer = program_.Step(step);
+    if (answer == nullptr) return false;
+    AnswerFields fields(*answer);
+    const bool corrects = fields.Boolean("correct", false);
+    complaint_.Note(fields.Finish());
+    return corrects;
+  }
+
+ private:
+  LiveProgram& program_;
+  const CoachStage& stage_;
+  SeatComplaint& complaint_;
+};
+
+class SeatedLearner final : public Player {
+ public:
+  SeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint)
+      : program_(program), stage_(stage), complaint_(complaint) {
+    pose_ = stage.dance().motion.poses.front();
+    truths_.resize(stage.dance().repetitions.size());
+  }
+
+  BodyPose Next(const CoachOutput& shown) override {
+    Json step = DescribeShown(stage_, shown);
+    step["pose"] = EncodePose(shown.body);
+    step["clip"] = shown.clip;
+    step["clip_frame"] = shown.clip_frame;
+    step["say"] = shown.say;
+    step["hint"] = shown.hint;
+    step["events"] = Json::array();
+    for (const CoachRecord& record : shown.records) step["events"].push_back(EventName(record.event));
+    if (complaint_.error()) return pose_;
+    if (const JsonPtr answer = program_.Step(step)) complaint_.Note(Read(*answer, shown.repetition));
+    return pose_;
+  }
+
+  std::optional<PlayedPerformance> PerformanceOf(int repetition) const override {
+    const auto& truth = truths_[static_cast<std::size_t>(repetition)];
+    if (!truth) return std::nullopt;
+    return PlayedPerformance{*truth, *truth == PerformanceTruth::kRight ? "none" : "its own"};
+  }
+  bool HasGivenUp() const override { return given_up_; }
+
+  std::vector<double> TakeTest(int performances_later) override {
+    std::vector<double> right;
+    for (const Move& move : stage_.moves) {
+      if (complaint_.error()) break;
+      const JsonPtr answer = program_.Step({{"test", {{"move", move.name}, {"after", performances_later}}}});
+      if (answer == nullptr) break;
+      AnswerFields fields(*answer);
+      const PerformanceTruth truth = TruthIn(fields);
+      if (truth != PerformanceTruth::kGrey) right.push_back(truth == PerformanceTruth::kRight ? 1 : 0);
+      complaint_.Note(fields.Finish());
+    }
+    return right;
+  }
+
+ private:
+  Result<void> Read(const Json& answer, int repetition) {
+    AnswerFields fields(answer);
+    const Json* pose = fields.Raw("pose");
+    if (pose == nullptr) return Fail({}, "pose: is missing");
+    ASSIGN_OR_RETURN(pose_, ReadPose(*pose, "pose"));
+    given_up_ = fields.Boolean("given_up", given_up_);
+    const PerformanceTruth truth = TruthIn(fields);
+    if (repetition >= 0) truths_[static_cast<std::size_t>(repetition)] = truth;
+    return fields.Finish();
+  }
+
+  LiveProgram& program_;
+  const CoachStage& stage_;
+  SeatComplaint& complaint_;
+  BodyPose pose_;
+  std::vector<std::optional<PerformanceTruth>> truths_;  ///< by repetition, the latest
+  bool given_up_ = false;
+};
+
+}  // namespace
+
+Payload DancePayload(const CoachStage& stage) {
+  Payload setting = MovesPayload(stage.moves);
+  const Dance& dance = stage.dance();
+  Json repetitions = Json::array();
+  for (const Repetition& repetition : dance.repetitions) {
+    repetitions.push_back({{"move", NameOf(stage, repetition.move)}});
+  }
+  (*setting.json)["dance"] = {{"title", dance.title},
+                              {"tempo_bpm", dance.tempo_bpm},
+                              {"rate_hz", dance.motion.rate_hz},
+                              {"repetitions", std::move(repetitions)}};
+  return setting;
+}
+
+Payload SessionBeginPayload(Seat seat) {
+  return PayloadOf({{"seat", SeatNames()[static_cast<std::size_t>(seat) - 1]}});
+}
+
+std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const CoachStage& stage,
+                                                 SeatComplaint& complaint) {
+  return std::make_unique<SeatedRecogniser>(program, stage, complaint);
+}
+
+std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage,
+                                               SeatComplaint& complaint) {
+  return std::make_unique<SeatedPolicy>(program, stage, complaint);
+}
+
+std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint) {
+  return std::make_unique<SeatedLearner>(program, stage, complaint);
+}
+
+}  // namespace etude

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/coach/options.h"
+#include "bench/tasks/coach/player.h"
+#include "bench/tasks/coach/session.h"
+#include "bench/tasks/coach/stage.h"
+
+namespace etude {
+
+/// What programs in a seat of the loop are told, and what they answer, step by step; a step is a frame at 30 Hz. A pose
+/// is sixty numbers (EncodePose).
+///
+/// Setting, whatever the seat: the moves of the dance as recognisers are taught them (detection's setting), and
+///
+///     "dance": {"title": "groove", "tempo_bpm": 112, "rate_hz": 30, "repetitions": [{"move": "clap"}, …]}
+Payload DancePayload(const CoachStage& stage);
+
+/// The beginning of a session: {"seat": "recogniser"}.
+Payload SessionBeginPayload(Seat seat);
+
+/// What was wrong with a program's answers: the first complaint, if any.
+class SeatComplaint {
+ public:
+  void Note(const Result<void>& read) {
+    if (!read && !error_) error_ = read.error();
+  }
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  std::optional<Error> error_;
+};
+
+/// A recogniser. Step: what the sensor reports, and, where a window opens or closes, what is asked for from this frame
+/// on:
+///
+///     {"pose": [x, y, z, …], "states": "tttiii…", "body_seen": true, "ask": {"move": "clap"}}     or "move": null
+///
+/// Answer: how right the performance asked for looks so far, 0…1 (it may not fall while the same one is asked for: the
+/// largest so far counts); `spotted`, which may be left out, the same of every move whether asked for or not.
+///
+///     {"asked": 0.7, "spotted": [0, 0.1, …]}
+///
+/// What it points to must outlive it and its follower.
+std::unique_ptr<Recogniser> MakeSeatedRecogniser(LiveProgram& program, const CoachStage& stage,
+                                                 SeatComplaint& complaint);
+
+/// A policy. Step: what the coach showed in the frame before, and what it made of the windows that closed in it:
+///
+///     {"mode": "dance", "move": "clap", "repetition": 3,
+///      "verdicts": [{"move": "clap", "repetition": 2, "verdict": "wrong", "mistake": "not reached", "evidence": 0.3}]}
+///
+/// Answer: {"correct": true} interrupts the dance now, or as soon as there is one.
+std::unique_ptr<MomentSource> MakeSeatedPolicy(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
+
+/// A learner. Step: what is on the screen and what was decided in this frame:
+///
+///     {"pose": [x, y, z, …], "mode": "dance", "clip": "dance", "clip_frame": 120, "move": "clap", "repetition": 3,
+///      "say": "Watch!", "hint": "both arms up", "events": ["wrong", "corrects"]}
+///
+/// Answer: its own next pose, in the world (the sensor stands before it, in the direction of +Z), how the performance
+/// is that it dances now (null: neither right nor wrong), and whether its patience has run out:
+///
+///     {"pose": [x, y, z, …], "right": true, "given_up": false}
+///
+/// After the session, for every move: {"test": {"move": "clap", "after": 20}}, so many performances' time later,
+/// answered by {"right": true}.
+std::unique_ptr<Player> MakeSeatedLearner(LiveProgram& program, const CoachStage& stage, SeatComplaint& complaint);
+
+}  // namespace etude

@@ -1,0 +1,159 @@
+#include "bench/tasks/coach/options.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "bench/keys/setting_fields.h"
+#include "sim/choreography/song.h"
+
+namespace etude {
+namespace {
+
+constexpr Range kShare{0, 1};
+
+using Condition = CoachCondition;
+using Method = CoachMethod;
+
+/// Those fields of another task's table, or all but those, that are read into a part of `Options`.
+enum class Keep { kThese, kOthers };
+template <typename Options, typename Part>
+std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Part Options::*part, Keep keep,
+                                     const std::vector<std::string>& keys) {
+  std::vector<Field<Options>> fields;
+  for (const Field<Part>& field : table.fields) {
+    const bool named = std::ranges::find(keys, field.info.key) != keys.end();
+    if (named != (keep == Keep::kThese)) continue;
+    fields.push_back(
+        {field.info, [field, part](Fields& mapping, Options& options) { field.read(mapping, options.*part); }});
+  }
+  return fields;
+}
+
+template <typename Options>
+void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& fields) {
+  std::ranges::move(more, std::back_inserter(fields));
+}
+
+std::vector<Field<Method>> CoachFields() {
+  using Key = Field<Method>;
+  return {Key::Number(
+              "reaction_s", [](auto& m) -> auto& { return m.coach.reaction_s; }, {0, 2},
+              "Windows open and close so much after the coach's own performance: a learner follows with a lag."),
+          Key::Number(
+              "most_corrections", [](auto& m) -> auto& { return m.coach.most_corrections; }, {0, 100},
+              "How often at most one performance is corrected before the dance goes on."),
+          Key::Number(
+              "puzzled_after", [](auto& m) -> auto& { return m.coach.puzzled_after; }, {1, 100},
+              "From so many mistakes in a row on the coach is puzzled instead of shaking its head."),
+          Key::Flag(
+              "follows_tags", [](auto& m) -> auto& { return m.coach.follows_tags; },
+              "Whether music-time tags slow and hurry the dance.")};
+}
+
+/// `policy`, its settings, and what goes with them.
+std::vector<Field<Method>> PolicyFields() {
+  using Key = Field<Method>;
+  std::vector<Key> fields = {Key::Name(
+      "policy", [](auto& m) -> auto& { return m.policy.policy; }, PolicyNames(), FindPolicy,
+      "When the coach interrupts.")};
+  Append(SettingFields<Method>(
+             "policy", AllPolicies(), [](auto& m) -> auto& { return m.policy.settings; }),
+         fields);
+  fields.push_back(Key::Name("partner", &Method::partner, PolicyNames(), FindPolicy,
+                             "Whose moments it corrects at: this policy's, in another person's session.")
+                       .With("policy", {"yoked"}));
+  return fields;
+}
+
+void CheckMethod(Fields& fields, Method& method) {
+  const Node& node = fields.node();
+  if (method.knows_truth != method.policy.policy->asks_truth) {
+    const Node* named = node.Find(method.knows_truth ? "oracle" : "policy");
+    fields.Complain(named->place,
+                    "policy 'oracle' and 'oracle: [judgement]' go together: what is told the truth "
+                    "competes with none");
+  }
+  if (method.partner->takes_moments) {
+    fields.Complain(node.Find("partner")->place, "a yoked session cannot be another's partner");
+  }
+  if (method.seat == Seat::kPolicy && node.Find("policy") != nullptr) {
+    fields.Complain(node.Find("policy")->place, "'policy' is what the program in that seat does");
+  }
+  if (method.seat == Seat::kRecogniser && node.Find("recogniser") != nullptr) {
+    fields.Complain(node.Find("recogniser")->place, "'recogniser' is what the program in that seat does");
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& SeatNames() {
+  static const std::vector<std::string> names = {"recogniser", "policy", "learner"};
+  return names;
+}
+
+const FieldTable<CoachCondition>& CoachConditionFields() {
+  using Key = Field<Condition>;
+  static const FieldTable<Condition> table = [] {
+    std::vector<std::pair<std::string, std::string>> songs;
+    for (const std::string& song : BuiltinSongNames()) songs.emplace_back(song, song);
+    std::vector<Key> fields = {
+        Key::Name("song", &Condition::song, songs, "What is danced; it begins anew when it is over."),
+        Key::Number("session_s", &Condition::session_s, {10, 1800}, "How long a session lasts.").Unit("seconds"),
+        Key::Name(
+            "learning", [](auto& c) -> auto& { return c.learner.law; }, LearningLawNames(), FindLearningLaw,
+            "The law by which the learner learns and forgets."),
+        Key::Number(
+            "guidance", [](auto& c) -> auto& { return c.learner.guidance; }, kShare,
+            "How much frequent feedback costs: 0 nothing; at 1 what is taught after every performance does not last."),
+        Key::Number(
+            "skill", [](auto& c) -> auto& { return c.learner.skill; }, kShare, "Where every skill starts.")
+            .WhenAbsent("(by the kind of people)"),
+        Key::Flag(
+            "gives_up", [](auto& c) -> auto& { return c.learner.gives_up; }, "Whether the learner's patience ends."),
+        Key::Number("test_after", &Condition::test_after, {0, 10000},
+                    "So many performances' time after the session what was kept is tested, without a coach."),
+        Key::Number(
+            "music_drift", [](auto& c) -> auto& { return c.music.drift; }, {-0.2, 0.2},
+            "The music plays so much faster than its clock: 0.02 is 2 %."),
+        Key::Number(
+            "stutters_per_min", [](auto& c) -> auto& { return c.music.stutters_per_min; }, {0, 60},
+            "How often the music stands still."),
+        Key::Number(
+            "stutter_s", [](auto& c) -> auto& { return c.music.stutter_s; }, {0, 5}, "For how long.")
+            .Unit("seconds")};
+    Append(
+        FieldsOf(DetectionConditionFields(), &Condition::sight, Keep::kThese,
+                 {"people", "noise", "turn_deg", "sensor", "distance_m", "sensor_height_m", "occluder", "threshold"}),
+        fields);
+    return FieldTable<Condition>{std::move(fields)};
+  }();
+  return table;
+}
+
+const FieldTable<CoachMethod>& CoachMethodFields() {
+  using Key = Field<Method>;
+  static const FieldTable<Method> table = [] {
+    std::vector<Key> fields =
+        FieldsOf(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
+    fields.push_back(Key::Flags(
+        "oracle",
+        {{"stream", [](Method& m) -> bool& { return m.sight.sees_truth; }}, {"judgement", &Method::knows_truth}},
+        "What is replaced by the truth: the skeletons as danced instead of as sensed, or what is "
+        "said of every performance (policy `oracle`)."));
+    Append(PolicyFields(), fields);
+    Append(FieldsOf(TransitionMethodFields(), &Method::transition, Keep::kOthers, {"weights", "wait_s", "threshold"}),
+           fields);
+    Append(CoachFields(), fields);
+    NamedValues<Seat> seats;
+    for (std::size_t i = 0; i < SeatNames().size(); ++i) {
+      seats.emplace_back(SeatNames()[i], static_cast<Seat>(static_cast<int>(Seat::kRecogniser) + static_cast<int>(i)));
+    }
+    fields.push_back(Key::Name("seat", &Method::seat, seats, "What the program of `exec` does in the loop.")
+                         .WhenAbsent("(the coach is built in)")
+                         .And("with `exec`"));
+    return FieldTable<Method>{std::move(fields), CheckMethod};
+  }();
+  return table;
+}
+
+}  // namespace etude

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/tasks/detection/options.h"
+#include "bench/tasks/transition/options.h"
+#include "engine/coaching/coach.h"
+#include "engine/coaching/policy.h"
+#include "sim/music/music_clock.h"
+#include "sim/performer/learner.h"
+
+namespace etude {
+
+/// One condition of a coach scenario: who learns what, how well the sensor sees it, and how well the music keeps time.
+///
+///     song: groove       # what is danced
+///     session_s: 180     # how long the coach may take; the song begins anew when it is over
+///     people: adult      # who learns
+///     learning: power    # by which law
+///     noise: 1           # times every error of the sensor
+struct CoachCondition {
+  std::string song = "groove";
+  double session_s = 180;
+  LearnerOptions learner;
+  int test_after = 20;  ///< so many performances' time after the session what was kept is tested
+  MusicClockOptions music;
+  DetectionOptions sight;  ///< who is there and how they are seen: its session's script is not read
+};
+
+/// Which part of the loop a program outside takes.
+enum class Seat { kNone, kRecogniser, kPolicy, kLearner };
+/// "recogniser", "policy", "learner".
+const std::vector<std::string>& SeatNames();
+
+/// One coach.
+///
+///     - {name: a, recogniser: key-pose, policy: at-first-mistake, choice: fuzzy-bridge, join: cut}
+///     - {name: control, recogniser: key-pose, policy: yoked, partner: at-first-mistake}
+struct CoachMethod {
+  std::string name;
+  DetectionMethod sight;
+  Coach::PolicyChoice policy{&AllPolicies().front(), {}};
+  const Policy* partner = &AllPolicies().front();  ///< of the session that a yoked one takes its moments from
+  bool knows_truth = false;                        ///< `oracle: [judgement]`
+  TransitionMethod transition;
+  CoachOptions coach;
+  Seat seat = Seat::kNone;
+};
+
+const FieldTable<CoachCondition>& CoachConditionFields();
+const FieldTable<CoachMethod>& CoachMethodFields();
+
+}  // namespace etude

@@ -1,0 +1,195 @@
+#include "bench/tasks/coach/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "engine/coaching/session.h"
+#include "sim/music/music_clock.h"
+
+namespace etude {
+namespace {
+
+constexpr int kAhead = static_cast<int>(SkeletonSensor::kAhead);
+
+/// One session while it runs.
+class Loop {
+ public:
+  Loop(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments)
+      : parts_(parts),
+        world_(world),
+        player_(player),
+        moments_(moments),
+        sensor_(world.sensor, world.occluders, world.errors, kJudgedRateHz, world.key),
+        music_(world.music, world.key) {
+    Begin(parts.coach.BeginDancing());
+  }
+
+  SessionLog Run() {
+    for (int i = 0; i < kAhead; ++i) SeeLearner();  // what is about to happen when the session begins
+    while (frame_ < world_.frames) {
+      const SensedFrame sensed = *SeeLearner();
+      const SensedFrame seen = parts_.sees_truth ? AsDanced(frame_) : sensed;
+      shown_ = coach_->Next(seen, Told());
+      log_.sensed.frames.push_back(seen);
+      Note();
+      PlayMusic();
+      if (shown_.mode == CoachMode::kStandby) DanceAgain();
+      ++frame_;
+      if (log_.given_up_at) break;  // who has given up is gone
+    }
+    log_.learner.poses.resize(static_cast<std::size_t>(frame_));
+    log_.test = player_.TakeTest(world_.test_after);
+    return std::move(log_);
+  }
+
+ private:
+  void Begin(CoachState state) {
+    first_frame_ = frame_;
+    coach_ = std::make_unique<CoachSession>(
+        CoachSession::Parts{.coach = &parts_.coach, .recogniser = &parts_.recogniser, .filter = parts_.filter},
+        std::move(state));
+  }
+
+  /// The song is over: it begins anew, and what the coach remembers of the player stays.
+  void DanceAgain() {
+    CoachState state = parts_.coach.BeginDancing();
+    state.moves = coach_->state().moves;
+    Begin(std::move(state));
+  }
+
+  std::optional<SensedFrame> SeeLearner() {
+    log_.learner.poses.push_back(player_.Next(shown_));
+    return sensor_.Update(log_.learner.poses.back());
+  }
+
+  SensedFrame AsDanced(int frame) const {
+    return StreamOf({.poses = {log_.learner.poses[static_cast<std::size_t>(frame)]}}).frames.front();
+  }
+
+  SessionInput Told() {
+    SessionInput input;
+    if (music_.IsPlaying()) input.music_s = music_.Now();
+    if (open_) {
+      const auto played = player_.PerformanceOf(open_->repetition);
+      const auto truth = played ? played->truth : PerformanceTruth::kWrong;
+      if (truth != PerformanceTruth::kGrey) input.told_right = truth == PerformanceTruth::kRight;
+    }
+    input.moment = moments_ != nullptr && moments_->Now(frame_, shown_);
+    return input;
+  }
+
+  void PlayMusic() {
+    if (shown_.music.kind == MusicCommand::Kind::kPlayFrom) music_.PlayFrom(shown_.music.music_s);
+    if (shown_.music.kind == MusicCommand::Kind::kPause) music_.Pause();
+    music_.Tick();
+  }
+
+  /// Keeps what this frame came to.
+  void Note() {
+    log_.modes.push_back(shown_.mode);
+    log_.coach.poses.push_back(shown_.body);
+    if (shown_.beat_error_s) log_.beat_errors_s.push_back(*shown_.beat_error_s);
+    if (player_.HasGivenUp() && !log_.given_up_at) log_.given_up_at = frame_;
+    for (CoachRecord record : shown_.records) {
+      record.frame += first_frame_;
+      NoteRecord(record);
+      log_.records.push_back(std::move(record));
+    }
+    NoteAct();
+    NoteWords();
+    if (shown_.asks) {
+      open_ = shown_.open;
+      opened_at_ = frame_ + 1;
+    }
+  }
+
+  void NoteRecord(const CoachRecord& record) {
+    switch (record.event) {
+      case CoachEvent::kRight:
+      case CoachEvent::kWrong:
+      case CoachEvent::kUnjudged:
+        NoteVerdict(record.event);
+        break;
+      case CoachEvent::kCorrects:
+        log_.corrections.push_back({.decided_frame = frame_, .act_frame = {}});
+        break;
+      case CoachEvent::kTransition:
+        if (record.transition) log_.transitions.push_back({SeamsOf(*record.transition)});
+        break;
+      default:
+        break;
+    }
+  }
+
+  /// The window that was open has closed. One that the coach itself has cut off asked for no whole performance.
+  void NoteVerdict(CoachEvent event) {
+    if (!open_) return;
+    const bool was_cut = event == CoachEvent::kUnjudged && shown_.mode != CoachMode::kDance;
+    if (!was_cut) {
+      const auto played = player_.PerformanceOf(open_->repetition);
+      LoggedPerformance performance{.repetition = open_->repetition, .move = open_->move, .judged = {}, .faults = ""};
+      performance.judged = {.begin_frame = opened_at_,
+                            .end_frame = frame_,
+                            .truth = played ? played->truth : PerformanceTruth::kWrong,
+                            .called_wrong = {},
+                            .called_right = event == CoachEvent::kRight};
+      if (event == CoachEvent::kWrong) performance.judged.called_wrong = frame_;
+      performance.faults = played ? played->faults : "skipped";
+      log_.performances.push_back(std::move(performance));
+    }
+    open_.reset();
+  }
+
+  /// The first frame of a corrective act, the way into it excluded.
+  void NoteAct() {
+    const bool acts = shown_.mode == CoachMode::kCorrect && !shown_.in_transition;
+    if (acts && !log_.corrections.empty() && !log_.corrections.back().act_frame) {
+      log_.corrections.back().act_frame = frame_;
+    }
+  }
+
+  void NoteWords() {
+    const bool same =
+        !log_.words.empty() && log_.words.back().say == shown_.say && log_.words.back().hint == shown_.hint;
+    if (same) return;
+    LoggedWords words{frame_, std::string(shown_.say), std::string(shown_.hint), {}};
+    if (shown_.picture != nullptr) words.picture = *shown_.picture;
+    log_.words.push_back(std::move(words));
+  }
+
+  /// The last frames before the transition points of a transition asked for in this frame.
+  std::vector<int> SeamsOf(const TransitionRecord& record) const {
+    std::vector<int> seams;
+    double frame = frame_;
+    const double rate = coach_->state().rate;
+    for (std::size_t i = 0; i + 1 < record.segments.size(); ++i) {
+      frame += (record.segments[i].last - record.segments[i].first) / rate;
+      seams.push_back(static_cast<int>(std::lround(frame)));
+    }
+    return seams;
+  }
+
+  const SessionParts& parts_;
+  const CoachWorld& world_;
+  Player& player_;
+  MomentSource* moments_;
+  SkeletonSensor sensor_;
+  MusicClock music_;
+  std::unique_ptr<CoachSession> coach_;
+  CoachOutput shown_;
+  SessionLog log_;
+  int frame_ = 0;
+  int first_frame_ = 0;  ///< of the song that is danced
+  std::optional<OpenWindow> open_;
+  int opened_at_ = 0;
+};
+
+}  // namespace
+
+SessionLog RunSession(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments) {
+  return Loop(parts, world, player, moments).Run();
+}
+
+}  // namespace etude

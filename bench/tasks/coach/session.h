@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/coach.h"
+#include "bench/tasks/coach/player.h"
+#include "bench/tasks/coach/world.h"
+#include "engine/coaching/coach.h"
+#include "engine/recognition/filters.h"
+#include "engine/recognition/recogniser.h"
+
+namespace etude {
+
+/// A performance that was asked for, as the player danced it and as the coach judged it.
+struct LoggedPerformance {
+  int repetition = 0;  ///< of the dance
+  int move = 0;
+  CoachedPerformance judged;
+  std::string faults;
+};
+
+/// A transition of the coach's: the frames of the session that are the last before each of its transition points.
+struct LoggedTransition {
+  std::vector<int> seams;
+};
+
+/// What is written on the screen from a frame on.
+struct LoggedWords {
+  int begin_frame = 0;
+  std::string say, hint;
+  std::optional<BodyPose> picture;  ///< the key pose that the hint is about
+};
+
+/// All that a session came to.
+struct SessionLog {
+  std::vector<CoachMode> modes;  ///< per frame
+  std::vector<LoggedPerformance> performances;
+  std::vector<GivenCorrection> corrections;
+  std::vector<CoachRecord> records;  ///< frames count from the session's first
+  std::vector<LoggedTransition> transitions;
+  std::vector<LoggedWords> words;     ///< whenever they change
+  std::vector<double> beat_errors_s;  ///< of the frames danced to music
+  BodyMotion coach;                   ///< as shown
+  BodyMotion learner;                 ///< as danced
+  SkeletonStream sensed;              ///< as the coach sees it, before its filter
+  std::optional<int> given_up_at;     ///< frame
+  std::vector<double> test;           ///< afterwards, without a coach (Player::TakeTest)
+
+  int Frames() const { return static_cast<int>(modes.size()); }
+};
+
+/// Who takes part in a session; all must outlive it.
+struct SessionParts {
+  const Coach& coach;
+  const Recogniser& recogniser;
+  FilterOptions filter;
+  bool sees_truth = false;  ///< the coach sees the learner as danced, not as sensed
+};
+
+/// What a session is asked from frame to frame by someone else than the coach's own policy: whether to correct now.
+class MomentSource {
+ public:
+  virtual ~MomentSource() = default;
+  virtual bool Now(int frame, const CoachOutput& before) = 0;
+};
+
+/// Runs one session: the player sees the coach, the sensor sees the player, the coach sees what the sensor reports.
+/// `moments`: null = none.
+SessionLog RunSession(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments);
+
+}  // namespace etude

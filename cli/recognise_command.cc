@@ -1,0 +1,220 @@
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cstdio>
+#include <iostream>
+#include <map>
+
+#include "bench/files/files.h"
+#include "bench/streams/label_scores.h"
+#include "bench/streams/leave_one_out.h"
+#include "cli/commands.h"
+#include "cli/stream_commands.h"
+#include "engine/base/named.h"
+#include "engine/base/names.h"
+#include "engine/streams/live_stream.h"
+#include "engine/teaching/moves_file.h"
+
+namespace etude {
+namespace {
+
+/// "tolerance_scale=1.2" of each setting, the rest by default.
+Result<std::vector<double>> ReadSettings(const RecogniserKind& kind, const std::vector<std::string>& given) {
+  std::vector<double> values;
+  std::vector<std::string> names;
+  for (const NumberSetting& setting : kind.settings) {
+    values.push_back(setting.fallback);
+    names.push_back(setting.key);
+  }
+  for (const std::string& text : given) {
+    const std::size_t at = std::min(text.find('='), text.size());
+    const auto found = std::ranges::find(names, text.substr(0, at));
+    if (found == names.end()) {
+      return Fail({"--set"}, "{}", UnknownName("setting of " + kind.name, text.substr(0, at), names));
+    }
+    const auto i = static_cast<std::size_t>(found - names.begin());
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data() + std::min(at + 1, text.size()), end, value);
+    const NumberSetting& setting = kind.settings[i];
+    if (error != std::errc() || rest != end || !(value >= setting.lowest && value <= setting.largest)) {
+      return Fail({"--set"}, "{}; allowed: {} to {}", Quote(text), setting.lowest, setting.largest);
+    }
+    values[i] = value;
+  }
+  return values;
+}
+
+Result<WatchOptions> OptionsOf(const RecogniseCommandOptions& options) {
+  WatchOptions watch;
+  if (!options.recogniser.empty()) watch.recogniser.kind = FindRecogniser(options.recogniser);
+  ASSIGN_OR_RETURN(watch.recogniser.settings, ReadSettings(*watch.recogniser.kind, options.settings));
+  if (options.weights == "adaptive") watch.recogniser.weights.weighting = Weighting::kAdaptive;
+  watch.filter.kind = FilterOf(options.filter);
+  watch.decision.threshold = options.threshold.value_or(watch.recogniser.kind->threshold);
+  return watch;
+}
+
+/// Moves, and a recogniser that was taught them.
+struct Taught {
+  std::vector<TaughtMove> moves;
+  std::unique_ptr<Recogniser> recogniser;
+};
+
+Result<Taught> LoadTaught(const std::string& path, const WatchOptions& watch) {
+  ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(path));
+  Taught taught;
+  ASSIGN_OR_RETURN(taught.moves, ReadMoves(text, path));
+  auto made = MakeRecogniser(watch.recogniser, taught.moves);
+  if (!made) return Fail({path}, "{}", made.error().message);
+  taught.recogniser = *std::move(made);
+  return taught;
+}
+
+void PrintSpotting(const Spotting& spotting, const Taught& taught, double rate_hz, const std::string& stream) {
+  fmt::print("{}\n", SpottingLine(spotting, taught.moves[spotting.move].name, rate_hz, stream));
+  std::fflush(stdout);
+}
+
+/// Standard input, line by line, until it ends.
+int RecogniseLive(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+  const StreamOptions making = options.reading.Options();
+  LiveStream live("standard input", options.reading.Reading(), making);
+  StreamWatcher watcher(*taught.recogniser, taught.moves.size(), watch, making.rate_hz);
+  const auto take = [&](const std::vector<SensedFrame>& frames) {
+    for (const SensedFrame& frame : frames) {
+      for (const Spotting& spotting : watcher.Take(frame)) {
+        PrintSpotting(spotting, taught, making.rate_hz, "");
+      }
+    }
+  };
+  for (std::string line; std::getline(std::cin, line);) {
+    std::vector<SensedFrame> frames;
+    const auto taken = live.Take(line, frames);
+    take(frames);
+    if (!taken) return Complain(taken.error());
+  }
+  std::vector<SensedFrame> frames;
+  const auto finished = live.Finish(frames);
+  take(frames);
+  return finished ? kSuccess : Complain(finished.error());
+}
+
+std::string Percent(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f} %", 100 * *share) : std::string("none");
+}
+
+void Print(const LabelScores& scores, bool as_json) {
+  const std::vector<JudgedEvent>& performances = scores.Performances();
+  const Confusion confusion = CountConfusion(performances);
+  if (scores.Untaught() > 0) fmt::print(stderr, "{} labels of moves that were not taught\n", scores.Untaught());
+  if (!performances.empty()) {
+    fmt::print(stderr, "{} performances: F1 {}, precision {}, recall {}, AUC {}\n", performances.size(),
+               Percent(F1(confusion)), Percent(Precision(confusion)), Percent(Recall(confusion)),
+               Percent(RocAuc(performances)));
+  }
+  if (!scores.Points().empty()) {
+    fmt::print(stderr, "{} action points: F-score {} within {:.0f} ms, mean of the moves\n", scores.Points().size(),
+               Percent(scores.PointFScore()), 1000 * kActionPointTolerance);
+  }
+  fmt::print(stderr, "{:.2f} false alarms a minute\n", scores.FalseAlarmsAMinute());
+  if (as_json) fmt::print("{}\n", ScoresLine(scores));
+}
+
+Result<LoadedStreams> Load(const RecogniseCommandOptions& options) {
+  ASSIGN_OR_RETURN(auto loaded, LoadStreams(options.streams, options.reading.Reading(), options.reading.Options()));
+  for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
+  constexpr std::size_t kFew = 20;
+  if (loaded.streams.size() <= kFew) {
+    for (const NamedStream& stream : loaded.streams) fmt::print(stderr, "{}: {}\n", stream.source, stream.description);
+  }
+  return loaded;
+}
+
+Result<std::vector<LabelledPart>> PartsOf(const RecogniseCommandOptions& options, const LoadedStreams& loaded) {
+  if (options.labels.empty()) return WholeStreams(loaded.streams);
+  ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
+  return MatchLabels(labels, options.labels, loaded.streams);
+}
+
+Result<void> RecogniseFiles(const RecogniseCommandOptions& options, const Taught& taught, const WatchOptions& watch) {
+  ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
+  std::vector<LabelledPart> parts;
+  if (!options.labels.empty()) {
+    ASSIGN_OR_RETURN(parts, PartsOf(options, loaded));
+  }
+  LabelScores scores(taught.moves, *taught.recogniser, watch);
+  for (std::size_t s = 0; s < loaded.streams.size(); ++s) {
+    const NamedStream& stream = loaded.streams[s];
+    const auto spottings = Watch(stream.stream, *taught.recogniser, taught.moves.size(), watch);
+    for (const Spotting& spotting : spottings) {
+      PrintSpotting(spotting, taught, stream.stream.rate_hz, loaded.streams.size() > 1 ? stream.name : "");
+    }
+    std::vector<LabelledPart> own;
+    std::ranges::copy_if(parts, std::back_inserter(own), [&](const LabelledPart& p) { return p.stream == s; });
+    scores.Add(stream, own, spottings);
+  }
+  if (!options.labels.empty()) Print(scores, options.as_json);
+  return {};
+}
+
+/// Which moves are taken for which, the commonest mistakes first.
+void PrintMistakes(std::span<const Classified> verdicts) {
+  std::map<std::pair<std::string, std::string>, int> mistakes;
+  for (const Classified& verdict : verdicts) {
+    if (verdict.truth != verdict.taken_for) ++mistakes[{verdict.truth, verdict.taken_for}];
+  }
+  std::vector<std::pair<std::pair<std::string, std::string>, int>> sorted(mistakes.begin(), mistakes.end());
+  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.second > b.second; });
+  constexpr std::size_t kShown = 8;
+  for (std::size_t i = 0; i < std::min(kShown, sorted.size()); ++i) {
+    const auto& [pair, count] = sorted[i];
+    fmt::print("  {:4} {} taken for {}\n", count, pair.first, pair.second.empty() ? "nothing" : pair.second);
+  }
+}
+
+Result<void> RecogniseLeavingOneOut(const RecogniseCommandOptions& options, const WatchOptions& watch) {
+  ASSIGN_OR_RETURN(const LoadedStreams loaded, Load(options));
+  ASSIGN_OR_RETURN(const auto parts, PartsOf(options, loaded));
+  ASSIGN_OR_RETURN(
+      const LeaveOneOut out,
+      LeaveOnePersonOut(loaded.streams, parts, options.labels.empty() ? "the recordings" : options.labels, watch));
+  fmt::print("{} people, {} recordings\n", out.people.size(), loaded.streams.size());
+  const auto accuracy = Accuracy(out.verdicts), nearest = Accuracy(out.nearest);
+  const auto f_score = MeanFScore(out.points, out.detections, kActionPointTolerance);
+  if (!out.verdicts.empty()) {
+    fmt::print("accuracy of {} performances, one person left out\n  {:<28} {}\n  {:<28} {}\n", out.verdicts.size(),
+               watch.recogniser.kind->name, Percent(accuracy), "nearest whole performance", Percent(nearest));
+    PrintMistakes(out.verdicts);
+  }
+  if (out.mistaught > 0) fmt::print("  {} of moves that nobody else did\n", out.mistaught);
+  if (!out.points.empty()) {
+    fmt::print("F-score of {} action points within {:.0f} ms, mean of the moves: {}\n", out.points.size(),
+               1000 * kActionPointTolerance, Percent(f_score));
+  }
+  if (options.as_json) fmt::print("{}\n", ScoresLine(out));
+  return {};
+}
+
+}  // namespace
+
+int RecogniseCommand(const RecogniseCommandOptions& options) {
+  const auto watch = OptionsOf(options);
+  if (!watch) return Complain(watch.error());
+  if (options.leave_one_person_out) {
+    const auto done = RecogniseLeavingOneOut(options, *watch);
+    return done ? kSuccess : Complain(done.error());
+  }
+  if (options.moves.empty()) return Complain({{"--moves", 0, 0}, "needed: a moves file (etude teach writes one)"});
+  const auto taught = LoadTaught(options.moves, *watch);
+  if (!taught) return Complain(taught.error());
+  const bool is_live = std::ranges::find(options.streams, "-") != options.streams.end();
+  if (is_live && (options.streams.size() > 1 || !options.labels.empty())) {
+    return Complain({{"-", 0, 0}, "standard input goes alone, and without labels"});
+  }
+  if (is_live) return RecogniseLive(options, *taught, *watch);
+  const auto done = RecogniseFiles(options, *taught, *watch);
+  return done ? kSuccess : Complain(done.error());
+}
+
+}  // namespace etude

@@ -1,0 +1,55 @@
+#include <fmt/core.h>
+
+#include "bench/files/files.h"
+#include "bench/streams/teach.h"
+#include "cli/clip_reading.h"
+#include "cli/commands.h"
+#include "cli/stream_commands.h"
+#include "engine/base/names.h"
+#include "engine/teaching/moves_file.h"
+
+namespace etude {
+namespace {
+
+Result<std::vector<TaughtMove>> Teach(const TeachCommandOptions& options) {
+  ASSIGN_OR_RETURN(const auto loaded,
+                   LoadStreams(options.streams, options.reading.Reading(), options.reading.Options()));
+  for (const Error& refused : loaded.refused) fmt::print(stderr, "left out: {}\n", ToString(refused));
+  for (const NamedStream& stream : loaded.streams) fmt::print(stderr, "{}: {}\n", stream.source, stream.description);
+  std::vector<LabelledPart> parts = WholeStreams(loaded.streams);
+  if (!options.labels.empty()) {
+    ASSIGN_OR_RETURN(const auto labels, LoadLabels(options.labels));
+    ASSIGN_OR_RETURN(parts, MatchLabels(labels, options.labels, loaded.streams));
+  }
+  return TeachMoves(
+      loaded.streams, parts, [](const LabelledPart&) { return true; }, true);
+}
+
+std::string TargetsText(const TaughtPose& pose) {
+  std::vector<std::string> targets;
+  for (const PoseTarget& target : pose.targets) {
+    targets.push_back(
+        fmt::format("{} {:.0f}±{:.0f}", FeatureName(target.feature), target.degrees, target.tolerance_deg));
+  }
+  return Join(targets);
+}
+
+}  // namespace
+
+int TeachCommand(const TeachCommandOptions& options) {
+  if (auto checked = CheckOutput(options.output, options.overwrite); !checked) return Complain(checked.error());
+  const auto moves = Teach(options);
+  if (!moves) return Complain(moves.error());
+  const std::string text = "# Learnt by `etude teach`\n" + WriteMoves(*moves);
+  if (auto read_back = ReadMoves(text, options.output); !read_back) return Complain(read_back.error());
+  if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
+  for (const TaughtMove& move : *moves) {
+    fmt::print("{}: {} right, {} wrong, up to {:.1f} s\n", move.name, move.examples.size(),
+               move.counter_examples.size(), move.span_s);
+    for (const TaughtPose& pose : move.poses) fmt::print("  {}\n", TargetsText(pose));
+  }
+  fmt::print("written: {}\n", options.output);
+  return kSuccess;
+}
+
+}  // namespace etude

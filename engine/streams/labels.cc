@@ -1,0 +1,233 @@
+#include "engine/streams/labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/names.h"
+#include "engine/recognition/skeleton_stream.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLargestLabels = std::size_t{16} << 20;
+constexpr double kLongestRecording = 1e12;  // seconds: clocks may count from any time
+constexpr std::size_t kLongestName = 200;
+
+/// A word and where it begins in its line, from 1.
+struct Cell {
+  std::string_view text;
+  int column = 1;
+};
+
+std::string_view Trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t' || text.back() == '\r')) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<Cell> CellsOf(std::string_view line, char separator) {
+  std::vector<Cell> cells;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, at), line.size());
+    const std::string_view word = Trimmed(line.substr(at, end - at));
+    cells.push_back({word, static_cast<int>(word.empty() ? at : word.data() - line.data()) + 1});
+    at = end + 1;
+  }
+  return cells;
+}
+
+/// Walks a text line by line; empty lines and those that begin with '#' are passed over.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  }
+  /// Nothing at the end.
+  std::optional<std::string_view> Next() {
+    while (!text_.empty()) {
+      const std::size_t end = std::min(text_.find('\n'), text_.size());
+      const std::string_view line = text_.substr(0, end);
+      text_.remove_prefix(std::min(end + 1, text_.size()));
+      ++number_;
+      if (const std::string_view words = Trimmed(line); !words.empty() && words.front() != '#') return line;
+    }
+    return std::nullopt;
+  }
+  int number() const { return number_; }
+
+ private:
+  std::string_view text_;
+  int number_ = 0;
+};
+
+Result<double> NumberIn(const Cell& cell, const std::string& file, int line, double largest) {
+  double value = 0;
+  const char* const end = cell.text.data() + cell.text.size();
+  const auto [rest, error] = std::from_chars(cell.text.data(), end, value);
+  if (error != std::errc() || rest != end || !std::isfinite(value) || std::abs(value) > largest) {
+    return Fail({file, line, cell.column}, "found {}; allowed: a number", Quote(cell.text));
+  }
+  return value;
+}
+
+Result<std::string> NameIn(const Cell& cell, const std::string& file, int line, std::string_view what) {
+  const bool is_name =
+      !cell.text.empty() && cell.text.size() <= kLongestName &&
+      std::ranges::none_of(cell.text, [](char c) { return (c >= 0 && c < ' ') || c == ',' || c == '"'; });
+  if (is_name) return std::string(cell.text);
+  return Fail({file, line, cell.column},
+              "found {} as {}; allowed: a name of at most {} bytes, without quotes and commas", Quote(cell.text), what,
+              kLongestName);
+}
+
+constexpr std::array<std::string_view, 6> kHeadings = {"clip", "from_s", "to_s", "move", "truth", "person"};
+
+/// Which cell holds each heading's value.
+Result<std::array<std::optional<std::size_t>, kHeadings.size()>> FindHeadings(std::string_view line,
+                                                                              const std::string& file, int number) {
+  std::array<std::optional<std::size_t>, kHeadings.size()> found;
+  const std::vector<Cell> cells = CellsOf(line, ',');
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto at = std::ranges::find(kHeadings, cells[i].text);
+    if (at == kHeadings.end()) {
+      const std::vector<std::string> known(kHeadings.begin(), kHeadings.end());
+      return Fail({file, number, cells[i].column}, "{}", UnknownName("heading", cells[i].text, known));
+    }
+    found[static_cast<std::size_t>(at - kHeadings.begin())] = i;
+  }
+  for (std::size_t h = 0; h + 1 < kHeadings.size(); ++h) {
+    if (!found[h]) return Fail({file, number}, "no heading '{}'; needed: clip,from_s,to_s,move,truth", kHeadings[h]);
+  }
+  return found;
+}
+
+Result<std::vector<Label>> ReadCsv(Lines lines, const std::string& file) {
+  std::vector<Label> labels;
+  const auto heading = lines.Next();
+  if (!heading) return labels;
+  ASSIGN_OR_RETURN(const auto columns, FindHeadings(*heading, file, lines.number()));
+  while (const auto line = lines.Next()) {
+    const int number = lines.number();
+    const std::vector<Cell> cells = CellsOf(*line, ',');
+    const auto cell = [&](std::size_t heading_index) {
+      const auto column = columns[heading_index];
+      return column && *column < cells.size() ? cells[*column] : Cell{{}, static_cast<int>(line->size()) + 1};
+    };
+    Label label;
+    label.line = number;
+    ASSIGN_OR_RETURN(label.clip, NameIn(cell(0), file, number, "clip"));
+    ASSIGN_OR_RETURN(label.move, NameIn(cell(3), file, number, "move"));
+    ASSIGN_OR_RETURN(const std::string truth, NameIn(cell(4), file, number, "truth ('right' or the fault)"));
+    if (truth != "right") label.fault = truth;
+    if (!cell(5).text.empty()) {
+      ASSIGN_OR_RETURN(label.person, NameIn(cell(5), file, number, "person"));
+    }
+    for (const std::size_t i : {1, 2}) {
+      if (cell(i).text.empty()) continue;
+      ASSIGN_OR_RETURN((i == 1 ? label.from_s : label.to_s), NumberIn(cell(i), file, number, kLongestRecording));
+    }
+    if (label.to_s && !label.from_s) return Fail({file, number, cell(2).column}, "an end without a beginning");
+    if (label.to_s && *label.to_s <= *label.from_s) {
+      return Fail({file, number, cell(2).column}, "ends at {} s, begins at {} s; allowed: later", *label.to_s,
+                  *label.from_s);
+    }
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+/// Ticks of a clock of 49.875 MHz, against the recording's microseconds.
+Result<std::vector<Label>> ReadTags(Lines lines, const std::string& file, std::string_view clip) {
+  constexpr double kTicksPerSecond = 49'875'000;
+  std::vector<Label> labels;
+  lines.Next();  // XQPCTick;Tag
+  while (const auto line = lines.Next()) {
+    const int number = lines.number();
+    const std::vector<Cell> cells = CellsOf(*line, ';');
+    if (cells.size() != 2) return Fail({file, number}, "{} words; allowed: a tick and a tag", cells.size());
+    ASSIGN_OR_RETURN(const double tick, NumberIn(cells[0], file, number, 1e19));
+    Label label;
+    label.clip = clip;
+    label.from_s = tick / kTicksPerSecond;
+    ASSIGN_OR_RETURN(label.move, NameIn(cells[1], file, number, "tag"));
+    label.by_own_clock = true;
+    label.line = number;
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+bool IsTakeName(std::string_view line) {
+  constexpr std::string_view kPattern = "s00_e00";
+  const auto fits = [](char c, char p) { return p == '0' ? c >= '0' && c <= '9' : c == p; };
+  return std::ranges::equal(line, kPattern, fits);
+}
+
+Result<std::vector<Label>> ReadActionLabels(Lines lines, const std::string& file) {
+  std::vector<Label> labels;
+  std::string take;
+  while (const auto line = lines.Next()) {
+    const int number = lines.number();
+    if (IsTakeName(Trimmed(*line))) {
+      take = Trimmed(*line);
+      continue;
+    }
+    const std::size_t colon = line->find(':');
+    if (colon == std::string_view::npos)
+      return Fail({file, number}, "found {}; allowed: 'walk: 252 390'", Quote(*line));
+    std::vector<Cell> cells;
+    for (Cell cell : CellsOf(line->substr(colon + 1), ' ')) {
+      cell.column += static_cast<int>(colon) + 1;
+      if (!cell.text.empty()) cells.push_back(cell);
+    }
+    if (cells.size() != 2) return Fail({file, number}, "{} numbers; allowed: a first and a last frame", cells.size());
+    if (cells[0].text == "NaN" || cells[1].text == "NaN") continue;
+    Label label;
+    label.clip = take;
+    label.by_own_clock = true;
+    label.line = number;
+    ASSIGN_OR_RETURN(label.move, NameIn({Trimmed(line->substr(0, colon)), 1}, file, number, "action"));
+    ASSIGN_OR_RETURN(const double first, NumberIn(cells[0], file, number, 1e9));
+    ASSIGN_OR_RETURN(const double last, NumberIn(cells[1], file, number, 1e9));
+    if (last <= first) return Fail({file, number, cells[1].column}, "ends before it begins");
+    label.from_s = first / kJudgedRateHz;
+    label.to_s = last / kJudgedRateHz;
+    label.person = take.substr(0, take.find('_'));
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+}  // namespace
+
+Result<std::vector<Label>> ReadLabels(std::string_view text, const std::string& file, std::string_view clip) {
+  if (text.size() > kLargestLabels) return Fail({file}, "{} bytes; allowed: at most {}", text.size(), kLargestLabels);
+  Lines lines(text);
+  const std::string_view first = Trimmed(Lines(text).Next().value_or(""));
+  auto labels = first.starts_with("XQPCTick") ? ReadTags(lines, file, clip)
+                : IsTakeName(first)           ? ReadActionLabels(lines, file)
+                                              : ReadCsv(lines, file);
+  if (labels && labels->empty()) return Fail({file}, "no labels");
+  return labels;
+}
+
+std::string WriteLabels(const std::vector<Label>& labels) {
+  std::string text = fmt::format("{}\n", fmt::join(kHeadings, ","));
+  for (const Label& label : labels) {
+    text += fmt::format("{},{},{},{},{},{}\n", label.clip, label.from_s ? fmt::format("{}", *label.from_s) : "",
+                        label.to_s ? fmt::format("{}", *label.to_s) : "", label.move,
+                        label.IsRight() ? "right" : label.fault, label.person);
+  }
+  return text;
+}
+
+bool IsLabelOf(const Label& label, std::string_view recording) {
+  if (label.clip == recording) return true;
+  return IsTakeName(label.clip) && recording.find(label.clip) != std::string_view::npos;
+}
+
+}  // namespace etude

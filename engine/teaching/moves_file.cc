@@ -1,0 +1,221 @@
+#include "engine/teaching/moves_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/named.h"
+#include "engine/base/names.h"
+#include "engine/document/fields.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kLargestMoves = std::size_t{64} << 20;
+constexpr std::size_t kMostMoves = 200, kLongestName = 200;
+constexpr double kFarthestMm = 100'000, kFastestHz = 1000;
+constexpr Range kTolerances{0.1, 360}, kDegrees{-360, 360};
+constexpr double kMillimetres = 1000;
+
+// --- writing
+
+char LetterOf(const SensedFrame& frame, Role role) {
+  if (!frame.body_seen) return '-';
+  const TrackingState state = frame[role].state;
+  return state == TrackingState::kTracked ? 't' : state == TrackingState::kInferred ? 'i' : 'n';
+}
+
+void WriteStream(const SkeletonStream& stream, std::string& text) {
+  text += fmt::format("      - rate_hz: {}\n        frames: |\n", stream.rate_hz);
+  for (const SensedFrame& frame : stream.frames) {
+    text += "          ";
+    for (const Role role : AllRoles()) text += LetterOf(frame, role);
+    for (const SensedJoint& joint : frame.joints) {
+      for (int axis = 0; axis < 3; ++axis) {
+        // Whole tenths, so that the digits are those that read back the same; no minus before a zero.
+        const double tenths = std::round(10 * kMillimetres * joint.position[axis]);
+        text += fmt::format(" {}", tenths == 0 ? 0.0 : tenths / 10);
+      }
+    }
+    text += '\n';
+  }
+}
+
+void WriteStreams(std::string_view key, const std::vector<SkeletonStream>& streams, std::string& text) {
+  text += fmt::format("    {}:{}\n", key, streams.empty() ? " []" : "");
+  for (const SkeletonStream& stream : streams) WriteStream(stream, text);
+}
+
+std::string Quoted(std::string_view name) {
+  std::string quoted = "'";
+  for (const char c : name) quoted += c == '\'' ? "''" : std::string(1, c);
+  return quoted + "'";
+}
+
+void WriteMove(const TaughtMove& move, std::string& text) {
+  text += fmt::format("  - name: {}\n    span_s: {}\n    key_poses:{}\n", Quoted(move.name), move.span_s,
+                      move.poses.empty() ? " []" : "");
+  for (const TaughtPose& pose : move.poses) {
+    std::vector<std::string> targets;
+    for (const PoseTarget& target : pose.targets) {
+      targets.push_back(fmt::format("{}: {{degrees: {:.1f}, tolerance_deg: {:.1f}}}", FeatureName(target.feature),
+                                    target.degrees, target.tolerance_deg));
+    }
+    text += fmt::format("      - {{{}}}\n", Join(targets));
+  }
+  WriteStreams("right", move.examples, text);
+  WriteStreams("wrong", move.counter_examples, text);
+}
+
+// --- reading
+
+Result<PoseTarget> ReadTarget(const Node::Entry& entry, double tolerance_deg) {
+  const Feature* feature = FindFeature(entry.key);
+  if (feature == nullptr) {
+    std::vector<std::string> names;
+    for (const Feature known : AllFeatures()) names.emplace_back(FeatureName(known));
+    return Fail(entry.place, "{}", UnknownName("feature", entry.key, names));
+  }
+  PoseTarget target{.feature = *feature, .degrees = 0, .tolerance_deg = tolerance_deg};
+  if (entry.value.kind == Node::Kind::kMapping) {
+    Fields fields(entry.value, "a target");
+    target.degrees = fields.Number("degrees", 0, kDegrees);
+    target.tolerance_deg = fields.Number("tolerance_deg", tolerance_deg, kTolerances);
+    RETURN_IF_ERROR(fields.Finish());
+  } else {
+    ASSIGN_OR_RETURN(target.degrees, AsNumber(entry.value));
+  }
+  if (target.tolerance_deg > 0) return target;
+  return Fail(entry.place, "no tolerance_deg, neither of this angle nor of its pose");
+}
+
+Result<TaughtPose> ReadPose(const Node& node) {
+  if (node.kind != Node::Kind::kMapping) return Fail(node.place, "a key pose is a mapping, found {}", Describe(node));
+  double tolerance_deg = 0;
+  if (const Node* shared = node.Find("tolerance_deg")) {
+    ASSIGN_OR_RETURN(tolerance_deg, AsNumber(*shared));
+    if (!(tolerance_deg >= kTolerances.lowest && tolerance_deg <= kTolerances.highest)) {
+      return Fail(shared->place, "tolerance_deg {}; allowed: {} to {}", tolerance_deg, kTolerances.lowest,
+                  kTolerances.highest);
+    }
+  }
+  TaughtPose pose;
+  for (const Node::Entry& entry : node.entries) {
+    if (entry.key == "tolerance_deg") continue;
+    ASSIGN_OR_RETURN(pose.targets.emplace_back(), ReadTarget(entry, tolerance_deg));
+  }
+  if (pose.targets.empty()) return Fail(node.place, "a key pose without an angle");
+  return pose;
+}
+
+/// One line: a letter a joint, then sixty numbers.
+Result<SensedFrame> ReadFrame(std::string_view line, const Place& place) {
+  SensedFrame frame;
+  const std::string_view letters = line.substr(0, line.find(' '));
+  if (letters.size() != kRoleCount || letters.find_first_not_of("tin-") != std::string_view::npos) {
+    return Fail(place, "found {}; allowed: {} letters t, i, n or -, then {} numbers", Quote(letters), kRoleCount,
+                3 * kRoleCount);
+  }
+  line.remove_prefix(letters.size());
+  frame.body_seen = letters.front() != '-';
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    SensedJoint& joint = frame.joints[i];
+    joint.state = letters[i] == 't'   ? TrackingState::kTracked
+                  : letters[i] == 'i' ? TrackingState::kInferred
+                                      : TrackingState::kNotTracked;
+    for (int axis = 0; axis < 3; ++axis) {
+      while (line.starts_with(' ')) line.remove_prefix(1);
+      double value = 0;
+      const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
+      if (error != std::errc() || !(std::abs(value) <= kFarthestMm)) {
+        return Fail(place, "found {} as number {} of {}; allowed: millimetres within ±{:g}", Quote(line.substr(0, 12)),
+                    3 * i + static_cast<std::size_t>(axis) + 1, 3 * kRoleCount, kFarthestMm);
+      }
+      joint.position[axis] = value / kMillimetres;
+      line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+    }
+  }
+  if (line.find_first_not_of(" \r") == std::string_view::npos) return frame;
+  return Fail(place, "more than {} numbers in a line", 3 * kRoleCount);
+}
+
+Result<SkeletonStream> ReadStream(const Node& node) {
+  Fields fields(node, "a performance");
+  SkeletonStream stream;
+  stream.rate_hz = fields.Number("rate_hz", kJudgedRateHz, {1, kFastestHz});
+  const std::string frames = fields.RequiredText("frames");
+  RETURN_IF_ERROR(fields.Finish());
+  Place place = fields.Raw("frames")->place;
+  std::string_view rest = frames;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    ++place.line;  // the block begins below its key
+    ASSIGN_OR_RETURN(stream.frames.emplace_back(), ReadFrame(rest.substr(0, end), {place.file, place.line, 0}));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return stream;
+}
+
+Result<std::vector<SkeletonStream>> ReadStreams(const Node* node) {
+  std::vector<SkeletonStream> streams;
+  if (node == nullptr) return streams;
+  if (node->kind != Node::Kind::kSequence)
+    return Fail(node->place, "a list of performances, found {}", Describe(*node));
+  for (const Node& item : node->items) {
+    ASSIGN_OR_RETURN(streams.emplace_back(), ReadStream(item));
+  }
+  return streams;
+}
+
+Result<TaughtMove> ReadMove(const Node& node) {
+  Fields fields(node, "a move");
+  TaughtMove move;
+  move.name = fields.RequiredText("name");
+  move.span_s = fields.Number("span_s", move.span_s, {0.1, kLongestSpan});
+  const Node *poses = fields.Raw("key_poses"), *right = fields.Raw("right"), *wrong = fields.Raw("wrong");
+  RETURN_IF_ERROR(fields.Finish());
+  if (move.name.empty() || move.name.size() > kLongestName) {
+    return Fail(node.place, "a name of {} bytes; allowed: 1 to {}", move.name.size(), kLongestName);
+  }
+  if (poses != nullptr) {
+    if (poses->kind != Node::Kind::kSequence)
+      return Fail(poses->place, "a list of key poses, found {}", Describe(*poses));
+    for (const Node& pose : poses->items) {
+      ASSIGN_OR_RETURN(move.poses.emplace_back(), ReadPose(pose));
+    }
+  }
+  ASSIGN_OR_RETURN(move.examples, ReadStreams(right));
+  ASSIGN_OR_RETURN(move.counter_examples, ReadStreams(wrong));
+  return move;
+}
+
+}  // namespace
+
+std::string WriteMoves(const std::vector<TaughtMove>& moves) {
+  std::string text = "moves:\n";
+  for (const TaughtMove& move : moves) WriteMove(move, text);
+  return text;
+}
+
+Result<std::vector<TaughtMove>> ReadMoves(std::string_view text, const std::string& file) {
+  ASSIGN_OR_RETURN(const Node root, ParseYaml(text, file, kLargestMoves));
+  Fields fields(root, "a moves file");
+  const Node* list = fields.Raw("moves");
+  RETURN_IF_ERROR(fields.Finish());
+  if (list == nullptr || list->kind != Node::Kind::kSequence || list->items.empty()) {
+    return Fail(list == nullptr ? root.place : list->place, "no list 'moves' with at least one move");
+  }
+  if (list->items.size() > kMostMoves)
+    return Fail(list->place, "{} moves; allowed: {}", list->items.size(), kMostMoves);
+  std::vector<TaughtMove> moves;
+  for (const Node& item : list->items) {
+    ASSIGN_OR_RETURN(TaughtMove move, ReadMove(item));
+    if (FindByName(moves, move.name)) return Fail(item.place, "a second move called {}", Quote(move.name));
+    moves.push_back(std::move(move));
+  }
+  return moves;
+}
+
+}  // namespace etude

@@ -1,0 +1,126 @@
+#include "reports/clips/contact_index.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "reports/words/escape.h"
+
+namespace etude {
+namespace {
+
+constexpr double kPictureWidth = 960, kLabelWidth = 70, kRightEdge = 20, kPanelHeight = 90, kBarHeight = 12,
+                 kBetween = 22, kTitleHeight = 44;
+constexpr double kCm = 100;
+constexpr std::array kSides = {"left foot", "right foot"};
+
+/// A curve over the clip with its two thresholds.
+struct CurvePanel {
+  std::string label, unit;
+  std::vector<double> values;
+  double plant = 0, lift = 0;
+};
+
+class Picture {
+ public:
+  explicit Picture(const BodyMotion& motion)
+      : seconds_(static_cast<double>(std::max<std::size_t>(motion.poses.size(), 2) - 1) / motion.rate_hz),
+        rate_hz_(motion.rate_hz) {}
+
+  void Add(const CurvePanel& panel) {
+    // Beyond three times what lifts a foot it does not matter how far: what matters stays large.
+    const double top = std::clamp(*std::ranges::max_element(panel.values), 1.2 * panel.lift, 3 * panel.lift);
+    const auto y = [&](double value) { return y_ + kPanelHeight * (1 - std::clamp(value / top, 0.0, 1.0)); };
+    for (double threshold : {panel.plant, panel.lift}) {
+      body_ += fmt::format(
+          R"(<line x1="{}" x2="{}" y1="{:.1f}" y2="{:.1f}" class="threshold"/><text x="{}" y="{:.1f}" class="tick">{:g}</text>)"
+          "\n",
+          kLabelWidth, kPictureWidth - kRightEdge, y(threshold), y(threshold), kLabelWidth - 6, y(threshold) + 4,
+          threshold);
+    }
+    std::string points;
+    for (std::size_t f = 0; f < panel.values.size(); ++f) {
+      points += fmt::format("{:.1f},{:.1f} ", X(static_cast<double>(f)), y(panel.values[f]));
+    }
+    body_ += fmt::format("<polyline points=\"{}\"/>\n<text x=\"{}\" y=\"{:.1f}\">{}, {}</text>\n", points, kLabelWidth,
+                         y_ - 4, panel.label, panel.unit);
+    y_ += kPanelHeight + kBetween;
+  }
+
+  void AddBars(const std::vector<bool>& stands) {
+    y_ -= kBetween - 4;
+    for (std::size_t first = 0; first < stands.size();) {
+      std::size_t end = first;
+      while (end < stands.size() && stands[end] == stands[first]) ++end;
+      if (stands[first]) {
+        const double x = X(static_cast<double>(first)), to = X(static_cast<double>(std::min(end, stands.size() - 1)));
+        body_ += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>\n", x, y_,
+                             std::max(to - x, 1.0), kBarHeight);
+      }
+      first = end;
+    }
+    y_ += kBarHeight + kBetween + 8;
+  }
+
+  std::string Svg(const std::string& title) {
+    const double step = std::max(1.0, std::ceil(seconds_ / 12));
+    for (double second = 0; second <= seconds_; second += step) {
+      body_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"time\">{:g} s</text>\n", X(second * rate_hz_), y_,
+                           second);
+    }
+    return fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1:.0f}\" viewBox=\"0 0 {0} {1:.0f}\">\n"
+        "<style>text{{font:12px sans-serif;fill:#222}}.tick{{text-anchor:end}}.time{{text-anchor:middle}}"
+        "polyline{{fill:none;stroke:#316f93}}.threshold{{stroke:#9c5201;stroke-dasharray:4 "
+        "3}}rect{{fill:#1ea194}}</style>\n"
+        "<rect width=\"100%\" height=\"100%\" style=\"fill:#fff\"/>\n<text x=\"{2}\" y=\"20\">{3}</text>\n{4}</svg>\n",
+        kPictureWidth, y_ + 12, kLabelWidth, EscapeMarkup(title), body_);
+  }
+
+ private:
+  double X(double frame) const {
+    return kLabelWidth + (kPictureWidth - kLabelWidth - kRightEdge) * frame / (seconds_ * rate_hz_);
+  }
+
+  const double seconds_, rate_hz_;
+  double y_ = kTitleHeight;
+  std::string body_;
+};
+
+}  // namespace
+
+std::string ContactIndexSvg(const std::string& name, const BodyMotion& motion, const ContactRules& rules) {
+  const FootContacts contacts = FindFootContacts(motion.poses, motion.rate_hz, rules);
+  Picture picture(motion);
+  std::string title = name;
+  for (std::size_t side = 0; side < kLegs.size(); ++side) {
+    CurvePanel height{.label = fmt::format("{}: height of the toe tip", kSides[side]),
+                      .unit = "cm",
+                      .values = {},
+                      .plant = kCm * rules.plant_height,
+                      .lift = kCm * rules.lift_height};
+    CurvePanel speed{.label = fmt::format("{}: speed", kSides[side]),
+                     .unit = "cm/s",
+                     .values = {},
+                     .plant = kCm * rules.plant_speed,
+                     .lift = kCm * rules.lift_speed};
+    for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+      const glm::dvec3& here = motion.poses[f][kLegs[side].foot];
+      const glm::dvec3& next = motion.poses[std::min(f + 1, motion.poses.size() - 1)][kLegs[side].foot];
+      height.values.push_back(kCm * here.y);
+      speed.values.push_back(kCm * motion.rate_hz * glm::distance(here, next));
+    }
+    picture.Add(height);
+    picture.Add(speed);
+    picture.AddBars(contacts[side]);
+    const auto standing = static_cast<double>(std::ranges::count(contacts[side], true));
+    title += fmt::format("{} {} stands {:.0f} % of the time", side == 0 ? ":" : ",", kSides[side],
+                         100 * standing / static_cast<double>(motion.poses.size()));
+  }
+  return picture.Svg(title);
+}
+
+}  // namespace etude

@@ -1,0 +1,184 @@
+#include "reports/films/coached_scene.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <glm/glm.hpp>
+
+#include "reports/films/forest.h"
+#include "reports/films/look.h"
+#include "reports/words/figures.h"
+#include "sim/character/characters.h"
+#include "sim/character/posed.h"
+
+namespace etude {
+namespace {
+
+constexpr Box kStage{12, 52, 1256, 520};
+constexpr Box kSaid{12, 52, 1064, 520};  // of the stage, what words may cover
+constexpr Box kInset{1086, 372, 170, 188};
+constexpr Box kHint{1046, 64, 210, 232};
+constexpr Box kTimeline{12, 584, 1256, 124};
+constexpr double kTimelineLeft = 96, kTimelineRow = 26;
+
+// Who stands where, and what is seen of them.
+constexpr FloorMove kCoachAt{.yaw = 0, .x = -1.05, .z = -0.3}, kLearnerAt{.yaw = 0, .x = 0.95, .z = -0.3};
+constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookAt = 1.0, kSessionSeen = 2.5;
+
+constexpr Paint kRight{0.36, 0.74, 0.46, 1}, kWrong{0.88, 0.36, 0.32, 1}, kGrey{0.55, 0.58, 0.60, 1};
+
+constexpr int kBeforeCorrection = 3 * kFilmRate;
+
+Paint PaintOfMode(const std::string& mode) {
+  if (mode == "dance") return kAccent;
+  if (mode == "correct") return kWarm;
+  if (mode == "demonstrate") return {0.72, 0.58, 0.90, 1};
+  if (mode == "praise") return kRight;
+  return kGrey;
+}
+
+Paint PaintOfWord(const std::string& word) { return word == "right" ? kRight : word == "wrong" ? kWrong : kGrey; }
+
+/// The body from the front, feet on the lower edge of the box.
+void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint) {
+  const double scale = box.height / tall;
+  const glm::dvec3 hips = pose[Role::kHipCentre];
+  const auto at = [&](Role role) {
+    const glm::dvec3& joint = pose[role];
+    return glm::dvec2(box.x + box.width / 2 + scale * (joint.x - hips.x), box.y + box.height - 6 - scale * joint.y);
+  };
+  for (const Bone& bone : AllBones()) canvas.DrawLine(at(bone.parent), at(bone.child), 3, paint);
+  canvas.DrawDot(at(Role::kHead), 0.09 * scale, paint);
+}
+
+/// What is in force at a frame: the last that began.
+template <typename Span>
+const Span& InForce(const std::vector<Span>& spans, int frame) {
+  const auto after = std::ranges::upper_bound(spans, frame, {}, &Span::begin_frame);
+  return after == spans.begin() ? spans.front() : *(after - 1);
+}
+
+BodyPose PutAt(const BodyPose& pose, const FloorMove& place) { return place.Apply(pose); }
+
+}  // namespace
+
+CoachedScene::CoachedScene(CoachedSessionFacts facts, std::string heading, int longest, Renderer& renderer)
+    : facts_(std::move(facts)),
+      heading_(std::move(heading)),
+      renderer_(renderer),
+      bear_(BearCharacter()),
+      learner_(MannequinCharacter()),
+      forest_(ForestFigure()) {
+  const int frames = facts_.Frames();
+  if (!facts_.corrections.empty()) first_ = facts_.corrections.front() - kBeforeCorrection;
+  first_ = std::clamp(first_, 0, std::max(0, frames - longest));
+  last_ = std::min(frames, first_ + longest);
+}
+
+int CoachedScene::PosterFrame() const {
+  for (int frame = first_; frame < last_; ++frame) {
+    if (InForce(facts_.modes, frame).mode == "correct") return std::min(frame + kFilmRate, last_ - 1) - first_;
+  }
+  return Frames() / 2;
+}
+
+std::string CoachedScene::Words() const {
+  return fmt::format(
+      "A coached session, seconds {} to {} of {}: the coach in its forest, the learner as danced beside it, and as the "
+      "sensor "
+      "saw it (lower right). Timeline: what the coach does; what every performance truly was; what it was taken for. "
+      "{} corrections in the whole session. Without sound.",
+      FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
+      FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.corrections.size());
+}
+
+void CoachedScene::DrawStage(Canvas& canvas, int frame) {
+  const auto t = static_cast<std::size_t>(frame);
+  Intrinsics inside;
+  inside.width = static_cast<int>(kStage.width);
+  inside.height = static_cast<int>(kStage.height);
+  inside.fx = inside.fy = kStage.height * kSessionDistance / kSessionSeen;
+  inside.cx = kStage.width / 2;
+  inside.cy = kStage.height / 2;
+  const Camera camera = LookAt(inside, {0, kSessionEyeHeight, kSessionDistance}, {0, kSessionLookAt, 0});
+  const BodyPose coach = PutAt(facts_.coach.poses[t], kCoachAt), learner = PutAt(facts_.learner.poses[t], kLearnerAt);
+  Figure spots;
+  spots.surfaces = {SpotBelow(coach), SpotBelow(learner)};
+  const std::vector<Figure> figures{forest_, spots, PosedFigure(bear_, coach), PosedFigure(learner_, learner)};
+  const Room meadow{.casts_shadows = false};
+  canvas.DrawImage(renderer_.Render(meadow, figures, camera, Targets::kColour).colour, kStage, kPanelRadius);
+  DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
+  std::string why;
+  for (const auto& decision : facts_.decisions) {
+    if (decision.frame <= frame && frame < decision.frame + 2 * kFilmRate && !decision.why.empty()) {
+      why = fmt::format("{}: {}", decision.event, decision.why);
+    }
+  }
+  DrawCaption(canvas, kSaid, InForce(facts_.words, frame).say, why.empty() ? "the learner dances on the right" : why);
+}
+
+void CoachedScene::DrawSkeletonInset(Canvas& canvas, int frame) const {
+  canvas.FillBox(kInset, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
+  DrawStickFigure(canvas, facts_.sensed.poses[static_cast<std::size_t>(frame)], kInset, 2.3, kWarm);
+  canvas.DrawText({kInset.x + 10, kInset.y + 18}, "as the sensor saw it", 12, kSoftInk, kInset.width - 20);
+}
+
+void CoachedScene::DrawHint(Canvas& canvas, int frame) const {
+  const auto& words = InForce(facts_.words, frame);
+  if (words.hint.empty() || !words.picture) return;
+  canvas.FillBox(kHint, {0.05, 0.06, 0.07, 0.78}, kPanelRadius);
+  DrawStickFigure(canvas, *words.picture, {kHint.x, kHint.y + 24, kHint.width, kHint.height - 56}, 2.3, kInk);
+  canvas.DrawText({kHint.x + 10, kHint.y + 18}, "key pose", 12, kSoftInk, kHint.width - 20);
+  canvas.DrawText({kHint.x + 10, kHint.y + kHint.height - 12}, words.hint, 11, kInk, kHint.width - 20, true);
+}
+
+double CoachedScene::PlaceOf(int frame) const {
+  const double left = kTimeline.x + kTimelineLeft, width = kTimeline.width - kTimelineLeft - 12;
+  return left + width * std::clamp(frame - first_, 0, Frames()) / std::max(1, Frames());
+}
+
+void CoachedScene::DrawTimeline(Canvas& canvas, int frame) const {
+  canvas.FillBox(kTimeline, {0.13, 0.15, 0.17, 1}, kPanelRadius);
+  const auto row_y = [](int row) { return kTimeline.y + 12 + row * (kTimelineRow + 8); };
+  const auto label = [&](int row, const char* text) {
+    canvas.DrawText({kTimeline.x + 12, row_y(row) + 18}, text, 13, kSoftInk, kTimelineLeft - 16);
+  };
+  const auto bar = [&](int row, int begin, int end, const Paint& paint) {
+    const double left = PlaceOf(begin), right = PlaceOf(end);
+    if (right > left) canvas.FillBox({left, row_y(row), right - left - 1, kTimelineRow}, paint, 4);
+  };
+  label(0, "coach");
+  label(1, "truth");
+  label(2, "judged");
+  for (std::size_t i = 0; i < facts_.modes.size(); ++i) {
+    const int end = i + 1 < facts_.modes.size() ? facts_.modes[i + 1].begin_frame : facts_.Frames();
+    bar(0, facts_.modes[i].begin_frame, end, PaintOfMode(facts_.modes[i].mode));
+  }
+  for (const auto& performance : facts_.performances) {
+    if (performance.end_frame < first_ || performance.begin_frame > last_) continue;
+    bar(1, performance.begin_frame, performance.end_frame, PaintOfWord(performance.truth));
+    if (frame >= performance.end_frame) {
+      bar(2, performance.begin_frame, performance.end_frame, PaintOfWord(performance.called));
+    }
+    canvas.DrawText({PlaceOf(performance.begin_frame) + 5, row_y(1) + 18}, performance.move, 12, kBackdrop,
+                    std::max(0.0, PlaceOf(performance.end_frame) - PlaceOf(performance.begin_frame) - 8));
+  }
+  for (const int seam : facts_.transitions) {
+    if (seam < first_ || seam >= last_) continue;
+    canvas.DrawLine({PlaceOf(seam), row_y(0) - 4}, {PlaceOf(seam), row_y(0) + kTimelineRow + 4}, 2, kInk);
+  }
+  canvas.DrawLine({PlaceOf(frame), row_y(0) - 6}, {PlaceOf(frame), row_y(2) + kTimelineRow + 6}, 2, kInk);
+}
+
+Canvas CoachedScene::Draw(int frame) {
+  const int shown = first_ + frame;
+  Canvas canvas =
+      BeginFrame(fmt::format("{} · {} · {} s", heading_, facts_.song, FormatFixed(shown / kJudgedRateHz, 1)));
+  DrawStage(canvas, shown);
+  DrawHint(canvas, shown);
+  DrawSkeletonInset(canvas, shown);
+  DrawTimeline(canvas, shown);
+  return canvas;
+}
+
+}  // namespace etude

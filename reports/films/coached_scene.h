@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+
+#include "engine/motion/character.h"
+#include "reports/films/coached_session.h"
+#include "reports/films/film.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
+/// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions.
+class CoachedScene : public Scene {
+ public:
+  /// Shows at most `longest` frames, cut around the session's first correction. The renderer must outlive the scene.
+  CoachedScene(CoachedSessionFacts facts, std::string heading, int longest, Renderer& renderer);
+
+  int Frames() const override { return last_ - first_; }
+  int PosterFrame() const override;
+  std::string Words() const override;
+  Canvas Draw(int frame) override;
+
+ private:
+  void DrawStage(Canvas& canvas, int frame);
+  void DrawSkeletonInset(Canvas& canvas, int frame) const;
+  void DrawHint(Canvas& canvas, int frame) const;
+  void DrawTimeline(Canvas& canvas, int frame) const;
+  double PlaceOf(int frame) const;
+
+  CoachedSessionFacts facts_;
+  std::string heading_;
+  Renderer& renderer_;
+  int first_ = 0, last_ = 0;  ///< [first, last) of the session
+  Character bear_, learner_;
+  Figure forest_;
+};
+
+}  // namespace etude

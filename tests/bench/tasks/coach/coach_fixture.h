@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/coach/player.h"
+#include "bench/tasks/coach/run.h"
+#include "bench/tasks/coach/session.h"
+#include "bench/tasks/coach/stage.h"
+#include "bench/tasks/coach/world.h"
+
+namespace etude {
+
+/// Sessions of scripted players, whose truth needs no learner.
+inline const CoachStage& StageOf(const std::string& song) {
+  static std::map<std::string, CoachStage> stages;
+  auto found = stages.find(song);
+  if (found == stages.end()) found = stages.emplace(song, *SetCoachStage(song)).first;
+  return found->second;
+}
+
+inline CoachCondition ConditionOf(const std::string& song, double seconds, double noise) {
+  CoachCondition condition;
+  condition.song = song;
+  condition.session_s = seconds;
+  condition.sight.noise = noise;
+  return condition;
+}
+
+inline CoachWorld WorldOf(const CoachCondition& condition, int trial = 0) {
+  return MakeCoachWorld(condition, {1, "coach-test", trial});
+}
+
+inline std::vector<ReadyCoach> CoachesOf(const CoachStage& stage, std::vector<CoachMethod> methods) {
+  return *MakeReady(std::move(methods), stage);
+}
+
+inline CoachMethod MethodOf(const std::string& policy, const std::string& recogniser = "key-pose") {
+  CoachMethod method;
+  method.name = policy;
+  method.policy.policy = FindPolicy(policy);
+  method.sight.recogniser.kind = FindRecogniser(recogniser);
+  method.transition.way = DefaultWay();
+  return method;
+}
+
+/// Dances exactly what the coach dances, at the very moment, but stands still in the repetitions named.
+class Mimic final : public Player {
+ public:
+  explicit Mimic(const CoachStage& stage, std::vector<int> skipped = {})
+      : stage_(stage), skipped_(std::move(skipped)) {}
+
+  BodyPose Next(const CoachOutput& shown) override {
+    const auto& poses = stage_.dance().motion.poses;
+    if (shown.mode != CoachMode::kDance || shown.clip != "dance") return poses.front();
+    const double frame = shown.clip_frame + 1 + static_cast<double>(SkeletonSensor::kAhead);
+    if (Skips(stage_.library->RepetitionAt(frame))) return poses.front();
+    return poses[std::min(poses.size() - 1, static_cast<std::size_t>(frame))];
+  }
+  std::optional<PlayedPerformance> PerformanceOf(int repetition) const override {
+    if (Skips(repetition)) return PlayedPerformance{PerformanceTruth::kWrong, "skipped"};
+    return PlayedPerformance{};
+  }
+  bool HasGivenUp() const override { return false; }
+  std::vector<double> TakeTest(int) override { return {1}; }
+
+ private:
+  bool Skips(int repetition) const { return std::ranges::find(skipped_, repetition) != skipped_.end(); }
+
+  const CoachStage& stage_;
+  std::vector<int> skipped_;
+};
+
+/// All repetitions of a song.
+inline std::vector<int> EveryRepetition(const CoachStage& stage) {
+  std::vector<int> all;
+  for (std::size_t i = 0; i < stage.dance().repetitions.size(); ++i) all.push_back(static_cast<int>(i));
+  return all;
+}
+
+inline SessionLog SessionWith(const ReadyCoach& ready, const CoachWorld& world, Player& player,
+                              MomentSource* moments = nullptr) {
+  const SessionParts parts{*ready.coach, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth};
+  return RunSession(parts, world, player, moments);
+}
+
+inline CorrectionTally TallyOf(const SessionLog& log) {
+  CoachedSession session{.rate_hz = kJudgedRateHz, .frames = log.Frames(), .performances = {}, .corrections = {}};
+  for (const LoggedPerformance& performance : log.performances) session.performances.push_back(performance.judged);
+  session.corrections = log.corrections;
+  return TallyCorrections(session);
+}
+
+}  // namespace etude

@@ -1,0 +1,68 @@
+#include "bench/tasks/detection/world.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/bench/tasks/detection/detection_fixture.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+class DetectionWorldTest : public DetectionFixture {
+ protected:
+  static DetectionWorld Make(const SessionOptions& session, int trial) {
+    DetectionOptions options;
+    options.session = session;
+    return MakeDetectionWorld(RepertoireOf(FourMoves()), options, World(trial));
+  }
+  static std::string ComplaintAbout(const std::string& keys) {
+    const auto task = MakeTask(keys + "methods: [{name: a}]\n", FourMoves());
+    return task ? "no complaint" : ToString(task.error());
+  }
+};
+
+TEST_F(DetectionWorldTest, EveryTrialHasAPersonOfItsOwn) {
+  std::set<double> statures;
+  for (int trial = 0; trial < 8; ++trial) statures.insert(Make({.events = 2}, trial).session.person.stature_m);
+  EXPECT_EQ(statures.size(), 8u);
+}
+
+TEST_F(DetectionWorldTest, SweepingPeopleAsksForTheSameMovesAndFaults) {
+  const DetectionWorld toddler = Make({.people = People::kToddler, .events = 8}, 3),
+                       expert = Make({.people = People::kExpert, .events = 8}, 3);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(toddler.session.events[i].move, expert.session.events[i].move);
+    EXPECT_EQ(FaultNames(toddler.session.events[i].faults), FaultNames(expert.session.events[i].faults));
+  }
+  EXPECT_LT(toddler.session.person.stature_m, 1.2);
+  EXPECT_GT(expert.session.person.stature_m, 1.4);
+}
+
+TEST_F(DetectionWorldTest, WorseFaultsLeaveFewerRight) {
+  const auto right = [&](double severity) {
+    int count = 0;
+    for (int trial = 0; trial < 2; ++trial) {
+      const DetectionWorld world = Make({.events = 8, .fault_share = 1, .severity = severity}, trial);
+      for (const SessionEvent& event : world.session.events) count += event.IsRight();
+    }
+    return count;
+  };
+  EXPECT_EQ(right(0), 16);
+  EXPECT_LT(right(0.3), 16);
+  EXPECT_LT(right(0.6), right(0.3));
+  EXPECT_EQ(right(1), 0);
+}
+
+TEST_F(DetectionWorldTest, RefusesPeopleAndFaultsThatDoNotExist) {
+  EXPECT_EQ(ComplaintAbout("people: toddler\nseverity: 0.4\nfaults: [late, wrong_side]\n"), "no complaint");
+  EXPECT_THAT(ComplaintAbout("people: giant\n"), HasSubstr("school-child"));
+  EXPECT_THAT(ComplaintAbout("faults: [lat]\n"), HasSubstr("late"));
+  EXPECT_THAT(ComplaintAbout("severity: 1.5\n"), HasSubstr("severity"));
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,138 @@
+"""etude teach, etude recognise: moves out of recordings, found again in others, live and recorded."""
+import json
+import math
+import pathlib
+import subprocess
+import unittest
+
+from etude_case import ETUDE, EtudeCase
+
+
+def standing(left, right):
+    """The twenty joints, metres, of a person with straight arms so many degrees from hanging, in the order of the roles."""
+    joints = [(0, .95, 0), (0, 1.15, 0), (0, 1.42, 0), (0, 1.65, 0)]
+    for side, angle in ((1, left), (-1, right)):
+        s, c = side * math.sin(math.radians(angle)), -math.cos(math.radians(angle))
+        joints += [(side * .18 + d * s, 1.4 + d * c, 0) for d in (0, .28, .52, .62)]
+    for side in (1, -1):
+        joints += [(side * .09, .92, 0), (side * .1, .5, 0), (side * .1, .08, 0), (side * .1, 0, .15)]
+    return joints
+
+
+def arms(high, seconds=2, rate=30, both=True):
+    """Both arms, or the left one alone, up to so many degrees and down again."""
+    poses, rest, count = [], rate // 2, int(rate * seconds)
+    for t in range(-rest, count + rest):
+        part = 0 if not 0 <= t < count else .5 - .5 * math.cos(2 * math.pi * t / count)
+        angle = 10 + (high - 10) * part
+        poses.append(standing(angle, angle if both else 10))
+    return poses
+
+
+def kinect(poses, tilt=0.0):
+    """Rows of a Kinect v1 that stands 3 m away, 1 m high."""
+    rows = []
+    for joints in poses:
+        row = []
+        for x, y, z in joints:
+            y, z = y - 1, 3 - z
+            row += [-x, math.cos(tilt) * y + math.sin(tilt) * z, -math.sin(tilt) * y + math.cos(tilt) * z]
+        rows.append(" ".join(f"{v:.6f}" for v in row))
+    return "\n".join(rows) + "\n"
+
+
+class Recognise(EtudeCase):
+    def teach(self, *arguments):
+        result = self.etude("teach", *arguments, "-o", self.folder / "moves.yaml", "--overwrite")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.folder / "moves.yaml"
+
+    def events(self, *arguments, stdin=None):
+        result = subprocess.run([ETUDE, "recognise", *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                                input=stdin)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return [json.loads(line) for line in result.stdout.splitlines()]
+
+    def refusal(self, *arguments, stdin=None):
+        result = subprocess.run([ETUDE, *map(str, arguments)], capture_output=True, text=True, timeout=120, input=stdin)
+        self.assertEqual(result.returncode, 2, result.stdout)
+        complaint = [line for line in result.stderr.splitlines() if line.startswith("etude")]
+        self.assertEqual(len(complaint), 1, result.stderr)
+        return complaint[0]
+
+    def two_moves(self):
+        raised = self.write("raise.txt", kinect(arms(100)))
+        left = self.write("left.txt", kinect(arms(100, both=False)))
+        return self.teach(raised, left)
+
+    def test_what_was_taught_is_found_in_another_recording(self):
+        moves = self.two_moves()
+        both = arms(95, 2.5) + arms(104, 1.6, both=False)
+        take = self.write("take.txt", kinect(both, tilt=.2))
+        for recogniser in ("key-pose", "fuzzy-rules", "dtw"):
+            found = [event["move"] for event in self.events(take, "--moves", moves, "--recogniser", recogniser)]
+            self.assertEqual(found, ["raise", "left"], recogniser)
+        half = self.write("half.txt", kinect(arms(40)))
+        self.assertEqual(self.events(half, "--moves", moves), [])
+
+    def test_live_says_the_same_as_recorded(self):
+        moves = self.two_moves()
+        text = kinect(arms(95) + arms(100, both=False))
+        recorded = self.events(self.write("take.txt", text), "--moves", moves)
+        self.assertEqual(self.events("-", "--moves", moves, stdin=text), recorded)
+        self.assertEqual(len(recorded), 2)
+
+    def test_labels_tell_moves_apart_within_a_recording_and_score(self):
+        poses = arms(100) + arms(100, both=False) + arms(100) + arms(30)
+        take = self.write("take.txt", kinect(poses))
+        labels = self.write("labels.csv", "clip,from_s,to_s,move,truth\n"
+                            "take,0,3,raise,right\ntake,3,6,left,right\ntake,6,9,raise,right\ntake,9,12,raise,small\n")
+        moves = self.teach(take, "--labels", labels)
+        self.assertIn("name: 'raise'", moves.read_text())
+        lines = self.events(take, "--moves", moves, "--labels", labels, "--json")
+        scores = lines[-1]["scores"]
+        self.assertEqual(scores["performances"], 4)
+        self.assertEqual(scores["f1"], 1)
+        self.assertEqual(scores["false_alarms_per_min"], 0)
+
+    def test_one_person_left_out(self):
+        labels = "clip,from_s,to_s,move,truth,person\n"
+        folder = self.folder / "takes"
+        folder.mkdir()
+        for i, person in enumerate(("anna", "bo", "cy")):
+            (folder / f"{person}.txt").write_text(kinect(arms(92 + 6 * i, 1.6 + .4 * i) + arms(98 - 5 * i, both=False)))
+            end = 2.6 + .4 * i
+            labels += f"{person},0,{end},raise,right,{person}\n{person},{end},{end + 3},left,right,{person}\n"
+        path = self.write("labels.csv", labels)
+        (folder / "README.txt").write_text("no recording\n")
+        result = self.etude("recognise", folder, "--labels", path, "--leave-one-person-out", "--recogniser", "dtw",
+                            "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        scores = json.loads(result.stdout.splitlines()[-1])["scores"]
+        self.assertEqual((scores["people"], scores["performances"]), (3, 6))
+        self.assertEqual((scores["accuracy"], scores["nearest_accuracy"]), (1, 1))
+        unnamed = self.write("unnamed.csv", labels.replace(",person\n", "\n").replace(",anna\n", "\n"))
+        self.assertIn("nobody says who anna is", self.refusal("recognise", folder, "--labels", unnamed,
+                                                              "--leave-one-person-out"))
+
+    def test_odd_recordings_give_a_result_or_one_line(self):
+        moves = self.two_moves()
+        rows = kinect(arms(95)).splitlines()
+        half = self.write("half.txt", "\n".join(rows[::2]) + "\n")
+        self.assertEqual(len(self.events(half, "--moves", moves, "--rate", "15")), 1)
+        clocked = [f"{t} {row}" for t, row in enumerate(rows)]
+        lost = self.write("lost.txt", "\n".join(clocked[:20] + clocked[24:]) + "\n")
+        self.assertEqual(len(self.events(lost, "--moves", moves)), 1)
+        gaps = [" ".join(["nan"] * 9 + row.split()[9:]) if t % 7 == 0 else row for t, row in enumerate(rows)]
+        self.assertEqual(len(self.events(self.write("nan.txt", "\n".join(gaps)), "--moves", moves)), 1)
+        fewer = self.write("fewer.txt", "\n".join(" ".join(row.split()[:-3]) for row in rows))
+        self.assertIn("57 numbers in its first row", self.refusal("recognise", fewer, "--moves", moves))
+        self.assertIn("standard input:41:1: value 1: 'x'", self.refusal(
+            "recognise", "-", "--moves", moves, stdin="\n".join(rows[:40] + ["x " * 60])))
+        self.assertIn("none.txt: no such recording", self.refusal("recognise", "none.txt", "--moves", moves))
+        self.assertIn("--moves: needed", self.refusal("recognise", half))
+        self.assertIn("no such file", self.refusal("recognise", half, "--moves", self.folder / "none.yaml"))
+
+
+if __name__ == "__main__":
+    unittest.main()

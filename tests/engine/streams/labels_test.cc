@@ -1,0 +1,79 @@
+#include "engine/streams/labels.h"
+
+#include <gtest/gtest.h>
+
+namespace etude {
+namespace {
+
+std::string LabelComplaint(const std::string& text) {
+  const auto read = ReadLabels(text, "l.csv", "take");
+  return read ? std::string("(read)") : ToString(read.error());
+}
+
+TEST(Labels, CsvTellsPerformancesActionPointsAndWholeRecordings) {
+  const std::string text =
+      "clip,from_s,to_s,move,truth,person\n"
+      "seq-1,0.5,3.1,arms-open,right,anna\n"
+      "seq-1,4,,arms-open,right,anna\n"
+      "seq-2,,,arms-open,half,bo\n";
+  const auto labels = ReadLabels(text, "l.csv");
+  ASSERT_TRUE(labels) << ToString(labels.error());
+  ASSERT_EQ(labels->size(), 3u);
+  EXPECT_EQ((*labels)[0].from_s, 0.5);
+  EXPECT_EQ((*labels)[0].to_s, 3.1);
+  EXPECT_TRUE((*labels)[0].IsRight());
+  EXPECT_TRUE((*labels)[1].IsActionPoint());
+  EXPECT_EQ((*labels)[2].fault, "half");
+  EXPECT_FALSE((*labels)[2].from_s);
+  EXPECT_EQ((*labels)[2].person, "bo");
+  EXPECT_EQ(WriteLabels(*labels), text);
+}
+
+TEST(Labels, ColumnsMayStandInAnyOrderWithoutPersonAmongRemarks) {
+  const auto labels = ReadLabels("# by hand\nmove, truth, clip, from_s, to_s\r\n\r\nwave, right, a, 1, 2\r\n", "l.csv");
+  ASSERT_TRUE(labels) << ToString(labels.error());
+  EXPECT_EQ((*labels)[0].clip, "a");
+  EXPECT_EQ((*labels)[0].person, "");
+}
+
+TEST(Labels, TicksOfATagStreamAreMicrosecondsOfTheRecording) {
+  // Of the data set's own load_tagstream: usec = (tick · 1000 + 49875/2) / 49875, which rounds.
+  const auto labels = ReadLabels("XQPCTick;Tag\n2202252000;G1 lift outstretched arms\n", "p.tagstream", "p");
+  ASSERT_TRUE(labels) << ToString(labels.error());
+  EXPECT_NEAR(*(*labels)[0].from_s, 44.15542857, 1e-8);
+  EXPECT_TRUE((*labels)[0].IsActionPoint());
+  EXPECT_TRUE((*labels)[0].by_own_clock);
+  EXPECT_EQ((*labels)[0].clip, "p");
+  EXPECT_EQ((*labels)[0].move, "G1 lift outstretched arms");
+}
+
+TEST(Labels, ActionLabelsOfUTKinectNameTakesAndFrames) {
+  const auto labels =
+      ReadLabels("s01_e01 \nwalk: 252 390\nsitDown: 572 686 \ns10_e02\ncarry: NaN NaN\npush: 30 60\n", "a");
+  ASSERT_TRUE(labels) << ToString(labels.error());
+  ASSERT_EQ(labels->size(), 3u);
+  EXPECT_DOUBLE_EQ(*(*labels)[0].from_s, 8.4);
+  EXPECT_DOUBLE_EQ(*(*labels)[0].to_s, 13);
+  EXPECT_EQ((*labels)[2].person, "s10");
+  EXPECT_TRUE(IsLabelOf((*labels)[0], "joints_s01_e01"));
+  EXPECT_FALSE(IsLabelOf((*labels)[0], "joints_s01_e02"));
+}
+
+TEST(Labels, RefusalsSayWhere) {
+  const std::string head = "clip,from_s,to_s,move,truth\n";
+  EXPECT_EQ(LabelComplaint(""), "l.csv: no labels");
+  EXPECT_EQ(LabelComplaint(head), "l.csv: no labels");
+  EXPECT_EQ(LabelComplaint("clip,form_s,to_s,move,truth\n").find("l.csv:1:6: unknown heading 'form_s'; did you mean"), 0u);
+  EXPECT_EQ(LabelComplaint("clip,move,truth\na,b,right\n").find("l.csv:1: no heading 'from_s'"), 0u);
+  EXPECT_EQ(LabelComplaint(head + "a,x,2,m,right\n"), "l.csv:2:3: found 'x'; allowed: a number");
+  EXPECT_EQ(LabelComplaint(head + "a,nan,2,m,right\n"), "l.csv:2:3: found 'nan'; allowed: a number");
+  EXPECT_EQ(LabelComplaint(head + "a,2,1,m,right\n").find("l.csv:2:5: ends at 1 s, begins at 2 s"), 0u);
+  EXPECT_EQ(LabelComplaint(head + "a,,1,m,right\n").find("l.csv:2:4: an end without"), 0u);
+  EXPECT_EQ(LabelComplaint(head + "a,0,1,m\n").find("l.csv:2:8: found the end of the line"), 0u);
+  EXPECT_EQ(LabelComplaint("XQPCTick;Tag\n12\n").find("l.csv:2: 1 words"), 0u);
+  EXPECT_EQ(LabelComplaint("s01_e01\nwalk 2 3\n").find("l.csv:2: found"), 0u);
+  EXPECT_EQ(LabelComplaint("s01_e01\nwalk: 5 3\n").find("l.csv:2:9: ends before"), 0u);
+}
+
+}  // namespace
+}  // namespace etude

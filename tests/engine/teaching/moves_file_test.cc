@@ -1,0 +1,82 @@
+#include "engine/teaching/moves_file.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/teaching/teach_move.h"
+#include "tests/engine/teaching/arms.h"
+
+namespace etude {
+namespace {
+
+using testing::Raise;
+
+std::vector<TaughtMove> TwoMoves() {
+  SkeletonStream seen = Raise(10, 100);
+  seen.frames[3][Role::kHead].state = TrackingState::kInferred;
+  seen.frames[4][Role::kHead].state = TrackingState::kNotTracked;
+  for (SensedJoint& joint : seen.frames[5].joints) joint.state = TrackingState::kNotTracked;
+  seen.frames[5].body_seen = false;
+  return {*TeachMove("it's a raise", {seen, Raise(10, 90)}, {Raise(10, 40)}),
+          *TeachMove("lower: all", {Raise(90, 20)})};
+}
+
+std::string MovesComplaint(const std::string& text) {
+  const auto read = ReadMoves(text, "m.yaml");
+  return read ? std::string("(read)") : ToString(read.error());
+}
+
+TEST(MovesFile, ComesBackAsItWasWritten) {
+  const std::vector<TaughtMove> moves = TwoMoves();
+  const std::string text = WriteMoves(moves);
+  const auto read = ReadMoves(text, "m.yaml");
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(WriteMoves(*read), text);
+  ASSERT_EQ(read->size(), 2u);
+  const TaughtMove &before = moves[0], &after = (*read)[0];
+  EXPECT_EQ(after.name, before.name);
+  EXPECT_EQ(after.span_s, before.span_s);
+  ASSERT_EQ(after.poses.size(), before.poses.size());
+  EXPECT_NEAR(after.poses[1].targets[0].degrees, before.poses[1].targets[0].degrees, 0.05);
+  ASSERT_EQ(after.examples.size(), 2u);
+  EXPECT_EQ(after.counter_examples.size(), 1u);
+  for (std::size_t t = 0; t < before.examples[0].frames.size(); ++t) {
+    const SensedFrame &a = before.examples[0].frames[t], &b = after.examples[0].frames[t];
+    EXPECT_EQ(a.body_seen, b.body_seen);
+    for (const Role role : AllRoles()) {
+      EXPECT_EQ(a[role].state, b[role].state);
+      EXPECT_LT(glm::distance(a[role].position, b[role].position), 1e-4);
+    }
+  }
+}
+
+TEST(MovesFile, MayBeWrittenByHandWithKeyPosesAlone) {
+  const auto read = ReadMoves(
+      "moves:\n  - name: arms-out\n    key_poses:\n      - {tolerance_deg: 20, RH: 90, LH: {degrees: 90, "
+      "tolerance_deg: 15}}\n",
+      "m.yaml");
+  ASSERT_TRUE(read) << ToString(read.error());
+  const std::vector<PoseTarget>& targets = (*read)[0].poses[0].targets;
+  EXPECT_EQ(targets[0].tolerance_deg, 20);
+  EXPECT_EQ(targets[1].tolerance_deg, 15);
+}
+
+TEST(MovesFile, RefusalsSayWhere) {
+  const std::string head = "moves:\n  - name: a\n";
+  EXPECT_EQ(MovesComplaint("moves: []\n").find("m.yaml:1:8: no list 'moves'"), 0u);
+  EXPECT_EQ(MovesComplaint(head + "    speed: 3\n").find("m.yaml:3:5: "), 0u)
+      << MovesComplaint(head + "    speed: 3\n");
+  EXPECT_EQ(MovesComplaint(head + "    key_poses: [{RX: 3}]\n").find("m.yaml:3:18: unknown feature 'RX'"), 0u);
+  EXPECT_EQ(MovesComplaint(head + "    key_poses: [{RH: 3}]\n").find("m.yaml:3:18: no tolerance_deg"), 0u);
+  EXPECT_EQ(MovesComplaint(head + "  - name: a\n").find("m.yaml:3:5: a second move called 'a'"), 0u);
+  EXPECT_EQ(MovesComplaint(head + "    span_s: .nan\n").find("m.yaml:3:13: "), 0u);
+  const std::string frames = head + "    right:\n      - rate_hz: 30\n        frames: |\n          ";
+  EXPECT_EQ(MovesComplaint(frames + "ttt 1 2\n").find("m.yaml:6: found 'ttt'"), 0u);
+  EXPECT_EQ(MovesComplaint(frames + "tttttttttttttttttttt 1 2\n").find("m.yaml:6: found"), 0u);
+  std::string text = WriteMoves(TwoMoves());
+  EXPECT_EQ(MovesComplaint(text), "(read)");
+  text.insert(text.rfind('\n', text.size() - 20), " 5");
+  EXPECT_NE(MovesComplaint(text).find("more than 60 numbers"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace etude

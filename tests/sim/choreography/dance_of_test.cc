@@ -1,0 +1,76 @@
+#include "sim/choreography/dance_of.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/choreography/beats.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(DanceOf, EveryBuiltinSongIsADanceACoachCanDo) {
+  for (const std::string& name : BuiltinSongNames()) {
+    const auto song = LoadBuiltinSong(name);
+    const auto dance = DanceOf(*song);
+    ASSERT_TRUE(dance) << ToString(dance.error());
+    EXPECT_TRUE(CheckDance(*dance)) << ToString(CheckDance(*dance).error());
+    EXPECT_EQ(dance->repetitions.size(), dance->tags.size());
+    EXPECT_GE(dance->moves.size(), 8U);
+    std::size_t times = 0;
+    for (const SongPart& part : song->parts) times += static_cast<std::size_t>(part.times);
+    EXPECT_EQ(dance->repetitions.size(), times);
+    EXPECT_EQ(MovesOf(*song)->size(), dance->moves.size());
+  }
+}
+
+TEST(HintOf, SaysTheKeyPoseInWords) {
+  EXPECT_EQ(HintOf(*LoadBuiltinMove("bird")), "both arms at shoulder height, both elbows slightly bent");
+  EXPECT_EQ(HintOf(*LoadBuiltinMove("boxing")),
+            "left arm at shoulder height, right arm half raised, left elbow straight, right elbow bent; then the other "
+            "side");
+}
+
+TEST(ReadBeats, ReadsWhatBeatTrackersAndLabelTracksWrite) {
+  const auto beats = ReadBeats("# my song\n0.5\n1.0\t1.0\tbeat\n\n1.5 x\n2,1\n2.5\n3\r\n3.5\n  4.0\n", "my.txt");
+  ASSERT_TRUE(beats) << ToString(beats.error());
+  EXPECT_THAT(*beats, testing::ElementsAre(0.5, 1.0, 1.5, 2, 2.5, 3, 3.5, 4));
+  EXPECT_DOUBLE_EQ(TempoOf(*beats), 120);
+}
+
+TEST(ReadBeats, TellsWhereAndWhatIsWrong) {
+  const auto complaint = [](const std::string& text) {
+    const auto beats = ReadBeats(text, "my.txt");
+    return beats ? std::string("nothing") : ToString(beats.error());
+  };
+  EXPECT_THAT(complaint("1\nverse\n"), HasSubstr("my.txt:2:1: a beat is a number of seconds, found 'verse'"));
+  EXPECT_THAT(complaint("1\n0.9\n"), HasSubstr("my.txt:2:1: a beat at 0.9 s"));
+  EXPECT_THAT(complaint("1\n9\n"), HasSubstr("allowed: 0.2 to 3"));
+  EXPECT_THAT(complaint("1\n1.5\n"), HasSubstr("2 beats; at least 8"));
+  EXPECT_THAT(complaint("nan\n"), HasSubstr("my.txt:1:1"));
+  EXPECT_THAT(complaint("-1\n"), HasSubstr("before 0"));
+  EXPECT_THAT(complaint(""), HasSubstr("0 beats"));
+}
+
+TEST(ToBeats, PutsEveryTagOnItsBeat) {
+  const auto dance = DanceOf(*LoadBuiltinSong("warm_up"));
+  std::vector<double> even, swinging;
+  for (int beat = 0; beat < 200; ++beat) {
+    even.push_back(1 + beat * 60 / dance->tempo_bpm);
+    swinging.push_back(even.back() + (beat % 2 == 0 ? 0 : 0.05));
+  }
+  const auto shifted = ToBeats(*dance, even), swung = ToBeats(*dance, swinging);
+  for (std::size_t i = 0; i < dance->tags.size(); ++i) {
+    EXPECT_NEAR(shifted->tags[i].music_s, dance->tags[i].music_s + 1, 1e-9);
+    // Tags of whole moves stand on even beats.
+    EXPECT_NEAR(swung->tags[i].music_s, dance->tags[i].music_s + 1, 1e-9);
+  }
+  even.resize(50);
+  const auto too_few = ToBeats(*dance, even);
+  ASSERT_FALSE(too_few);
+  EXPECT_THAT(too_few.error().message, HasSubstr("50 beats; 'warm_up' takes"));
+}
+
+}  // namespace
+}  // namespace etude
