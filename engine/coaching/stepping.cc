@@ -11,7 +11,6 @@
 namespace etude {
 namespace {
 
-constexpr double kWordsSeconds = 2;
 /// A hint where to stand must be due for so long before it changes.
 constexpr int kHintFrames = 15;
 
@@ -26,17 +25,6 @@ std::string_view WordsOf(CoachMode mode) {
       return "Watch me";
     default:
       return "";
-  }
-}
-
-std::string_view WordsOf(Mistake mistake) {
-  switch (mistake) {
-    case Mistake::kStoodStill:
-      return "Dance with me!";
-    case Mistake::kWrongSide:
-      return "The other side";
-    default:
-      return "Let us look at that again";
   }
 }
 
@@ -308,120 +296,6 @@ void Stepping::FollowMusic(double dance_frame) {
     record.beat_error_s = error_s;
     record.rate = state_.rate;
   }
-}
-
-void Stepping::OpenWindowAt(double dance_frame) {
-  if (state_.open || state_.next_window >= static_cast<int>(dance_.repetitions.size())) return;
-  const Repetition& repetition = dance_.repetitions[state_.next_window];
-  if (dance_frame < static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz) return;
-  state_.open = {.repetition = state_.next_window, .move = repetition.move};
-  ++state_.next_window;
-  state_.decided = false;
-  CountAnew(state_.stillness);
-}
-
-WindowVerdict Stepping::Judge(Mistake& mistake) const {
-  mistake = Mistake::kNone;
-  if (policy_.policy->asks_truth) {
-    if (!input_.told_right) return WindowVerdict::kUnknown;
-    mistake = *input_.told_right ? Mistake::kNone : Mistake::kNotReached;
-    return *input_.told_right ? WindowVerdict::kRight : WindowVerdict::kWrong;
-  }
-  if (2 * state_.stillness.seen < state_.stillness.frames) return WindowVerdict::kUnknown;
-  if (state_.stillness.moving < options_.still_share * state_.stillness.seen) {
-    mistake = Mistake::kStoodStill;
-  } else if (input_.evidence.asked < options_.right_from) {
-    const bool is_mirrored = input_.other_side && *input_.other_side >= options_.right_from;
-    mistake = is_mirrored ? Mistake::kWrongSide : Mistake::kNotReached;
-  }
-  return mistake == Mistake::kNone ? WindowVerdict::kRight : WindowVerdict::kWrong;
-}
-
-void Stepping::JudgeEarly() {
-  if (!state_.open || state_.decided || policy_.policy->asks_truth) return;
-  if (input_.evidence.asked < options_.right_from) return;
-  Mistake mistake{};
-  if (Judge(mistake) == WindowVerdict::kRight) Remember(WindowVerdict::kRight);
-}
-
-void Stepping::Remember(WindowVerdict verdict) {
-  const OpenWindow window = *state_.open;
-  const bool was_wrong = state_.moves[window.move].mistakes_in_row > 0;
-  if (verdict != WindowVerdict::kUnknown) {
-    for (MoveMemory* memory : {&state_.moves[window.move], &state_.song}) {
-      ++memory->judged;
-      memory->mistakes += verdict == WindowVerdict::kWrong ? 1 : 0;
-      memory->mistakes_in_row = verdict == WindowVerdict::kWrong ? memory->mistakes_in_row + 1 : 0;
-    }
-  }
-  state_.decided = true;
-  const auto note = [&](CoachEvent event, std::string why) {
-    CoachRecord& record = Note(event, std::move(why));
-    record.repetition = window.repetition;
-    record.move = window.move;
-    record.evidence = input_.evidence.asked;
-    return &record;
-  };
-  const double evidence = input_.evidence.asked;
-  if (verdict == WindowVerdict::kUnknown) {
-    note(CoachEvent::kUnjudged, fmt::format("seen in {} of {} frames", state_.stillness.seen, state_.stillness.frames));
-  } else if (verdict == WindowVerdict::kRight) {
-    note(CoachEvent::kRight, fmt::format("evidence {:.2f}; right from {:.2f} on", evidence, options_.right_from));
-    if (state_.correcting == window.repetition) state_.corrections_here = 0;
-    if (!was_wrong) return;
-    note(CoachEvent::kPraises, "right after a mistake in this move");
-    Say("Well done!", kWordsSeconds);
-  }
-}
-
-void Stepping::CloseWindow() {
-  if (!state_.open) return;
-  const Repetition& repetition = dance_.repetitions[state_.open->repetition];
-  const double dance_frame = DanceFrame(state_.playback, library_);
-  const bool ends = IsOver(state_.playback, library_);
-  if (!ends && dance_frame < static_cast<double>(repetition.end) + options_.reaction_s * kJudgedRateHz) return;
-  Mistake mistake = Mistake::kNone;
-  if (!state_.decided) {
-    const WindowVerdict verdict = Judge(mistake);
-    Remember(verdict);
-    if (verdict == WindowVerdict::kWrong) AnswerMistake(mistake);
-  }
-  state_.open.reset();
-}
-
-void Stepping::AnswerMistake(Mistake mistake) {
-  const OpenWindow window = *state_.open;
-  const double evidence = input_.evidence.asked;
-  CoachRecord& record =
-      Note(CoachEvent::kWrong,
-           fmt::format("{}: evidence {:.2f}, right from {:.2f} on; moved in {} of {} frames", MistakeName(mistake),
-                       evidence, options_.right_from, state_.stillness.moving, state_.stillness.seen));
-  record.repetition = window.repetition;
-  record.move = window.move;
-  record.mistake = mistake;
-  record.evidence = evidence;
-  const PolicyInput asked{.verdict = WindowVerdict::kWrong,
-                          .evidence = evidence,
-                          .right_from = options_.right_from,
-                          .move = state_.moves[window.move]};
-  PolicyDecision decision = policy_.policy->decide(asked, policy_.settings);
-  if (!decision.corrects) return;
-  const bool is_last = state_.correcting == window.repetition && state_.corrections_here >= options_.most_corrections;
-  if (is_last) {
-    Note(CoachEvent::kGoesOn, fmt::format("corrected {} times already", state_.corrections_here)).repetition =
-        window.repetition;
-    return;
-  }
-  Interrupt(window.repetition, std::move(decision.why));
-  Say(WordsOf(mistake), kWordsSeconds);
-}
-
-void Stepping::AnswerMoment(double dance_frame) {
-  const int repetition = state_.open ? state_.open->repetition : library_.RepetitionAt(dance_frame);
-  if (repetition < 0) return;
-  state_.moment_waits = false;
-  if (state_.open && !state_.decided) Remember(WindowVerdict::kUnknown);
-  Interrupt(repetition, "a moment that was given");
 }
 
 }  // namespace etude
