@@ -63,7 +63,7 @@ std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const
       std::ranges::copy_if(moments, std::back_inserter(own), [&](const Moment& m) { return m.move == move; });
       return own;
     };
-    sum += MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore().value_or(0);
+    sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();  // every move here occurs
   }
   return sum / static_cast<double>(moves.size());
 }
