@@ -108,9 +108,9 @@ class Meter {
     progress_.cells = cells;
     on_progress_(progress_);
   }
-  void Count(const Row& row) {
+  void Count(Status status) {
     ++progress_.cells_done;
-    progress_.cells_ok += row.result.status == Status::kOk ? 1 : 0;
+    progress_.cells_ok += status == Status::kOk ? 1 : 0;
     progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     on_progress_(progress_);
   }
@@ -129,24 +129,26 @@ Result<bool> JudgeAll(const Plan& plan, const ScoreOptions& options, CellTable& 
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
     if (options.stop != nullptr && *options.stop) return false;
     Row row = JudgeWorld(plan, w, files[w], faults);
-    meter.Count(row);
-    cells[plan.CellAt(w, plan.MethodCount(w) - 1)] = FinishedCell{std::move(row), {}};
+    meter.Count(row.result.status);
+    const std::size_t cell = plan.CellAt(w, plan.MethodCount(w) - 1);
+    cells.Put(cell, EncodeCellLine(cell, {std::move(row), {}}));
   }
   return true;
 }
 
 /// What beside the manifest of a run repeats this one: the answers, by their fingerprint.
-Json DescribeAnswers(const Plan& plan, const CellTable& cells) {
+Result<Json> DescribeAnswers(const Plan& plan, CellTable& cells) {
   Digest digest;
   std::size_t answers = 0;
   for (std::size_t w = 0; w < plan.world_count(); ++w) {
-    for (const auto& [stage, value] : cells[plan.CellAt(w, plan.MethodCount(w) - 1)]->row.result.digests) {
+    ASSIGN_OR_RETURN(const auto scored, cells.Read(plan.CellAt(w, plan.MethodCount(w) - 1), plan));
+    for (const auto& [stage, value] : scored.row.result.digests) {
       if (stage != "answer") continue;
       digest.Add(NameOf(plan, w)).Add(value);
       ++answers;
     }
   }
-  return {{"answers", answers}, {"digest", digest.Hex()}};
+  return Json{{"answers", answers}, {"digest", digest.Hex()}};
 }
 
 }  // namespace
@@ -172,15 +174,16 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
 
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, /*keep_contents=*/false));
   Json manifest = MakeManifest(suite, scenarios, options.program_version);
-  manifest["scored"].update(DescribeAnswers(plan, cells));
+  ASSIGN_OR_RETURN(const auto answers, DescribeAnswers(plan, cells));
+  manifest["scored"].update(answers);
   const fs::path folder = options.output;
   RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
   const auto whole =
-      RunOrders(suite, plan, plan.OrdersFor({}, DoneCells(cells)),
+      RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
                 {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
-                [&](std::size_t cell, FinishedCell finished) -> Result<void> {
-                  meter.Count(finished.row);
-                  cells[cell] = std::move(finished);
+                [&](const DeliveredCell& cell) -> Result<void> {
+                  meter.Count(cell.head.status);
+                  cells.Put(cell.head.cell, std::string(cell.line));
                   return {};
                 });
   if (!whole) return tl::unexpected(whole.error());
@@ -190,7 +193,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
   const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
-  RETURN_IF_ERROR(FinishRun(folder, plan, std::move(cells), host));
+  RETURN_IF_ERROR(FinishRun(folder, plan, cells, host));
   claimed.Keep();
   return outcome;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -27,5 +28,12 @@ constexpr std::uintmax_t kLargestFile = std::uintmax_t{2} << 30;
 
 /// All bytes of a file. Fails naming the path.
 Result<std::string> ReadWholeFile(const std::filesystem::path& path);
+
+/// Hands on a file of any size, some of it at a time.
+Result<void> ReadInChunks(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);
+
+/// Likewise line by line, without their ends; stops at the first complaint.
+Result<void> ForEachLine(const std::filesystem::path& path,
+                         const std::function<Result<void>(std::string_view line, const Place& place)>& use);
 
 }  // namespace etude

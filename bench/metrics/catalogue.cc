@@ -1,5 +1,8 @@
 #include "bench/metrics/catalogue.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace etude {
 
 std::string_view DirectionWords(Direction direction) {
@@ -15,10 +18,15 @@ std::string_view DirectionWords(Direction direction) {
 }
 
 const MetricInfo* FindMetric(std::string_view id) {
-  for (const MetricInfo& metric : AllMetrics()) {
-    if (metric.id == id) return &metric;
-  }
-  return nullptr;
+  static const std::vector<const MetricInfo*> by_id = [] {
+    std::vector<const MetricInfo*> sorted;
+    for (const MetricInfo& metric : AllMetrics()) sorted.push_back(&metric);
+    std::ranges::sort(sorted, {}, &MetricInfo::id);  // ids differ
+    return sorted;
+  }();
+  const auto found =
+      std::ranges::lower_bound(by_id, id, {}, [](const MetricInfo* metric) { return std::string_view(metric->id); });
+  return found != by_id.end() && (*found)->id == id ? *found : nullptr;
 }
 
 }  // namespace etude

@@ -162,7 +162,8 @@ Result<CellCheck> ReplayPack(const std::string& file) {
   std::optional<CellCheck> check;
   RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
                             {.program = ThisProgram(), .error_folder = "", .jobs = 1, .stop = nullptr},
-                            [&](std::size_t, FinishedCell finished) -> Result<void> {
+                            [&](const DeliveredCell& again) -> Result<void> {
+                              ASSIGN_OR_RETURN(const auto finished, again.Read(plan));
                               check = CompareRows(pack.row, finished.row);
                               return {};
                             }));

@@ -66,8 +66,9 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   const auto whole =
       RunOrders(prepared.suite, plan, OrdersOf(plan, chosen),
                 {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
-                [&](std::size_t cell, FinishedCell finished) -> Result<void> {
-                  checks.emplace(cell, CompareRows(run.rows[cell], finished.row));
+                [&](const DeliveredCell& cell) -> Result<void> {
+                  ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
+                  checks.emplace(cell.head.cell, CompareRows(run.rows[cell.head.cell], finished.row));
                   return {};
                 });
   if (!whole) return tl::unexpected(whole.error());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "bench/files/files.h"
 #include "bench/results/row_json.h"
@@ -31,23 +30,18 @@ Result<Json> ReadJsonFile(const fs::path& path) {
 
 /// Calls `use(json, place)` for every line; stops at the first complaint.
 template <typename Use>
-Result<void> ForEachLine(const fs::path& path, Use use) {
-  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
-  std::istringstream lines(text);
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const Place place{path.string(), number, 0};
-    ASSIGN_OR_RETURN(auto json, ReadJson(line, place.file, place.line));
-    if (Result<void> used = use(json, place); !used) return used;
-  }
-  return {};
+Result<void> ForEachJson(const fs::path& path, Use use) {
+  return ForEachLine(path, [&](std::string_view line, const Place& place) -> Result<void> {
+    ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(line), place.file, place.line));
+    return use(json, place);
+  });
 }
 
 Result<void> LoadSeries(const fs::path& folder, RunData& run) {
   for (const ScenarioSummary& scenario : run.scenarios) {
     const fs::path path = folder / "series" / (scenario.name + ".jsonl");
     if (std::error_code none; !fs::exists(path, none)) continue;
-    auto read = ForEachLine(path, [&](const Json& json, const Place& place) -> Result<void> {
+    auto read = ForEachJson(path, [&](const Json& json, const Place& place) -> Result<void> {
       try {
         run.series.push_back({json.at("cell").get<std::string>(), DecodeSeries(json.at("series"))});
         return {};
@@ -74,7 +68,7 @@ Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
 Result<void> LoadTimes(const fs::path& folder, RunData& run) {
   const fs::path path = folder / "timings.jsonl";
   if (std::error_code none; !fs::exists(path, none)) return {};
-  return ForEachLine(path, [&](const Json& json, const Place& place) -> Result<void> {
+  return ForEachJson(path, [&](const Json& json, const Place& place) -> Result<void> {
     try {
       run.cpu_seconds[json.at("cell").get<std::string>()] = json.at("cpu_s").get<double>();
       return {};
@@ -105,33 +99,44 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
 
 }  // namespace
 
+Result<ResultWriter> ResultWriter::Begin(const fs::path& folder) {
+  ASSIGN_OR_RETURN(auto cells, AtomicFile::Begin(folder / "cells.jsonl"));
+  return ResultWriter(folder, std::move(cells));
+}
+
+Result<void> ResultWriter::Add(const Row& row) {
+  ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeRow(row)));
+  RETURN_IF_ERROR(cells_.Write(line + "\n"));
+  if (row.scenario != scenario_) {
+    if (series_) RETURN_IF_ERROR(series_->Finish());
+    series_.reset();
+    scenario_ = row.scenario;
+  }
+  if (!row.result.series.empty()) {
+    if (!series_) {
+      ASSIGN_OR_RETURN(series_, AtomicFile::Begin(folder_ / "series" / (scenario_ + ".jsonl")));
+    }
+    ASSIGN_OR_RETURN(const auto curves, WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}}));
+    RETURN_IF_ERROR(series_->Write(curves + "\n"));
+  }
+  if (!row.result.recording) return {};
+  ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
+  ASSIGN_OR_RETURN(const auto text, WriteJson(json));
+  return WriteFileAtomically(folder_ / "recordings" / FileNameOf(row.Id()), text + "\n");
+}
+
+Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios) {
+  if (series_) RETURN_IF_ERROR(series_->Finish());
+  ASSIGN_OR_RETURN(const auto summary, WriteJson(EncodeSummaries(scenarios)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder_ / "summary.json", summary + "\n"));
+  return cells_.Finish();
+}
+
 Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios) {
-  std::string cells;
-  for (const Row& row : rows) {
-    ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeRow(row)));
-    cells += line + "\n";
-    if (!row.result.recording) continue;
-    ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
-    ASSIGN_OR_RETURN(const auto text, WriteJson(json));
-    auto saved = WriteFileAtomically(folder / "recordings" / FileNameOf(row.Id()), text + "\n");
-    if (!saved) return saved;
-  }
-  for (const ScenarioSummary& scenario : scenarios) {
-    std::string lines;
-    for (const Row& row : rows) {
-      if (row.scenario != scenario.name || row.result.series.empty()) continue;
-      ASSIGN_OR_RETURN(const auto line, WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}}));
-      lines += line + "\n";
-    }
-    if (lines.empty()) continue;
-    auto saved = WriteFileAtomically(folder / "series" / (scenario.name + ".jsonl"), lines);
-    if (!saved) return saved;
-  }
-  ASSIGN_OR_RETURN(const auto summary, WriteJson(EncodeSummaries(scenarios)));
-  auto saved = WriteFileAtomically(folder / "summary.json", summary + "\n");
-  if (!saved) return saved;
-  return WriteFileAtomically(folder / "cells.jsonl", cells);
+  ASSIGN_OR_RETURN(auto writer, ResultWriter::Begin(folder));
+  for (const Row& row : rows) RETURN_IF_ERROR(writer.Add(row));
+  return writer.Finish(scenarios);
 }
 
 Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
@@ -153,7 +158,7 @@ Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
     }
     run.unsealed = ToString(sealed.error());
   }
-  RETURN_IF_ERROR(ForEachLine(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
+  RETURN_IF_ERROR(ForEachJson(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
     ASSIGN_OR_RETURN(auto row, DecodeRow(json, line));
     run.rows.push_back(std::move(row));
     return {};

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "bench/files/atomic_file.h"
 #include "bench/files/json.h"
 #include "bench/model/run_data.h"
 
@@ -13,8 +17,27 @@ constexpr int kResultSchema = 3;
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
 
-/// Writes cells.jsonl, series/, recordings/ and summary.json of a whole run from `rows` (canonical
-/// order) and `scenarios`; these files are the same bytes for any number of workers.
+/// Writes cells.jsonl, series/, recordings/ and summary.json of a whole run, row by row; these files are the same bytes
+/// for any number of workers.
+class ResultWriter {
+ public:
+  static Result<ResultWriter> Begin(const std::filesystem::path& folder);
+
+  /// The next row, in canonical order.
+  Result<void> Add(const Row& row);
+  /// What stands in the folder then is all there is.
+  Result<void> Finish(const std::vector<ScenarioSummary>& scenarios);
+
+ private:
+  ResultWriter(std::filesystem::path folder, AtomicFile cells) : folder_(std::move(folder)), cells_(std::move(cells)) {}
+
+  std::filesystem::path folder_;
+  AtomicFile cells_;
+  std::optional<AtomicFile> series_;  ///< of the scenario whose rows come now
+  std::string scenario_;
+};
+
+/// The same of rows that are all there.
 Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios);
 

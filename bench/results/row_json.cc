@@ -40,20 +40,6 @@ std::optional<Status> FindStatus(const std::string& name) {
   return std::nullopt;
 }
 
-/// Why this cell cannot be written as it is, or "".
-std::string FindBadValue(const CellResult& result) {
-  for (const MetricValue& metric : result.metrics) {
-    if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";
-    if (metric.value && !std::isfinite(*metric.value)) return "the metric '" + metric.id + "' is not a finite number";
-  }
-  for (const Series& series : result.series) {
-    for (double value : series.values) {
-      if (!std::isfinite(value)) return "the series '" + series.name + "' holds a value that is not finite";
-    }
-  }
-  return "";
-}
-
 }  // namespace
 
 Json EncodeRow(const Row& row) {
@@ -168,40 +154,6 @@ Result<Recording> DecodeRecording(const Json& json, const Place& place) {
     return Fail(place, "not a recording: {}", error.what());
   }
   return recording;
-}
-
-Json EncodeCell(Row row) {
-  Json recording;
-  std::string bad = FindBadValue(row.result);
-  if (bad.empty() && row.result.recording) {
-    auto encoded = EncodeRecording(*row.result.recording);
-    if (encoded && WriteJson(*encoded)) {
-      recording = std::move(*encoded);
-    } else {
-      bad = "the recording holds a value that is not finite";
-    }
-  }
-  if (!bad.empty()) row.result = CellResult::Ended(Status::kBadOutput, bad);
-  Json cell{{"row", EncodeRow(row)}};
-  if (!row.result.series.empty()) cell["series"] = EncodeSeries(row.result.series);
-  if (!recording.is_null()) cell["recording"] = std::move(recording);
-  return cell;
-}
-
-Result<Row> DecodeCell(const Json& json, const Place& place) {
-  if (!json.is_object() || !json.contains("row")) return Fail(place, "an answer without a row");
-  auto row = DecodeRow(json["row"], place);
-  if (!row) return row;
-  try {
-    if (json.contains("series")) row->result.series = DecodeSeries(json["series"]);
-  } catch (const Json::exception& error) {
-    return Fail(place, "a series that cannot be read: {}", error.what());
-  }
-  if (json.contains("recording")) {
-    ASSIGN_OR_RETURN(auto recording, DecodeRecording(json["recording"], place));
-    row->result.recording = std::move(recording);
-  }
-  return row;
 }
 
 }  // namespace etude

@@ -17,9 +17,4 @@ std::vector<Series> DecodeSeries(const Json& json);
 Result<Json> EncodeRecording(const Recording& recording);
 Result<Recording> DecodeRecording(const Json& json, const Place& place);
 
-/// What a worker answers for one cell: the row, its series and, when kept, its recording. A value that
-/// is not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
-Json EncodeCell(Row row);
-Result<Row> DecodeCell(const Json& json, const Place& place);
-
 }  // namespace etude

@@ -34,8 +34,9 @@ Result<Digests> DigestsOf(const fs::path& folder) {
     if (!IsSealed(name)) {
       entry.disable_recursion_pending();
     } else if (entry->is_regular_file(error)) {
-      ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(entry->path()));
-      digests[name.generic_string()] = Digest().Add(std::string_view(bytes)).Hex();
+      Digest digest;
+      RETURN_IF_ERROR(ReadInChunks(entry->path(), [&](std::string_view bytes) { digest.Add(bytes); }));
+      digests[name.generic_string()] = digest.Hex();
     }
   }
   if (error) return Fail({folder.string()}, "cannot be read: {}", error.message());

@@ -1,7 +1,6 @@
 #include "bench/run/cell_runner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 #include <exception>
 #include <fstream>
@@ -21,20 +20,18 @@ double CpuSeconds() {
 
 class Stopwatch {
  public:
-  double WallSeconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double WallSeconds() const { return SecondsSince(start_); }
   double CpuSecondsUsed() const { return CpuSeconds() - cpu_start_; }
 
  private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Clock::time_point start_ = Clock::now();
   const double cpu_start_ = CpuSeconds();
 };
 
 /// The kernel's high-water mark of this process begins anew.
 void ForgetPeakMemory() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-double PeakMemoryMb() {
+double ReadPeakMemoryMb() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
     if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
@@ -48,6 +45,20 @@ std::string ErrorFileOf(const std::string& folder, const PreparedScenario& scena
 }
 
 }  // namespace
+
+void CellRunner::PeakMemory::Begin() {
+  const auto now = Clock::now();
+  if (now < looked_ + kLookEvery) return;
+  ForgetPeakMemory();
+  mb_ = 0;
+}
+
+double CellRunner::PeakMemory::Mb() {
+  const auto now = Clock::now();
+  if (mb_ > 0 && now < looked_ + kLookEvery) return mb_;
+  looked_ = now;
+  return mb_ = ReadPeakMemoryMb();
+}
 
 CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folder)
     : scenario_(scenario), error_folder_(std::move(error_folder)) {
@@ -88,7 +99,7 @@ void CellRunner::Open(int condition, int trial) {
 
 FinishedCell CellRunner::Run(std::size_t method) {
   FinishedCell cell{scenario_.IdentityOf(condition_, trial_, method), std::exchange(world_usage_, {})};
-  ForgetPeakMemory();
+  peak_memory_.Begin();
   const Stopwatch watch;
   try {
     cell.row.result = RunMethod(method, cell.usage);
@@ -97,7 +108,7 @@ FinishedCell CellRunner::Run(std::size_t method) {
   }
   cell.usage.wall_s = watch.WallSeconds();
   cell.usage.cpu_s += watch.CpuSecondsUsed();
-  cell.usage.peak_mb = std::max(cell.usage.peak_mb, PeakMemoryMb());
+  cell.usage.peak_mb = std::max(cell.usage.peak_mb, peak_memory_.Mb());
   const std::vector<std::string>& filmed = scenario_.scenario().recordings.methods;
   if (std::find(filmed.begin(), filmed.end(), cell.row.method) == filmed.end()) cell.row.result.recording.reset();
   scenario_.CompleteMetrics(condition_, cell.row);

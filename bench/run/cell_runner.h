@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/outside/outside_method.h"
+#include "bench/run/clock.h"
 #include "bench/run/setup.h"
 
 namespace etude {
@@ -12,8 +13,9 @@ namespace etude {
 /// What one cell took, on this machine.
 struct CellUsage {
   double wall_s = 0;
-  double cpu_s = 0;    ///< of the worker and of the method outside
-  double peak_mb = 0;  ///< the largest resident size of either while the cell was run
+  double cpu_s = 0;  ///< of the worker and of the method outside
+  /// The largest resident size of either while the cell was run; cells shorter than a look at it share one look.
+  double peak_mb = 0;
   /// The building of the world, in the row of the first cell that was run in it.
   double world_wall_s = 0, world_cpu_s = 0;
 };
@@ -37,6 +39,18 @@ class CellRunner {
   FinishedCell Run(std::size_t method);
 
  private:
+  /// The high-water mark of this process's memory. To ask the kernel takes as long as a short cell.
+  class PeakMemory {
+   public:
+    void Begin();
+    double Mb();
+
+   private:
+    static constexpr std::chrono::milliseconds kLookEvery{5};
+    Clock::time_point looked_ = {};
+    double mb_ = 0;
+  };
+
   CellResult RunMethod(std::size_t method, CellUsage& usage);
   CellResult AskOutside(std::size_t method, CellUsage& usage);
   CellResult RunWithProgram(std::size_t method, CellUsage& usage);
@@ -53,6 +67,7 @@ class CellRunner {
   std::unique_ptr<TaskWorld> world_;
   std::string why_no_world_;
   CellUsage world_usage_;
+  PeakMemory peak_memory_;
   std::unique_ptr<Payload> setting_, problem_;  ///< of the open world, once asked for
   int condition_of_setting_ = -1;
 };

@@ -11,29 +11,14 @@
 
 #include "bench/files/durable.h"
 #include "bench/results/folder.h"
-#include "bench/run/cell_json.h"
-#include "engine/base/digest.h"
 
 namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kJournalVersion = 2;
+constexpr int kJournalVersion = 3;
 constexpr int kHeads = 2;
-
-/// A line says at its end what its text adds up to, so that a disk's or an editor's mistake is found.
-constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
-
-std::string WithSum(const std::string& json) {
-  const std::string text = json.substr(0, json.size() - 1);  // without the last brace
-  return text + std::string(kSumBegin) + Digest().Add(std::string_view(text)).Hex() + std::string(kSumEnd) + "\n";
-}
-
-bool HasRightSum(const std::string& line) {
-  const std::size_t at = line.rfind(kSumBegin);
-  return at != std::string::npos && WithSum(line.substr(0, at) + "}") == line + "\n";
-}
 
 Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   ASSIGN_OR_RETURN(const auto json, ReadJson(line, place.file, place.line));
@@ -54,19 +39,21 @@ Result<JournalHead> DecodeHead(const std::string& line, const Place& place) {
   return head;
 }
 
-Result<void> AddCell(const std::string& line, const Place& place, const Plan& plan, const Shard& shard,
-                     CellTable& cells) {
-  ASSIGN_OR_RETURN(const auto json, ReadJson(line, place.file, place.line));
-  ASSIGN_OR_RETURN(auto finished, DecodeFinishedCell(json, place));
-  const auto number = json.find("cell");
-  if (number == json.end() || !number->is_number_unsigned()) return Fail(place, "a line without its cell's number");
-  const std::size_t cell = number->get<std::size_t>();
-  if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell)) ||
-      plan.IdentityOf(cell).Id() != finished.row.Id()) {
-    return Fail(place, "cell {} ({}) is none of this run's shard {}", cell, finished.row.Id(), ToString(shard));
+/// Where the line stands that `place` names.
+struct LineInFile {
+  std::uint32_t file;
+  std::uint64_t offset;
+  std::size_t length;
+};
+
+Result<void> AddCell(const CellLineHead& head, const LineInFile& line, const Place& place, const Plan& plan,
+                     const Shard& shard, CellTable& cells) {
+  const std::size_t cell = head.cell;
+  if (cell >= plan.cell_count() || !plan.IsIn(shard, plan.WorldOf(cell))) {
+    return Fail(place, "cell {} is none of this run's shard {}", cell, ToString(shard));
   }
-  if (cells[cell]) return Fail(place, "cell {} ({}) stands in two places", cell, finished.row.Id());
-  cells[cell] = std::move(finished);
+  if (cells.Has(cell)) return Fail(place, "cell {} ({}) stands in two places", cell, plan.IdentityOf(cell).Id());
+  cells.Put(cell, line.file, line.offset, line.length);
   return {};
 }
 
@@ -80,7 +67,7 @@ Result<Journal> Journal::Begin(const fs::path& folder, const JournalHead& head, 
                                                {"manifest", head.manifest},
                                                {"build", head.build},
                                                {"shard", ToString(head.shard)}}));
-  const std::string line = WithSum(json);
+  const std::string line = WithSum(json) + "\n";
   RETURN_IF_ERROR(journal.Write(line + line));
   RETURN_IF_ERROR(journal.Sync());
   RETURN_IF_ERROR(SyncFolder(folder));
@@ -97,6 +84,7 @@ Result<Journal> Journal::Continue(const fs::path& folder, const JournalLag& sync
   if (end < 0 || ::ftruncate(journal.file_, end) != 0) {
     return Fail({path.string(), 0, 0}, "cannot be continued: {}", std::strerror(errno));
   }
+  journal.end_ = static_cast<std::uint64_t>(end);
   return journal;
 }
 
@@ -104,6 +92,7 @@ Journal::Journal(Journal&& other) noexcept
     : path_(std::move(other.path_)),
       file_(std::exchange(other.file_, -1)),
       sync_(other.sync_),
+      end_(other.end_),
       unsynced_bytes_(other.unsynced_bytes_),
       synced_at_(other.synced_at_) {}
 
@@ -111,21 +100,21 @@ Journal::~Journal() {
   if (file_ >= 0) ::close(file_);
 }
 
-Result<void> Journal::Append(std::size_t cell, FinishedCell finished) {
-  Json json{{"cell", cell}};
-  json.update(EncodeFinishedCell(std::move(finished)));
-  ASSIGN_OR_RETURN(const auto line, WriteJson(json));
-  return Write(WithSum(line));
+Result<std::uint64_t> Journal::Append(std::string_view line) {
+  const std::uint64_t offset = end_;
+  RETURN_IF_ERROR(Write(std::string(line) + "\n"));
+  return offset;
 }
 
-Result<void> Journal::Write(const std::string& line) {
-  for (std::size_t written = 0; written < line.size();) {
-    const ssize_t count = ::write(file_, line.data() + written, line.size() - written);
+Result<void> Journal::Write(std::string_view lines) {
+  for (std::size_t written = 0; written < lines.size();) {
+    const ssize_t count = ::write(file_, lines.data() + written, lines.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return Fail({path_.string(), 0, 0}, "cannot be written: {}", std::strerror(errno));
     written += static_cast<std::size_t>(count);
   }
-  unsynced_bytes_ += line.size();
+  end_ += lines.size();
+  unsynced_bytes_ += lines.size();
   return {};
 }
 
@@ -171,23 +160,23 @@ Result<JournalContent> ReadJournal(const fs::path& folder, const Plan& plan, Cel
   ASSIGN_OR_RETURN(auto head, ReadJournalHead(folder));
   JournalContent content{.head = std::move(head), .damaged = {}};
   std::ifstream in(path, std::ios::binary);
+  const std::uint32_t file = cells.AddFile(path);
+  std::uint64_t offset = 0;
   int number = 1;
-  for (std::string line; std::getline(in, line); ++number) {
+  for (std::string line; std::getline(in, line); ++number, offset += line.size() + 1) {
     if (in.eof()) break;  // it does not end in a line end: torn
     if (number <= kHeads) continue;
-    if (!HasRightSum(line)) {
+    const auto cell = ReadCellLineHead(line);
+    if (!cell) {
       content.damaged.push_back(number);
-    } else if (auto added = AddCell(line, {path.string(), number, 0}, plan, content.head.shard, cells); !added) {
-      return tl::unexpected(added.error());
+      continue;
     }
+    RETURN_IF_ERROR(
+        AddCell(*cell, {file, offset, line.size()}, {path.string(), number, 0}, plan, content.head.shard, cells));
+    ++content.cells;
+    content.cells_ok += cell->status == Status::kOk ? 1 : 0;
   }
   return content;
-}
-
-std::vector<bool> DoneCells(const CellTable& cells) {
-  std::vector<bool> done;
-  for (const auto& cell : cells) done.push_back(cell.has_value());
-  return done;
 }
 
 }  // namespace etude

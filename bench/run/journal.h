@@ -1,11 +1,11 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "bench/run/cell_runner.h"
+#include "bench/run/cell_table.h"
 #include "bench/run/clock.h"
 #include "bench/run/plan.h"
 
@@ -18,9 +18,6 @@ struct JournalHead {
   Shard shard;
 };
 
-/// The finished cells of a run or of a shard, by their number in the plan; empty where there is none yet.
-using CellTable = std::vector<std::optional<FinishedCell>>;
-
 /// How far behind the disk may be, at most: whichever comes first.
 struct JournalLag {
   double seconds = 1;
@@ -28,8 +25,8 @@ struct JournalLag {
 };
 
 /// The append-only record of a run that is under way, and all that is left of a finished shard: JSON Lines, a
-/// head (twice, because everything hangs on it) and then one line per cell in order of completion, each written at once
-/// and synchronised in groups.
+/// head (twice, because everything hangs on it) and then one line per cell (cell_line.h) in order of completion, each
+/// written at once and synchronised in groups.
 class Journal {
  public:
   /// Begins a journal.
@@ -40,7 +37,8 @@ class Journal {
   Journal(Journal&& other) noexcept;
   ~Journal();
 
-  Result<void> Append(std::size_t cell, FinishedCell finished);
+  /// Appends the line of a cell (cell_line.h); returns where in the file it stands.
+  Result<std::uint64_t> Append(std::string_view line);
   /// Whether the disk is as far behind as it may be.
   bool IsSyncDue() const;
   /// Returns once every line that was appended is on the disk.
@@ -49,11 +47,12 @@ class Journal {
  private:
   Journal(std::filesystem::path path, int file, const JournalLag& sync)
       : path_(std::move(path)), file_(file), sync_(sync) {}
-  Result<void> Write(const std::string& line);
+  Result<void> Write(std::string_view lines);
 
   std::filesystem::path path_;
   int file_ = -1;
   JournalLag sync_;
+  std::uint64_t end_ = 0;  ///< of the file
   std::size_t unsynced_bytes_ = 0;
   Clock::time_point synced_at_ = Clock::now();
 };
@@ -64,6 +63,7 @@ Result<JournalHead> ReadJournalHead(const std::filesystem::path& folder);
 struct JournalContent {
   JournalHead head;
   std::vector<int> damaged;  ///< numbers of lines that are not as they were written, from 1: their cells are not known
+  std::size_t cells = 0, cells_ok = 0;
 };
 
 /// Puts the cells of a journal into `cells` (one place per cell of `plan`). A last line without its end is what a kill
@@ -71,8 +71,5 @@ struct JournalContent {
 /// costs its cell alone. A good line that is no cell of the plan or of the shard, or stands there already, is refused
 /// with file:line.
 Result<JournalContent> ReadJournal(const std::filesystem::path& folder, const Plan& plan, CellTable& cells);
-
-/// Which cells are there.
-std::vector<bool> DoneCells(const CellTable& cells);
 
 }  // namespace etude

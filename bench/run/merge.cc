@@ -71,7 +71,7 @@ std::string WhatLacks(const Plan& plan, const Shard& shard, const fs::path& fold
   for (std::size_t cell = 0; cell < plan.cell_count(); ++cell) {
     if (!plan.IsIn(shard, plan.WorldOf(cell))) continue;
     ++wanted;
-    if (cells[cell]) continue;
+    if (cells.Has(cell)) continue;
     if (++lacking == 1) first = plan.IdentityOf(cell).Id();
   }
   if (lacking == 0) return "";
@@ -94,8 +94,10 @@ Result<RunOutcome> Merge(const MergeOptions& options) {
   const Plan plan(prepared.scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
+  std::size_t cells_ok = 0;
   for (const auto& [index, folder] : shards.folders) {
     ASSIGN_OR_RETURN(const auto journal, ReadJournal(folder, plan, cells));
+    cells_ok += journal.cells_ok;
     const std::string what = WhatLacks(plan, journal.head.shard, folder, cells);
     if (!what.empty()) shards.missing.push_back(what);
     ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadHost(folder) : Json());
@@ -111,11 +113,10 @@ Result<RunOutcome> Merge(const MergeOptions& options) {
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
   RETURN_IF_ERROR(WriteFileAtomically(fs::path(options.output) / "manifest.json", shards.manifest));
-  RunOutcome outcome{.folder = options.output, .cells = cells.size()};
-  for (const auto& cell : cells) outcome.cells_ok += cell->row.result.status == Status::kOk ? 1 : 0;
+  RunOutcome outcome{.folder = options.output, .cells = cells.size(), .cells_ok = cells_ok};
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
-  RETURN_IF_ERROR(FinishRun(options.output, plan, std::move(cells), host));
+  RETURN_IF_ERROR(FinishRun(options.output, plan, cells, host));
   claimed.Keep();
   return outcome;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "bench/files/durable.h"
 #include "bench/files/files.h"
@@ -60,49 +61,41 @@ Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const J
   return {};
 }
 
-/// Keeps what finished cells say, on disk and in memory, and tells how far the run has come.
+/// Keeps what finished cells say on the disk, and tells how far the run has come.
 class Keeper {
  public:
-  Keeper(CellTable cells, Journal journal, std::size_t wanted, const std::function<void(const Progress&)>& on_progress)
-      : cells_(std::move(cells)), journal_(std::move(journal)), on_progress_(on_progress) {
-    progress_.cells = wanted;
-    for (const auto& cell : cells_) {
-      if (cell) Count(*cell);
-    }
-    progress_.cells_before = progress_.cells_done;
+  Keeper(CellTable& cells, Journal journal, std::uint32_t file, const Progress& before,
+         const std::function<void(const Progress&)>& on_progress)
+      : cells_(cells), journal_(std::move(journal)), file_(file), progress_(before), on_progress_(on_progress) {
     on_progress_(progress_);
   }
 
-  Result<void> Add(std::size_t cell, FinishedCell finished) {
-    RETURN_IF_ERROR(journal_.Append(cell, finished));
-    cells_[cell] = std::move(finished);
-    unsynced_.push_back(cell);
+  Result<void> Add(const DeliveredCell& cell) {
+    ASSIGN_OR_RETURN(const auto offset, journal_.Append(cell.line));
+    cells_.Put(cell.head.cell, file_, offset, cell.line.size());
+    ++unsynced_;
+    unsynced_ok_ += cell.head.status == Status::kOk ? 1 : 0;
     return journal_.IsSyncDue() ? Sync() : Result<void>();
   }
 
   /// Puts on the disk what is not there yet; only then it counts.
   Result<void> Sync() {
     RETURN_IF_ERROR(journal_.Sync());
-    for (const std::size_t cell : unsynced_) Count(*cells_[cell]);
-    unsynced_.clear();
+    progress_.cells_done += std::exchange(unsynced_, 0);
+    progress_.cells_ok += std::exchange(unsynced_ok_, 0);
     progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
     return {};
   }
 
   const Progress& progress() const { return progress_; }
-  CellTable TakeCells() { return std::move(cells_); }
 
  private:
-  void Count(const FinishedCell& cell) {
-    ++progress_.cells_done;
-    progress_.cells_ok += cell.row.result.status == Status::kOk ? 1 : 0;
-  }
-
   const Clock::time_point start_ = Clock::now();
-  CellTable cells_;
+  CellTable& cells_;
   Journal journal_;
-  std::vector<std::size_t> unsynced_;
+  std::uint32_t file_;  ///< that the journal is in `cells_`
+  std::size_t unsynced_ = 0, unsynced_ok_ = 0;
   Progress progress_;
   const std::function<void(const Progress&)>& on_progress_;
 };
@@ -133,6 +126,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   const bool continues = options.resume && state != FolderState::kFree;
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
   CellTable cells(plan.cell_count());
+  Progress before;
   std::vector<int> damaged;
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n"));
@@ -140,6 +134,8 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
     ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells));
     RETURN_IF_ERROR(CheckHead(folder, found.head, head));
     damaged = found.damaged;
+    before.cells_done = before.cells_before = found.cells;
+    before.cells_ok = found.cells_ok;
   } else {
     RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest + "\n"));
     RETURN_IF_ERROR(SyncTree(folder));
@@ -148,20 +144,19 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   ASSIGN_OR_RETURN(auto journal,
                    continues ? Journal::Continue(folder, options.sync) : Journal::Begin(folder, head, options.sync));
 
-  std::size_t wanted = 0;
   for (std::size_t world = 0; world < plan.world_count(); ++world) {
-    if (plan.IsIn(options.shard, world)) wanted += plan.MethodCount(world);
+    if (plan.IsIn(options.shard, world)) before.cells += plan.MethodCount(world);
   }
-  std::vector<Order> orders = plan.OrdersFor(options.shard, DoneCells(cells));
+  std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
-  Keeper keeper(std::move(cells), std::move(journal), wanted, on_progress);
+  Keeper keeper(cells, std::move(journal), cells.AddFile(folder / kJournalFile), before, on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),
                                 .jobs = options.jobs,
                                 .stop = options.stop},
-                               [&](std::size_t cell, FinishedCell finished) {
-                                 auto kept = keeper.Add(cell, std::move(finished));
+                               [&](const DeliveredCell& cell) {
+                                 auto kept = keeper.Add(cell);
                                  if (kept) claimed.Keep();
                                  return kept;
                                });
@@ -182,7 +177,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   claimed.Keep();
   const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
   if (options.shard.IsWhole()) {
-    RETURN_IF_ERROR(FinishRun(folder, plan, keeper.TakeCells(), host));
+    RETURN_IF_ERROR(FinishRun(folder, plan, cells, host));
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
     RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
     RETURN_IF_ERROR(SyncTree(folder));

@@ -1,6 +1,8 @@
 #include "bench/run/supervisor.h"
 
+#include <fmt/ranges.h>
 #include <poll.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,18 +13,19 @@
 #include <thread>
 
 #include "bench/process/child_process.h"
-#include "bench/run/cell_json.h"
 #include "bench/run/clock.h"
 #include "bench/run/worker.h"
 
 namespace etude {
 namespace {
 
-constexpr int kPollMilliseconds = 20;   // how stale a look at memory or at the clock may be
-constexpr int kMostDeathsInSetup = 3;   // one may be chance (out of memory, a stray kill); a row of them is not
-constexpr double kLongestSetupS = 600;  // clips are read in it
-constexpr double kGraceS = 10;          // a method outside is ended by the worker, which then still has to tell
-constexpr int kShutdownGraceMs = 3000;  // in which a worker lets its methods outside come to their end
+constexpr int kPollMilliseconds = 20;      // how stale a look at memory or at the clock may be
+constexpr double kAheadS = 0.05;           // of work that is handed out at once, by what worlds took until now
+constexpr int kGatherMicroseconds = 2000;  // where workers have work ahead, their answers are taken together
+constexpr int kMostDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
+constexpr double kLongestSetupS = 600;     // clips are read in it
+constexpr double kGraceS = 10;             // a method outside is ended by the worker, which then still has to tell
+constexpr int kShutdownGraceMs = 3000;     // in which a worker lets its methods outside come to their end
 
 Clock::time_point After(double seconds) {
   constexpr double kLongest = 1e9;  // beyond any run, within what the clock can hold
@@ -35,17 +38,30 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;  ///< of what it is at
-  bool ready = false;          ///< its set-up is done
-  std::optional<Order> order;  ///< the one it works on: methods not yet answered
-  bool built = false;          ///< the order's world is
-  bool dismissed = false;      ///< it ended, and no other takes its place
+  Clock::time_point deadline;       ///< of what it is at
+  bool ready = false;               ///< its set-up is done
+  std::deque<Order> orders;         ///< the one it works on, with the methods not yet answered, and those it has ahead
+  bool built = false;               ///< the world that it works on is
+  bool dismissed = false;           ///< it ended, and no other takes its place
+  Clock::time_point began = {};     ///< the world that it works on
+  Clock::time_point measured = {};  ///< when its memory was last looked at
+};
+
+/// How long worlds of a scenario took, as this process saw it.
+struct Pace {
+  double seconds = 0;
+  int worlds = 0;
+  std::optional<double> SecondsPerWorld() const { return worlds == 0 ? std::nullopt : std::optional(seconds / worlds); }
 };
 
 class Supervisor {
  public:
   Supervisor(const Plan& plan, std::vector<Order> orders, const SupervisorOptions& options, const Deliver& deliver)
-      : plan_(plan), orders_(orders.begin(), orders.end()), options_(options), deliver_(deliver) {}
+      : plan_(plan),
+        orders_(orders.begin(), orders.end()),
+        options_(options),
+        deliver_(deliver),
+        paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
     ASSIGN_OR_RETURN(const auto setup_line,
@@ -75,29 +91,50 @@ class Supervisor {
 
   const Limits& LimitsOf(const Order& order) const { return plan_.scenario_of(order.world).scenario().limits; }
 
-  /// The next order, or the end of its work.
+  /// Gives a worker what it has time for, or the end of its work.
   void HandOut(Worker& worker) {
-    worker.order.reset();
-    worker.built = false;
-    if (orders_.empty()) {
-      worker.process.Finish(kShutdownGraceMs);
-      worker.dismissed = true;
-      return;
+    double ahead_s = 0;
+    for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
+    while (!orders_.empty() && (worker.orders.empty() || ahead_s < kAheadS)) {
+      const Order& next = orders_.front();
+      const World& world = plan_.world(next.world);
+      worker.process.Send(fmt::format(R"({{"world":[{},{},{}],"first_cell":{},"methods":[{}]}})", world.scenario,
+                                      world.condition, world.trial, plan_.CellAt(next.world, 0),
+                                      fmt::join(next.methods, ",")));
+      ahead_s += PaceOf(next).SecondsPerWorld().value_or(kAheadS);
+      worker.orders.push_back(std::move(orders_.front()));
+      orders_.pop_front();
+      if (worker.orders.size() == 1) BeginWorld(worker);
     }
-    worker.order = std::move(orders_.front());
-    orders_.pop_front();
-    const World& world = plan_.world(worker.order->world);
-    Json order{{"world", {world.scenario, world.condition, world.trial}}, {"methods", worker.order->methods}};
-    worker.process.Send(order.dump());
-    worker.deadline = After(LimitsOf(*worker.order).time_s);
+    if (!worker.orders.empty()) return;
+    worker.process.Finish(kShutdownGraceMs);
+    worker.dismissed = true;
+  }
+
+  Pace& PaceOf(const Order& order) { return paces_[static_cast<std::size_t>(plan_.world(order.world).scenario)]; }
+
+  /// The clock starts for the world that is first in its orders.
+  void BeginWorld(Worker& worker) {
+    worker.built = false;
+    worker.began = Clock::now();
+    worker.deadline = After(LimitsOf(worker.orders.front()).time_s);
+  }
+
+  void EndWorld(Worker& worker) {
+    Pace& pace = PaceOf(worker.orders.front());
+    pace.seconds += SecondsSince(worker.began);
+    ++pace.worlds;
+    worker.orders.pop_front();
+    worker.orders.empty() ? HandOut(worker) : BeginWorld(worker);
   }
 
   /// The clock starts for the first method that is not answered yet.
   void StartNextMethod(Worker& worker) {
-    if (worker.order->methods.empty()) return HandOut(worker);
-    const auto& methods = plan_.scenario_of(worker.order->world).scenario().methods;
-    const MethodEntry& method = methods[worker.order->methods.front()];
-    const double limit_s = LimitsOf(*worker.order).time_s;
+    const Order& order = worker.orders.front();
+    if (order.methods.empty()) return EndWorld(worker);
+    const auto& methods = plan_.scenario_of(order.world).scenario().methods;
+    const MethodEntry& method = methods[order.methods.front()];
+    const double limit_s = LimitsOf(order).time_s;
     const double ask_s = method.exec.empty() ? 0 : LongestAskSeconds(method.time_s.value_or(limit_s)) + kGraceS;
     worker.deadline = After(ask_s + (method.RunsInTask() ? limit_s : 0));
   }
@@ -115,7 +152,10 @@ class Supervisor {
     }
     // With no orders left, idle workers are dropped, also those still in their set-up.
     std::erase_if(workers_,
-                  [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && !worker.order); });
+                  [&](const Worker& worker) { return worker.dismissed || (orders_.empty() && worker.orders.empty()); });
+    const bool nobody_waits =
+        std::ranges::all_of(workers_, [](const auto& worker) { return worker.orders.size() > 1; });
+    if (nobody_waits && !workers_.empty()) ::usleep(kGatherMicroseconds);
     return {};
   }
 
@@ -128,13 +168,16 @@ class Supervisor {
       }
       if (worker.dismissed) return {};
       if (!alive) return Replace(worker, Status::kCrashed, "its worker ended with " + worker.process.Finish());
+      if (worker.ready) HandOut(worker);  // what it has ahead of it
     }
-    if (Clock::now() > worker.deadline) {
-      const double limit = worker.order ? LimitsOf(*worker.order).time_s : kLongestSetupS;
+    const auto now = Clock::now();
+    if (now > worker.deadline) {
+      const double limit = worker.orders.empty() ? kLongestSetupS : LimitsOf(worker.orders.front()).time_s;
       return Replace(worker, Status::kTimeout, fmt::format("took longer than {:g} s", limit));
     }
-    if (worker.order) {
-      const double limit = LimitsOf(*worker.order).memory_mb;
+    if (!worker.orders.empty() && now - worker.measured >= std::chrono::milliseconds(kPollMilliseconds)) {
+      worker.measured = now;
+      const double limit = LimitsOf(worker.orders.front()).memory_mb;
       const double resident = worker.process.MeasureAlone().resident_mb;  // it watches methods outside itself
       if (resident > limit) {
         return Replace(worker, Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", limit));
@@ -152,19 +195,18 @@ class Supervisor {
       HandOut(worker);
       return true;
     }
+    if (worker.orders.empty()) return false;
     if (!worker.built) {
-      worker.built = worker.order && line == kWorldBuilt;
+      worker.built = line == kWorldBuilt;
       if (worker.built) StartNextMethod(worker);
       return worker.built;
     }
-    const Place place{"a worker's answer", 0, 0};
-    const auto json = ReadJson(line, place.file);
-    auto finished = json ? DecodeFinishedCell(*json, place) : tl::unexpected(json.error());
-    const std::size_t cell = plan_.CellAt(worker.order->world, worker.order->methods.front());
-    if (!finished || finished->row.Id() != plan_.IdentityOf(cell).Id()) return false;
-    worker.order->methods.erase(worker.order->methods.begin());
+    Order& order = worker.orders.front();
+    const auto head = ReadCellLineHead(line);
+    if (!head || head->cell != plan_.CellAt(order.world, order.methods.front())) return false;
+    order.methods.erase(order.methods.begin());
     StartNextMethod(worker);
-    RETURN_IF_ERROR(deliver_(cell, std::move(*finished)));
+    RETURN_IF_ERROR(deliver_({*head, line}));
     return true;
   }
 
@@ -174,8 +216,11 @@ class Supervisor {
     if (!worker.ready && ++deaths_in_setup_ == kMostDeathsInSetup) {
       return Fail({}, "{} workers in a row failed in their set-up: {}", kMostDeathsInSetup, reason);
     }
-    if (worker.order) {
-      RETURN_IF_ERROR(GiveUp(*worker.order, worker.built, status, reason));
+    if (!worker.orders.empty()) {
+      Order order = std::move(worker.orders.front());
+      worker.orders.pop_front();
+      orders_.insert(orders_.begin(), worker.orders.begin(), worker.orders.end());  // those ahead were not begun
+      RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
     }
     if (orders_.empty()) {
       worker.dismissed = true;
@@ -193,9 +238,10 @@ class Supervisor {
     for (std::size_t i = 0; i < lost; ++i) {
       const std::size_t method = order.methods[i];
       const std::string when = built ? reason : reason + " while its world was being built";
-      FinishedCell cell{plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, status, when),
-                        {}};
-      RETURN_IF_ERROR(deliver_(plan_.CellAt(order.world, method), std::move(cell)));
+      const std::size_t cell = plan_.CellAt(order.world, method);
+      const std::string line = EncodeCellLine(
+          cell, {plan_.scenario_of(order.world).EndedRow(world.condition, world.trial, method, status, when), {}});
+      RETURN_IF_ERROR(deliver_({{cell, status}, line}));
     }
     order.methods.erase(order.methods.begin(), order.methods.begin() + static_cast<std::ptrdiff_t>(lost));
     if (!order.methods.empty()) orders_.push_front(std::move(order));
@@ -208,6 +254,7 @@ class Supervisor {
   const Deliver& deliver_;
   std::string setup_line_;
   std::vector<Worker> workers_;
+  std::vector<Pace> paces_;  ///< by scenario
   int deaths_in_setup_ = 0;  ///< since a worker last became ready
 };
 
@@ -217,6 +264,10 @@ Result<bool> RunOrders(const SuiteSetup& setup, const Plan& plan, std::vector<Or
                        const SupervisorOptions& options, const Deliver& deliver) {
   if (orders.empty()) return true;
   return Supervisor(plan, std::move(orders), options, deliver).Run(setup);
+}
+
+Result<FinishedCell> DeliveredCell::Read(const Plan& plan) const {
+  return DecodeCellLine(line, plan.IdentityOf(head.cell), {"a worker's answer", 0, 0});
 }
 
 int WorkerCount(int jobs) {

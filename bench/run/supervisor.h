@@ -4,9 +4,10 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "bench/run/cell_runner.h"
+#include "bench/run/cell_line.h"
 #include "bench/run/plan.h"
 
 namespace etude {
@@ -18,10 +19,19 @@ struct SupervisorOptions {
   const std::atomic<bool>* stop = nullptr;  ///< set (by Ctrl-C) to end early
 };
 
-/// Called with the number of a cell and what came of it, in order of completion.
-using Deliver = std::function<Result<void>(std::size_t cell, FinishedCell finished)>;
+/// A cell that has ended: the head of its line, and the line (cell_line.h), which is as it was written.
+struct DeliveredCell {
+  CellLineHead head;
+  std::string_view line;
+  /// All that is known of it.
+  Result<FinishedCell> Read(const Plan& plan) const;
+};
 
-/// Hands worlds to worker processes and collects their cells. A worker that dies, takes longer or holds more
+/// Called for every cell, in order of completion.
+using Deliver = std::function<Result<void>(const DeliveredCell& cell)>;
+
+/// Hands worlds to worker processes and collects their cells, several worlds ahead where worlds are short, so that no
+/// worker waits for this process. A worker that dies, takes longer or holds more
 /// than the scenario's limits allow is ended and takes only the cell in progress with it: that cell's row becomes
 /// `crashed`, `timeout` or `out_of_memory`, with the reason, and a new worker runs the world's other methods.
 /// When it ends while it builds the world, all methods of the world get that row. One that dies in its set-up

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/run/cell_json.h"
+#include "bench/run/cell_line.h"
 #include "bench/run/cell_runner.h"
 
 namespace etude {
@@ -28,12 +28,13 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
   const Json& world = order.at("world");
   const auto scenario = world.at(0).get<std::size_t>();
   if (scenario >= runners.size()) return Fail({}, "there is no scenario {}", scenario);
+  const auto first_cell = order.at("first_cell").get<std::size_t>();
   CellRunner& runner = *runners[scenario];
   runner.Open(world.at(1).get<int>(), world.at(2).get<int>());
   out << kWorldBuilt << '\n' << std::flush;
   for (const Json& method : order.at("methods")) {
-    ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeFinishedCell(runner.Run(method.get<std::size_t>()))));
-    out << line << '\n' << std::flush;
+    const auto number = method.get<std::size_t>();
+    out << EncodeCellLine(first_cell + number, runner.Run(number)) << '\n' << std::flush;
   }
   return {};
 }

@@ -1,6 +1,7 @@
 #include "bench/statistics/bootstrap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bench/statistics/distributions.h"
@@ -31,10 +32,16 @@ std::vector<double> Jackknife(std::span<const double> sorted, Aggregate aggregat
 /// Indices below `count`, two of each 64 random bits; no index is favoured by more than count / 2³².
 template <typename Use>
 void DrawIndices(RandomStream& dice, std::size_t count, const Use& use) {
-  for (std::size_t i = 0; i < count; i += 2) {
-    const std::uint64_t bits = dice.Bits();
-    use(((bits & 0xffffffffu) * count) >> 32);
-    if (i + 1 < count) use(((bits >> 32) * count) >> 32);
+  std::array<std::uint64_t, 128> buffer;
+  for (std::size_t left = count; left > 0;) {
+    const std::span<std::uint64_t> drawn(buffer.data(), std::min(buffer.size(), (left + 1) / 2));
+    dice.FillBits(drawn);
+    for (const std::uint64_t bits : drawn) {
+      use(((bits & 0xffffffffu) * count) >> 32);
+      if (--left == 0) break;
+      use(((bits >> 32) * count) >> 32);
+      --left;
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numeric>
+
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
 #include "bench/results/folder.h"
@@ -20,20 +22,20 @@ class JournalTest : public testing::Test {
     folder_.emplace(std::move(*made));
   }
 
-  FinishedCell CellWith(std::size_t cell, double error) const {
+  std::string LineOf(std::size_t cell, double error) const {
     FinishedCell finished{plan_.IdentityOf(cell), {.wall_s = 0.25, .cpu_s = 0.125, .peak_mb = 12}};
     finished.row.result = CellResult::Ended(Status::kOk, "");
     finished.row.result.Measure("position_error_cm", error);
     finished.row.result.series.push_back({"position_error_cm", "iteration", {3, 2, error}});
-    return finished;
+    return EncodeCellLine(cell, std::move(finished));
   }
 
   /// A journal of cells 0 and 3.
   void WriteTwo() {
     auto journal = Journal::Begin(folder(), head_);
     ASSERT_TRUE(journal);
-    ASSERT_TRUE(journal->Append(3, CellWith(3, 0.1)));
-    ASSERT_TRUE(journal->Append(0, CellWith(0, 0.2)));
+    ASSERT_TRUE(journal->Append(LineOf(3, 0.1)));
+    ASSERT_TRUE(journal->Append(LineOf(0, 0.2)));
   }
 
   std::string Text() const { return *ReadWholeFile(path()); }
@@ -43,11 +45,11 @@ class JournalTest : public testing::Test {
   /// Where the head, which stands there twice, has ended.
   static std::size_t EndOfHead(const std::string& text) { return text.find('\n', text.find('\n') + 1) + 1; }
   Result<JournalContent> Read(CellTable& cells) const {
-    cells.assign(plan_.cell_count(), std::nullopt);
+    cells = CellTable(plan_.cell_count());
     return ReadJournal(folder(), plan_, cells);
   }
   std::string Complaint() const {
-    CellTable cells;
+    CellTable cells(0);
     const auto content = Read(cells);
     return content ? "" : ToString(content.error());
   }
@@ -60,18 +62,24 @@ class JournalTest : public testing::Test {
 
 TEST_F(JournalTest, GivesBackWhatWasAppended) {
   WriteTwo();
-  CellTable cells;
+  CellTable cells(0);
   const auto content = Read(cells);
   ASSERT_TRUE(content) << ToString(content.error());
   EXPECT_EQ(content->head.manifest, head_.manifest);
   EXPECT_EQ(content->head.build, head_.build);
   EXPECT_EQ(content->head.shard, head_.shard);
   EXPECT_TRUE(content->damaged.empty());
-  ASSERT_TRUE(cells[0] && cells[3]);
-  EXPECT_EQ(std::count(cells.begin(), cells.end(), std::nullopt), 10);
-  EXPECT_EQ(ValueOf(cells[3]->row, "position_error_cm"), 0.1);
-  EXPECT_EQ(cells[3]->row.result.series.front().values.size(), 3u);
-  EXPECT_EQ(cells[3]->usage.wall_s, 0.25);
+  EXPECT_EQ(content->cells, 2u);
+  EXPECT_EQ(content->cells_ok, 2u);
+  EXPECT_EQ(std::ranges::count(cells.Done(), true), 2);
+  for (const std::size_t cell : {0, 3}) {
+    const auto back = cells.Read(cell, plan_);
+    ASSERT_TRUE(back) << ToString(back.error());
+    EXPECT_EQ(back->row.Id(), plan_.IdentityOf(cell).Id());
+    EXPECT_EQ(ValueOf(back->row, "position_error_cm"), cell == 3 ? 0.1 : 0.2);
+    EXPECT_EQ(back->row.result.series.front().values.size(), 3u);
+    EXPECT_EQ(back->usage.wall_s, 0.25);
+  }
 }
 
 TEST_F(JournalTest, LosesNothingButATornLastLineWhereverItIsCut) {
@@ -80,25 +88,25 @@ TEST_F(JournalTest, LosesNothingButATornLastLineWhereverItIsCut) {
   const std::size_t head_end = EndOfHead(text), first_end = text.find('\n', head_end) + 1;
   for (std::size_t cut = head_end; cut <= text.size(); ++cut) {
     Rewrite(text.substr(0, cut));
-    CellTable cells;
+    CellTable cells(0);
     ASSERT_TRUE(Read(cells)) << cut;
-    EXPECT_EQ(cells[3].has_value(), cut >= first_end) << cut;
-    EXPECT_EQ(cells[0].has_value(), cut == text.size()) << cut;
+    EXPECT_EQ(cells.Has(3), cut >= first_end) << cut;
+    EXPECT_EQ(cells.Has(0), cut == text.size()) << cut;
   }
 }
 
 TEST_F(JournalTest, GoesOnAfterATornLine) {
   WriteTwo();
-  Rewrite(Text() + R"({"cell":5,"row":{"scen)");
+  Rewrite(Text() + R"({"cell":5,"stat)");
   {
     auto journal = Journal::Continue(folder());
     ASSERT_TRUE(journal);
-    ASSERT_TRUE(journal->Append(7, CellWith(7, 0.3)));
+    ASSERT_TRUE(journal->Append(LineOf(7, 0.3)));
   }
-  CellTable cells;
+  CellTable cells(0);
   ASSERT_TRUE(Read(cells));
-  EXPECT_TRUE(cells[0] && cells[3] && cells[7]);
-  EXPECT_FALSE(cells[5]);
+  EXPECT_TRUE(cells.Has(0) && cells.Has(3) && cells.Has(7));
+  EXPECT_FALSE(cells.Has(5));
 }
 
 // One flipped bit costs the cell whose line it hits, not the run.
@@ -110,11 +118,11 @@ TEST_F(JournalTest, LosesACellAloneByAChangedByteOfItsLine) {
     std::string changed = text;
     changed[at] = static_cast<char>(changed[at] ^ 1);
     Rewrite(changed);
-    CellTable cells;
+    CellTable cells(0);
     const auto content = Read(cells);
     ASSERT_TRUE(content) << at << ": " << ToString(content.error());
-    EXPECT_FALSE(cells[3]) << at;
-    EXPECT_TRUE(cells[0]) << at;
+    EXPECT_FALSE(cells.Has(3)) << at;
+    EXPECT_TRUE(cells.Has(0)) << at;
     EXPECT_EQ(content->damaged.front(), 3) << at;
   }
 }
@@ -123,10 +131,10 @@ TEST_F(JournalTest, PassesOverGarbageWithALineEnd) {
   WriteTwo();
   const std::string text = Text();
   Rewrite(text.substr(0, EndOfHead(text)) + std::string("\x00\xff not json\n\n", 13) + text.substr(EndOfHead(text)));
-  CellTable cells;
+  CellTable cells(0);
   const auto content = Read(cells);
   ASSERT_TRUE(content) << ToString(content.error());
-  EXPECT_TRUE(cells[0] && cells[3]);
+  EXPECT_TRUE(cells.Has(0) && cells.Has(3));
   EXPECT_FALSE(content->damaged.empty());
 }
 
@@ -138,12 +146,12 @@ TEST_F(JournalTest, KnowsWhatItBelongsToAsLongAsOneCopyOfItsHeadIsGood) {
     std::string changed = text;
     changed[at] = static_cast<char>(changed[at] ^ 1);
     Rewrite(changed);
-    CellTable cells;
+    CellTable cells(0);
     const auto content = Read(cells);
     if (at + 1 == line) continue;  // without its end the first line runs on into the second
     ASSERT_TRUE(content) << at << ": " << ToString(content.error());
     EXPECT_EQ(content->head.build, head_.build) << at;
-    EXPECT_TRUE(cells[0] && cells[3]) << at;
+    EXPECT_TRUE(cells.Has(0) && cells.Has(3)) << at;
   }
   std::string changed = text;
   changed[5] = changed[line + 5] = 'x';
@@ -161,17 +169,39 @@ TEST_F(JournalTest, RefusesACellTwice) {
 TEST_F(JournalTest, RefusesACellOfAnotherShard) {
   auto journal = Journal::Begin(folder(), {"m", "b", {1, 2}});
   ASSERT_TRUE(journal);
-  ASSERT_TRUE(journal->Append(0, CellWith(0, 1)));  // world 0 is the first shard's
+  ASSERT_TRUE(journal->Append(LineOf(0, 1)));  // world 0 is the first shard's
   EXPECT_EQ(Complaint(), "");
-  ASSERT_TRUE(journal->Append(2, CellWith(2, 1)));  // world 1 is not
+  ASSERT_TRUE(journal->Append(LineOf(2, 1)));  // world 1 is not
   EXPECT_THAT(Complaint(), HasSubstr("is none of this run's shard 1/2"));
 }
 
-TEST_F(JournalTest, RefusesACellWhoseNumberIsAnothers) {
-  auto journal = Journal::Begin(folder(), head_);
+TEST_F(JournalTest, RefusesACellThatThePlanHasNot) {
+  WriteTwo();
+  auto journal = Journal::Continue(folder());
   ASSERT_TRUE(journal);
-  ASSERT_TRUE(journal->Append(1, CellWith(0, 1)));
-  EXPECT_THAT(Complaint(), HasSubstr("cell 1 (small/joint_noise_deg=2/000/fixed) is none of this run's"));
+  ASSERT_TRUE(journal->Append(EncodeCellLine(plan_.cell_count(), FinishedCell())));
+  EXPECT_THAT(Complaint(), HasSubstr("journal.jsonl:5: cell 12 is none of this run's shard 1/1"));
+}
+
+TEST_F(JournalTest, GivesCellsBackInAnyOrderHoweverLargeItIs) {
+  std::vector<std::size_t> order(plan_.cell_count());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::reverse(order);
+  FinishedCell large;
+  large.row.result.series.push_back({"position_error_cm", "iteration", std::vector<double>(200'000, 0.125)});
+  {
+    auto journal = Journal::Begin(folder(), head_);
+    ASSERT_TRUE(journal);
+    for (const std::size_t cell : order) ASSERT_TRUE(journal->Append(EncodeCellLine(cell, large)));
+  }
+  CellTable cells(0);
+  ASSERT_TRUE(Read(cells));
+  for (std::size_t cell = 0; cell < plan_.cell_count(); ++cell) {
+    const auto back = cells.Read(cell, plan_);
+    ASSERT_TRUE(back) << ToString(back.error());
+    EXPECT_EQ(back->row.Id(), plan_.IdentityOf(cell).Id());
+    EXPECT_EQ(back->row.result.series.front().values.size(), 200'000u);
+  }
 }
 
 TEST_F(JournalTest, RefusesOneOfAnotherVersionOrWithoutHead) {

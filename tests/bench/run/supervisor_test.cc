@@ -34,8 +34,10 @@ class SupervisorTest : public testing::Test {
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
     return RunOrders(suite_, plan_, plan_.OrdersFor({}, std::vector<bool>(plan_.cell_count())),
                      {.program = path, .error_folder = "", .jobs = jobs, .stop = nullptr},
-                     [&](std::size_t cell, FinishedCell finished) -> Result<void> {
-                       EXPECT_TRUE(rows_.emplace(cell, std::move(finished.row)).second) << cell << " came twice";
+                     [&](const DeliveredCell& cell) -> Result<void> {
+                       ASSIGN_OR_RETURN(const auto finished, cell.Read(plan_));
+                       EXPECT_TRUE(rows_.emplace(cell.head.cell, finished.row).second)
+                           << cell.head.cell << " came twice";
                        return {};
                      });
   }
@@ -108,12 +110,33 @@ TEST_F(SupervisorTest, AWorkerThatTalksNonsenseGivesBadOutput) {
 }
 
 TEST_F(SupervisorTest, AnAnswerForAnotherCellIsNotTaken) {
-  const std::string row =
-      R"({"row":{"cell":"x","scenario":"small","task":"ik","condition":"-","trial":9,"clip":null,"method":"fixed",)"
-      R"("status":"ok","reason":null},"usage":{"wall_s":1,"cpu_s":1,"peak_mb":1}})";
+  const std::string row = EncodeCellLine(plan_.cell_count(), FinishedCell());
   const auto whole = RunWith("echo ready\nread -r order\necho built\ncat <<'END'\n" + row + "\nEND\nread -r more\n");
   ASSERT_TRUE(whole && *whole);
   ExpectAll(Status::kBadOutput, "its worker answered with something else");
+}
+
+TEST_F(SupervisorTest, AWorkerIsGivenWorldsAheadAndLosesOnlyTheOneThatItWasAt) {
+  // One that answers two worlds at once and then dies: of all that it held, the third alone is lost.
+  const auto line = [&](std::size_t cell) {
+    FinishedCell finished;
+    finished.row.result = CellResult::Ended(Status::kOk, "");
+    return EncodeCellLine(cell, std::move(finished));
+  };
+  std::string script = "echo ready\n";
+  for (std::size_t world = 0; world < 2; ++world) {
+    script += "read -r order\necho built\ncat <<'END'\n" + line(2 * world) + "\n" + line(2 * world + 1) + "\nEND\n";
+  }
+  const auto whole = RunWith("if [ ! -e '" + (folder_->path() / "died").string() + "' ]; then touch '" +
+                             (folder_->path() / "died").string() + "'\n" + script +
+                             "read -r order\necho built\nkill -SEGV $$\nfi\necho ready\nread -r order\nexit 3\n");
+  ASSERT_TRUE(whole && *whole);
+  ASSERT_EQ(rows_.size(), plan_.cell_count());
+  for (std::size_t cell = 0; cell < 4; ++cell) EXPECT_EQ(rows_[cell].result.status, Status::kOk);
+  EXPECT_THAT(rows_[4].result.reason, HasSubstr("signal 11"));
+  for (std::size_t cell = 5; cell < plan_.cell_count(); ++cell) {
+    EXPECT_THAT(rows_[cell].result.reason, HasSubstr("exit code 3 while its world was being built")) << cell;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,300 @@
+#include "bench/run/cell_line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "bench/metrics/catalogue.h"
+#include "bench/results/row_json.h"
+#include "engine/base/digest.h"
+
+namespace etude {
+namespace {
+
+constexpr std::string_view kSumBegin = R"(,"sum":")", kSumEnd = R"("})";
+constexpr std::size_t kSumSize = kSumBegin.size() + 16 + kSumEnd.size();
+
+/// The metric's place in the catalogue; its size when it has none.
+std::size_t PlaceInCatalogue(const std::string& id) {
+  const MetricInfo* metric = FindMetric(id);
+  return metric == nullptr ? AllMetrics().size() : static_cast<std::size_t>(metric - AllMetrics().data());
+}
+
+/// Why this cell cannot be written as it is, or "".
+std::string FindBadValue(const CellResult& result) {
+  for (const MetricValue& metric : result.metrics) {
+    if (FindMetric(metric.id) == nullptr) return "the metric '" + metric.id + "' is not in the catalogue";
+    if (metric.value && !std::isfinite(*metric.value)) return "the metric '" + metric.id + "' is not a finite number";
+  }
+  for (const Series& series : result.series) {
+    for (double value : series.values) {
+      if (!std::isfinite(value)) return "the series '" + series.name + "' holds a value that is not finite";
+    }
+  }
+  return "";
+}
+
+/// Writes a line, part by part.
+class LineWriter {
+ public:
+  template <typename... Args>
+  void Add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+  void AddText(std::string_view text) { text_ += text; }
+  void AddString(const std::string& text) {
+    const bool plain = std::ranges::all_of(text, [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; });
+    text_ += plain ? "\"" + text + "\"" : Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  /// `,"key":[…]` of as many values as `add_one` is called for; nothing of an empty list.
+  template <typename List, typename AddOne>
+  void AddList(std::string_view key, const List& list, const AddOne& add_one) {
+    if (list.empty()) return;
+    Add(",\"{}\":[", key);
+    for (const auto& item : list) {
+      add_one(item);
+      text_ += ',';
+    }
+    text_.back() = ']';
+  }
+  std::string Take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+/// Reads a line, part by part; the first part that is not there makes all that follow fail.
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
+
+  bool is_good() const { return good_; }
+  /// Passes over `text` if it is next.
+  bool Skip(std::string_view text) {
+    if (!good_ || !std::string_view(at_, static_cast<std::size_t>(end_ - at_)).starts_with(text)) return false;
+    at_ += text.size();
+    return true;
+  }
+  void Expect(std::string_view text) { good_ = Skip(text); }
+  void Refuse() { good_ = false; }
+  template <typename Number>
+  Number ReadNumber() {
+    Number number{};
+    if (!good_) return number;
+    const auto [stop, status] = std::from_chars(at_, end_, number);
+    good_ = status == std::errc();
+    at_ = stop;
+    return number;
+  }
+  std::string ReadString() {
+    Expect("\"");
+    const char* const begin = at_;
+    bool plain = true;
+    for (; good_ && at_ != end_ && *at_ != '"'; ++at_) {
+      if (*at_ != '\\') continue;
+      plain = false;
+      if (++at_ == end_) break;
+    }
+    const std::string_view inside(begin, static_cast<std::size_t>(at_ - begin));
+    Expect("\"");
+    if (!good_) return "";
+    return plain ? std::string(inside) : Json::parse("\"" + std::string(inside) + "\"").get<std::string>();
+  }
+  /// The other side of LineWriter::AddList.
+  template <typename ReadOne>
+  void ReadList(std::string_view key, const ReadOne& read_one) {
+    if (!Skip(key)) return;
+    do read_one();
+    while (Skip(","));
+    Expect("]");
+  }
+  /// All up to the sum.
+  std::string_view Rest() const { return {at_, static_cast<std::size_t>(end_ - at_)}; }
+
+ private:
+  const char* at_;
+  const char* end_;
+  bool good_ = true;
+};
+
+std::optional<Status> FindStatus(std::string_view name) {
+  for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
+    if (StatusName(static_cast<Status>(i)) == name) return static_cast<Status>(i);
+  }
+  return std::nullopt;
+}
+
+CellLineHead ReadHead(LineReader& reader) {
+  CellLineHead head;
+  reader.Expect(R"({"cell":)");
+  head.cell = reader.ReadNumber<std::size_t>();
+  reader.Expect(R"(,"status":)");
+  const auto status = FindStatus(reader.ReadString());
+  if (!status) reader.Refuse();
+  head.status = status.value_or(Status::kFailed);
+  return head;
+}
+
+CellUsage ReadUsage(LineReader& reader) {
+  CellUsage usage;
+  const std::array<double*, 5> fields = {&usage.wall_s, &usage.cpu_s, &usage.peak_mb, &usage.world_wall_s,
+                                         &usage.world_cpu_s};
+  std::size_t read = 0;
+  reader.ReadList(R"(,"usage":[)", [&] {
+    const double value = reader.ReadNumber<double>();
+    if (read < fields.size()) *fields[read] = value;
+    ++read;
+  });
+  return usage;
+}
+
+}  // namespace
+
+std::string WithSum(std::string json) {
+  json.pop_back();  // its last brace
+  return fmt::format("{}{}{:016x}{}", json, kSumBegin, Fingerprint(json), kSumEnd);
+}
+
+bool HasRightSum(std::string_view line) {
+  if (line.size() < kSumSize) return false;
+  const std::string_view text = line.substr(0, line.size() - kSumSize), sum = line.substr(text.size());
+  if (!sum.starts_with(kSumBegin) || !sum.ends_with(kSumEnd)) return false;
+  std::array<char, 17> digits;
+  fmt::format_to_n(digits.data(), 16, "{:016x}", Fingerprint(text));
+  return sum.substr(kSumBegin.size(), 16) == std::string_view(digits.data(), 16);
+}
+
+std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
+  CellResult& result = finished.row.result;
+  std::string recording, bad = FindBadValue(result);
+  if (bad.empty() && result.recording) {
+    const auto encoded = EncodeRecording(*result.recording);
+    const auto text = encoded ? WriteJson(*encoded) : tl::unexpected(encoded.error());
+    if (text) {
+      recording = *text;
+    } else {
+      bad = "the recording holds a value that is not finite";
+    }
+  }
+  if (!bad.empty()) result = CellResult::Ended(Status::kBadOutput, bad);
+
+  LineWriter line;
+  line.Add(R"({{"cell":{},"status":"{}")", cell, StatusName(result.status));
+  if (!result.reason.empty()) {
+    line.AddText(R"(,"reason":)");
+    line.AddString(result.reason);
+  }
+  const CellUsage& usage = finished.usage;
+  line.Add(R"(,"usage":[{},{},{})", usage.wall_s, usage.cpu_s, usage.peak_mb);
+  if (usage.world_wall_s > 0) line.Add(",{},{}", usage.world_wall_s, usage.world_cpu_s);
+  line.AddText("]");
+  std::vector<const std::string*> why;
+  line.AddList("values", result.metrics, [&](const MetricValue& metric) {
+    line.Add("{},", PlaceInCatalogue(metric.id));
+    if (metric.value) return line.Add("{}", *metric.value);
+    line.AddText("null");
+    why.push_back(&metric.null_reason);
+  });
+  line.AddList("why", why, [&](const std::string* reason) { line.AddString(*reason); });
+  line.AddList("digests", result.digests, [&](const auto& digest) {
+    line.AddString(digest.first);
+    line.AddText(",");
+    line.AddString(digest.second);
+  });
+  line.AddList("series", result.series, [&](const Series& series) {
+    line.AddText("[");
+    line.AddString(series.name);
+    line.AddText(",");
+    line.AddString(series.axis);
+    line.AddText(",[");
+    line.Add("{}]]", fmt::join(series.values, ","));
+  });
+  if (!recording.empty()) line.Add(R"(,"recording":{})", recording);
+  line.AddText("}");
+  return WithSum(line.Take());
+}
+
+std::optional<CellLineHead> ReadCellLineHead(std::string_view line) {
+  if (!HasRightSum(line)) return std::nullopt;
+  LineReader reader(line);
+  const CellLineHead head = ReadHead(reader);
+  return reader.is_good() ? std::optional(head) : std::nullopt;
+}
+
+Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const Place& place) {
+  if (!HasRightSum(line)) return Fail(place, "is not as it was written");
+  FinishedCell cell{std::move(identity), {}};
+  CellResult& result = cell.row.result;
+  LineReader reader(line.substr(0, line.size() - kSumSize));
+  try {
+    result.status = ReadHead(reader).status;
+    result.reason = reader.Skip(R"(,"reason":)") ? reader.ReadString() : "";
+    cell.usage = ReadUsage(reader);
+    std::vector<std::size_t> missing;
+    reader.ReadList(R"(,"values":[)", [&] {
+      const auto place_in_catalogue = reader.ReadNumber<std::size_t>();
+      reader.Expect(",");
+      if (place_in_catalogue >= AllMetrics().size()) reader.Refuse();
+      if (!reader.is_good()) return;
+      const std::string& id = AllMetrics()[place_in_catalogue].id;
+      if (reader.Skip("null")) {
+        missing.push_back(result.metrics.size());
+        result.Missing(id, "");
+      } else {
+        result.Measure(id, reader.ReadNumber<double>());
+      }
+    });
+    std::size_t told = 0;
+    reader.ReadList(R"(,"why":[)", [&] {
+      std::string reason = reader.ReadString();
+      if (told < missing.size()) result.metrics[missing[told++]].null_reason = std::move(reason);
+    });
+    reader.ReadList(R"(,"digests":[)", [&] {
+      std::string stage = reader.ReadString();
+      reader.Expect(",");
+      result.digests.emplace_back(std::move(stage), reader.ReadString());
+    });
+    reader.ReadList(R"(,"series":[)", [&] {
+      Series& series = result.series.emplace_back();
+      reader.Expect("[");
+      series.name = reader.ReadString();
+      reader.Expect(",");
+      series.axis = reader.ReadString();
+      reader.Expect(",[");
+      if (!reader.Skip("]")) {
+        do series.values.push_back(reader.ReadNumber<double>());
+        while (reader.Skip(","));
+        reader.Expect("]");
+      }
+      reader.Expect("]");
+    });
+    if (reader.Skip(R"(,"recording":)")) {
+      ASSIGN_OR_RETURN(const auto json, ReadJson(std::string(reader.Rest()), place.file, place.line));
+      ASSIGN_OR_RETURN(auto recording, DecodeRecording(json, place));
+      result.recording = std::move(recording);
+    } else if (!reader.Rest().empty()) {
+      reader.Refuse();
+    }
+  } catch (const Json::exception& error) {
+    return Fail(place, "not a line of a cell: {}", error.what());
+  }
+  if (!reader.is_good()) return Fail(place, "not a line of a cell");
+  return cell;
+}
+
+Json EncodeUsage(const std::string& cell, const CellUsage& usage) {
+  Json json{{"cell", cell}, {"wall_s", usage.wall_s}, {"cpu_s", usage.cpu_s}, {"peak_mb", usage.peak_mb}};
+  if (usage.world_wall_s > 0) {
+    json["world_wall_s"] = usage.world_wall_s;
+    json["world_cpu_s"] = usage.world_cpu_s;
+  }
+  return json;
+}
+
+}  // namespace etude

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/files/json.h"
+#include "bench/run/cell_runner.h"
+
+namespace etude {
+
+/// A finished cell as a worker answers it and as the journal keeps it: one line of JSON with its number in the plan,
+/// all that is not said by that number (Plan::IdentityOf), what it took, and a sum of the text. Metrics go by their
+/// place in the catalogue, which is the same for all that one build writes. Short, and always in the same order, so
+/// that a line is read in a microsecond and passed on without being read at all.
+///
+///     {"cell":12,"status":"ok","usage":[wall_s,cpu_s,peak_mb],"values":[3,0.5,4,null],"why":["no truth"],
+///      "digests":["world","0123456789abcdef"],"series":[["position_error_cm","iteration",[3,2,1]]],
+///      "recording":{…},"sum":"0123456789abcdef"}
+///
+/// A value that is not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
+std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
+
+/// What a line says first.
+struct CellLineHead {
+  std::size_t cell = 0;
+  Status status = Status::kFailed;
+};
+
+/// Nothing when the line is not as EncodeCellLine wrote it.
+std::optional<CellLineHead> ReadCellLineHead(std::string_view line);
+
+/// Reads a line that is as it was written; `identity` is the row of its cell, without a result.
+Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const Place& place);
+
+/// A JSON object in one line, without a line end, as one whose last member is a sum of its text.
+std::string WithSum(std::string json);
+bool HasRightSum(std::string_view line);
+
+/// A line of timings.jsonl.
+Json EncodeUsage(const std::string& cell, const CellUsage& usage);
+
+}  // namespace etude
