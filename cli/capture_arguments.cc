@@ -12,8 +12,10 @@ constexpr const char* kCaptureExamples =
     "\nTwo or more calibrated cameras film a person at the same time; this command says how the person moved. What "
     "the\n"
     "pictures show is told by keypoints of an estimator (--keypoints: a folder with, for each film, a folder of\n"
-    "OpenPose's JSON or a COCO keypoint file) or by marks drawn by hand (--marks: a folder of annotation\n"
-    "pictures for each film). Each entry's name begins with its film's: cam01.mp4, cam01_json/.\n\n"
+    "OpenPose's JSON or a COCO keypoint file), by marks drawn by hand (--marks: a folder of annotation\n"
+    "pictures for each film), or by the films alone (--silhouettes: an adult's body is fitted to the outline of the\n"
+    "person who moves; --rooms has pictures of the empty room, else it is estimated from the films). Each entry's\n"
+    "name begins with its film's: cam01.mp4, cam01_json/, cam01.png.\n\n"
     "Lenses are undone; persons are matched over cameras and time; each point comes from all cameras that agree on "
     "it,\n"
     "weighed by confidence; gaps up to --longest-gap are bridged; bones are as long as in the median of what was\n"
@@ -25,11 +27,13 @@ constexpr const char* kCaptureExamples =
     "the\n"
     "rig's are refused until --fit says what was done to them: letterbox (scaled, bars added), stretch, crop.\n\n"
     "With --reference FILE.trc a table tells how far the triangulated keypoints are from it, for all cameras and\n"
-    "every pair. Made of the same keypoints, that is agreement, not error.\n\n"
+    "every pair. Made of the same keypoints, that is agreement, not error. With --silhouettes it is the joints'\n"
+    "distance, and error; every pair of cameras is then captured by itself, which takes its time.\n\n"
     "Try:\n"
     "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --keypoints json/ -o motion.bvh\n"
     "  etude capture --rig Calib.toml cam*.mp4 --keypoints openpose/ --layout body_25b --fit letterbox \\\n"
-    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6";
+    "                -o motion.trc --points keypoints.trc --film overlay.mp4 --smooth 6\n"
+    "  etude capture --rig rig.yaml cam1.mp4 cam2.mp4 --silhouettes --stature 1.8 -o motion.bvh --film overlay.mp4";
 
 }  // namespace
 
@@ -42,8 +46,20 @@ void DefineCapture(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->allow_extra_args(false);  // films may follow
   auto* keypoints = command->add_option("--keypoints", options->keypoints, "A folder with keypoints for each film");
-  command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
-      ->excludes(keypoints);
+  auto* marks = command->add_option("--marks", options->marks, "A folder with annotation pictures for each film")
+                    ->excludes(keypoints);
+  auto* silhouettes =
+      command
+          ->add_flag("--silhouettes", options->silhouettes,
+                     "Neither: the outlines of the one person who moves before cameras that stand still")
+          ->excludes(keypoints)
+          ->excludes(marks);
+  command->add_option("--rooms", options->rooms, "A folder with a picture of the empty room for each film")
+      ->needs(silhouettes);
+  command->add_option("--stature", options->stature_m, "How tall the person is, m (0: found from the outlines)")
+      ->needs(silhouettes)
+      ->check(NumberWithin(0, 2.5, "stature in m"))
+      ->capture_default_str();
   command->add_option("--layout", options->layout, "The order of keypoints, where their count does not tell it")
       ->check(CLI::IsMember(KeypointLayoutNames()));
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();

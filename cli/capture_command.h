@@ -12,6 +12,9 @@ struct CaptureCommandOptions {
   std::string rig;                   ///< a calibration that ReadRig knows
   std::string keypoints;             ///< a folder with an entry for each film
   std::string marks;                 ///< likewise, of annotation pictures
+  bool silhouettes = false;          ///< neither: the films alone tell
+  std::string rooms;                 ///< of silhouettes: a folder with a picture of each film's empty room, "" = none
+  double stature_m = 0;              ///< of silhouettes: the person's, 0 = found
   std::string output;                ///< BVH, GLB, TRC or CSV by its ending
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
   std::string film;                  ///< an MP4 of the skeleton over the films, "" = none

@@ -53,6 +53,16 @@ MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
   return motion;
 }
 
+std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers) {
+  std::vector<LandmarkPlaces> frames(markers.frames.size());
+  for (std::size_t i = 0; i < markers.names.size(); ++i) {
+    const auto landmark = FindLandmark(markers.names[i]);
+    if (!landmark) continue;
+    for (std::size_t k = 0; k < frames.size(); ++k) frames[k][Index(*landmark)] = markers.frames[k][i];
+  }
+  return frames;
+}
+
 MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz) {
   MarkerMotion motion = NamedByRole(rate_hz);
   for (const LandmarkPlaces& frame : frames) {

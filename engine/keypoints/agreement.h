@@ -13,6 +13,9 @@ namespace etude {
 /// The places of landmarks as markers that carry their names; those never seen are left out.
 MarkerMotion ToMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
 
+/// The other way round; markers of other names are passed over.
+std::vector<LandmarkPlaces> ToLandmarks(const MarkerMotion& markers);
+
 /// The joints that landmarks tell of (`JointsOf`), and those of a motion, as markers that carry their roles' names.
 MarkerMotion JointMarkers(std::span<const LandmarkPlaces> frames, double rate_hz);
 MarkerMotion JointMarkers(const BodyMotion& motion);

@@ -156,6 +156,25 @@ class Capture(EtudeCase):
                                 self.folder / f"{i}.csv")
             self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_needs_somebody_who_moves_where_nothing_is_marked(self):
+        self.calibrate()
+        still = []
+        for camera in PLACES:
+            still.append(str(self.folder / f"{camera}.avi"))
+            subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=c=gray:size={WIDTH}x{HEIGHT}:rate=10",
+                            "-frames:v", "4", "-c:v", "ffv1", still[-1]], check=True, timeout=60)
+        alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
+        self.assertIn("in no frame do two films show anybody who moves", self.refusal(*alone))
+        self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
+        self.assertIn("--silhouettes excludes --keypoints", self.refusal(*alone, "--keypoints", self.keypoints))
+        self.assertIn("--stature requires --silhouettes", self.refusal(*self.capture("-o", "m.bvh", "--stature", "1.8")))
+        rooms = self.folder / "rooms"
+        rooms.mkdir()
+        for camera in PLACES:
+            (rooms / f"{camera}.ppm").write_bytes(b"P6\n4 3\n255\n" + bytes(36))
+        self.assertIn("a picture of 4 x 3 pixels", self.refusal(*alone, "--rooms", rooms))
+        self.assertFalse((self.folder / "m.bvh").exists(), "nothing is written")
+
     def test_draws_the_skeleton_over_the_films(self):
         self.calibrate()
         film = self.folder / "overlay.mp4"

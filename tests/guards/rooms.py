@@ -49,6 +49,8 @@ MAY_INCLUDE = {
     "engine/transitions/search": "engine/fuzzy engine/transitions/base",
     "engine/transitions/tags_file":
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
+    "engine/unmarked":
+        "engine/base engine/cameras engine/capture engine/kinematics engine/motion engine/silhouettes engine/vision",
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
     "sim/annotator": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random",

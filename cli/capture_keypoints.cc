@@ -1,0 +1,188 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "bench/files/files.h"
+#include "bench/keypoints/read_people.h"
+#include "cli/capture_views.h"
+#include "engine/formats/trc.h"
+#include "engine/keypoints/agreement.h"
+#include "engine/keypoints/recover_person.h"
+#include "reports/captures/overlay_film.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// People of a film, moved into the rig's pixels.
+Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const FilmedView& view) {
+  const bool is_marks = !options.marks.empty();
+  ASSIGN_OR_RETURN(const fs::path entry,
+                   EntryOfFilm(is_marks ? options.marks : options.keypoints, view.path.stem().string()));
+  ASSIGN_OR_RETURN(PeopleOfFilm film, is_marks ? ReadMarkedPictures(entry) : ReadKeypoints(entry, options.layout));
+  if (film.frames.size() != static_cast<std::size_t>(view.facts.frames)) {
+    return Fail({entry.string()}, "{} frames, the film {} {}", film.frames.size(), view.path.string(),
+                view.facts.frames);
+  }
+  if (film.width != 0 && (film.width != view.facts.width || film.height != view.facts.height)) {
+    return Fail({entry.string()}, "of pictures of {} x {} pixels, the film {} x {}", film.width, film.height,
+                view.facts.width, view.facts.height);
+  }
+  for (auto& frame : film.frames) {
+    for (SeenPerson& person : frame) {
+      for (Keypoint& keypoint : person.keypoints) keypoint.pixel = view.fit.ToRig(keypoint.pixel);
+    }
+  }
+  return std::move(film.frames);
+}
+
+RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views) {
+  RecoverPersonOptions recover{.rate_hz = views.front().facts.rate_hz, .match = {}, .triangulate = {}};
+  recover.person = static_cast<std::size_t>(options.person - 1);
+  recover.cutoff_hz = options.smooth_hz;
+  recover.longest_gap_s = options.longest_gap_s;
+  recover.match.longest_absence = std::max(1, static_cast<int>(std::lround(0.5 * recover.rate_hz)));
+  constexpr double kOutlierShare = 0.03;
+  double longest_side = 0;
+  for (const FilmedView& view : views) {
+    const Intrinsics& in = view.camera.camera.intrinsics;
+    longest_side = std::max<double>({longest_side, static_cast<double>(in.width), static_cast<double>(in.height)});
+  }
+  recover.triangulate.robust.outlier_px = options.outlier_px > 0 ? options.outlier_px : kOutlierShare * longest_side;
+  return recover;
+}
+
+/// What of the session a person is recovered from.
+struct SeenFilms {
+  std::vector<Camera> cameras;
+  std::vector<SeenPeople> people;
+};
+
+void PrintPeople(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
+  int number = 0, alone = 0;
+  for (const MatchedPerson& one : person.people) {
+    if (one.cameras < 2) {
+      ++alone;
+      continue;
+    }
+    std::string by;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const auto frames = std::ranges::count_if(one.seen[i], [](const auto& seen) { return seen.has_value(); });
+      if (frames > 0) by += fmt::format("{}{} ({} frames)", by.empty() ? "" : ", ", views[i].camera.name, frames);
+    }
+    fmt::print("person {}: seen by {}; rays miss by {:.1f} % of the height\n", ++number, by, 100 * one.error);
+  }
+  if (alone > 0) fmt::print("{} tracks of people or errors that one camera alone saw\n", alone);
+}
+
+void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
+  const LimbLengths& l = person.lengths;
+  constexpr double kCmPerMetre = 100;
+  fmt::print("points: {:.1f} % found, {:.1f} px off the keypoints (median)", 100 * person.report.found,
+             person.report.residual_px);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    fmt::print("{} {} {:.1f} %", i == 0 ? "; left out:" : ",", views[i].camera.name, 100 * person.report.rejected[i]);
+  }
+  fmt::print(
+      "\nlengths, cm: shank {:.1f}, thigh {:.1f}, trunk {:.1f}, upper arm {:.1f}, forearm {:.1f}, hips {:.1f}, "
+      "shoulders {:.1f}\n",
+      kCmPerMetre * l.shank, kCmPerMetre * l.thigh, kCmPerMetre * l.trunk, kCmPerMetre * l.upper_arm,
+      kCmPerMetre * l.forearm, kCmPerMetre * l.hip_width, kCmPerMetre * l.shoulder_width);
+  if (person.held > 0) fmt::print("{} frames show too little and hold the last pose\n", person.held);
+}
+
+/// How far the joints of what is written are from the points that they were fitted to.
+void PrintFit(const RecoveredPerson& person) {
+  const MarkerMotion skeleton = JointMarkers(person.motion);
+  const MarkerMotion points = JointMarkers(person.landmarks, person.motion.rate_hz);
+  std::vector<MarkerAgreement> rows = CompareMarkers(skeleton, points);
+  rows.push_back(CompareAllMarkers(skeleton, points));
+  fmt::print("\nDistance of the skeleton's joints to the triangulated points, mm:\n{:<16}{:>8}{:>8}\n", "", "median",
+             "p95");
+  for (const MarkerAgreement& row : rows) {
+    if (row.frames > 0) fmt::print("{:<16}{:>8.1f}{:>8.1f}\n", row.name, row.median_mm, row.p95_mm);
+  }
+}
+
+/// The pairs' own points are found among the same persons by themselves, as if there were no other camera.
+std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, const RecoveredPerson& person,
+                                                 const SeenFilms& films, const RecoverPersonOptions& options) {
+  const auto column = [&](std::string heading, const RecoveredPerson& of) {
+    return CompareColumn(std::move(heading), ToMarkers(of.landmarks, options.rate_hz), reference);
+  };
+  std::vector<ComparedColumn> columns{column("all", person)};
+  for (const CameraPair& pair : PairsOf(films.cameras.size())) {
+    const std::array cameras = {films.cameras[pair.first], films.cameras[pair.second]};
+    const std::array people = {films.people[pair.first], films.people[pair.second]};
+    const auto recovered = RecoverPerson(cameras, people, options);
+    columns.push_back(recovered ? column(pair.heading, *recovered) : ComparedColumn{pair.heading + "!", {}, {}});
+  }
+  return columns;
+}
+
+Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                       const RecoveredPerson& person, std::size_t chosen) {
+  std::vector<OverlayView> overlays;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    const FilmedView& view = views[i];
+    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, {}});
+    for (auto seen : person.people[chosen].seen[i]) {
+      // Matched persons are told without the lens.
+      for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
+        const auto rig = DistortPixel(view.camera.camera, keypoint.pixel);
+        keypoint = rig && keypoint.confidence > 0 ? Keypoint{view.fit.ToFilm(*rig), keypoint.confidence} : Keypoint{};
+      }
+      overlays.back().keypoints.push_back(seen);
+    }
+  }
+  RETURN_IF_ERROR(
+      WriteOverlayFilm(options.film, overlays, person.motion, [](double share) { ShowProgress("film", share); }));
+  fmt::print("written: {}\n", options.film);
+  return {};
+}
+
+/// The place of the person asked for among all that were found.
+std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
+  for (std::size_t i = 0; i < person.people.size(); ++i) {
+    if (person.people[i].cameras >= 2 && number-- == 0) return i;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Result<void> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                              const std::optional<MarkerMotion>& reference) {
+  SeenFilms films;
+  for (const FilmedView& view : views) {
+    ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
+    films.people.push_back(std::move(people));
+    films.cameras.push_back(view.camera.camera);
+  }
+  const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
+  ASSIGN_OR_RETURN(const RecoveredPerson person, RecoverPerson(films.cameras, films.people, recover));
+  PrintPeople(person, views);
+  PrintReport(person, views);
+  PrintFit(person);
+  RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
+  if (!options.points.empty()) {
+    const std::string name = fs::path(options.output).stem().string();
+    RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
+    fmt::print("written: {}\n", options.points);
+  }
+  if (reference) {
+    PrintColumns(fmt::format("Distance of the triangulated keypoints to {}, median, mm. Where it was made of the same "
+                             "keypoints,\nthis is agreement, not error.",
+                             options.reference),
+                 CompareWithReference(*reference, person, films, recover), views);
+  }
+  if (!options.film.empty()) RETURN_IF_ERROR(WriteFilm(options, views, person, ChosenOf(person, recover.person)));
+  return {};
+}
+
+}  // namespace etude

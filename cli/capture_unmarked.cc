@@ -1,0 +1,150 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "bench/keypoints/read_people.h"
+#include "cli/capture_views.h"
+#include "engine/keypoints/agreement.h"
+#include "engine/unmarked/recover_unmarked.h"
+#include "reports/captures/overlay_film.h"
+#include "reports/captures/reduced_film.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostPictures = 4000;  // small ones, of all films together: they are held in memory, 2 GB
+
+/// What the films show, small and without their lenses.
+struct ReducedTake {
+  std::vector<Camera> cameras;
+  std::vector<std::vector<ColourImage>> pictures;
+  std::vector<ColourImage> rooms;
+};
+
+Result<ColourImage> ReadRoom(const std::string& folder, const FilmedView& view) {
+  ASSIGN_OR_RETURN(const fs::path entry, EntryOfFilm(folder, view.path.stem().string()));
+  ASSIGN_OR_RETURN(const FilmFacts facts, ProbeFilm(entry));
+  if (facts.width != view.facts.width || facts.height != view.facts.height) {
+    return Fail({entry.string()}, "a picture of {} x {} pixels, the film {} {} x {}", facts.width, facts.height,
+                view.path.string(), view.facts.width, view.facts.height);
+  }
+  ASSIGN_OR_RETURN(auto pictures,
+                   ReadReduced(entry, facts, view.camera.camera, view.fit, UnmarkedTake::kPictureSide, 1));
+  if (pictures.empty()) return Fail({entry.string()}, "no picture in it");
+  return std::move(pictures.front());
+}
+
+Result<ReducedTake> ReadTake(const CaptureCommandOptions& options, const std::vector<FilmedView>& views) {
+  const std::size_t frames = views.front().facts.frames, pictures = views.size() * frames;
+  if (pictures > kMostPictures) {
+    return Fail({views.front().path.string()},
+                "{} films of {} frames; at most {} pictures are held in memory, that is {} frames of each",
+                views.size(), frames, kMostPictures, kMostPictures / views.size());
+  }
+  ReducedTake take;
+  for (const FilmedView& view : views) {
+    take.cameras.push_back(ReducedCamera(view.camera.camera, UnmarkedTake::kPictureSide));
+    ASSIGN_OR_RETURN(auto film, ReadReduced(view.path, view.facts, view.camera.camera, view.fit,
+                                            UnmarkedTake::kPictureSide, frames));
+    if (film.size() != frames) {
+      return Fail({view.path.string()}, "{} frames, though it tells of {}", film.size(), frames);
+    }
+    take.pictures.push_back(std::move(film));
+    if (options.rooms.empty()) continue;
+    ASSIGN_OR_RETURN(ColourImage room, ReadRoom(options.rooms, view));
+    take.rooms.push_back(std::move(room));
+  }
+  return take;
+}
+
+Result<UnmarkedMotion> Recover(const ReducedTake& take, const CaptureCommandOptions& options, double rate_hz) {
+  return RecoverUnmarked({.cameras = take.cameras,
+                          .pictures = take.pictures,
+                          .rooms = take.rooms,
+                          .rate_hz = rate_hz,
+                          .stature_m = options.stature_m > 0 ? std::optional(options.stature_m) : std::nullopt});
+}
+
+ReducedTake PairOf(const ReducedTake& take, const CameraPair& pair) {
+  ReducedTake two;
+  for (const std::size_t i : {pair.first, pair.second}) {
+    two.cameras.push_back(take.cameras[i]);
+    two.pictures.push_back(take.pictures[i]);
+    if (!take.rooms.empty()) two.rooms.push_back(take.rooms[i]);
+  }
+  return two;
+}
+
+/// The joints that a reference tells of: by their own names, or as an estimator's landmarks show them. What these leave
+/// to rules of thumb is no reference.
+MarkerMotion JointsOfReference(const MarkerMotion& reference) {
+  const bool has_landmarks =
+      std::ranges::any_of(reference.names, [](const std::string& name) { return FindLandmark(name).has_value(); });
+  if (!has_landmarks) return reference;
+  MarkerMotion joints = JointMarkers(ToLandmarks(reference), reference.rate_hz);
+  const auto knows = [&](Landmark landmark) {
+    return std::ranges::find(reference.names, LandmarkName(landmark)) != reference.names.end();
+  };
+  const auto forget = [&](Role role) {
+    for (auto& frame : joints.frames) frame[Index(role)].reset();
+  };
+  if (!knows(Landmark::kLeftHand)) forget(Role::kLeftHand);
+  if (!knows(Landmark::kRightHand)) forget(Role::kRightHand);
+  if (!knows(Landmark::kLeftBigToe)) forget(Role::kLeftFoot);
+  if (!knows(Landmark::kRightBigToe)) forget(Role::kRightFoot);
+  return joints;
+}
+
+Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& reference, const UnmarkedMotion& person,
+                                                         const ReducedTake& take,
+                                                         const CaptureCommandOptions& options) {
+  const MarkerMotion joints = JointsOfReference(reference);
+  std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(person.motion), joints)};
+  const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    ShowProgress("pairs of cameras", static_cast<double>(i) / static_cast<double>(pairs.size()));
+    const auto pair = Recover(PairOf(take, pairs[i]), options, reference.rate_hz);
+    columns.push_back(pair ? CompareColumn(pairs[i].heading, JointMarkers(pair->motion), joints)
+                           : ComparedColumn{pairs[i].heading + "!", {}, {}});
+  }
+  if (!pairs.empty()) ShowProgress("pairs of cameras", 1);
+  return columns;
+}
+
+Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                       const BodyMotion& motion) {
+  std::vector<OverlayView> overlays;
+  for (const FilmedView& view : views) {
+    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, {}});
+    overlays.back().keypoints.resize(motion.poses.size());
+  }
+  RETURN_IF_ERROR(WriteOverlayFilm(options.film, overlays, motion, [](double share) { ShowProgress("film", share); }));
+  fmt::print("written: {}\n", options.film);
+  return {};
+}
+
+}  // namespace
+
+Result<void> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                             const std::optional<MarkerMotion>& reference) {
+  if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
+  ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views));
+  ASSIGN_OR_RETURN(const UnmarkedMotion person, Recover(take, options, views.front().facts.rate_hz));
+  fmt::print("stature: {:.2f} m{}; outlines cost {:.0f} a picture\n", person.stature_m,
+             options.stature_m > 0 ? "" : ", found from the outlines", person.cost);
+  if (person.held > 0) fmt::print("{} frames show nobody to two cameras and hold the last pose\n", person.held);
+  RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
+  if (!options.film.empty()) RETURN_IF_ERROR(WriteFilm(options, views, person.motion));
+  if (!reference) return {};
+  ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options));
+  PrintColumns(fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
+                           options.reference),
+               columns, views);
+  return {};
+}
+
+}  // namespace etude

@@ -1,0 +1,164 @@
+#include "cli/capture_views.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "bench/files/files.h"
+#include "engine/formats/bvh.h"
+#include "engine/formats/gltf/gltf.h"
+#include "engine/formats/joint_csv.h"
+#include "engine/formats/trc.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Letters and digits alone, small: cam_01 and Cam01 are one name.
+std::string Bare(std::string_view name) {
+  std::string bare;
+  for (const char c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return bare;
+}
+
+std::string NamesOf(const std::vector<NamedCamera>& rig) {
+  std::string names;
+  for (const NamedCamera& camera : rig) names += (names.empty() ? "" : ", ") + camera.name;
+  return names;
+}
+
+Result<NamedCamera> CameraOfFilm(const CaptureCommandOptions& options, const std::vector<NamedCamera>& rig,
+                                 std::size_t film) {
+  const std::string stem = fs::path(options.films[film]).stem().string();
+  const std::string wanted = options.cameras.empty() ? stem : options.cameras[film];
+  for (const NamedCamera& camera : rig) {
+    if (Bare(camera.name) == Bare(wanted)) return camera;
+  }
+  if (!options.cameras.empty()) return Fail({options.rig}, "no camera {}; there are {}", wanted, NamesOf(rig));
+  return Fail({options.films[film]}, "the rig has no camera of that name, but {}; tell which by --cameras",
+              NamesOf(rig));
+}
+
+Result<void> CheckTogether(const std::vector<FilmedView>& views) {
+  const FilmedView& first = views.front();
+  constexpr double kSameRate = 1e-3;
+  for (const FilmedView& view : views) {
+    if (!(std::abs(view.facts.rate_hz - first.facts.rate_hz) <= kSameRate * first.facts.rate_hz)) {
+      return Fail({view.path.string()}, "{:g} frames a second, {} {:g}; films must run alike", view.facts.rate_hz,
+                  first.path.string(), first.facts.rate_hz);
+    }
+    if (view.facts.frames != first.facts.frames) {
+      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike", view.facts.frames, first.path.string(),
+                  first.facts.frames);
+    }
+  }
+  if (!(first.facts.rate_hz > 0))
+    return Fail({first.path.string()}, "it does not tell how many frames a second it has");
+  return {};
+}
+
+std::string BytesOf(Clip clip, const BodyMotion& motion, MotionFormat format, const std::string& name) {
+  clip.name = name;
+  switch (format) {
+    case MotionFormat::kBvh:
+      return WriteBvh(std::move(clip));
+    case MotionFormat::kGlb:
+      return WriteGlb(Character{.name = name, .skeleton = clip.skeleton, .materials = {}, .meshes = {}}, {&clip, 1});
+    case MotionFormat::kTrc:
+      return WriteTrc(motion, name);
+    case MotionFormat::kCsv:
+      return WriteJointCsv(motion);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(options.rig));
+  ASSIGN_OR_RETURN(const auto rig, ReadRig(text, options.rig));
+  constexpr std::size_t kMostFilms = 64;
+  if (options.films.size() < 2 || options.films.size() > kMostFilms) {
+    return Fail({}, "{} film; allowed: 2 to {}, one of each camera", options.films.size(), kMostFilms);
+  }
+  if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
+    return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());
+  }
+  std::vector<FilmedView> views;
+  for (std::size_t i = 0; i < options.films.size(); ++i) {
+    FilmedView view{.path = options.films[i], .facts = {}, .camera = {}, .fit = {}};
+    ASSIGN_OR_RETURN(view.camera, CameraOfFilm(options, rig, i));
+    ASSIGN_OR_RETURN(view.facts, ProbeFilm(view.path));
+    for (const FilmedView& other : views) {
+      if (other.camera.name == view.camera.name) {
+        return Fail({view.path.string()}, "camera {} has {} already", view.camera.name, other.path.string());
+      }
+    }
+    const Intrinsics& in = view.camera.camera.intrinsics;
+    const auto fit =
+        FitPictures(*FindFitMode(options.fit), {in.width, in.height}, {view.facts.width, view.facts.height});
+    if (!fit) return Fail({view.path.string()}, "{}", fit.error().message);
+    view.fit = *fit;
+    views.push_back(std::move(view));
+  }
+  RETURN_IF_ERROR(CheckTogether(views));
+  return views;
+}
+
+Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion) {
+  ASSIGN_OR_RETURN(const MotionFormat format, FormatOfName(path));
+  RETURN_IF_ERROR(WriteFileAtomically(path, BytesOf(std::move(clip), motion, format, fs::path(path).stem().string())));
+  fmt::print("written: {}\n", path);
+  return {};
+}
+
+ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference) {
+  return {std::move(heading), CompareMarkers(markers, reference), CompareAllMarkers(markers, reference)};
+}
+
+void PrintColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
+                  const std::vector<FilmedView>& views) {
+  fmt::print("\n{} Cameras:", words);
+  for (std::size_t i = 0; i < views.size(); ++i) fmt::print(" {} {}", i + 1, views[i].camera.name);
+  fmt::print("\n{:<16}", "");
+  for (const ComparedColumn& column : columns) fmt::print("{:>8}", column.heading);
+  fmt::print("\n");
+  for (const MarkerAgreement& marker : columns.front().markers) {
+    fmt::print("{:<16}", marker.name);
+    for (const ComparedColumn& column : columns) {
+      const auto found = std::ranges::find(column.markers, marker.name, &MarkerAgreement::name);
+      const bool is_there = found != column.markers.end() && found->frames > 0;
+      fmt::print("{:>8}", is_there ? fmt::format("{:.1f}", found->median_mm) : "-");
+    }
+    fmt::print("\n");
+  }
+  for (const auto& [label, member] :
+       {std::pair("all, median", &MarkerAgreement::median_mm), {"all, p95", &MarkerAgreement::p95_mm}}) {
+    fmt::print("{:<16}", label);
+    for (const ComparedColumn& column : columns)
+      fmt::print("{:>8}", column.all.frames > 0 ? fmt::format("{:.1f}", column.all.*member) : "-");
+    fmt::print("\n");
+  }
+}
+
+std::vector<CameraPair> PairsOf(std::size_t films) {
+  std::vector<CameraPair> pairs;
+  for (std::size_t i = 0; films > 2 && i < films; ++i) {
+    for (std::size_t j = i + 1; j < films; ++j) pairs.push_back({i, j, fmt::format("{}+{}", i + 1, j + 1)});
+  }
+  return pairs;
+}
+
+void ShowProgress(const std::string& what, double share) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  fmt::print(stderr, "\r{} {:3.0f} %{}", what, 100 * share, share >= 1 ? "\n" : "");
+}
+
+}  // namespace etude

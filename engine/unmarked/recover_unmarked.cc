@@ -1,0 +1,197 @@
+#include "engine/unmarked/recover_unmarked.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "engine/capture/fit_pose.h"
+#include "engine/kinematics/capture_body.h"
+#include "engine/motion/rest_body.h"
+#include "engine/silhouettes/silhouette_cost.h"
+#include "engine/unmarked/adult_body.h"
+#include "engine/vision/person_finder.h"
+#include "engine/vision/plate.h"
+
+namespace etude {
+namespace {
+
+// Settings of engine/silhouettes are in pixels of a camera twice as fine as the masks.
+constexpr double kMaskPixel = 2;
+constexpr double kUsualStature = 1.70;  // metres
+
+using Frames = std::vector<std::size_t>;
+
+/// At most `count` of the frames, evenly over all.
+Frames Evenly(std::size_t frames, std::size_t count) {
+  Frames some;
+  count = std::min(count, frames);
+  for (std::size_t i = 0; i < count; ++i) some.push_back((2 * i + 1) * frames / (2 * count));
+  return some;
+}
+
+ProjectionMatrix MatrixOfMasks(Camera camera) {
+  Intrinsics& in = camera.intrinsics;
+  for (double* length : {&in.fx, &in.fy, &in.cx, &in.cy, &in.skew}) *length *= kMaskPixel;
+  return MatrixOf(camera);
+}
+
+class Recovery {
+ public:
+  Recovery(const UnmarkedTake& take, const UnmarkedOptions& options)
+      : take_(take), options_(options), stature_(take.stature_m.value_or(kUsualStature)) {
+    for (const Camera& camera : take.cameras) matrices_.push_back(MatrixOfMasks(camera));
+  }
+
+  Result<UnmarkedMotion> Run() {
+    Frames all(take_.pictures[0].size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+    const Frames some = Evenly(all.size(), options_.samples);
+    rooms_.assign(take_.rooms.begin(), take_.rooms.end());
+    const bool knows_rooms = !rooms_.empty();
+    if (!knows_rooms) EstimateRooms(some, {});
+    for (int round = 1; round < options_.rounds; ++round) {
+      if (knows_rooms && (take_.stature_m || round > 1)) break;
+      const SilhouetteTrack track = Track(some);
+      if (!take_.stature_m) stature_ = StatureOf(track);
+      if (!knows_rooms) EstimateRooms(some, track);
+    }
+    return Told(Track(all));
+  }
+
+ private:
+  std::vector<ColourImage> PicturesOf(std::size_t camera, const Frames& frames) const {
+    std::vector<ColourImage> pictures;
+    for (const std::size_t k : frames) pictures.push_back(take_.pictures[camera][k]);
+    return pictures;
+  }
+
+  /// As pictures of those frames show them: where little moves and, once a body was followed in them, away from it.
+  void EstimateRooms(const Frames& frames, const SilhouetteTrack& track) {
+    constexpr double kMotionLag = 0.1;  // seconds
+    const double between = static_cast<double>(take_.pictures[0].size()) / (take_.rate_hz * frames.size());
+    const MotionOptions motion{.lag = std::max<std::size_t>(1, std::lround(kMotionLag / between))};
+    rooms_.clear();
+    for (std::size_t c = 0; c < take_.cameras.size(); ++c) {
+      const std::vector<ColourImage> pictures = PicturesOf(c, frames);
+      std::vector<Activity> activity = MotionActivity(pictures, motion);
+      for (std::size_t i = 0; i < track.frames.size(); ++i) {
+        AddNearness(track, i, c, activity[i]);
+      }
+      rooms_.push_back(EstimatePlate(pictures, activity, options_.kept));
+    }
+  }
+
+  /// Adds how near each pixel is to the body, in pixels from `body_reach_px` inwards: more than motion ever counts.
+  /// Where the body is not known, every pixel is near.
+  void AddNearness(const SilhouetteTrack& track, std::size_t frame, std::size_t camera, Activity& activity) {
+    const double reach = kMaskPixel * options_.body_reach_px;
+    const std::optional<SilhouetteFit>& fit = track.frames[frame];
+    Activity nearness(activity.width, activity.height, fit ? 0.0f : static_cast<float>(reach));
+    flesh_.clear();
+    if (fit) ProjectFlesh(track.body, ComputeFrames(track.body.tree, fit->state), matrices_[camera], flesh_);
+    for (const ProjectedCapsule& capsule : flesh_) {
+      if (!capsule.is_valid) continue;
+      const double margin = std::max(capsule.radius_a, capsule.radius_b) + reach;
+      const glm::dvec2 most(activity.width, activity.height);
+      const auto low = glm::clamp((glm::min(capsule.a, capsule.b) - margin) / kMaskPixel, glm::dvec2(0), most);
+      const auto high = glm::clamp((glm::max(capsule.a, capsule.b) + margin) / kMaskPixel, glm::dvec2(0), most);
+      for (int y = static_cast<int>(low.y); y < static_cast<int>(high.y); ++y) {
+        for (int x = static_cast<int>(low.x); x < static_cast<int>(high.x); ++x) {
+          const double distance = DistanceTo(capsule, kMaskPixel * glm::dvec2(x + 0.5, y + 0.5)).value;
+          nearness.At(x, y) = std::max(nearness.At(x, y), static_cast<float>(reach - distance));
+        }
+      }
+    }
+    for (std::size_t i = 0; i < activity.pixels.size(); ++i) activity.pixels[i] += nearness.pixels[i];
+  }
+
+  /// The body in those frames, before the rooms as they are known now.
+  SilhouetteTrack Track(const Frames& frames) {
+    masks_.clear();
+    silhouettes_.clear();
+    for (std::size_t c = 0; c < take_.cameras.size(); ++c) {
+      PersonFinder finder(rooms_[c], options_.person);
+      std::vector<Mask>& masks = masks_.emplace_back();
+      std::vector<Silhouette>& silhouettes = silhouettes_.emplace_back();
+      for (const std::size_t k : frames) {
+        masks.push_back(finder.Find(take_.pictures[c][k]));
+        silhouettes.push_back(MakeSilhouette(masks.back(), {.mask_pixel = kMaskPixel}));
+      }
+    }
+    // A body moves as far in a second at any rate.
+    const double rate = take_.rate_hz * static_cast<double>(frames.size()) / take_.pictures[0].size();
+    TrackOptions track = options_.track;
+    track.angle_change *= kJudgedRateHz / rate;
+    track.place_change_m *= kJudgedRateHz / rate;
+    const SilhouetteBody body = MakeSilhouetteBody(AdultLengths(stature_));
+    return TrackSilhouettes(body, {.cameras = matrices_, .silhouettes = silhouettes_, .start = std::nullopt}, track);
+  }
+
+  std::vector<SilhouetteView> ViewsOf(std::size_t frame) const {
+    std::vector<SilhouetteView> views;
+    for (std::size_t c = 0; c < matrices_.size(); ++c) {
+      const Silhouette& silhouette = silhouettes_[c][frame];
+      if (silhouette.area > 0) views.push_back({matrices_[c], &silhouette});
+    }
+    return views;
+  }
+
+  double StatureOf(const SilhouetteTrack& track) const {
+    std::vector<std::vector<SilhouetteView>> views;
+    std::vector<PosedViews> moments;  // whose views stay where they are
+    views.reserve(track.frames.size());
+    for (std::size_t i = 0; i < track.frames.size(); ++i) {
+      if (track.frames[i]) moments.push_back({views.emplace_back(ViewsOf(i)), track.frames[i]->state});
+    }
+    if (moments.empty()) return stature_;
+    return FitStature(track.body, stature_, moments, {.cost = options_.track.cost});
+  }
+
+  Result<UnmarkedMotion> Told(const SilhouetteTrack& track) {
+    UnmarkedMotion told;
+    told.motion.rate_hz = take_.rate_hz;
+    told.stature_m = stature_;
+    const auto first = std::ranges::find_if(track.frames, [](const auto& fit) { return fit.has_value(); });
+    if (first == track.frames.end()) return Fail({}, "in no frame do two films show anybody who moves");
+    BodyPose last = ToBodyPose(track.body, (*first)->state);
+    for (const auto& fit : track.frames) {
+      if (fit) {
+        last = ToBodyPose(track.body, fit->state);
+        told.cost += fit->picture_cost;
+      } else {
+        ++told.held;
+      }
+      told.motion.poses.push_back(last);
+    }
+    told.cost /= static_cast<double>((track.frames.size() - told.held) * matrices_.size());
+    ASSIGN_OR_RETURN(const CaptureBody body, FittedBody(RestBodyOf(told.motion.poses)));
+    std::vector<TreeState> states;
+    PoseFitter fitter(body);
+    for (const BodyPose& pose : told.motion.poses) {
+      states.push_back(fitter.Fit(TargetsAt(pose)).value_or(StandingState(body.tree)));
+    }
+    told.clip = ToClip(body, states, take_.rate_hz, "capture");
+    told.rooms = std::move(rooms_);
+    told.silhouettes = std::move(masks_);
+    return told;
+  }
+
+  const UnmarkedTake& take_;
+  const UnmarkedOptions& options_;
+  double stature_;
+  std::vector<ProjectionMatrix> matrices_;
+  std::vector<ColourImage> rooms_;
+  std::vector<std::vector<Mask>> masks_;
+  std::vector<std::vector<Silhouette>> silhouettes_;  ///< of the frames that were followed last
+  std::vector<ProjectedCapsule> flesh_;
+};
+
+}  // namespace
+
+Result<UnmarkedMotion> RecoverUnmarked(const UnmarkedTake& take, const UnmarkedOptions& options) {
+  assert(take.cameras.size() >= 2 && take.pictures.size() == take.cameras.size() && !take.pictures[0].empty());
+  assert(take.rooms.empty() || take.rooms.size() == take.cameras.size());
+  return Recovery(take, options).Run();
+}
+
+}  // namespace etude

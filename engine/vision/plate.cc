@@ -1,0 +1,78 @@
+#include "engine/vision/plate.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <cstdlib>
+
+namespace etude {
+namespace {
+
+int Difference(Rgb8 a, Rgb8 b) { return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}); }
+
+/// The share of set pixels in the square about every pixel, as much of it as lies in the picture: by sums over all
+/// rectangles from the corner.
+Activity ShareAbout(const Mask& mask, int reach) {
+  const auto stride = static_cast<std::size_t>(mask.width) + 1;
+  std::vector<int> sums(stride * (static_cast<std::size_t>(mask.height) + 1));
+  const auto sum = [&](int x, int y) -> int& { return sums[static_cast<std::size_t>(y) * stride + x]; };
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      sum(x + 1, y + 1) = sum(x, y + 1) + sum(x + 1, y) - sum(x, y) + mask.At(x, y);
+    }
+  }
+  Activity share(mask.width, mask.height);
+  for (int y = 0; y < mask.height; ++y) {
+    const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, mask.height);
+    for (int x = 0; x < mask.width; ++x) {
+      const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, mask.width);
+      const int set = sum(right, bottom) - sum(left, bottom) - sum(right, top) + sum(left, top);
+      share.At(x, y) = static_cast<float>(set) / static_cast<float>((right - left) * (bottom - top));
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options) {
+  std::vector<Activity> activity;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    const ColourImage& now = pictures[k];
+    const ColourImage& before = pictures[k < options.lag ? 0 : k - options.lag];
+    const ColourImage& after = pictures[std::min(k + options.lag, pictures.size() - 1)];
+    Mask moved(now.width, now.height);
+    for (std::size_t i = 0; i < moved.pixels.size(); ++i) {
+      moved.pixels[i] = Difference(now.pixels[i], before.pixels[i]) > options.change ||
+                        Difference(now.pixels[i], after.pixels[i]) > options.change;
+    }
+    activity.push_back(ShareAbout(moved, options.reach));
+  }
+  return activity;
+}
+
+ColourImage EstimatePlate(std::span<const ColourImage> pictures, std::span<const Activity> activity, std::size_t kept) {
+  assert(!pictures.empty() && activity.size() == pictures.size() && kept >= 1);
+  kept = std::min(kept, pictures.size());
+  ColourImage plate(pictures[0].width, pictures[0].height);
+  std::vector<std::size_t> calmest(pictures.size());
+  std::vector<std::uint8_t> levels(kept);
+  for (std::size_t i = 0; i < plate.pixels.size(); ++i) {
+    for (std::size_t k = 0; k < calmest.size(); ++k) calmest[k] = k;
+    const auto last = calmest.begin() + static_cast<std::ptrdiff_t>(kept) - 1;
+    std::nth_element(calmest.begin(), last, calmest.end(), [&](std::size_t a, std::size_t b) {
+      const float first = activity[a].pixels[i], second = activity[b].pixels[i];
+      return first != second ? first < second : a < b;
+    });
+    const auto median = [&](std::uint8_t Rgb8::*colour) {
+      for (std::size_t k = 0; k < kept; ++k) levels[k] = pictures[calmest[k]].pixels[i].*colour;
+      const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(kept / 2);
+      std::nth_element(levels.begin(), middle, levels.end());
+      return *middle;
+    };
+    plate.pixels[i] = {median(&Rgb8::r), median(&Rgb8::g), median(&Rgb8::b)};
+  }
+  return plate;
+}
+
+}  // namespace etude

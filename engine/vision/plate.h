@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "engine/base/image.h"
+
+namespace etude {
+
+/// How much goes on at every pixel of a picture: the less, the likelier it shows the room behind. Any unit.
+using Activity = Image<float>;
+
+struct MotionOptions {
+  std::size_t lag = 1;  ///< how many pictures before and after each is compared with
+  /// Half the side of the square about a pixel in which motion counts, pixels: a trunk moves at its rim only, and must
+  /// not pass for a room in its middle. A quarter of a trunk's width.
+  int reach = 12;
+  int change = 14;  ///< levels by which a colour must differ to have moved: several deviations of noise
+};
+
+/// Of each picture and pixel the share of the pixels about it that are another colour in the picture `lag` before or
+/// after.
+std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
+
+/// The empty room out of pictures none of which shows it: of every pixel the median (each colour by itself) of those
+/// `kept` pictures in which least goes on there; of equals the earliest. What never was uncovered cannot be told, and
+/// shows whatever hid it. (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion detection
+/// for generating the background of a scene", Pattern Recognition Letters 96, 2017; theirs counts motion in patches.)
+/// @param activity of each picture, of its size
+/// @param kept at least one; as many as there are pictures gives their median
+ColourImage EstimatePlate(std::span<const ColourImage> pictures, std::span<const Activity> activity, std::size_t kept);
+
+}  // namespace etude

@@ -1,0 +1,118 @@
+#include "engine/unmarked/recover_unmarked.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "engine/silhouettes/turns.h"
+#include "engine/unmarked/adult_body.h"
+#include "tests/engine/silhouettes/capsule_picture.h"
+
+namespace etude {
+namespace {
+
+constexpr double kStature = 1.80;
+constexpr int kFrames = 16;
+
+/// Steps sideways while an arm and a leg swing.
+TreeState Moving(const SilhouetteBody& body, int frame) {
+  TreeState state = StandingState(body.tree);
+  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
+  const auto set = [&](int joint, int axis, double degrees) {
+    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
+  };
+  const double phase = 0.3 * frame;
+  set(body.limbs[0].upper, 1, -70 + 15 * std::sin(phase));
+  set(body.limbs[1].upper, 0, 50 + 30 * std::sin(phase));
+  set(body.limbs[1].lower, 0, 60);
+  set(body.limbs[2].upper, 0, 30 + 15 * std::cos(phase));
+  set(body.limbs[2].lower, 0, -40);
+  state.root_position = {-0.6 + 0.08 * frame, 0.97, 0};
+  return state;
+}
+
+Rgb8 RoomAt(std::size_t camera, int x, int y) {
+  return {static_cast<std::uint8_t>(90 + 3 * (x / 4) % 40), static_cast<std::uint8_t>(100 + (5 * y + 31 * camera) % 50),
+          120};
+}
+
+/// A film of the body in red before a patterned wall; `moves`: else it stands.
+struct Film {
+  SilhouetteBody body = MakeSilhouetteBody(AdultLengths(kStature));
+  std::vector<Camera> cameras = CamerasAround({-40, 40, 150});
+  std::vector<std::vector<ColourImage>> pictures;
+  std::vector<ColourImage> rooms;
+  std::vector<BodyPose> truth;
+
+  explicit Film(bool moves) {
+    for (int k = 0; k < kFrames; ++k) truth.push_back(ToBodyPose(body, Moving(body, moves ? k : 0)));
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      ColourImage room(cameras[c].intrinsics.width, cameras[c].intrinsics.height);
+      for (int y = 0; y < room.height; ++y) {
+        for (int x = 0; x < room.width; ++x) room.At(x, y) = RoomAt(c, x, y);
+      }
+      rooms.push_back(room);
+      pictures.emplace_back();
+      Mask mask = RayCast(body, Moving(body, 0), cameras[c]);
+      for (int k = 0; k < kFrames; ++k) {
+        if (moves && k > 0) mask = RayCast(body, Moving(body, k), cameras[c]);
+        ColourImage& picture = pictures.back().emplace_back(room);
+        for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+          if (mask.pixels[i]) picture.pixels[i] = {200, 50, 40};
+        }
+      }
+    }
+  }
+  double MeanError(const BodyMotion& motion) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      for (const Role role : AllRoles()) sum += glm::distance(truth[k][role], motion.poses[k][role]);
+    }
+    return sum / static_cast<double>(truth.size() * kRoleCount);
+  }
+};
+
+TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
+  const Film film(true);
+  const auto found = RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}},
+                                     {.track = {}, .rounds = 3, .samples = 8, .kept = 3});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_LT(film.MeanError(found->motion), 0.05);
+  EXPECT_NEAR(found->stature_m, kStature, 0.05);
+  EXPECT_EQ(found->held, 0u);
+  int unlike = 0, all = 0;
+  for (std::size_t c = 0; c < film.rooms.size(); ++c) {
+    for (std::size_t i = 0; i < film.rooms[c].pixels.size(); ++i, ++all) {
+      unlike += !(found->rooms[c].pixels[i] == film.rooms[c].pixels[i]);
+    }
+  }
+  EXPECT_LT(unlike, all / 200) << "pixels of the rooms that are not the room's";
+  EXPECT_EQ(found->silhouettes[2].size(), static_cast<std::size_t>(kFrames));
+  // The clip is the same motion.
+  EXPECT_EQ(found->clip.frames.size(), static_cast<std::size_t>(kFrames));
+}
+
+TEST(RecoverUnmarked, IsToldRoomsAndStature) {
+  const Film film(true);
+  const auto told =
+      RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = film.rooms, .stature_m = kStature});
+  ASSERT_TRUE(told) << told.error().message;
+  EXPECT_LT(film.MeanError(told->motion), 0.03);
+  EXPECT_EQ(told->stature_m, kStature);
+  const auto child =
+      RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = film.rooms, .stature_m = 1.3});
+  ASSERT_TRUE(child);
+  EXPECT_GT(child->cost, 2 * told->cost) << "the control: nobody of 1.30 m has this outline";
+}
+
+TEST(RecoverUnmarked, SeesNobodyWhereNothingMoves) {
+  const Film film(false);
+  const auto found =
+      RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().message, "in no frame do two films show anybody who moves");
+}
+
+}  // namespace
+}  // namespace etude
