@@ -166,7 +166,7 @@ class Capture(EtudeCase):
         alone = ["capture", "--rig", self.rig, *still, "--silhouettes", "-o", self.folder / "m.bvh"]
         self.assertIn("in no frame do two films show anybody who moves", self.refusal(*alone))
         self.assertIn("no keypoints to write", self.refusal(*alone, "--points", self.folder / "p.trc"))
-        self.assertIn("--silhouettes excludes --keypoints", self.refusal(*alone, "--keypoints", self.keypoints))
+        self.assertIn("--keypoints excludes --silhouettes", self.refusal(*alone, "--keypoints", self.keypoints))
         self.assertIn("--stature requires --silhouettes", self.refusal(*self.capture("-o", "m.bvh", "--stature", "1.8")))
         rooms = self.folder / "rooms"
         rooms.mkdir()
@@ -191,7 +191,7 @@ class Capture(EtudeCase):
         self.assertIn("1 film; allowed: 2 to 64", self.refusal(*self.capture("-o", out, films=self.films[:1])))
         self.assertIn("none.yaml: no such file", self.refusal("capture", "--rig", "none.yaml", *self.films, "--keypoints",
                                                    self.keypoints, "-o", out))
-        self.assertIn("allowed: --keypoints DIR or --marks DIR", self.refusal("capture", "--rig", self.rig, *self.films, "-o", out))
+        self.assertIn("allowed: --keypoints DIR, --marks DIR or --silhouettes", self.refusal("capture", "--rig", self.rig, *self.films, "-o", out))
 
         def film(name, size, rate, frames):
             path = self.folder / name / "left.mp4"
