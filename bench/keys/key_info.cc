@@ -21,6 +21,12 @@ std::string ValueOf(const std::string& key, std::span<const KeyInfo> keys, const
   return chooser == keys.end() ? "" : chooser->fallback;
 }
 
+/// The key that decides about this one, if it may not stand there itself.
+const KeyInfo* MisplacedChooser(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping) {
+  const auto chooser = std::ranges::find(keys, key.only_with.key, &KeyInfo::key);
+  return chooser == keys.end() || MayStand(*chooser, keys, mapping) ? nullptr : &*chooser;
+}
+
 Json NumberSchema(Range range, bool is_whole) {
   Json schema{{"type", is_whole ? "integer" : "number"}};
   if (std::isfinite(range.lowest)) schema["minimum"] = Json::parse(NumberText(range.lowest));
@@ -88,6 +94,8 @@ std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys) {
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping) {
   const KeyCondition& condition = key.only_with;
   if (condition.key.empty()) return true;
+  const auto chooser = std::ranges::find(keys, condition.key, &KeyInfo::key);
+  if (chooser != keys.end() && !MayStand(*chooser, keys, mapping)) return false;
   return std::ranges::count(condition.values, ValueOf(condition.key, keys, mapping)) > 0;
 }
 
@@ -102,7 +110,12 @@ void RefuseMisplacedKeys(Fields& mapping, std::span<const KeyInfo> keys) {
       return MayStand(other, keys, mapping.node());
     });
     if (may_stand) continue;
-    const std::string& chooser = key.only_with.key;
+    const KeyInfo* misplaced = &key;
+    while (const KeyInfo* chooser = MisplacedChooser(*misplaced, keys, mapping.node())) {
+      misplaced = chooser;
+      allowed = chooser->only_with.values;
+    }
+    const std::string& chooser = misplaced->only_with.key;
     mapping.Complain(
         written->place,
         fmt::format("{} '{}'{} has no '{}'; allowed with {}: {}", chooser, ValueOf(chooser, keys, mapping.node()),

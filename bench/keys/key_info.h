@@ -61,7 +61,7 @@ std::string NumberText(double number);
 std::vector<KeyInfo> MergeAlike(std::vector<KeyInfo> keys);
 
 /// Whether the values of `mapping` allow `key` in it; `keys` are all that it may have, and their defaults count as
-/// said.
+/// said. A key may not stand where the one that decides about it may not.
 bool MayStand(const KeyInfo& key, std::span<const KeyInfo> keys, const Node& mapping);
 
 /// Complains of keys that `mapping` has and that do not go with its other values (KeyInfo::only_with): there they would

@@ -12,6 +12,7 @@
 #include "bench/metrics/catalogue.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
+#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
 
@@ -43,6 +44,14 @@ Json DescribeClips(const ClipLibrary& library) {
   return clips;
 }
 
+/// Whether a task of another kind sees by the cameras of the capture task.
+bool IsFilmed(const Scenario& scenario) {
+  return std::ranges::any_of(scenario.conditions, [](const Condition& condition) {
+    const Node* sensor = condition.node.Find(kSensorKey);
+    return sensor != nullptr && sensor->scalar == kCameraSensor;
+  });
+}
+
 Result<Json> ReadManifestJson(const std::filesystem::path& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   auto json = ReadJson(text, path.string());
@@ -68,7 +77,7 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
   }
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     json["scenarios"][s]["loaded_clips"] = DescribeClips(scenarios[s].clips());
-    const TaskKind& kind = *FindTaskKind(scenarios[s].scenario().task);
+    const TaskKind& kind = *FindTaskKind(IsFilmed(scenarios[s].scenario()) ? "capture" : scenarios[s].scenario().task);
     if (kind.platform != nullptr) json["scenarios"][s]["platform"] = kind.platform();
   }
   return json;

@@ -128,4 +128,8 @@ std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeas
   return bridged;
 }
 
+std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options) {
+  return FrameBridge(frames, static_cast<int>(frames.size()) - 1, options).Complete();
+}
+
 }  // namespace etude

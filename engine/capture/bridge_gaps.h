@@ -37,4 +37,8 @@ struct BridgeOptions {
 std::vector<std::optional<LimbObservation>> BridgeGaps(std::span<const FrameMeasurement> frames,
                                                        const BridgeOptions& options = {});
 
+/// The last of these frames, completed from those before it alone: what a live system knows. Frames more than
+/// `longest_gap` before it change nothing.
+std::optional<LimbObservation> BridgeLast(std::span<const FrameMeasurement> frames, const BridgeOptions& options = {});
+
 }  // namespace etude

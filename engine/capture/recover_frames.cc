@@ -4,7 +4,6 @@
 #include <cassert>
 #include <utility>
 
-#include "engine/capture/fit_pose.h"
 #include "engine/kinematics/partial_observation.h"
 #include "engine/kinematics/start_angles.h"
 
@@ -65,79 +64,74 @@ std::vector<EffectorError> ErrorsSeen(const CaptureBody& body, const LimbObserva
   return kept;
 }
 
-/// Recovers one frame after the other.
-class Recovery {
- public:
-  Recovery(const RecoverInputs& inputs, const RecoverOptions& options)
-      : inputs_(inputs), options_(options), body_(inputs.body), fitter_(inputs.body) {}
-
-  std::optional<RecoveredFrame> Recover(std::size_t frame) {
-    if (!inputs_.seen[frame]) return std::nullopt;
-    const BodyPose like = last_ ? last_->pose : ToBodyPose(body_, StandingState(body_.tree));
-    const auto seen = CompleteObservation(*inputs_.seen[frame], body_.lengths, like, last_.has_value());
-    if (!seen) return std::nullopt;
-    const auto found = body_.is_paper ? PaperStart(body_, *seen) : FittedStart(body_, fitter_, *seen);
-    if (!found) return std::nullopt;
-    const std::optional<TreeState> start = StartOf(frame, *found);
-    if (!start) return std::nullopt;
-    std::optional<RecoveredFrame> recovered = Solve(frame, *seen, *start);
-    if (!recovered) return std::nullopt;
-    recovered->fixed = found->fixed;
-    last_ = recovered;
-    return recovered;
-  }
-
- private:
-  // The pose that the solver begins with, or nothing when neither the images nor the last frame give one.
-  std::optional<TreeState> StartOf(std::size_t frame, const Start& found) const {
-    if (!inputs_.known_starts.empty()) return inputs_.known_starts[frame];
-    const bool is_marked = inputs_.marked.empty() || inputs_.marked[frame];
-    if (!last_ || (found.seen && is_marked)) return found.seen;
-    // The solver does not move the root: its place and frame are always the images'.
-    TreeState start = last_->state;
-    start.root_position = found.fixed[kLeftFoot];
-    if (found.seen) start.root_frame = found.seen->root_frame;
-    return start;
-  }
-
-  std::optional<RecoveredFrame> Solve(std::size_t frame, const LimbObservation& seen, const TreeState& start) const {
-    const IkProblem problem = MakeImageProblem(body_, seen, start);
-    TreeState state = start;
-    std::vector<EffectorError> errors;
-    if (inputs_.known_poses.empty()) {
-      IkSolution solution = options_.solver->solve(body_.tree, problem, options_.ik);
-      if (solution.status == IkStatus::kBadInput) return std::nullopt;
-      state.angles = std::move(solution.angles);
-      errors = std::move(solution.errors);
-    } else {
-      state = inputs_.known_poses[frame];
-      const TreeFrames frames = ComputeFrames(body_.tree, state);
-      for (std::size_t e = 0; e < problem.targets.size(); ++e) {
-        errors.push_back(ErrorOf(frames.effectors[e], problem.targets[e]));
-      }
-    }
-    const BodyPose pose = ToBodyPose(body_, state);
-    return RecoveredFrame{
-        .fixed = {}, .state = std::move(state), .pose = pose, .errors = ErrorsSeen(body_, seen, errors)};
-  }
-
-  const RecoverInputs& inputs_;
-  const RecoverOptions& options_;
-  const CaptureBody& body_;
-  const PoseFitter fitter_;
-  std::optional<RecoveredFrame> last_;
-};
+/// The pose that the solver begins with, or nothing when neither the images nor the last frame give one.
+std::optional<TreeState> StartOf(const Start& found, const std::optional<RecoveredFrame>& last, bool is_marked) {
+  if (!last || (found.seen && is_marked)) return found.seen;
+  // The solver does not move the root: its place and frame are always the images'.
+  TreeState start = last->state;
+  start.root_position = found.fixed[kLeftFoot];
+  if (found.seen) start.root_frame = found.seen->root_frame;
+  return start;
+}
 
 }  // namespace
 
-std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options) {
+FrameRecovery::FrameRecovery(const CaptureBody& body, const RecoverOptions& options)
+    : body_(body), options_(options), fitter_(body) {
   assert(options.solver != nullptr);
+}
+
+std::optional<RecoveredFrame> FrameRecovery::Next(const std::optional<LimbObservation>& observed, bool is_marked,
+                                                  const KnownAngles& known) {
+  if (!observed) return std::nullopt;
+  const BodyPose like = last_ ? last_->pose : ToBodyPose(body_, StandingState(body_.tree));
+  const auto seen = CompleteObservation(*observed, body_.lengths, like, last_.has_value());
+  if (!seen) return std::nullopt;
+  const auto found = body_.is_paper ? PaperStart(body_, *seen) : FittedStart(body_, fitter_, *seen);
+  if (!found) return std::nullopt;
+  const std::optional<TreeState> start = known.start ? known.start : StartOf(*found, last_, is_marked);
+  if (!start) return std::nullopt;
+  std::optional<RecoveredFrame> recovered = Solve(*seen, *start, known.pose);
+  if (!recovered) return std::nullopt;
+  recovered->fixed = found->fixed;
+  last_ = recovered;
+  return recovered;
+}
+
+std::optional<RecoveredFrame> FrameRecovery::Solve(const LimbObservation& seen, const TreeState& start,
+                                                   const std::optional<TreeState>& known_pose) const {
+  const IkProblem problem = MakeImageProblem(body_, seen, start);
+  TreeState state = start;
+  std::vector<EffectorError> errors;
+  if (known_pose) {
+    state = *known_pose;
+    const TreeFrames frames = ComputeFrames(body_.tree, state);
+    for (std::size_t e = 0; e < problem.targets.size(); ++e) {
+      errors.push_back(ErrorOf(frames.effectors[e], problem.targets[e]));
+    }
+  } else {
+    IkSolution solution = options_.solver->solve(body_.tree, problem, options_.ik);
+    if (solution.status == IkStatus::kBadInput) return std::nullopt;
+    state.angles = std::move(solution.angles);
+    errors = std::move(solution.errors);
+  }
+  const BodyPose pose = ToBodyPose(body_, state);
+  return RecoveredFrame{
+      .fixed = {}, .state = std::move(state), .pose = pose, .errors = ErrorsSeen(body_, seen, errors)};
+}
+
+std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options) {
   const auto fits = [&](std::size_t count) { return count == 0 || count == inputs.seen.size(); };
   assert(fits(inputs.marked.size()) && fits(inputs.known_starts.size()) && fits(inputs.known_poses.size()));
   (void)fits;
-  Recovery recovery(inputs, options);
+  FrameRecovery recovery(inputs.body, options);
   std::vector<std::optional<RecoveredFrame>> frames;
-  for (std::size_t i = 0; i < inputs.seen.size(); ++i) frames.push_back(recovery.Recover(i));
+  for (std::size_t i = 0; i < inputs.seen.size(); ++i) {
+    KnownAngles known;
+    if (!inputs.known_starts.empty()) known.start = inputs.known_starts[i];
+    if (!inputs.known_poses.empty()) known.pose = inputs.known_poses[i];
+    frames.push_back(recovery.Next(inputs.seen[i], inputs.marked.empty() || inputs.marked[i], known));
+  }
   return frames;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/capture/fit_pose.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/solvers/ik_solver.h"
@@ -50,6 +51,33 @@ struct RecoveredFrame {
 /// there is one (`CompleteObservation`), and is no target. A frame without observation, or whose skeleton cannot be
 /// computed, stays empty, and so do frames that show no end before the first that does.
 std::vector<std::optional<RecoveredFrame>> RecoverFrames(const RecoverInputs& inputs, const RecoverOptions& options);
+
+/// What the caller knows of one frame without pictures, to see what a stage costs: where the solver starts, and what it
+/// returns.
+struct KnownAngles {
+  std::optional<TreeState> start, pose;
+};
+
+/// The same frame after frame, for those who cannot wait for the next one.
+class FrameRecovery {
+ public:
+  /// `body` must outlive this.
+  FrameRecovery(const CaptureBody& body, const RecoverOptions& options);
+  FrameRecovery(const FrameRecovery&) = delete;
+  FrameRecovery& operator=(const FrameRecovery&) = delete;
+
+  std::optional<RecoveredFrame> Next(const std::optional<LimbObservation>& seen, bool is_marked = true,
+                                     const KnownAngles& known = {});
+
+ private:
+  std::optional<RecoveredFrame> Solve(const LimbObservation& seen, const TreeState& start,
+                                      const std::optional<TreeState>& known_pose) const;
+
+  const CaptureBody& body_;
+  const RecoverOptions options_;
+  const PoseFitter fitter_;
+  std::optional<RecoveredFrame> last_;
+};
 
 /// Every frame: an empty one shows the last skeleton before it, leading ones the first. At least one is not empty.
 std::vector<RecoveredFrame> HoldFrames(std::span<const std::optional<RecoveredFrame>> frames);

@@ -51,6 +51,8 @@ struct IkOptions {
   bool trace = false;  ///< fill IkSolution::trace
   /// With so many entries at most, the first ones: an entry takes half a kilobyte and what it costs to know it.
   int longest_trace = std::numeric_limits<int>::max();
+
+  bool operator==(const IkOptions&) const = default;
 };
 
 enum class IkStatus {

@@ -5,9 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "engine/base/angles.h"
-#include "engine/cameras/triangulation.h"
-#include "engine/silhouettes/lost_limbs.h"
+#include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/thickness.h"
 #include "engine/silhouettes/turns.h"
 
@@ -16,12 +14,7 @@ namespace {
 
 using Fits = std::vector<std::optional<SilhouetteFit>>;
 
-// Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near
-// it.
-constexpr double kWideReach = 3;  // times that of the options
-constexpr int kCoarseSteps = 8, kFineSteps = 12;
 constexpr std::size_t kFollowedAnchors = 2;
-constexpr double kSpeedKept = 0.6;  // of the last frame's change, what the next is foretold to have
 
 double Squared(double x) { return x * x; }
 
@@ -42,16 +35,12 @@ class Tracker {
   Tracker(const SilhouetteBody& body, const SilhouetteTake& take, const TrackOptions& options)
       : body_(body), take_(take), options_(options), frame_count_(take.silhouettes[0].size()) {
     for (std::size_t k = 0; k < frame_count_; ++k) {
-      std::vector<SilhouetteView>& views = views_.emplace_back();
+      MomentViews& views = views_.emplace_back();
       for (std::size_t c = 0; c < take.cameras.size(); ++c) {
         const Silhouette& silhouette = take.silhouettes[c][k];
         if (silhouette.area > 0) views.push_back({take.cameras[c], &silhouette});
       }
     }
-    wide_ = {.cost = options.cost, .max_iterations = kCoarseSteps};
-    wide_.cost.outline_reach_px *= kWideReach;
-    wide_.cost.inside_reach_px *= kWideReach;
-    fine_ = {.cost = options.cost, .max_iterations = kFineSteps};
   }
 
   SilhouetteTrack Run() {
@@ -83,68 +72,13 @@ class Tracker {
 
   bool Shows(std::size_t frame) const { return views_[frame].size() >= 2; }
 
-  SilhouetteFit Fit(std::size_t frame, const TreeState& start, const PosePrior* prior, bool is_far) {
-    TreeState from = start;
-    if (is_far) from = FitSilhouettes(body_, views_[frame], start, prior, wide_, workspace_).state;
-    return FitSilhouettes(body_, views_[frame], from, prior, fine_, workspace_);
-  }
-
-  PosePrior PriorNear(const TreeState& state) const {
-    return {state, options_.place_change_m, options_.angle_change, options_.angle_change};
-  }
-
   std::optional<Anchor> KnownAnchor() {
     if (!take_.start) return std::nullopt;
     for (std::size_t frame = 0; frame < frame_count_; ++frame) {
       if (!Shows(frame)) continue;
-      const PosePrior prior{*take_.start, options_.start_place_m, options_.start_angle, options_.start_angle};
-      return Anchor{frame, Fit(frame, *take_.start, &prior, true)};
+      return Anchor{frame, fitter_.FitKnown(views_[frame], *take_.start)};
     }
     return std::nullopt;
-  }
-
-  // Where the middles of the silhouettes meet; nothing when their lines of sight do not.
-  std::optional<glm::dvec3> FindMiddle(std::size_t frame) const {
-    std::vector<Sighting> sightings;
-    for (const SilhouetteView& view : views_[frame]) sightings.push_back({view.matrix, view.silhouette->centre});
-    const TriangulatedPoint middle = Triangulate(sightings);
-    if (middle.status != PointStatus::kOk) return std::nullopt;
-    return middle.position;
-  }
-
-  // The body as it may stand there, from every side and in a few postures, the likeliest first.
-  std::vector<SilhouetteFit> Guesses(std::size_t frame) {
-    constexpr int kHeadings = 8;
-    std::vector<SilhouetteFit> fits;
-    const std::optional<glm::dvec3> middle = FindMiddle(frame);
-    if (!middle) return fits;
-    for (int i = 0; i < kHeadings; ++i) {
-      for (TreeState start : Postures(body_)) {
-        start.root_position = *middle;
-        start.root_frame = RotationBy({0, 2 * kPi * i / kHeadings, 0}) * start.root_frame;
-        fits.push_back(FitSilhouettes(body_, views_[frame], start, nullptr, wide_, workspace_));
-      }
-    }
-    std::ranges::stable_sort(fits, {}, &SilhouetteFit::cost);
-    return fits;
-  }
-
-  // Of the guesses at one moment the best one and the best that faces another way, with their limbs looked for.
-  std::vector<Anchor> AnchorsAt(std::size_t frame) {
-    constexpr double kAnotherWay = Radians(100);
-    constexpr std::size_t kMostAnchors = 3;
-    std::vector<Anchor> anchors;
-    for (const SilhouetteFit& guess : Guesses(frame)) {
-      const bool is_new = std::ranges::all_of(anchors, [&](const Anchor& other) {
-        return glm::length(TurnOf(guess.state.root_frame * glm::transpose(other.fit.state.root_frame))) > kAnotherWay;
-      });
-      if (!is_new) continue;
-      SilhouetteFit fit = Fit(frame, guess.state, nullptr, false);
-      fit = WithLimbsFound(frame, fit, nullptr);
-      anchors.push_back({frame, std::move(fit)});
-      if (anchors.size() == kMostAnchors) break;
-    }
-    return anchors;
   }
 
   // Mean cost of the frames about an anchor that its body can be followed through.
@@ -182,7 +116,9 @@ class Tracker {
     std::vector<std::pair<double, Anchor>> tried;
     const std::size_t count = std::min<std::size_t>(options_.anchors, shown.size());
     for (std::size_t i = 0; i < count; ++i) {
-      for (Anchor& anchor : AnchorsAt(shown[(2 * i + 1) * shown.size() / (2 * count)])) {
+      const std::size_t frame = shown[(2 * i + 1) * shown.size() / (2 * count)];
+      for (SilhouetteFit& fit : fitter_.Find(views_[frame])) {
+        Anchor anchor{frame, std::move(fit)};
         const double cost = TrialCost(anchor);
         tried.emplace_back(cost, std::move(anchor));
       }
@@ -193,17 +129,6 @@ class Tracker {
     return anchors;
   }
 
-  SilhouetteFit WithLimbsFound(std::size_t frame, const SilhouetteFit& fit, const PosePrior* prior) {
-    SilhouetteFit best = fit;
-    for (const SilhouetteBody::Limb& limb : body_.limbs) {
-      for (const TreeState& start : LimbPlaces(body_, views_[frame], best.state, limb, wide_.cost)) {
-        SilhouetteFit trial = Fit(frame, start, prior, false);
-        if (trial.cost < best.cost) best = std::move(trial);
-      }
-    }
-    return best;
-  }
-
   // Fits the frames after `from` up to `to`, or before it down to `to`, each from the one before.
   void Follow(std::size_t from, std::size_t to, Fits& fits) {
     const int step = to >= from ? 1 : -1;
@@ -211,11 +136,7 @@ class Tracker {
     for (std::size_t k = from; k != to;) {
       k += step;
       if (!Shows(k)) continue;
-      const TreeState foretold = Extrapolated(before_last, last, kSpeedKept);
-      const PosePrior prior = PriorNear(foretold);
-      const bool still = CostOf(body_, views_[k], last, &prior, wide_.cost, workspace_).cost <
-                         CostOf(body_, views_[k], foretold, &prior, wide_.cost, workspace_).cost;
-      fits[k] = Fit(k, still ? last : foretold, &prior, true);
+      fits[k] = fitter_.Follow(views_[k], before_last, last);
       before_last = std::move(last);
       last = fits[k]->state;
     }
@@ -277,14 +198,14 @@ class Tracker {
   void FitThickness(const Fits& fits) {
     ThicknessEstimate estimate(body_);
     for (std::size_t k = 0; k < frame_count_; ++k) {
-      if (fits[k]) estimate.Add(views_[k], fits[k]->state, options_.cost, workspace_);
+      if (fits[k]) estimate.Add(views_[k], fits[k]->state, options_.cost, fitter_.workspace());
     }
     body_ = estimate.Apply();
   }
 
   void Refit(Fits& fits) {
     for (std::size_t k = 0; k < frame_count_; ++k) {
-      if (fits[k]) fits[k] = Fit(k, fits[k]->state, nullptr, false);
+      if (fits[k]) fits[k] = fitter_.Fit(views_[k], fits[k]->state, nullptr, false);
     }
   }
 
@@ -324,11 +245,11 @@ class Tracker {
           continue;
         }
         if (++followed > kFollowed) {
-          repaired[k] = WithLimbsFound(k, *fits[k], nullptr);
+          repaired[k] = fitter_.WithLimbsFound(views_[k], *fits[k], nullptr);
           followed = 0;
         } else if (const auto& last = repaired[k - static_cast<std::size_t>(step)]) {
-          const PosePrior prior = PriorNear(last->state);
-          repaired[k] = Fit(k, last->state, &prior, true);
+          const PosePrior prior = fitter_.PriorNear(last->state);
+          repaired[k] = fitter_.Fit(views_[k], last->state, &prior, true);
         }
       }
       fits = Better(fits, repaired);
@@ -342,7 +263,8 @@ class Tracker {
         if (!fits[k] || !between) continue;
         const PosePrior prior{*between, 0.5 * options_.place_change_m, 0.5 * options_.angle_change,
                               0.5 * options_.angle_change};
-        SilhouetteFit own = Fit(k, fits[k]->state, &prior, false), theirs = Fit(k, *between, &prior, false);
+        SilhouetteFit own = fitter_.Fit(views_[k], fits[k]->state, &prior, false),
+                      theirs = fitter_.Fit(views_[k], *between, &prior, false);
         fits[k] = theirs.cost < own.cost ? std::move(theirs) : std::move(own);
       }
     }
@@ -352,9 +274,8 @@ class Tracker {
   const SilhouetteTake& take_;
   const TrackOptions& options_;
   const std::size_t frame_count_;
-  std::vector<std::vector<SilhouetteView>> views_;  // of each frame, of the cameras that show somebody
-  FitOptions wide_, fine_;
-  FitWorkspace workspace_;
+  std::vector<MomentViews> views_;  // of each frame
+  MomentFitter fitter_{body_, options_};
 };
 
 }  // namespace

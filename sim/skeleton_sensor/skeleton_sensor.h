@@ -9,6 +9,7 @@
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/joint_errors.h"
+#include "sim/skeleton_sensor/live_sensor.h"
 #include "sim/skeleton_sensor/motion_window.h"
 #include "sim/skeleton_sensor/options.h"
 #include "sim/skeleton_sensor/visibility.h"
@@ -27,18 +28,15 @@ Camera SkeletonSensorAt(const SensorPlace& place, const Intrinsics& view);
 /// comes when the body's pose `kAhead` frames later is known: whoever closes a loop over it lets the body plan so far
 /// ahead. Every error has dice of its own, and as many throws per frame whatever happens, so that options change
 /// strengths and nothing else.
-class SkeletonSensor {
+class SkeletonSensor final : public LiveSensor {
  public:
-  static constexpr std::size_t kAhead = MotionWindow::kAhead;
-
   /// `occluders` must outlive this; `rate_hz` > 0.
   SkeletonSensor(const Camera& sensor, const Occluders& occluders, const SkeletonSensorOptions& options, double rate_hz,
                  const WorldKey& world);
 
-  /// Takes the body's next pose, and tells what is reported in the frame `kAhead` before it; nothing in the first
-  /// `kAhead` frames. A joint is inferred while something stands before it, not tracked while out of view; a report is
-  /// of a pose the options' lag ago.
-  std::optional<SensedFrame> Update(const BodyPose& pose);
+  /// A joint is inferred while something stands before it, not tracked while out of view; a report is of a pose the
+  /// options' lag ago.
+  std::optional<SensedFrame> Update(const BodyPose& pose) override;
   /// The reports still owed at the end of a motion, of its last `kAhead` frames. Nothing may follow.
   std::vector<SensedFrame> Finish();
 

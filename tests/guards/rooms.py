@@ -115,10 +115,11 @@ MAY_INCLUDE = {
     "bench/tasks/coach":
         "engine/base engine/coaching engine/motion engine/recognition "
         "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
-        "bench/tasks/base bench/tasks/detection bench/tasks/transition",
+        "bench/tasks/base bench/tasks/detection bench/tasks/sensing bench/tasks/transition",
     "bench/tasks/detection":
         "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "
-        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base",
+        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base bench/tasks/capture "
+        "bench/tasks/sensing",
     "bench/tasks/ik":
         "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
         "bench/tasks/base",
@@ -128,6 +129,9 @@ MAY_INCLUDE = {
     "bench/tasks/search":
         "engine/base engine/fuzzy engine/transitions/search sim/choreography sim/random bench/clips bench/keys "
         "bench/metrics bench/tasks/base",
+    "bench/tasks/sensing":
+        "engine/base engine/capture engine/motion engine/recognition sim/random sim/skeleton_sensor bench/keys "
+        "bench/tasks/base bench/tasks/capture",
     "bench/tasks/tracking":
         "engine/base engine/formats engine/kinematics engine/kinematics/solvers engine/motion sim/random bench/clips "
         "bench/files bench/metrics bench/model bench/tasks/base",

@@ -4,11 +4,14 @@
 
 namespace etude {
 
-/// The key of a task that senses skeletons: a preset or a sensor file (docs/sensor.md). Whoever makes the task opens
-/// what it names, and gives the text in TaskInput::texts.
+/// The key of a task that senses skeletons: a preset, a sensor file (docs/sensor.md), or cameras. Whoever makes the
+/// task opens what it names, and gives the text in TaskInput::texts.
 constexpr const char* kSensorKey = "sensor";
+constexpr const char* kCameraSensor = "cameras";
 
-/// Whether a reference names a file, and not a preset.
-constexpr bool IsSensorFile(std::string_view reference) { return reference != "v1" && reference != "v2"; }
+/// Whether a reference names a file, and no preset and not the cameras.
+constexpr bool IsSensorFile(std::string_view reference) {
+  return reference != "v1" && reference != "v2" && reference != kCameraSensor;
+}
 
 }  // namespace etude

@@ -3,7 +3,6 @@
 #include "bench/tasks/capture/shooting.h"
 #include "engine/boards/find_boards.h"
 #include "sim/rig/calibration_target.h"
-#include "sim/rig/rig.h"
 
 namespace etude {
 namespace {
@@ -34,17 +33,16 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
 }  // namespace
 
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key) {
-  const glm::dvec3 middle = MiddleOnFloor(world.truth);
   CalibrationPairs pairs;
   for (const Camera& camera : world.cameras) {
-    pairs.push_back(ClickedBy(options, camera, pairs.size(), middle, key));
+    pairs.push_back(ClickedBy(options, camera, pairs.size(), world.middle, key));
   }
   return pairs;
 }
 
 CalibrationPairs FoundCorners(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
                               Renderer& renderer) {
-  const std::vector<PlacedBoard> target = CalibrationTarget(MiddleOnFloor(world.truth));
+  const std::vector<PlacedBoard> target = CalibrationTarget(world.middle);
   const std::vector<Surface> surfaces = SurfacesOf(target);
   RandomStream tape(key, "capture/measured-boards");
   std::vector<PlacedBoard> measured = target;

@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "bench/tasks/base/read_methods.h"
-#include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/capture/exchange.h"
 #include "bench/tasks/capture/options.h"
+#include "bench/tasks/capture/own_cameras.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
 #include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
-#include "engine/cameras/rig_file.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -35,7 +34,7 @@ class CaptureTaskWorld : public TaskWorld {
   CaptureTaskWorld(const CaptureStudy& study, const LibraryClip& clip, const WorldKey& key, bool keeps_motion)
       : study_(study),
         key_(key),
-        stages_(study.options, clip, key, study.sources, keeps_motion),
+        stages_(study.options, MakeCaptureWorld(study.options, clip, key), key, study.sources, keeps_motion),
         keeps_motion_(keeps_motion) {}
 
   void PrepareShared() override { (void)stages_.GetTake(); }  // a failure is told by every cell
@@ -90,47 +89,16 @@ class CaptureTask : public Task {
   const CaptureStudy study_;
 };
 
-/// The cameras of the calibration file that the condition names.
-Result<std::vector<Camera>> OwnCameras(const TaskInput& input) {
-  const Node& condition = input.condition.node();
-  const Node* named = condition.Find(kRigFileKey);
-  const auto text = input.texts.find(kRigFileKey);
-  if (named == nullptr || text == input.texts.end()) {
-    return Fail((named != nullptr ? *named : condition).place, "'rig: file' needs '{}', a calibration file",
-                kRigFileKey);
-  }
-  ASSIGN_OR_RETURN(const auto cameras, ReadRig(text->second, named->scalar));
-  if (cameras.size() < 2 || cameras.size() > kMostCameras) {
-    return Fail(named->place, "'{}' has {} cameras; allowed: 2 to {}", named->scalar, cameras.size(), kMostCameras);
-  }
-  std::vector<Camera> own;
-  for (const NamedCamera& camera : cameras) {
-    const Intrinsics& in = camera.camera.intrinsics;
-    if (in.width < 1 || in.height < 1 || in.width > kLargestPicture || in.height > kLargestPicture) {
-      return Fail(named->place, "camera '{}' of '{}' takes pictures of {} × {} pixels; allowed: 1 to {} a side",
-                  camera.name, named->scalar, in.width, in.height, kLargestPicture);
-    }
-    own.push_back(camera.camera);
-  }
-  return own;
-}
-
 Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   CaptureStudy study;
   CaptureConditionFields().Read(input.condition, study.options);
-  if (study.options.rig.shape == RigShape::kFile) {
-    ASSIGN_OR_RETURN(study.options.rig.own, OwnCameras(input));
-  }
+  RETURN_IF_ERROR(OpenOwnCameras(input, study.options));
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", CaptureMethodFields()));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
   study.methods = std::move(methods);
-  for (const CaptureMethod& method : study.methods) {
-    const PersonSource source = PersonSourceOf(method);
-    const bool known = std::find(study.sources.begin(), study.sources.end(), source) != study.sources.end();
-    if (!known) study.sources.push_back(source);
-  }
+  for (const CaptureMethod& method : study.methods) AddSource(PersonSourceOf(method), study.sources);
   study.clips = input.clips;
   return std::make_unique<CaptureTask>(std::move(study));
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -9,29 +8,21 @@
 #include <vector>
 
 #include "bench/metrics/segmentation.h"
+#include "bench/tasks/capture/crew.h"
 #include "bench/tasks/capture/world.h"
 #include "engine/vision/strokes.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
 
-/// How the person was cut out of the pictures, by a segmenter or by the truth, and who marks what is left.
-struct PersonSource {
-  Segmenter segmenter = Segmenter::kHue;
-  PersonPieces pieces = PersonPieces::kLargest;
-  bool is_truth = false;
-  /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
-  bool for_silhouettes = false;
-  bool has_true_marks = false;  ///< drawn by someone who knows where the joints are, where the picture shows them
-  auto operator<=>(const PersonSource&) const = default;
-};
-
-/// What one way of cutting out the person makes of a take. Indices: [camera][frame].
+/// What one way of cutting out the person makes of a take. Indices: [camera][frame], or where that is said by picture
+/// ([camera][picture]: those of `StudioOptions::picture_every` alone).
 struct Observation {
   PersonSource source;
   std::vector<std::vector<Marks>> marks;  ///< nothing marked in frames that the annotator did not see
-  std::vector<std::vector<Mask>> masks;   ///< half size; only when asked for, or for silhouettes (`kMostSilhouettes`)
-  MaskScore score;                        ///< mean over all pictures
+  std::vector<std::vector<Mask>>
+      masks;        ///< by picture, half size; only when asked for, or for silhouettes (`kMostSilhouettes`)
+  MaskScore score;  ///< mean over all pictures
   /// How two annotators agree, over all pictures; nothing when one marks alone.
   std::optional<double> annotator_distance_px, annotator_overlap;
   std::string masks_digest;

@@ -101,6 +101,13 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
                       "measured from them");
     }
   }
+  const bool knows_all =
+      method.smoothing != Smoothing::kNone || method.sync != Sync::kAssumed || method.lengths != LengthSource::kKnown;
+  if (method.causal && knows_all) {
+    fields.Complain(fields.Raw("causal")->place,
+                    "'causal: true' and smoothing, measured lengths or estimated clocks do not go together: these come "
+                    "of the whole take");
+  }
   if (method.recovery == Recovery::kIk || !(oracle.directions || oracle.points || oracle.start || oracle.ik)) return;
   fields.Complain(fields.Raw("oracle")->place,
                   "only 'recovery: ik' has the stages directions, points, start and ik: others see the pictures alone");
@@ -128,7 +135,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
                    "How a camera is computed from its calibration points."),
          Key::Name("sync", &Method::sync, {{"assumed", Sync::kAssumed}, {"estimated", Sync::kEstimated}},
                    "Whether the cameras' clocks are taken to agree, or set by how marks move."),
-         Key::Name("outliers", &Method::outliers, {{"keep", Outliers::kKeep}, {"reject", Outliers::kReject}},
+         Key::Name("outliers", &Method::outliers, {{"keep", OutlierRule::kKeep}, {"reject", OutlierRule::kReject}},
                    "With three or more cameras: whether one that disagrees with the others about a mark is left out."),
          Key::Name("body", &Method::body, {{"fitted", BodyKind::kFitted}, {"paper", BodyKind::kPaper}},
                    "The performer's own joints, or paper B's 29 degrees of freedom.")
@@ -152,6 +159,9 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("lengths", &Method::lengths,
                    {{"known", LengthSource::kKnown}, {"measured", LengthSource::kMeasured}},
                    "Whether the body is measured beforehand, or its limb lengths from the marks of a few frames."),
+         Key::Flag("causal", &Method::causal,
+                   "Whether each frame's skeleton comes of the pictures up to it alone, as a live system must have it.")
+             .With("recovery", {"ik", "silhouettes"}),
          ToleranceField(&Method::ik, "How far an angle may leave the one seen in the images.").With("recovery", {"ik"}),
          SweepsField(&Method::ik, "The solver's steps per frame, at most.").With("recovery", {"ik"}),
          Key::Flags("oracle",

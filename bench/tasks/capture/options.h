@@ -40,6 +40,19 @@ struct StudioOptions {
   int annotators = 1;                ///< people who mark the same pictures, each by themselves: 1 or 2
   int mark_every = 1;                ///< the annotator marks every n-th frame; directions are interpolated in between
   std::vector<double> moments = {};  ///< frames, counted from 1, of which a recording keeps every stage
+  /// The cameras take every n-th frame only; where they are the sensor of another task, whose takes are long.
+  int picture_every = 1;
+
+  bool IsPictured(std::size_t frame) const { return frame % static_cast<std::size_t>(picture_every) == 0; }
+  /// How many pictures a camera takes of so many frames.
+  std::size_t PicturesOf(std::size_t frames) const {
+    const auto every = static_cast<std::size_t>(picture_every);
+    return (frames + every - 1) / every;
+  }
+  /// Which frames are pictured and marked.
+  bool IsMarked(std::size_t frame) const {
+    return IsPictured(frame) && frame % static_cast<std::size_t>(mark_every) == 0;
+  }
 };
 
 /// The body that a skeleton is made with.
@@ -49,7 +62,7 @@ enum class BodyKind {
 };
 
 /// Whether a camera that disagrees with the others is left out.
-enum class Outliers { kKeep, kReject };
+enum class OutlierRule { kKeep, kReject };
 
 /// Where the times of pictures come from.
 enum class Sync {
@@ -69,6 +82,8 @@ struct Oracle {
   bool lengths = false;
   bool start = false;
   bool ik = false;
+
+  bool operator==(const Oracle&) const = default;
 };
 
 /// How pictures become the poses of a body.
@@ -106,7 +121,7 @@ struct CaptureMethod {
       PersonPieces::kLargest;  ///< of methods that read silhouettes all large ones, whatever stands here
   Calibration calibration = Calibration::kDlt;
   Sync sync = Sync::kAssumed;
-  Outliers outliers = Outliers::kKeep;
+  OutlierRule outliers = OutlierRule::kKeep;
   BodyKind body = BodyKind::kFitted;
   const IkSolver* solver = DefaultIkSolver();
   IkOptions ik = IkBudget(100);
@@ -114,7 +129,11 @@ struct CaptureMethod {
   SilhouetteStart start = SilhouetteStart::kCold;
   Smoothing smoothing = Smoothing::kNone;
   LengthSource lengths = LengthSource::kKnown;
+  /// No frame's skeleton may come of later pictures, as that of a live system. Of `kIk` and `kSilhouettes`.
+  bool causal = false;
   Oracle oracle;
+
+  bool operator==(const CaptureMethod&) const = default;
 };
 
 const FieldTable<StudioOptions>& CaptureConditionFields();

@@ -1,10 +1,13 @@
 #include "bench/tasks/capture/recovery.h"
 
 #include <algorithm>
+#include <numeric>
 
+#include "bench/tasks/capture/film.h"
 #include "bench/tasks/capture/silhouettes.h"
 #include "engine/capture/adjust_take.h"
 #include "engine/capture/fit_pose.h"
+#include "engine/capture/live_recovery.h"
 #include "engine/capture/measure_lengths.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/start_angles.h"
@@ -30,14 +33,34 @@ RecoveredFrame FrameOf(const CaptureBody& body, const BodyPose& pose, const Tree
   return {pose, state.value_or(last), pose, {}};
 }
 
-Result<void> RecoverByIk(CaptureStages& stages, CaptureRun& run) {
-  RecoverInputs inputs{.body = run.body, .seen = run.measured.seen, .marked = stages.marked()};
-  if (run.method.oracle.start || run.method.oracle.ik) {
-    ASSIGN_OR_RETURN(const NearestPoses* nearest, stages.GetNearestPoses(run.method));
-    if (run.method.oracle.start) inputs.known_starts = *nearest;
-    if (run.method.oracle.ik) inputs.known_poses = *nearest;
+/// What marks alone tell of each frame, none of them later ones; frames without marks show the last skeleton.
+void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
+  LiveRecovery live(run.body, RecoverOptionsOf(run.method), LiveBridgeOptions(stages.options()));
+  for (std::size_t k = 0; k < run.measured.frames.size(); ++k) {
+    if (stages.marked()[k]) {
+      KnownAngles known;
+      if (run.method.oracle.start) known.start = (*nearest)[k];
+      if (run.method.oracle.ik) known.pose = (*nearest)[k];
+      run.frames.push_back(live.Next(run.measured.frames[k], known));
+    } else {
+      run.frames.push_back(k == 0 ? std::nullopt : run.frames.back());
+    }
   }
-  run.frames = RecoverFrames(inputs, {.solver = run.method.solver, .ik = run.method.ik});
+}
+
+Result<void> RecoverByIk(CaptureStages& stages, CaptureRun& run) {
+  const NearestPoses* nearest = nullptr;
+  if (run.method.oracle.start || run.method.oracle.ik) {
+    ASSIGN_OR_RETURN(nearest, stages.GetNearestPoses(run.method));
+  }
+  if (run.method.causal) {
+    RecoverLive(stages, nearest, run);
+    return {};
+  }
+  RecoverInputs inputs{.body = run.body, .seen = run.measured.seen, .marked = stages.marked()};
+  if (run.method.oracle.start) inputs.known_starts = *nearest;
+  if (run.method.oracle.ik) inputs.known_poses = *nearest;
+  run.frames = RecoverFrames(inputs, RecoverOptionsOf(run.method));
   return {};
 }
 
@@ -68,12 +91,35 @@ void RecoverBundle(CaptureRun& run) {
 }
 
 Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
-  ASSIGN_OR_RETURN(run.frames, FollowSilhouettes({.truth = stages.world().truth,
-                                                  .key = stages.key(),
-                                                  .body = run.body,
-                                                  .cameras = run.cameras.matrices,
-                                                  .masks = run.observation.masks,
-                                                  .start = run.method.start}));
+  const StudioOptions& options = stages.options();
+  const std::vector<BodyPose>& truth = stages.world().truth;
+  const std::vector<std::vector<Mask>>& masks = run.observation.masks;
+  const std::size_t cameras = run.cameras.matrices.size(), pictures = options.PicturesOf(truth.size());
+  if (cameras * pictures > kMostSilhouettes) {
+    return Fail({}, "silhouettes of {} pictures; at most {} are held in memory, that is {:g} s", cameras * pictures,
+                kMostSilhouettes,
+                static_cast<double>(kMostSilhouettes / cameras) * options.picture_every / kJudgedRateHz);
+  }
+  const SilhouetteInputs inputs{.first = truth.front(),
+                                .key = stages.key(),
+                                .body = run.body,
+                                .cameras = run.cameras.matrices,
+                                .start = run.method.start,
+                                .picture_every = options.picture_every};
+  std::vector<std::optional<RecoveredFrame>> found;
+  if (run.method.causal) {
+    LiveSilhouettes live(inputs);
+    for (std::size_t picture = 0; picture < pictures; ++picture) {
+      std::vector<Mask> of_moment;
+      for (const std::vector<Mask>& of_camera : masks) of_moment.push_back(of_camera[picture]);
+      found.push_back(live.Next(of_moment));
+    }
+  } else {
+    found = FollowSilhouettes(inputs, masks);
+  }
+  for (std::size_t k = 0; k < truth.size(); ++k) {  // between pictures the last skeleton stands
+    run.frames.push_back(found[k / static_cast<std::size_t>(options.picture_every)]);
+  }
   return {};
 }
 
@@ -96,14 +142,22 @@ void SmoothFrames(CaptureRun& run) {
 
 }  // namespace
 
+RecoverOptions RecoverOptionsOf(const CaptureMethod& method) { return {.solver = method.solver, .ik = method.ik}; }
+
+BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
+  const int frames = std::lcm(options.mark_every, options.picture_every);
+  BridgeOptions bridge;
+  bridge.longest_gap = std::max(1, bridge.longest_gap / frames);
+  bridge.turn_per_frame *= frames;
+  return bridge;
+}
+
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
-  const bool is_paper = run.method.recovery != Recovery::kIk || run.method.body == BodyKind::kPaper;
   if (run.method.lengths == LengthSource::kKnown) {
-    CaptureMethod asks = run.method;
-    if (is_paper) asks.body = BodyKind::kPaper;
-    ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetBody(asks));
+    ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));
     return *body;
   }
+  const bool is_paper = run.method.recovery != Recovery::kIk || run.method.body == BodyKind::kPaper;
   const auto lengths = MeasureLengths(PicturesOf(run), run.measured.joints);
   if (!lengths) return Fail({}, "no limb lengths: no frame shows enough of a body in two pictures to measure them");
   const CaptureBody paper = PaperBody(*lengths);

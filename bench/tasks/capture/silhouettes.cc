@@ -1,6 +1,5 @@
 #include "bench/tasks/capture/silhouettes.h"
 
-#include "bench/tasks/capture/film.h"
 #include "engine/base/angles.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/silhouettes/fit_joints.h"
@@ -25,44 +24,62 @@ TreeState NearStart(const SilhouetteBody& body, const BodyPose& pose, const Worl
   return Moved(body.tree, truth, by);
 }
 
-std::vector<std::vector<Silhouette>> ReadMasks(std::span<const std::vector<Mask>> masks) {
+// The same person moves farther from picture to picture where these are further apart.
+TrackOptions OptionsFor(const SilhouetteInputs& inputs) {
+  TrackOptions options;
+  options.angle_change *= inputs.picture_every;
+  options.place_change_m *= inputs.picture_every;
+  return options;
+}
+
+std::optional<TreeState> StartOf(const SilhouetteInputs& inputs, const SilhouetteBody& body) {
+  if (inputs.start == SilhouetteStart::kCold) return std::nullopt;
+  return NearStart(body, inputs.first, inputs.key);
+}
+
+// As a recovered frame: with paper B's tree near that pose, which is what the recording's BVH file shows.
+RecoveredFrame FrameOf(const BodyPose& pose, const KinematicTree& tree, const TreeState& last) {
+  return {.fixed = pose, .state = FindStartState(tree, pose, tree.limits).value_or(last), .pose = pose, .errors = {}};
+}
+
+}  // namespace
+
+std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
+                                                             std::span<const std::vector<Mask>> masks) {
   std::vector<std::vector<Silhouette>> silhouettes;
   for (const std::vector<Mask>& of_camera : masks) {
     std::vector<Silhouette>& made = silhouettes.emplace_back();
     for (const Mask& mask : of_camera) made.push_back(MakeSilhouette(mask, {.mask_pixel = kMaskPixel}));
   }
-  return silhouettes;
-}
-
-// Paper B's tree near that pose: what the recording's BVH file shows.
-TreeState NearestPaperState(const KinematicTree& tree, const BodyPose& pose, const TreeState& otherwise) {
-  return FindStartState(tree, pose, tree.limits).value_or(otherwise);
-}
-
-}  // namespace
-
-Result<std::vector<std::optional<RecoveredFrame>>> FollowSilhouettes(const SilhouetteInputs& inputs) {
-  const std::size_t frames = inputs.truth.size(), cameras = inputs.cameras.size();
-  const std::size_t pictures = cameras * frames;
-  if (pictures > kMostSilhouettes) {
-    return Fail({}, "silhouettes of {} pictures; at most {} are held in memory, that is a duration_s of {:g}", pictures,
-                kMostSilhouettes, static_cast<double>(kMostSilhouettes / cameras) / kJudgedRateHz);
-  }
-  const std::vector<std::vector<Silhouette>> silhouettes = ReadMasks(inputs.masks);
   const SilhouetteBody body = MakeSilhouetteBody(inputs.body.lengths);
-  SilhouetteTake take{.cameras = inputs.cameras, .silhouettes = silhouettes, .start = std::nullopt};
-  if (inputs.start == SilhouetteStart::kNear) take.start = NearStart(body, inputs.truth.front(), inputs.key);
-  const SilhouetteTrack track = TrackSilhouettes(body, take);
+  const SilhouetteTake take{.cameras = inputs.cameras, .silhouettes = silhouettes, .start = StartOf(inputs, body)};
+  const SilhouetteTrack track = TrackSilhouettes(body, take, OptionsFor(inputs));
 
   TreeState last = StandingState(inputs.body.tree);
-  std::vector<std::optional<RecoveredFrame>> recovered(frames);
-  for (std::size_t k = 0; k < frames; ++k) {
-    if (!track.frames[k]) continue;
-    const BodyPose pose = ToBodyPose(track.body, track.frames[k]->state);
-    last = NearestPaperState(inputs.body.tree, pose, last);
-    recovered[k] = RecoveredFrame{.fixed = pose, .state = last, .pose = pose, .errors = {}};
+  std::vector<std::optional<RecoveredFrame>> recovered;
+  for (const std::optional<SilhouetteFit>& fit : track.frames) {
+    recovered.emplace_back();
+    if (!fit) continue;
+    recovered.back() = FrameOf(ToBodyPose(track.body, fit->state), inputs.body.tree, last);
+    last = recovered.back()->state;
   }
   return recovered;
+}
+
+LiveSilhouettes::LiveSilhouettes(const SilhouetteInputs& inputs)
+    : body_(inputs.body),
+      follower_(MakeSilhouetteBody(inputs.body.lengths), inputs.cameras,
+                StartOf(inputs, MakeSilhouetteBody(inputs.body.lengths)), OptionsFor(inputs)),
+      last_(StandingState(inputs.body.tree)) {}
+
+std::optional<RecoveredFrame> LiveSilhouettes::Next(std::span<const Mask> masks) {
+  std::vector<Silhouette> silhouettes;
+  for (const Mask& mask : masks) silhouettes.push_back(MakeSilhouette(mask, {.mask_pixel = kMaskPixel}));
+  const std::optional<SilhouetteFit> fit = follower_.Next(silhouettes);
+  if (!fit) return std::nullopt;
+  const RecoveredFrame frame = FrameOf(ToBodyPose(follower_.body(), fit->state), body_.tree, last_);
+  last_ = frame.state;
+  return frame;
 }
 
 }  // namespace etude

@@ -8,22 +8,40 @@
 #include "engine/base/result.h"
 #include "engine/capture/recover_frames.h"
 #include "engine/kinematics/capture_body.h"
+#include "engine/silhouettes/silhouette_follower.h"
+#include "engine/silhouettes/track_options.h"
 #include "sim/random/stream.h"
 
 namespace etude {
 
+/// What is known beforehand of who is followed by silhouettes.
 struct SilhouetteInputs {
-  std::span<const BodyPose> truth;  ///< its first pose is used when the start is `kNear`, and nothing else
+  const BodyPose& first;  ///< the first true pose, used when the start is `kNear`, and for nothing else
   const WorldKey& key;
   const CaptureBody& body;  ///< paper B's, of which the limb lengths are used
   std::span<const ProjectionMatrix> cameras;
-  /// `masks[camera][frame]`, half size.
-  std::span<const std::vector<Mask>> masks;
   SilhouetteStart start = SilhouetteStart::kCold;
+  int picture_every = 1;  ///< frames from one picture to the next
 };
 
-/// The poses that silhouettes alone tell (engine/silhouettes). Fails when there are more pictures than are held in
-/// memory.
-Result<std::vector<std::optional<RecoveredFrame>>> FollowSilhouettes(const SilhouetteInputs& inputs);
+/// The poses that silhouettes alone tell (engine/silhouettes), one per picture of each camera:
+/// `masks[camera][picture]`, half size.
+std::vector<std::optional<RecoveredFrame>> FollowSilhouettes(const SilhouetteInputs& inputs,
+                                                             std::span<const std::vector<Mask>> masks);
+
+/// The same picture by picture, each pose from those up to it alone.
+class LiveSilhouettes {
+ public:
+  /// `inputs.body` must outlive this.
+  explicit LiveSilhouettes(const SilhouetteInputs& inputs);
+
+  /// One mask per camera.
+  std::optional<RecoveredFrame> Next(std::span<const Mask> masks);
+
+ private:
+  const CaptureBody& body_;
+  SilhouetteFollower follower_;
+  TreeState last_;
+};
 
 }  // namespace etude

@@ -1,6 +1,8 @@
 #include "bench/tasks/capture/stages.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "bench/metrics/measurement.h"
 #include "bench/tasks/capture/nearest_poses.h"
@@ -69,10 +71,7 @@ Result<CalibratedCameras> MakeCameras(const CaptureWorld& world, const Calibrati
 std::vector<KnownMeasurement> Tell(const CaptureWorld& world, const Oracle& oracle, const std::vector<bool>& marked) {
   std::vector<KnownMeasurement> known(world.truth.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
-    if (!marked[k]) continue;
-    const FrameMeasurement truth = TrueMeasurement(world.truth[k]);
-    if (oracle.directions) known[k].directions = truth.directions;
-    if (oracle.points) known[k].ends = truth.ends;
+    if (marked[k]) known[k] = ToldOf(world.truth[k], oracle);
   }
   return known;
 }
@@ -108,15 +107,15 @@ MeasuredTake MeasureTake(const MeasureInputs& inputs, const MeasureOptions& meas
 
 }  // namespace
 
-CaptureStages::CaptureStages(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key,
+CaptureStages::CaptureStages(const StudioOptions& options, CaptureWorld world, const WorldKey& key,
                              std::span<const PersonSource> sources, bool keeps_masks)
-    : options_(options),
-      key_(key),
-      sources_(sources),
-      keeps_masks_(keeps_masks),
-      world_(MakeCaptureWorld(options, clip, key)),
-      marked_(world_.truth.size()) {
-  for (std::size_t k = 0; k < marked_.size(); ++k) marked_[k] = k % static_cast<std::size_t>(options.mark_every) == 0;
+    : options_(options), key_(key), sources_(sources), keeps_masks_(keeps_masks), world_(std::move(world)) {
+  for (std::size_t k = 0; k < world_.truth.size(); ++k) marked_.push_back(options.IsMarked(k));
+}
+
+void CaptureStages::Add(const BodyPose& pose) {
+  marked_.push_back(options_.IsMarked(world_.truth.size()));
+  world_.truth.push_back(pose);
 }
 
 Result<Renderer*> CaptureStages::GetRenderer() { return SharedRenderer(); }
@@ -167,9 +166,9 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
     const std::vector<std::vector<Marks>> marks =
         method.sync == Sync::kEstimated ? InTime(cameras.matrices, straight) : straight;
     const MeasureInputs inputs{.cameras = cameras.matrices, .marks = marks, .known = known};
-    const MeasureOptions measure{.rejects_outliers = method.outliers == Outliers::kReject};
-    const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, options_.mark_every)};
-    kept = measured_.emplace(choice, MeasureTake(inputs, measure, bridge)).first;
+    const int every = std::lcm(options_.mark_every, options_.picture_every);
+    const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, every)};
+    kept = measured_.emplace(choice, MeasureTake(inputs, MeasureOptionsOf(method), bridge)).first;
   }
   return kept->second;
 }
@@ -190,6 +189,12 @@ Result<const CaptureBody*> CaptureStages::GetBody(const CaptureMethod& method) {
   return &*kept->second;
 }
 
+Result<const CaptureBody*> CaptureStages::GetKnownBody(const CaptureMethod& method) {
+  CaptureMethod asks = method;
+  if (method.recovery != Recovery::kIk) asks.body = BodyKind::kPaper;
+  return GetBody(asks);
+}
+
 Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& method) {
   ASSIGN_OR_RETURN(const CaptureBody* body, GetBody(method));
   const BodyChoice choice = BodyChoiceOf(method);
@@ -198,19 +203,16 @@ Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& 
   return &kept->second;
 }
 
-PersonSource PersonSourceOf(const CaptureMethod& method) {
-  const bool for_silhouettes = method.recovery == Recovery::kSilhouettes;
-  PersonSource source{.segmenter = method.segmenter,
-                      .pieces = for_silhouettes ? PersonPieces::kLarge : method.pieces,
-                      .is_truth = false,
-                      .for_silhouettes = for_silhouettes,
-                      .has_true_marks = method.oracle.marks};
-  if (method.oracle.segmentation) {
-    source.segmenter = Segmenter::kHue;
-    source.pieces = PersonPieces::kLargest;
-    source.is_truth = true;
-  }
-  return source;
+MeasureOptions MeasureOptionsOf(const CaptureMethod& method) {
+  return {.rejects_outliers = method.outliers == OutlierRule::kReject};
+}
+
+KnownMeasurement ToldOf(const BodyPose& pose, const Oracle& oracle) {
+  KnownMeasurement known;
+  const FrameMeasurement truth = TrueMeasurement(pose);
+  if (oracle.directions) known.directions = truth.directions;
+  if (oracle.points) known.ends = truth.ends;
+  return known;
 }
 
 }  // namespace etude

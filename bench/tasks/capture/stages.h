@@ -43,13 +43,16 @@ class CaptureStages {
  public:
   /// `sources`: every way of cutting out the person that will be asked for, because each picture is rendered once,
   /// for all of them, and not kept. References must outlive this.
-  CaptureStages(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key,
+  CaptureStages(const StudioOptions& options, CaptureWorld world, const WorldKey& key,
                 std::span<const PersonSource> sources, bool keeps_masks);
 
+  const StudioOptions& options() const { return options_; }
   const CaptureWorld& world() const { return world_; }
   const WorldKey& key() const { return key_; }
   /// Which frames the annotator marks.
   const std::vector<bool>& marked() const { return marked_; }
+  /// Live: the next pose of who is filmed.
+  void Add(const BodyPose& pose);
   /// The renderer of this world; fails, saying why, when there can be none.
   Result<Renderer*> GetRenderer();
   Result<const Take*> GetTake();
@@ -60,6 +63,8 @@ class CaptureStages {
                                   const Observation& observation);
   /// Fails, saying why, when a body cannot be made of the performer's joints.
   Result<const CaptureBody*> GetBody(const CaptureMethod& method);
+  /// The body of `method` where its limbs are known.
+  Result<const CaptureBody*> GetKnownBody(const CaptureMethod& method);
   /// In the body of `method`.
   Result<const NearestPoses*> GetNearestPoses(const CaptureMethod& method);
 
@@ -83,7 +88,7 @@ class CaptureStages {
     PersonSource person;
     bool true_directions = false, true_points = false;
     Sync sync = Sync::kAssumed;
-    Outliers outliers = Outliers::kKeep;
+    OutlierRule outliers = OutlierRule::kKeep;
     auto operator<=>(const MeasureChoice&) const = default;
   };
   static CameraChoice CameraChoiceOf(const CaptureMethod& method);
@@ -92,7 +97,7 @@ class CaptureStages {
   const WorldKey key_;
   const std::span<const PersonSource> sources_;
   const bool keeps_masks_;
-  const CaptureWorld world_;
+  CaptureWorld world_;
   std::vector<bool> marked_;
   std::optional<Take> take_;
   std::optional<CalibrationPairs> pairs_;
@@ -102,7 +107,9 @@ class CaptureStages {
   std::map<BodyChoice, NearestPoses> nearest_;
 };
 
-/// How the method cuts out the person.
-PersonSource PersonSourceOf(const CaptureMethod& method);
+MeasureOptions MeasureOptionsOf(const CaptureMethod& method);
+
+/// What somebody who knows the truth of a frame tells a method with these oracles of it.
+KnownMeasurement ToldOf(const BodyPose& truth, const Oracle& oracle);
 
 }  // namespace etude

@@ -127,25 +127,32 @@ PersonalLimbs Measured(const PersonalLimbs& person, double error_mm, const World
 
 }  // namespace
 
-CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
+CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key) {
   CaptureWorld world;
-  world.truth = ChooseWindow(options, clip, key);
-  world.person.lengths = MeasureLimbLengths(world.truth);
-  world.person.body = clip.body.joints.empty() ? RestBodyOf(world.truth) : clip.body;
+  world.person = {booking.lengths, booking.body};
   world.measured = Measured(world.person, options.limb_measure_mm, key);
   world.colours = ColoursOf(options.clothes);
   RandomStream room(key, "capture/room");
   world.room.texture_seed = room.IndexBelow(1u << 30);
-  world.brightness = MakeBrightness(options, world.truth.size(), key);
-  world.cameras = SetUpCameras(options.rig, world.truth, key);
+  world.brightness = MakeBrightness(options, booking.frames, key);
+  world.middle = MiddleOnFloor(booking.poses);
+  world.cameras = SetUpCameras(options.rig, booking.poses, key);
   for (std::size_t i = 0; i < world.cameras.size(); ++i) {
     // One's own cameras have their own, unless a scenario wants another.
     const Distortion wanted = LensOf(options.camera, world.cameras[i], i, key);
     if (!wanted.IsNone()) world.cameras[i].distortion = wanted;
   }
-  world.in_view = FramesInView(world.cameras, world.truth);
   world.stage_options = StageOptionsOf(options, key);
-  world.stage = StagedRoom(world.stage_options, world.truth, world.cameras);
+  world.stage = StagedRoom(world.stage_options, booking.poses, world.cameras);
+  return world;
+}
+
+CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
+  std::vector<BodyPose> truth = ChooseWindow(options, clip, key);
+  const RestBody body = clip.body.joints.empty() ? RestBodyOf(truth) : clip.body;
+  CaptureWorld world = MakeStudio(options, {truth, body, MeasureLimbLengths(truth), truth.size()}, key);
+  world.truth = std::move(truth);
+  world.in_view = FramesInView(world.cameras, world.truth);
   return world;
 }
 

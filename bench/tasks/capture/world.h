@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "bench/clips/clip_library.h"
@@ -28,6 +30,7 @@ struct CaptureWorld {
   PersonalLimbs person;            ///< who moves
   PersonalLimbs measured;          ///< the same as it was measured beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  glm::dvec3 middle{0};            ///< on the floor: where the performer is expected
   std::vector<Camera> cameras;     ///< two or more, each with its lens
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures
   Room room;                       ///< its brightness is that of the background pictures; of the studio alone
@@ -35,6 +38,17 @@ struct CaptureWorld {
   StagedRoom stage;                ///< the room and people that `scene` adds
   std::vector<double> brightness;  ///< of each frame
 };
+
+/// Who is to be filmed, and for how long.
+struct Booking {
+  std::span<const BodyPose> poses;  ///< about where they will be: cameras and furniture are set up around
+  RestBody body;
+  LimbLengths lengths;
+  std::size_t frames = 0;
+};
+
+/// The studio of `key`, with nobody in it yet: `truth` and `in_view` are empty.
+CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, const WorldKey& key);
 
 /// The world of `key`. The window of the clip begins by dice; among a few throws the first is taken that
 /// keeps the performer within 1.2 m of the middle, where both cameras see the whole body, else the one

@@ -30,7 +30,8 @@ class CoachTaskWorld final : public TaskWorld {
 
   CellResult Run(std::size_t method) override {
     const auto log = RunMethod(shared_.coaches[method], shared_.condition, shared_.stage, world_, nullptr);
-    return Score(*log);  // only a program can answer in the wrong shape
+    if (!log) return CellResult::Ended(Status::kFailed, log.error().message);
+    return Score(*log);
   }
 
   Result<CellResult> RunWith(LiveProgram& program, std::size_t method) override {
@@ -78,6 +79,14 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
   CoachMethod start;
   start.sight.threshold = shared.condition.sight.threshold;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "coach", CoachMethodFields(), start));
+  const auto sight = [](const CoachMethod& method) -> const DetectionMethod& { return method.sight; };
+  RETURN_IF_ERROR(BookCameras(input, methods, sight, shared.condition.sight));
+  for (std::size_t i = 0; i < methods.size() && shared.condition.sight.has_cameras; ++i) {
+    if (methods[i].sight.sees_truth || methods[i].sight.Capture().causal) continue;
+    return Fail(input.methods[i].place,
+                "method {}: a coach cannot wait for later pictures; allowed: 'capture' with 'causal: true'",
+                methods[i].name);
+  }
   ASSIGN_OR_RETURN(shared.stage, SetCoachStage(shared.condition.song));
   auto ready = MakeReady(std::move(methods), shared.stage);
   if (!ready) return Fail(input.condition.node().place, "{}", ready.error().message);

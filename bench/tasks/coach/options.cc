@@ -1,8 +1,6 @@
 #include "bench/tasks/coach/options.h"
 
-#include <algorithm>
-#include <iterator>
-
+#include "bench/keys/part_fields.h"
 #include "bench/keys/setting_fields.h"
 #include "sim/choreography/song.h"
 
@@ -13,26 +11,6 @@ constexpr Range kShare{0, 1};
 
 using Condition = CoachCondition;
 using Method = CoachMethod;
-
-/// Those fields of another task's table, or all but those, that are read into a part of `Options`.
-enum class Keep { kThese, kOthers };
-template <typename Options, typename Part>
-std::vector<Field<Options>> FieldsOf(const FieldTable<Part>& table, Part Options::*part, Keep keep,
-                                     const std::vector<std::string>& keys) {
-  std::vector<Field<Options>> fields;
-  for (const Field<Part>& field : table.fields) {
-    const bool named = std::ranges::find(keys, field.info.key) != keys.end();
-    if (named != (keep == Keep::kThese)) continue;
-    fields.push_back(
-        {field.info, [field, part](Fields& mapping, Options& options) { field.read(mapping, options.*part); }});
-  }
-  return fields;
-}
-
-template <typename Options>
-void Append(std::vector<Field<Options>> more, std::vector<Field<Options>>& fields) {
-  std::ranges::move(more, std::back_inserter(fields));
-}
 
 std::vector<Field<Method>> CoachFields() {
   using Key = Field<Method>;
@@ -121,11 +99,12 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
         Key::Number(
             "stutter_s", [](auto& c) -> auto& { return c.music.stutter_s; }, {0, 5}, "For how long.")
             .Unit("seconds")};
-    Append(
-        FieldsOf(DetectionConditionFields(), &Condition::sight, Keep::kThese,
-                 {"people", "noise", "turn_deg", "sensor", "distance_m", "sensor_height_m", "occluder", "threshold"}),
-        fields);
-    return FieldTable<Condition>{std::move(fields)};
+    std::vector<std::string> sight = {"people",     "noise",           "turn_deg", "sensor",
+                                      "distance_m", "sensor_height_m", "occluder", "threshold"};
+    for (const auto& field : CameraSensingFields().fields) sight.push_back(field.info.key);
+    Append(FieldsOf<Condition>(DetectionConditionFields(), &Condition::sight, Keep::kThese, sight), fields);
+    return FieldTable<Condition>{std::move(fields),
+                                 [](Fields& mapping, Condition& c) { CheckSensorKeys(mapping, c.sight); }};
   }();
   return table;
 }
@@ -134,14 +113,15 @@ const FieldTable<CoachMethod>& CoachMethodFields() {
   using Key = Field<Method>;
   static const FieldTable<Method> table = [] {
     std::vector<Key> fields =
-        FieldsOf(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
+        FieldsOf<Method>(DetectionMethodFields(), &Method::sight, Keep::kOthers, {"refractory_s", "oracle"});
     fields.push_back(Key::Flags(
         "oracle",
         {{"stream", [](Method& m) -> bool& { return m.sight.sees_truth; }}, {"judgement", &Method::knows_truth}},
         "What is replaced by the truth: the skeletons as danced instead of as sensed, or what is "
         "said of every performance (policy `oracle`)."));
     Append(PolicyFields(), fields);
-    Append(FieldsOf(TransitionMethodFields(), &Method::transition, Keep::kOthers, {"weights", "wait_s", "threshold"}),
+    Append(FieldsOf<Method>(TransitionMethodFields(), &Method::transition, Keep::kOthers,
+                            {"weights", "wait_s", "threshold"}),
            fields);
     Append(CoachFields(), fields);
     NamedValues<Seat> seats;

@@ -25,12 +25,13 @@ class Moments final : public MomentSource {
 };
 
 /// The session that a yoked one takes its moments from: another person's, under the same condition.
-SessionLog RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
-                      const CoachWorld& world) {
+Result<SessionLog> RunPartner(const ReadyCoach& ready, const CoachCondition& condition, const CoachStage& stage,
+                              const CoachWorld& world) {
   const std::string scenario = fmt::format("{}/partner", world.key.scenario);
   const CoachWorld other = MakeCoachWorld(condition, {world.key.suite_seed, scenario, world.key.trial});
   LearnerPlayer player(other, stage);
-  const SessionParts parts{*ready.partner, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth};
+  const SessionParts parts{*ready.partner, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth,
+                           ready.method.sight.Capture()};
   return RunSession(parts, other, player, nullptr);
 }
 
@@ -84,12 +85,15 @@ Result<SessionLog> RunMethod(const ReadyCoach& ready, const CoachCondition& cond
   if (seat == Seat::kPolicy) moments = MakeSeatedPolicy(*program, stage, complaint);
   if (seat == Seat::kLearner) player = MakeSeatedLearner(*program, stage, complaint);
   if (player == nullptr) player = std::make_unique<LearnerPlayer>(world, stage);
-  if (ready.partner != nullptr) moments = std::make_unique<Moments>(RunPartner(ready, condition, stage, world));
+  if (ready.partner != nullptr) {
+    ASSIGN_OR_RETURN(const SessionLog partner, RunPartner(ready, condition, stage, world));
+    moments = std::make_unique<Moments>(partner);
+  }
 
   const SessionParts parts{*ready.coach, seated_recogniser ? *seated_recogniser : *ready.recogniser,
-                           ready.method.sight.filter, ready.method.sight.sees_truth};
+                           ready.method.sight.filter, ready.method.sight.sees_truth, ready.method.sight.Capture()};
   if (program != nullptr && !program->Begin(SessionBeginPayload(seat))) return SessionLog{};
-  SessionLog log = RunSession(parts, world, *player, moments.get());
+  ASSIGN_OR_RETURN(SessionLog log, RunSession(parts, world, *player, moments.get()));
   if (complaint.error()) return tl::unexpected(*complaint.error());
   return log;
 }

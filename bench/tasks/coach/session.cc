@@ -5,29 +5,27 @@
 #include <memory>
 #include <utility>
 
+#include "bench/tasks/sensing/camera_sensor.h"
 #include "engine/coaching/session.h"
 #include "sim/music/music_clock.h"
 
 namespace etude {
 namespace {
 
-constexpr int kAhead = static_cast<int>(SkeletonSensor::kAhead);
+constexpr int kAhead = static_cast<int>(LiveSensor::kAhead);
 
 /// One session while it runs.
 class Loop {
  public:
   Loop(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments)
-      : parts_(parts),
-        world_(world),
-        player_(player),
-        moments_(moments),
-        sensor_(world.sensor, world.occluders, world.errors, kJudgedRateHz, world.key),
-        music_(world.music, world.key) {
+      : parts_(parts), world_(world), player_(player), moments_(moments), music_(world.music, world.key) {
     Begin(parts.coach.BeginDancing());
   }
 
-  SessionLog Run() {
-    for (int i = 0; i < kAhead; ++i) SeeLearner();  // what is about to happen when the session begins
+  Result<SessionLog> Run() {
+    for (int i = 0; i < kAhead; ++i) MoveLearner();  // what is about to happen when the session begins
+    ASSIGN_OR_RETURN(sensor_, MakeSensor());
+    for (const BodyPose& pose : log_.learner.poses) sensor_->Update(pose);
     while (frame_ < world_.frames) {
       const SensedFrame sensed = *SeeLearner();
       const SensedFrame seen = parts_.sees_truth ? AsDanced(frame_) : sensed;
@@ -59,9 +57,21 @@ class Loop {
     Begin(std::move(state));
   }
 
+  void MoveLearner() { log_.learner.poses.push_back(player_.Next(shown_)); }
+
   std::optional<SensedFrame> SeeLearner() {
-    log_.learner.poses.push_back(player_.Next(shown_));
-    return sensor_.Update(log_.learner.poses.back());
+    MoveLearner();
+    return sensor_->Update(log_.learner.poses.back());
+  }
+
+  /// Cameras are set up for who is there when the session begins.
+  Result<std::unique_ptr<LiveSensor>> MakeSensor() const {
+    if (!world_.cameras || parts_.sees_truth) {
+      return std::make_unique<SkeletonSensor>(world_.sensor, world_.occluders, world_.errors, kJudgedRateHz,
+                                              world_.key);
+    }
+    return CameraSensor::Make(*world_.cameras, parts_.capture, log_.learner.poses.front(),
+                              static_cast<std::size_t>(world_.frames), world_.key);
   }
 
   SensedFrame AsDanced(int frame) const {
@@ -175,7 +185,7 @@ class Loop {
   const CoachWorld& world_;
   Player& player_;
   MomentSource* moments_;
-  SkeletonSensor sensor_;
+  std::unique_ptr<LiveSensor> sensor_;
   MusicClock music_;
   std::unique_ptr<CoachSession> coach_;
   CoachOutput shown_;
@@ -188,7 +198,8 @@ class Loop {
 
 }  // namespace
 
-SessionLog RunSession(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments) {
+Result<SessionLog> RunSession(const SessionParts& parts, const CoachWorld& world, Player& player,
+                              MomentSource* moments) {
   return Loop(parts, world, player, moments).Run();
 }
 

@@ -57,7 +57,8 @@ struct SessionParts {
   const Coach& coach;
   const Recogniser& recogniser;
   FilterOptions filter;
-  bool sees_truth = false;  ///< the coach sees the learner as danced, not as sensed
+  bool sees_truth = false;     ///< the coach sees the learner as danced, not as sensed
+  CaptureMethod capture = {};  ///< before cameras: how they make skeletons, causally
 };
 
 /// What a session is asked from frame to frame by someone else than the coach's own policy: whether to correct now.
@@ -68,7 +69,8 @@ class MomentSource {
 };
 
 /// Runs one session: the player sees the coach, the sensor sees the player, the coach sees what the sensor reports.
-/// `moments`: null = none.
-SessionLog RunSession(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments);
+/// `moments`: null = none. Fails, saying why, when cameras cannot be set up.
+Result<SessionLog> RunSession(const SessionParts& parts, const CoachWorld& world, Player& player,
+                              MomentSource* moments);
 
 }  // namespace etude

@@ -24,6 +24,7 @@ CoachWorld MakeCoachWorld(const CoachCondition& condition, const WorldKey& key) 
                    .frames = static_cast<int>(std::lround(condition.session_s * kJudgedRateHz)),
                    .learner = condition.learner,
                    .test_after = condition.test_after};
+  if (sight.has_cameras) world.cameras = sight.cameras.studio;
   world.errors.strength = sight.noise;
   world.occluders = MakeOccluders(sight.occluder, place, static_cast<std::size_t>(world.frames));
   return world;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bench/tasks/coach/options.h"
@@ -18,6 +19,7 @@ struct CoachWorld {
   Camera sensor;
   SkeletonSensorOptions errors;
   Occluders occluders;
+  std::optional<StudioOptions> cameras = {};  ///< in place of the skeleton sensor
   MusicClockOptions music;
   int frames = 0;  ///< of the session
   LearnerOptions learner;

@@ -13,6 +13,7 @@
 #include "bench/tasks/detection/run.h"
 #include "bench/tasks/detection/score.h"
 #include "bench/tasks/detection/world.h"
+#include "bench/tasks/sensing/camera_stream.h"
 
 namespace etude {
 namespace {
@@ -47,16 +48,26 @@ class DetectionTaskWorld final : public TaskWorld {
         world_(std::move(world)),
         keeps_motion_(keeps_motion) {}
 
-  /// The thresholds, which all worlds of the condition share.
-  void PrepareShared() override { decisions_.For({suite_seed_, scenario_, 0}); }
+  /// The thresholds, which all worlds of the condition share, and the pictures.
+  void PrepareShared() override {
+    decisions_.For({suite_seed_, scenario_, 0});
+    if (world_.cameras != nullptr) world_.cameras->Film();
+  }
 
   CellResult Run(std::size_t index) override {
     const auto& [method, recogniser] = methods_[index];
+    if (world_.cameras != nullptr && !method.sees_truth) {
+      const auto& captured = world_.cameras->See(method.Capture());
+      if (!captured) return CellResult::Ended(Status::kFailed, captured.error().message);
+    }
     const DecisionOptions& decision = decisions_.For({suite_seed_, scenario_, 0})[index];
     return Score(JudgeSession(world_, SeenBy(method), repertoire_, *recogniser, decision));
   }
 
-  Result<Payload> MakeProblem() override { return SessionPayload(world_); }
+  Result<Payload> MakeProblem() override {
+    if (world_.cameras == nullptr) return SessionPayload(world_);
+    return Fail({}, "before cameras every method makes skeletons of its own: there is no stream that could be told");
+  }
   Result<Payload> MakeTruth() override { return TruthPayload(world_); }
 
   Result<CellResult> Judge(const Json& answer) override {
@@ -67,11 +78,11 @@ class DetectionTaskWorld final : public TaskWorld {
  private:
   const SeenStream& SeenBy(const DetectionMethod& method) {
     const auto same = [&](const Sighted& known) {
-      return known.filter == method.filter && known.sees_truth == method.sees_truth;
+      return known.filter == method.filter && known.sees_truth == method.sees_truth && known.capture == method.capture;
     };
     auto found = std::ranges::find_if(seen_, same);
     if (found == seen_.end()) {
-      found = seen_.insert(found, {method.filter, method.sees_truth, SeeSession(world_, method)});
+      found = seen_.insert(found, {method.filter, method.sees_truth, method.capture, SeeSession(world_, method)});
     }
     return found->seen;
   }
@@ -90,6 +101,7 @@ class DetectionTaskWorld final : public TaskWorld {
   struct Sighted {
     FilterOptions filter;
     bool sees_truth;
+    std::optional<CaptureMethod> capture;
     SeenStream seen;
   };
 
@@ -101,7 +113,7 @@ class DetectionTaskWorld final : public TaskWorld {
   const DetectionWorld world_;
   const StageDigests world_digests_ = WorldDigests(world_);
   const bool keeps_motion_;
-  std::deque<Sighted> seen_;  ///< methods with the same filter and oracle share one
+  std::deque<Sighted> seen_;  ///< methods with the same filter, oracle and capture share one
 };
 
 class DetectionTask final : public Task {
@@ -157,6 +169,7 @@ Result<std::unique_ptr<Task>> MakeDetectionTask(TaskInput& input) {
   DetectionMethod start;
   start.threshold = options.threshold;
   ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "detection", DetectionMethodFields(), start));
+  RETURN_IF_ERROR(BookCameras(input, methods, std::identity(), options));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "task detection needs 'clips', such as ['builtin:*']");
   }

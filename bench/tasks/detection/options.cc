@@ -1,7 +1,7 @@
 #include "bench/tasks/detection/options.h"
 
+#include "bench/keys/part_fields.h"
 #include "bench/keys/setting_fields.h"
-#include "bench/tasks/base/sensor_key.h"
 #include "sim/skeleton_sensor/sensor_file.h"
 
 namespace etude {
@@ -45,8 +45,9 @@ Result<SkeletonSensorOptions> SensorOf(const TaskInput& input) {
   const Node* named = input.condition.node().Find(kSensorKey);
   if (named == nullptr) return SensorV2();
   if (named->kind != Node::Kind::kScalar || named->scalar.empty()) {
-    return Fail(named->place, "'{}' must be v1, v2 or a sensor file, found {}", kSensorKey, Describe(*named));
+    return Fail(named->place, "'{}' must be v1, v2, a sensor file or cameras, found {}", kSensorKey, Describe(*named));
   }
+  if (named->scalar == kCameraSensor) return SensorV2();
   if (const auto preset = FindSensorPreset(named->scalar)) return *preset;
   return ReadSensorFile(input.texts.at(kSensorKey), named->scalar);
 }
@@ -61,10 +62,12 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
   return table;
 }
 
-const FieldTable<DetectionOptions>& DetectionConditionFields() {
+namespace {
+
+FieldTable<DetectionOptions> MakeConditionFields() {
   using Options = DetectionOptions;
   using Key = Field<Options>;
-  static const FieldTable<Options> table{
+  FieldTable<Options> made{
       {Key::Number(
            "events", [](auto& o) -> auto& { return o.session.events; }, {1, 200},
            "How many performances a session holds."),
@@ -91,9 +94,13 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
        Key::Number("noise", &Options::noise, {0, 10}, "Times the measured errors of a Kinect-like sensor."),
        Key::Number("turn_deg", &Options::turn_deg, {-180, 180}, "How far the performer is turned away from the sensor.")
            .Unit("degrees"),
-       Key{{kSensorKey, TextKind("`v1`, `v2`, a sensor file"), "v2",
-            "The skeleton sensor: Kinect v1 as published, v2 as recorded, or one of `etude sensor fit`."},
-           [](Fields& condition, Options&) { condition.Raw(kSensorKey); }},
+       Key{{kSensorKey, TextKind("`v1`, `v2`, a sensor file, `cameras`"), "v2",
+            "Who sees the skeletons: Kinect v1 as published, v2 as recorded, one of `etude sensor fit`, or cameras, "
+            "with the keys of `task: capture` and each method's own `capture`."},
+           [](Fields& condition, Options& o) {
+             const Node* named = condition.Raw(kSensorKey);
+             o.has_cameras = named != nullptr && named->scalar == kCameraSensor;
+           }},
        Key::Number("distance_m", &Options::distance_m, {1, 8}, "From the sensor to the performer, on the floor.")
            .WhenAbsent("(2.5 to 3, thrown in each trial)"),
        Key::Number("sensor_height_m", &Options::sensor_height_m, {0.1, 3}, "Of the sensor above the floor."),
@@ -113,10 +120,31 @@ const FieldTable<DetectionOptions>& DetectionConditionFields() {
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());
            }}},
       [](Fields& condition, Options& o) {
+        CheckSensorKeys(condition, o);
         if (!o.threshold || !o.operating_point) return;
         condition.Complain(condition.Raw("threshold")->place,
                            "'threshold' and 'operating_point' both set thresholds; allowed: one of them");
       }};
+  const auto studio = [](auto& o) -> auto& { return o.cameras.studio; };
+  Append(FieldsOf<Options>(CameraSensingFields(), studio, Keep::kOthers, {}), made.fields);
+  return made;
+}
+
+}  // namespace
+
+void CheckSensorKeys(Fields& condition, DetectionOptions& options) {
+  if (!options.has_cameras) return;
+  for (const char* key : {"noise", "turn_deg", "distance_m", "sensor_height_m", "occluder"}) {
+    if (const Node* written = condition.Raw(key)) {
+      condition.Complain(written->place,
+                         fmt::format("'{}' is of skeleton sensors; cameras have keys of their own", key));
+    }
+  }
+  CameraSensingFields().check(condition, options.cameras.studio);
+}
+
+const FieldTable<DetectionOptions>& DetectionConditionFields() {
+  static const FieldTable<DetectionOptions> table = MakeConditionFields();
   return table;
 }
 
@@ -129,6 +157,7 @@ const FieldTable<DetectionMethod>& DetectionMethodFields() {
     fields.push_back(MethodKey::Flags("oracle", {{"stream", &Method::sees_truth}},
                                       "What is replaced by the truth: the skeletons as performed instead of as sensed, "
                                       "so what the sensor costs."));
+    fields.push_back(CaptureField<Method>(&Method::capture));
     fields.push_back(MethodKey::Name(
         "recogniser", [](auto& m) -> auto& { return m.recogniser.kind; }, RecogniserNames(), FindRecogniser,
         "How a move is recognised."));

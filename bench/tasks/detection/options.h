@@ -1,10 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "bench/keys/field_table.h"
+#include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/base/task.h"
+#include "bench/tasks/capture/own_cameras.h"
+#include "bench/tasks/capture/person_source.h"
+#include "bench/tasks/sensing/options.h"
 #include "engine/recognition/filters.h"
 #include "engine/recognition/recognise.h"
 #include "engine/recognition/recognisers.h"
@@ -30,7 +35,7 @@ struct OperatingPoint {
 ///     fault_share: 0.5 # of them have a fault
 ///     severity: 0.7    # of every fault; else thrown
 ///     noise: 1         # times every error of the sensor
-///     sensor: v2       # which sensor: v1, v2 or a sensor file
+///     sensor: v2       # which sensor: v1, v2, a sensor file, or cameras
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
 ///     occluder: none   # what stands between the two: table, chair, person
 struct DetectionOptions {
@@ -41,6 +46,8 @@ struct DetectionOptions {
   std::optional<double> distance_m;  ///< else thrown in each trial, 2.5–3 m
   double sensor_height_m = 1;
   OccluderKind occluder = OccluderKind::kNone;
+  bool has_cameras = false;  ///< `sensor: cameras`: nothing of the above is read but the session
+  CameraSensing cameras;
   std::optional<double> threshold;                ///< of methods that say none of their own
   std::optional<OperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
 };
@@ -51,18 +58,36 @@ struct DetectionOptions {
 struct DetectionMethod {
   std::string name;
   FilterOptions filter;
-  bool sees_truth = false;  ///< `oracle: [stream]`
+  bool sees_truth = false;                    ///< `oracle: [stream]`
+  std::optional<CaptureMethod> capture = {};  ///< with cameras: how pictures become skeletons; else as capture does
   RecogniserOptions recogniser;
   std::optional<double> threshold;  ///< else the recogniser's own
   double refractory_s = DecisionOptions{}.refractory_s;
 
+  CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }
   DecisionOptions Decision() const {
     return {.threshold = threshold.value_or(recogniser.kind->threshold), .refractory_s = refractory_s};
   }
 };
 
-/// The sensor that the condition names, v2 when it names none.
+/// The sensor that the condition names, v2 when it names none or cameras.
 Result<SkeletonSensorOptions> SensorOf(const TaskInput& input);
+/// Complains of keys of another sensor than the condition's.
+void CheckSensorKeys(Fields& condition, DetectionOptions& options);
+/// Refuses methods, those of the input in their order, that want cameras where there are none; prepares the cameras for
+/// the others. `sight` gives the DetectionMethod of a method.
+template <typename Methods, typename Sight>
+Result<void> BookCameras(const TaskInput& input, const Methods& methods, Sight sight, DetectionOptions& options) {
+  RETURN_IF_ERROR(OpenOwnCameras(input, options.cameras.studio));
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const DetectionMethod& method = std::invoke(sight, methods[i]);
+    if (method.capture && !options.has_cameras) {
+      return Fail(input.methods[i].place, "'capture' needs cameras; allowed with {}: {}", kSensorKey, kCameraSensor);
+    }
+    if (options.has_cameras) AddSource(PersonSourceOf(method.Capture()), options.cameras.sources);
+  }
+  return {};
+}
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
 /// `threshold` may stand in the condition for all methods, which makes it sweepable.

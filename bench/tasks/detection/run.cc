@@ -2,10 +2,15 @@
 
 #include <cassert>
 
+#include "bench/tasks/sensing/camera_stream.h"
+
 namespace etude {
 
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method) {
-  return SeeStream(method.sees_truth ? StreamOf(world.session.motion) : world.stream, method.filter);
+  if (method.sees_truth) return SeeStream(StreamOf(world.session.motion), method.filter);
+  if (world.cameras == nullptr) return SeeStream(world.stream, method.filter);
+  const Result<SkeletonStream>& captured = world.cameras->See(method.Capture());
+  return SeeStream(captured ? *captured : world.stream, method.filter);
 }
 
 EvidenceTrace FollowSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,

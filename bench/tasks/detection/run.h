@@ -19,7 +19,7 @@ struct SessionVerdict {
   std::vector<Detection> alarms;  ///< false ones: by move (Repertoire::taught), then by time
 };
 
-/// Filters what the sensor saw, or, for an oracle, how it was truly performed.
+/// Filters what the sensor saw, or, for an oracle, how it was truly performed. Cameras that failed saw nobody.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
 /// The evidence of the whole session: the recogniser is told what is asked for when its window opens.

@@ -6,6 +6,7 @@
 
 #include "bench/metrics/detection.h"
 #include "bench/tasks/detection/occluders.h"
+#include "bench/tasks/sensing/camera_stream.h"
 #include "engine/base/angles.h"
 #include "engine/base/named.h"
 #include "sim/skeleton_sensor/skeleton_sensor.h"
@@ -53,6 +54,11 @@ DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionO
   DetectionWorld world;
   world.session = Perform(dance_dice, repertoire.moves, person, plan);
 
+  if (options.has_cameras) {
+    world.cameras = std::make_shared<CameraTake>(options.cameras, world.session.motion, key);
+    world.stream.frames.resize(world.session.motion.poses.size());
+    return world;
+  }
   // The distance at which Kinect's makers ask players to stand, roughly.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
   SkeletonSensorOptions errors = options.sensor;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -26,12 +27,16 @@ Repertoire RepertoireOf(const ClipLibrary& library);
 /// What recognisers are taught of a move.
 TaughtMove TaughtOf(const Move& move);
 
+class CameraTake;
+
 /// One trial: a session as it was truly performed, and as the sensor saw it.
 struct DetectionWorld {
   Performance session;
-  SkeletonStream stream;
+  SkeletonStream stream;  ///< of a skeleton sensor; before cameras, whose skeletons are up to each method, of nobody
+  std::shared_ptr<CameraTake> cameras = {};  ///< null: there are none
 };
 
+/// `options` must outlive a world with cameras.
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
 
 /// The frames in which an event is judged: first beat to half a second after the last.

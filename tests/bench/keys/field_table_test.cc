@@ -91,6 +91,21 @@ TEST(FieldTable, SaysWhereSomethingIsWrongAndWhatIsAllowed) {
             "w.yaml:1:20: wind 'none' (the default) has no 'gust'; allowed with wind: strong");
 }
 
+TEST(FieldTable, RefusesAKeyWhoseChooserMayNotStandItself) {
+  using Key = Field<Weather>;
+  const FieldTable<Weather> table{{Key::Flag("fog", &Weather::fog, "Whether there is fog."),
+                                   Key::Number("clouds", &Weather::clouds, {0, 8}, "Of fog.").With("fog", {"true"}),
+                                   Key::Number("gust", &Weather::gust, {0, 1}, "Of three.").With("clouds", {"3"})}};
+  const auto read = [&](const std::string& yaml) {
+    const auto node = ParseYaml(yaml, "w.yaml");
+    const auto weather = ReadMapping(*node, "a weather", table);
+    return weather ? "" : ToString(weather.error());
+  };
+  EXPECT_EQ(read("{fog: true, gust: 1}"), "");
+  EXPECT_EQ(read("{gust: 1}"), "w.yaml:1:8: fog 'false' (the default) has no 'gust'; allowed with fog: true");
+  EXPECT_EQ(read("{fog: true, clouds: 4, gust: 1}"), "w.yaml:1:30: clouds '4' has no 'gust'; allowed with clouds: 3");
+}
+
 TEST(FieldTable, TellsItsKeysWithTheDefaultsOfTheStruct) {
   const auto keys = WeatherFields().Describe();
   std::vector<std::string> told;

@@ -85,8 +85,9 @@ inline std::vector<int> EveryRepetition(const CoachStage& stage) {
 
 inline SessionLog SessionWith(const ReadyCoach& ready, const CoachWorld& world, Player& player,
                               MomentSource* moments = nullptr) {
-  const SessionParts parts{*ready.coach, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth};
-  return RunSession(parts, world, player, moments);
+  const SessionParts parts{*ready.coach, *ready.recogniser, ready.method.sight.filter, ready.method.sight.sees_truth,
+                           ready.method.sight.Capture()};
+  return *RunSession(parts, world, player, moments);
 }
 
 inline CorrectionTally TallyOf(const SessionLog& log) {

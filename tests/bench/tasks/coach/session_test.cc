@@ -87,6 +87,34 @@ TEST(CoachSession, GivesTheSameWhateverWasRunBefore) {
   }
 }
 
+TEST(CoachSession, SeesByCamerasWhoseEveryStageIsTrueWhatAPerfectSensorSees) {
+  const CoachStage& stage = StageOf("groove");
+  CoachCondition condition = ConditionOf("groove", 12, 0);
+  const CoachWorld perfect = WorldOf(condition);
+  condition.sight.has_cameras = true;
+  condition.sight.cameras.studio.picture_every = 2;
+  const CoachWorld cameras = WorldOf(condition);
+  CoachMethod method = MethodOf("at-first-mistake");
+  CaptureMethod& capture = method.sight.capture.emplace();
+  capture.causal = true;
+  capture.oracle = {true, true, true, true, true, true, true, true};
+  const auto ready = CoachesOf(stage, {method});
+  Mimic first(stage, {1}), second(stage, {1});
+  const SessionLog log = SessionWith(ready[0], cameras, first), wanted = SessionWith(ready[0], perfect, second);
+  ASSERT_EQ(log.performances.size(), wanted.performances.size());
+  ASSERT_GT(log.performances.size(), 1u);
+  for (std::size_t i = 0; i < log.performances.size(); ++i) {
+    EXPECT_EQ(log.performances[i].judged.called_right, wanted.performances[i].judged.called_right) << i;
+    EXPECT_EQ(log.performances[i].judged.called_wrong.has_value(), wanted.performances[i].judged.called_wrong.has_value());
+  }
+  for (std::size_t t = 0; t < 60; t += 2) {  // in between the last skeleton stands
+    const BodyPose seen = PoseOf(log.sensed.frames[t]);
+    for (const Role role : AllRoles()) {
+      ASSERT_LT(glm::distance(seen[role], log.learner.poses[t][role]), 1e-3) << t << RoleName(role);
+    }
+  }
+}
+
 /// Corrects at the frames given.
 class At final : public MomentSource {
  public:

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "bench/tasks/base/task.h"
+#include "bench/tasks/capture/options.h"
+#include "engine/base/result.h"
+
+namespace etude {
+
+/// With `rig: file` the cameras of the calibration file that the condition names are `options.rig.own`.
+Result<void> OpenOwnCameras(const TaskInput& input, StudioOptions& options);
+
+}  // namespace etude

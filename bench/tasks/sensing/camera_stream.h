@@ -1,0 +1,46 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/capture/stages.h"
+#include "bench/tasks/capture/world.h"
+#include "bench/tasks/sensing/options.h"
+#include "engine/capture/recover_frames.h"
+#include "engine/motion/body.h"
+#include "engine/recognition/skeleton_stream.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+
+/// The studio's cameras, set up for somebody who stands as in `first` and will dance there: half a metre to every side,
+/// and as high as they jump. Their limbs are those of that pose.
+Booking BookFor(std::span<const BodyPose> places, const BodyPose& first, std::size_t frames);
+std::vector<BodyPose> PlacesAround(const BodyPose& first);
+
+/// A frame that cameras tell: every joint tracked where the skeleton has it; without a skeleton nobody is seen, and all
+/// joints are where they were in `last`.
+SensedFrame SensedOf(const std::optional<RecoveredFrame>& recovered, const SensedFrame& last);
+
+/// Cameras before a motion that is known beforehand: what every way of capturing it makes of the same pictures.
+class CameraTake {
+ public:
+  /// `sensing` must outlive this. The motion has 30 Hz.
+  CameraTake(const CameraSensing& sensing, const BodyMotion& motion, const WorldKey& key);
+
+  /// Takes the pictures, which all methods share; else the first one that asks does.
+  void Film() { (void)stages_.GetTake(); }  // a failure is told to every method
+
+  /// The stream of the whole motion. Fails, saying why, when there is no
+  /// renderer, the cameras cannot be calibrated, or no body can be made.
+  const Result<SkeletonStream>& See(const CaptureMethod& method);
+
+ private:
+  CaptureStages stages_;
+  std::deque<std::pair<CaptureMethod, Result<SkeletonStream>>> seen_;
+};
+
+}  // namespace etude

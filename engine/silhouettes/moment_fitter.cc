@@ -1,0 +1,104 @@
+#include "engine/silhouettes/moment_fitter.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/base/angles.h"
+#include "engine/cameras/triangulation.h"
+#include "engine/silhouettes/lost_limbs.h"
+#include "engine/silhouettes/turns.h"
+
+namespace etude {
+namespace {
+
+// Half-widths of the losses, pixels of a picture in which a person is four hundred high: far from the solution, near
+// it.
+constexpr double kWideReach = 3;  // times that of the options
+constexpr int kCoarseSteps = 8, kFineSteps = 12;
+constexpr double kSpeedKept = 0.6;  // of the last frame's change, what the next is foretold to have
+
+// Where the middles of the silhouettes meet; nothing when their lines of sight do not.
+std::optional<glm::dvec3> FindMiddle(const MomentViews& views) {
+  std::vector<Sighting> sightings;
+  for (const SilhouetteView& view : views) sightings.push_back({view.matrix, view.silhouette->centre});
+  const TriangulatedPoint middle = Triangulate(sightings);
+  if (middle.status != PointStatus::kOk) return std::nullopt;
+  return middle.position;
+}
+
+}  // namespace
+
+MomentFitter::MomentFitter(const SilhouetteBody& body, const TrackOptions& options) : body_(body), options_(options) {
+  wide_ = {.cost = options.cost, .max_iterations = kCoarseSteps};
+  wide_.cost.outline_reach_px *= kWideReach;
+  wide_.cost.inside_reach_px *= kWideReach;
+  fine_ = {.cost = options.cost, .max_iterations = kFineSteps};
+}
+
+PosePrior MomentFitter::PriorNear(const TreeState& state) const {
+  return {state, options_.place_change_m, options_.angle_change, options_.angle_change};
+}
+
+SilhouetteFit MomentFitter::Fit(const MomentViews& views, const TreeState& start, const PosePrior* prior, bool is_far) {
+  TreeState from = start;
+  if (is_far) from = FitSilhouettes(body_, views, start, prior, wide_, workspace_).state;
+  return FitSilhouettes(body_, views, from, prior, fine_, workspace_);
+}
+
+SilhouetteFit MomentFitter::FitKnown(const MomentViews& views, const TreeState& start) {
+  const PosePrior prior{start, options_.start_place_m, options_.start_angle, options_.start_angle};
+  return Fit(views, start, &prior, true);
+}
+
+SilhouetteFit MomentFitter::Follow(const MomentViews& views, const TreeState& before_last, const TreeState& last) {
+  const TreeState foretold = Extrapolated(before_last, last, kSpeedKept);
+  const PosePrior prior = PriorNear(foretold);
+  const bool still = CostOf(body_, views, last, &prior, wide_.cost, workspace_).cost <
+                     CostOf(body_, views, foretold, &prior, wide_.cost, workspace_).cost;
+  return Fit(views, still ? last : foretold, &prior, true);
+}
+
+// The body as it may stand there, from every side and in a few postures, the likeliest first.
+std::vector<SilhouetteFit> MomentFitter::Guesses(const MomentViews& views) {
+  constexpr int kHeadings = 8;
+  std::vector<SilhouetteFit> fits;
+  const std::optional<glm::dvec3> middle = FindMiddle(views);
+  if (!middle) return fits;
+  for (int i = 0; i < kHeadings; ++i) {
+    for (TreeState start : Postures(body_)) {
+      start.root_position = *middle;
+      start.root_frame = RotationBy({0, 2 * kPi * i / kHeadings, 0}) * start.root_frame;
+      fits.push_back(FitSilhouettes(body_, views, start, nullptr, wide_, workspace_));
+    }
+  }
+  std::ranges::stable_sort(fits, {}, &SilhouetteFit::cost);
+  return fits;
+}
+
+std::vector<SilhouetteFit> MomentFitter::Find(const MomentViews& views) {
+  constexpr double kAnotherWay = Radians(100);
+  constexpr std::size_t kMostPoses = 3;
+  std::vector<SilhouetteFit> found;
+  for (const SilhouetteFit& guess : Guesses(views)) {
+    const bool is_new = std::ranges::all_of(found, [&](const SilhouetteFit& other) {
+      return glm::length(TurnOf(guess.state.root_frame * glm::transpose(other.state.root_frame))) > kAnotherWay;
+    });
+    if (!is_new) continue;
+    found.push_back(WithLimbsFound(views, Fit(views, guess.state, nullptr, false), nullptr));
+    if (found.size() == kMostPoses) break;
+  }
+  return found;
+}
+
+SilhouetteFit MomentFitter::WithLimbsFound(const MomentViews& views, const SilhouetteFit& fit, const PosePrior* prior) {
+  SilhouetteFit best = fit;
+  for (const SilhouetteBody::Limb& limb : body_.limbs) {
+    for (const TreeState& start : LimbPlaces(body_, views, best.state, limb, wide_.cost)) {
+      SilhouetteFit trial = Fit(views, start, prior, false);
+      if (trial.cost < best.cost) best = std::move(trial);
+    }
+  }
+  return best;
+}
+
+}  // namespace etude

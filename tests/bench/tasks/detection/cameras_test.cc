@@ -1,0 +1,77 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/bench/tasks/detection/detection_fixture.h"
+#include "tests/support/gtest_printers.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+class DetectionCameras : public DetectionFixture {
+ protected:
+  static std::string ComplaintAbout(const std::string& yaml) {
+    const auto task = MakeTask(yaml, FourMoves());
+    return task ? "" : ToString(task.error());
+  }
+};
+
+constexpr const char* kTruth = "methods: [{name: truth, oracle: [stream]}]\n";
+
+/// How far the running evidence of two cells is apart, at most.
+double FarthestApart(const CellResult& a, const CellResult& b) {
+  double farthest = 0;
+  const auto &x = a.series.back().values, &y = b.series.back().values;
+  EXPECT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) farthest = std::max(farthest, std::abs(x[i] - y[i]));
+  return farthest;
+}
+
+TEST_F(DetectionCameras, WhoseEveryStageIsTrueJudgeAsThePerfectSensorDoes) {
+  const auto task = MakeTask(R"(
+sensor: cameras
+events: 1
+people: expert
+fault_share: 0
+methods:
+  - {name: truth, oracle: [stream]}
+  - name: perfect
+    capture: {oracle: [calibration, segmentation, marks, directions, points, lengths, start, ik]}
+  - name: perfect-causal
+    capture: {causal: true, oracle: [calibration, segmentation, marks, directions, points, lengths, start, ik]}
+  - {name: marked}
+)",
+                             FourMoves());
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, World(0), 4);
+  for (const CellResult& cell : cells) ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
+  constexpr double kTolerance = 1e-3;  // of evidence, 0 to 1: a skeleton within 0.1 mm
+  for (const std::size_t perfect : {1u, 2u}) {
+    EXPECT_LT(FarthestApart(cells[perfect], cells[0]), kTolerance);
+    EXPECT_EQ(ValueOf(cells[perfect], "recall"), ValueOf(cells[0], "recall"));
+    EXPECT_EQ(ValueOf(cells[perfect], "false_alarms_per_min"), ValueOf(cells[0], "false_alarms_per_min"));
+  }
+  EXPECT_GT(FarthestApart(cells[3], cells[0]), 10 * kTolerance) << "the control";
+}
+
+TEST_F(DetectionCameras, HaveKeysThatNoOtherSensorHasAndTheOtherWayRound) {
+  EXPECT_THAT(ComplaintAbout(std::string("scene: 0.5\n") + kTruth), HasSubstr("cameras"));
+  EXPECT_THAT(ComplaintAbout(std::string("sensor: v1\ncamera_angles_deg: [0, 40]\n") + kTruth), HasSubstr("cameras"));
+  EXPECT_THAT(ComplaintAbout(std::string("sensor: cameras\nnoise: 2\n") + kTruth), HasSubstr("skeleton sensors"));
+  EXPECT_THAT(ComplaintAbout("methods: [{name: a, capture: {causal: true}}]\n"), HasSubstr("needs cameras"));
+  EXPECT_THAT(ComplaintAbout("sensor: cameras\nmethods: [{name: a, capture: {recovery: bundle, causal: true}}]\n"),
+              HasSubstr("causal"));
+  EXPECT_THAT(ComplaintAbout("sensor: cameras\ncamera_heights_m: [1]\n" + std::string(kTruth)), HasSubstr("heights"));
+  EXPECT_EQ(ComplaintAbout(std::string("sensor: cameras\nscene: 0.5\npicture_every: 3\n") + kTruth), "");
+}
+
+TEST_F(DetectionCameras, TellNoStreamToMethodsOutside) {
+  const auto task = MakeTask(std::string("sensor: cameras\nevents: 1\n") + kTruth, FourMoves());
+  ASSERT_TRUE(task) << ToString(task.error());
+  EXPECT_FALSE((*task)->MakeWorld(World(0), false)->MakeProblem());
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/silhouettes/fit_silhouettes.h"
+#include "engine/silhouettes/silhouette.h"
+#include "engine/silhouettes/track_options.h"
+#include "engine/silhouettes/turns.h"
+#include "tests/engine/silhouettes/capsule_picture.h"
+
+namespace etude {
+
+// An arm that swings, facing half to the left.
+inline TreeState Swinging(const SilhouetteBody& body, double phase) {
+  TreeState state = StandingState(body.tree);
+  for (std::size_t i = 0; i < state.angles.size(); ++i) state.angles[i] = body.habits[i].angle;
+  const auto set = [&](int joint, int axis, double degrees) {
+    state.angles[body.tree.joints[joint].first_dof + axis] = Radians(degrees);
+  };
+  set(body.limbs[0].upper, 1, -60);
+  set(body.limbs[1].upper, 0, 60 + 40 * std::sin(phase));
+  set(body.limbs[1].lower, 0, 60);
+  set(body.limbs[2].upper, 0, 35);
+  set(body.limbs[2].lower, 0, -50);
+  state.root_position = {0, 0.95, 0};
+  state.root_frame = RotationBy({0, 0.6, 0}) * state.root_frame;
+  return state;
+}
+
+/// Its silhouettes in three cameras.
+struct SwingingTake {
+  SilhouetteBody body = MakeSilhouetteBody({});
+  std::vector<ProjectionMatrix> matrices;
+  std::vector<std::vector<Silhouette>> silhouettes;
+  std::vector<TreeState> truth;
+
+  explicit SwingingTake(int frames, double thickness = 1) {
+    for (int k = 0; k < frames; ++k) truth.push_back(Swinging(body, 0.4 * k));
+    for (const Camera& camera : CamerasAround({-40, 40, 150})) {
+      matrices.push_back(MatrixOf(camera));
+      std::vector<Silhouette>& made = silhouettes.emplace_back();
+      for (const TreeState& state : truth) {
+        made.push_back(MakeSilhouette(RayCast(body, state, camera, thickness), {.spacing = 2}));
+      }
+    }
+  }
+
+  double MeanErrorOf(std::size_t frame, const TreeState& found) const {
+    const BodyPose pose = ToBodyPose(body, found), wanted = ToBodyPose(body, truth[frame]);
+    double sum = 0;
+    for (const Role role : AllRoles()) sum += glm::distance(pose[role], wanted[role]);
+    return sum / static_cast<double>(kRoleCount);
+  }
+};
+
+inline TrackOptions TrackInSmallPictures() {
+  TrackOptions options;
+  options.cost = {.sigma_px = 1, .outline_reach_px = 8, .inside_reach_px = 22};
+  options.anchors = 2;
+  return options;
+}
+
+}  // namespace etude
