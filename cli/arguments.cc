@@ -9,8 +9,8 @@
 #include "cli/bridge_arguments.h"
 #include "cli/calibrate_command.h"
 #include "cli/capture_command.h"
-#include "cli/coach_command.h"
 #include "cli/clip_arguments.h"
+#include "cli/coach_command.h"
 #include "cli/commands.h"
 #include "cli/sensor_arguments.h"
 #include "cli/stream_arguments.h"
@@ -54,6 +54,11 @@ void AddUnsealed(CLI::App& command, Sealing& sealing) {
       "Read a run although its folder was changed, and say so");
 }
 
+void AddOutsideRules(CLI::App& command, OutsideRules& rules) {
+  command.add_flag("!--no-fence", rules.is_fenced, "Run methods outside without a fence, to debug them");
+  command.add_flag("--allow-exec", rules.allow_exec, "Run the programs that a manifest, a run or a pack names");
+}
+
 void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   auto options = Keep<RunOptions>();
   auto shard = Keep<std::string>();
@@ -71,6 +76,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
       command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
+  AddOutsideRules(*command, options->outside);
   command->add_option("--sync-seconds", options->sync.seconds, "What is done is on the disk after so long at most")
       ->check(NumberWithin(0, 3600, "time in s"))
       ->capture_default_str();
@@ -127,6 +133,7 @@ void DefineReplay(CLI::App& app, Action& action) {
     std::vector<std::string> cells;
     std::size_t sample = 0;
     int jobs = 0;
+    OutsideRules outside;
     Sealing sealing = Sealing::kRequired;
   };
   auto options = Keep<Options>();
@@ -137,13 +144,14 @@ void DefineReplay(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 10'000'000))
       ->excludes(cell);
   AddUnsealed(*command, options->sealing);
+  AddOutsideRules(*command, options->outside);
   command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
   command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
       ->check(CLI::Range(1, 1024));
   command->callback([=, &action] {
     action = [=] {
       return ReplayCommand(options->target, options->cells, options->sample, options->pack_file, options->jobs,
-                           options->sealing);
+                           options->outside, options->sealing);
     };
   });
 }
@@ -205,6 +213,7 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   command->add_option("predictions", options->predictions, "Folder of answers")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
   command->add_option("--name", options->name, "What to call the method")->capture_default_str();
+  AddOutsideRules(*command, options->outside);
   command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods beside it");
   command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
   command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
@@ -218,6 +227,7 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
     std::vector<std::string> command;
     std::string task, seat;
     double time_s = 10, memory_mb = 4096;
+    bool is_fenced = true;
   };
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
@@ -233,9 +243,14 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   command->add_option("--memory", options->memory_mb, "MB of memory")
       ->check(NumberWithin(1, 1e6, "size in MB"))
       ->capture_default_str();
+  command->add_flag("!--no-fence", options->is_fenced, "Run it without a fence, to debug it");
   command->callback([=, &action] {
     action = [=] {
-      return CheckMethodCommand(options->command, options->task, options->seat, options->time_s, options->memory_mb);
+      return CheckMethodCommand({.command = options->command,
+                                 .task = options->task,
+                                 .time_s = options->time_s,
+                                 .memory_mb = options->memory_mb},
+                                options->seat, options->is_fenced);
     };
   });
 }

@@ -6,6 +6,7 @@
 
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
+#include "bench/outside/outside_method.h"
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
 
@@ -28,7 +29,7 @@ int MergeCommand(const MergeOptions& options);
 /// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or
 /// packs one into `pack_file`.
 int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
-                  const std::string& pack_file, int jobs, Sealing sealing);
+                  const std::string& pack_file, int jobs, const OutsideRules& outside, Sealing sealing);
 /// What `etude gate` is asked.
 struct GateOptions {
   std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
@@ -49,8 +50,7 @@ int GateCommand(const GateOptions& options);
 int CompareCommand(const std::string& a, const std::string& b, Sealing sealing);
 /// `etude check-method [--task T] [--time S] [--memory MB] -- CMD…`: whether a program speaks the protocol of methods
 /// outside; exit 1 when it does not.
-int CheckMethodCommand(const std::vector<std::string>& command, const std::string& task, const std::string& seat,
-                       double time_s, double memory_mb);
+int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_fenced);
 /// `etude export`: writes problems, and their truth apart.
 int ExportCommand(const ExportOptions& options);
 /// `etude score`: scores a folder of answers into a result folder.

@@ -14,8 +14,8 @@ void PrintDifference(const CellCheck& check) {
   fmt::print("differs: {}\n  first at {}: {} then, {} now\n", check.cell, check.stage, check.then, check.now);
 }
 
-int ReplayFile(const std::string& file) {
-  const auto check = ReplayPack(file);
+int ReplayFile(const std::string& file, const OutsideRules& outside) {
+  const auto check = ReplayPack(file, outside);
   if (!check) return Complain(check.error());
   if (!check->same) {
     PrintDifference(*check);
@@ -28,14 +28,14 @@ int ReplayFile(const std::string& file) {
 }  // namespace
 
 int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
-                  const std::string& pack_file, int jobs, Sealing sealing) {
+                  const std::string& pack_file, int jobs, const OutsideRules& outside, Sealing sealing) {
   const Interrupt interrupt;
   std::error_code error;
   if (!std::filesystem::is_directory(target, error)) {
     if (!cells.empty() || !pack_file.empty() || sample > 0) {
       return Complain({{target, 0, 0}, "is no result folder; --cell, --sample and --pack need one"});
     }
-    return ReplayFile(target);
+    return ReplayFile(target, outside);
   }
   if (!pack_file.empty()) {
     if (cells.size() != 1) return Complain({{}, "--pack packs one cell: name it with --cell"});
@@ -47,6 +47,7 @@ int ReplayCommand(const std::string& target, const std::vector<std::string>& cel
                                  .cells = cells,
                                  .sample = sample,
                                  .jobs = jobs,
+                                 .outside = outside,
                                  .sealing = sealing,
                                  .stop = interrupt.requested()});
   if (!checks) return Complain(checks.error());

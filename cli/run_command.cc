@@ -104,6 +104,7 @@ int RunCommand(const RunOptions& given) {
     Complain(
         {{(outcome->folder / kJournalFile).string(), line, 0}, "was not as it had been written; its cell ran again"});
   }
+  if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
   if (outcome->stopped) {
     Complain({{},
               outcome->cells == 0

@@ -44,6 +44,7 @@ Result<std::vector<PreparedScenario>> PrepareTarget(const SuiteSetup& suite, con
   const fs::path manifest = fs::path(options.target) / "manifest.json";
   if (fs::exists(manifest, error)) {
     RETURN_IF_ERROR(CheckClips(manifest, *scenarios));
+    RETURN_IF_ERROR(CheckPrograms(manifest, *scenarios, options.outside));
   }
   return scenarios;
 }
@@ -180,7 +181,11 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
   const auto whole =
       RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
-                {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
+                {.program = ThisProgram(),
+                 .error_folder = "",
+                 .fence = FenceFor(scenarios, options.outside, folder),
+                 .jobs = options.jobs,
+                 .stop = options.stop},
                 [&](const DeliveredCell& cell) -> Result<void> {
                   meter.Count(cell.head.status);
                   cells.Put(cell.head.cell, std::string(cell.line));

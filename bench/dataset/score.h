@@ -24,6 +24,7 @@ struct ScoreOptions {
   std::optional<int> trials;
   std::vector<std::string> clips;
   std::string joint_map;
+  OutsideRules outside;
   std::string command_line;
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;

@@ -1,6 +1,10 @@
 #include "bench/files/temporary_folder.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -10,25 +14,65 @@ namespace etude {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* kPrefix = "etude-temporary-";  // nobody calls a folder of results so
+
+/// A lock on a folder, which ends with us; -1 when another process has it, or the folder is not ours.
+int Lock(const fs::path& folder) {
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  struct stat status {};
+  const bool is_ours = lock >= 0 && ::fstat(lock, &status) == 0 && status.st_uid == ::geteuid();
+  if (is_ours && ::flock(lock, LOCK_EX | LOCK_NB) == 0) return lock;
+  if (lock >= 0) ::close(lock);
+  return -1;
+}
+
+}  // namespace
+
 Result<TemporaryFolder> TemporaryFolder::Make(const std::string& purpose) {
+  RemoveAbandoned();
   std::error_code error;
   const fs::path parent = fs::temp_directory_path(error);
   if (error) return Fail({parent.string(), 0, 0}, "is no folder for temporary files: {}", error.message());
-  std::string name = (parent / ("etude-" + purpose + "-XXXXXX")).string();
+  // It gets its final name when it is locked, lest another process take it for abandoned before.
+  std::string name = (parent / ("." + std::string(kPrefix) + purpose + "-XXXXXX")).string();
   if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
-  return TemporaryFolder(name);
+  const int lock = Lock(name);
+  const fs::path path = parent / fs::path(name).filename().string().substr(1);
+  if (::rename(name.c_str(), path.c_str()) != 0) {
+    ::close(lock);
+    return Fail({path.string(), 0, 0}, "cannot be made: {}", std::strerror(errno));
+  }
+  return TemporaryFolder(path, lock);
 }
 
-TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+void TemporaryFolder::RemoveAbandoned() {
+  std::error_code error;
+  for (fs::directory_iterator entry(fs::temp_directory_path(error), error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (!entry->path().filename().string().starts_with(kPrefix)) continue;
+    const int lock = Lock(entry->path());
+    if (lock < 0) continue;
+    std::error_code ignored;
+    fs::remove_all(entry->path(), ignored);
+    ::close(lock);
+  }
+}
+
+TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
+    : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
 
 TemporaryFolder& TemporaryFolder::operator=(TemporaryFolder&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(lock_, other.lock_);
   return *this;
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   if (!path_.empty()) fs::remove_all(path_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include "bench/finished_runs/finish_scenario.h"
 #include "bench/run/cell_runner.h"
+#include "bench/run/outside_programs.h"
 
 namespace etude {
 namespace {
@@ -56,7 +57,7 @@ Result<FinishedRun> RunInProcess(const Rehearsal& rehearsal, std::uint64_t seed)
   run.data.suite = scenario.name;
   run.data.seed = seed;
   run.scenarios.push_back(FinishScenario(scenario, setup, {}));
-  CellRunner runner(prepared, "");
+  CellRunner runner(prepared, "", FenceFor({&prepared, 1}, {}, ""));
   for (int condition = 0; condition < static_cast<int>(scenario.conditions.size()); ++condition) {
     for (int trial = 0; trial < scenario.trials; ++trial) {
       runner.Open(condition, trial);

@@ -1,18 +1,39 @@
 #include "bench/outside/attachment_folder.h"
 
+#include <stdlib.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
 #include "bench/files/files.h"
 
 namespace etude {
 
-Result<AttachmentFolder> AttachmentFolder::Write(std::span<const Attachment> files) {
-  AttachmentFolder result;
-  if (files.empty()) return result;
-  ASSIGN_OR_RETURN(auto folder, TemporaryFolder::Make("files"));
-  result.folder_.emplace(std::move(folder));
+namespace fs = std::filesystem;
+
+Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& desk, std::span<const Attachment> files) {
+  AttachmentFolder folder;
+  if (files.empty()) return folder;
+  std::string name = (desk / "XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
+  folder.path_ = name;
   for (const Attachment& file : files) {
-    RETURN_IF_ERROR(WriteFileAtomically(result.folder_->path() / file.name, file.bytes));
+    RETURN_IF_ERROR(WriteFileAtomically(folder.path_ / file.name, file.bytes));
   }
-  return result;
+  return folder;
+}
+
+AttachmentFolder::AttachmentFolder(AttachmentFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+
+AttachmentFolder& AttachmentFolder::operator=(AttachmentFolder&& other) noexcept {
+  std::swap(path_, other.path_);
+  return *this;
+}
+
+AttachmentFolder::~AttachmentFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove_all(path_, ignored);
 }
 
 }  // namespace etude

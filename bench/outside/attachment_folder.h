@@ -1,25 +1,30 @@
 #pragma once
 
-#include <optional>
+#include <filesystem>
 #include <span>
 #include <string>
 
-#include "bench/files/temporary_folder.h"
 #include "bench/model/payload.h"
+#include "engine/base/result.h"
 
 namespace etude {
 
-/// A private folder that holds attachments, and goes away with all that is in it.
+/// A folder that holds attachments, and goes away with all that is in it.
 class AttachmentFolder {
  public:
-  /// No folder when there are no files.
-  static Result<AttachmentFolder> Write(std::span<const Attachment> files);
+  /// None yet.
+  AttachmentFolder() = default;
+  /// Makes it in `desk`. No folder when there are no files.
+  static Result<AttachmentFolder> Write(const std::filesystem::path& desk, std::span<const Attachment> files);
+  AttachmentFolder(AttachmentFolder&& other) noexcept;
+  AttachmentFolder& operator=(AttachmentFolder&& other) noexcept;
+  ~AttachmentFolder();
 
   /// "" when there is none.
-  std::string path() const { return folder_ ? folder_->path().string() : ""; }
+  std::string path() const { return path_.string(); }
 
  private:
-  std::optional<TemporaryFolder> folder_;
+  std::filesystem::path path_;
 };
 
 }  // namespace etude

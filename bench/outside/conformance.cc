@@ -51,6 +51,8 @@ class Examination {
     CheckOrder();
     CheckSettings();
     CheckLongLines();
+    Report("answers every question once", repeated_ == 0,
+           repeated_ == 0 ? "no answer came twice" : fmt::format("{} answers came again", repeated_));
     const std::string end = method_.End(kLongestEndingMs);
     Report("ends when its input ends", end == "exit code 0",
            end == "signal 9 (Killed)" ? fmt::format("still ran {} s later", kLongestEndingMs / 1000) : end);
@@ -74,6 +76,7 @@ class Examination {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     slowest_s_ = std::max(slowest_s_, took.count());
     peak_mb_ = std::max(peak_mb_, reply.peak_mb);
+    repeated_ += reply.repeated;
     Attempt attempt{reply.status, reply.reason, "", reply.status != Status::kFailed};
     if (reply.status == Status::kOk) {
       attempt.said = reply.answer->dump();
@@ -95,6 +98,7 @@ class Examination {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     slowest_s_ = std::max(slowest_s_, took.count());
     peak_mb_ = std::max(peak_mb_, program.peak_mb());
+    repeated_ += program.repeated();
     if (const auto& failure = program.failure()) {
       Attempt attempt{failure->status, failure->reason, "", failure->status != Status::kFailed};
       if (failure->status != Status::kUnsolved) {
@@ -195,6 +199,7 @@ class Examination {
   const std::function<void(const ConformanceCheck&)>& report_;
   std::vector<Attempt> first_;  ///< at the problems of the first setting
   double slowest_s_ = 0, peak_mb_ = 0;
+  int repeated_ = 0;
   bool all_passed_ = true;
 };
 

@@ -32,7 +32,9 @@ long ErrorLog::Size() const {
 
 // The program appends, so what it says next follows where this ends.
 void ErrorLog::Trim() {
-  if (Size() > kLargest && ::ftruncate(memory_, kLargest) != 0) return;
+  if (Size() <= kLargest) return;
+  trimmed_last_line_ = LastLine();
+  if (::ftruncate(memory_, kLargest) != 0) return;
 }
 
 std::string ErrorLog::Read(long start, long size) const {
@@ -45,6 +47,7 @@ std::string ErrorLog::Read(long start, long size) const {
 std::string ErrorLog::LastLine() const {
   constexpr long kTail = 4096;
   const long size = Size();
+  if (size == kLargest && !trimmed_last_line_.empty()) return trimmed_last_line_;
   std::string tail = Read(std::max(size - kTail, 0L), std::min(size, kTail));
   const std::size_t last = tail.find_last_not_of(" \t\r\n");
   if (last == std::string::npos) return "";
@@ -66,6 +69,7 @@ void ErrorLog::Save() {
   const auto saved = std::filesystem::file_size(file_, absent);
   const long room = absent ? kLargest : kLargest - static_cast<long>(std::min<std::uintmax_t>(saved, kLargest));
   std::ofstream(file_, std::ios::binary | std::ios::app) << Read(0, std::min(size, room));
+  trimmed_last_line_.clear();
   if (::ftruncate(memory_, 0) != 0) return;
 }
 

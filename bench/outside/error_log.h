@@ -32,6 +32,7 @@ class ErrorLog {
   long Size() const;
 
   std::string file_;
+  std::string trimmed_last_line_;
   int memory_ = -1;
 };
 

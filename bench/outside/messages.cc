@@ -113,6 +113,16 @@ Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int 
   return message;
 }
 
+Answered WhatItAnswers(const std::string& line) {
+  const auto message = ReadMessage(line);
+  if (!message || ((*message)["type"] != "answer" && (*message)["type"] != "no_answer")) return {};
+  Answered answered{TextOf(*message, "id", line).value_or("")};
+  if (message->contains("number") && (*message)["number"].is_number_integer()) {
+    answered.step = (*message)["number"].get<int>();
+  }
+  return answered;
+}
+
 std::string Printable(std::string_view text, std::size_t longest) {
   std::string result = "'";
   for (const char c : text.substr(0, longest)) {

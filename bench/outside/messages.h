@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,6 +34,13 @@ Result<void> ReadReady(const std::string& line);
 Result<Json> ReadAnswer(const std::string& line, const std::string& id);
 /// Likewise, about step `number`, which an "answer" must repeat.
 Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int number);
+
+/// The problem, and the step of a session, that a line answers; `id` is empty when it answers none.
+struct Answered {
+  std::string id;
+  std::optional<int> step = {};
+};
+Answered WhatItAnswers(const std::string& line);
 
 /// The first `longest` bytes, what is no printable ASCII written as \xNN, in single quotes.
 std::string Printable(std::string_view text, std::size_t longest = 80);

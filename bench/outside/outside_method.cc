@@ -10,12 +10,17 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <type_traits>
 #include <utility>
 
+#include "bench/files/temporary_folder.h"
 #include "bench/outside/attachment_folder.h"
 #include "bench/outside/error_log.h"
 #include "bench/outside/messages.h"
 #include "bench/process/child_process.h"
+#include "bench/process/find_program.h"
+#include "bench/process/program_limits.h"
 
 namespace etude {
 namespace {
@@ -62,16 +67,21 @@ struct OutsideMethod::State {
   Outcome<void> Attempt(const std::string& what, Act act);
 
   enum class Looks { kAlways, kNowAndThen };
-  Outcome<std::string> Exchange(const std::string& line, double seconds, Looks looks = Looks::kAlways);
-  Outcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
+  template <typename Read>
+  auto Exchange(const std::string& line, double seconds, Read read, Looks looks = Looks::kAlways)
+      -> Outcome<typename decltype(read(line))::value_type>;
+  bool IsRepeated(const std::string& line) const;
+  Outcome<std::string> WaitForLine(Clock::time_point deadline);
   Outcome<void> Look();
   Failure HowItEnded();
+  void EndSession();
   std::string Stop(int patience_ms);
 
   double StartSeconds() const { return std::max(options.start_s, options.time_s); }
 
   const OutsideOptions options;
   ErrorLog errors;
+  std::optional<TemporaryFolder> desk;  ///< where attachments lie, from the first start on
   std::optional<ChildProcess> child;
   std::string called_itself;
   std::optional<std::string> setting_in_force;
@@ -82,6 +92,8 @@ struct OutsideMethod::State {
     int steps = 0;  ///< put so far
   };
   std::optional<Session> session;  ///< that goes on
+  std::set<std::string> answered;  ///< what the running program was asked before
+  int repeated = 0;                ///< lines passed over since the problem was put
   Clock::time_point last_look{};
   double cpu_s = 0;          ///< of the running program, as last seen
   double cpu_charged_s = 0;  ///< of that, told in earlier replies
@@ -111,7 +123,7 @@ Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
 
 /// Runs, and knows the setting.
 Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, const Payload& setting) {
-  session.reset();
+  EndSession();
   if (!child) {
     RETURN_IF_ERROR(Attempt("in its start", [&] { return Start(); }));
   }
@@ -124,12 +136,12 @@ Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, con
 Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
                                           const Payload& begin) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
-  auto files = AttachmentFolder::Write(begin.files);
+  auto files = AttachmentFolder::Write(desk->path(), begin.files);
   if (!files) return Unspeakable(files.error());
   const auto line = BeginLine(id, *begin.json, files->path());
   if (!line) return Unspeakable(line.error());
-  ASSIGN_OR_RETURN(const auto said, Exchange(*line, options.time_s));
-  if (const auto ready = ReadReady(said); !ready) return BadOutput(ready.error());
+  RETURN_IF_ERROR(Exchange(*line, options.time_s, ReadReady));
+  answered.erase(id);
   session = {.id = id, .files = std::move(*files)};
   return {};
 }
@@ -138,23 +150,25 @@ Outcome<Json> OutsideMethod::State::Step(const Json& step) {
   const int number = session->steps++;
   const auto line = StepLine(session->id, number, step);
   if (!line) return Unspeakable(line.error());
-  ASSIGN_OR_RETURN(const auto said, Exchange(*line, options.time_s, Looks::kNowAndThen));
-  auto answer = ReadStepAnswer(said, session->id, number);
-  if (!answer) return Failed(Status::kBadOutput, fmt::format("at step {}: {}", number, answer.error().message));
-  return std::move(*answer);
+  const auto read = [&](const std::string& said) -> Result<Json> {
+    auto answer = ReadStepAnswer(said, session->id, number);
+    if (!answer) return Fail({}, "at step {}: {}", number, answer.error().message);
+    return answer;
+  };
+  return Exchange(*line, options.time_s, read, Looks::kNowAndThen);
 }
 
 Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Payload& setting,
                                              const std::string& problem_id, const Payload& problem) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
-  const auto files = AttachmentFolder::Write(problem.files);
+  const auto files = AttachmentFolder::Write(desk->path(), problem.files);
   if (!files) return Unspeakable(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
   if (!line) return Unspeakable(line.error());
-  ASSIGN_OR_RETURN(const auto said, Exchange(*line, options.time_s));
-  auto answer = ReadAnswer(said, problem_id);
-  if (!answer) return BadOutput(answer.error());
-  return std::move(*answer);
+  answered.erase(problem_id);
+  auto answer = Exchange(*line, options.time_s, [&](const std::string& said) { return ReadAnswer(said, problem_id); });
+  answered.insert(problem_id);
+  return answer;
 }
 
 Outcome<void> OutsideMethod::State::Start() {
@@ -163,51 +177,84 @@ Outcome<void> OutsideMethod::State::Start() {
   if (!told) return Unspeakable(told.error());
   const auto hello = HelloLine(options.task, *told);
   if (!hello) return Unspeakable(hello.error());
-  auto started = ChildProcess::Start({.program = options.command.front(),
-                                      .arguments = {options.command.begin() + 1, options.command.end()},
-                                      .error_file = errors.path()});
+  if (!desk) {
+    auto made = TemporaryFolder::Make("files");
+    if (!made) return Unspeakable(made.error());
+    desk.emplace(std::move(*made));
+  }
+  std::vector<std::string> command = options.command;
+  auto program = FindProgram(command.front());
+  if (!program) return Unspeakable(program.error());
+  command.front() = std::move(*program);
+  command = options.fence.Around(command, {desk->path()});
+  auto started = ChildProcess::Start({.program = command.front(),
+                                      .arguments = {command.begin() + 1, command.end()},
+                                      .error_file = errors.path(),
+                                      .limited = true});
   if (!started) return Unspeakable(started.error());
   child = std::move(*started);
+  answered.clear();
   cpu_s = cpu_charged_s = 0;
-  ASSIGN_OR_RETURN(const auto said, Exchange(*hello, StartSeconds()));
-  const auto reply = ReadHello(said);
-  if (!reply) return BadOutput(reply.error());
-  called_itself = reply->name + " " + reply->version;
+  ASSIGN_OR_RETURN(const auto reply, Exchange(*hello, StartSeconds(), ReadHello));
+  called_itself = reply.name + " " + reply.version;
   return {};
 }
 
 Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Payload& setting) {
-  auto files = AttachmentFolder::Write(setting.files);
+  auto files = AttachmentFolder::Write(desk->path(), setting.files);
   if (!files) return Unspeakable(files.error());
   setting_files = std::move(*files);
   const auto line = SettingLine(id, *setting.json, setting_files.path());
   if (!line) return Unspeakable(line.error());
-  ASSIGN_OR_RETURN(const auto said, Exchange(*line, StartSeconds()));
-  if (const auto ready = ReadReady(said); !ready) return BadOutput(ready.error());
+  RETURN_IF_ERROR(Exchange(*line, StartSeconds(), ReadReady));
   setting_in_force = id;
   return {};
 }
 
-/// Says a line and gives the one that is said in reply.
-Outcome<std::string> OutsideMethod::State::Exchange(const std::string& line, double seconds, Looks looks) {
-  child->Send(line);  // one that no longer listens is noticed by its silence
+/// Says a line and gives what `read` makes of the reply.
+template <typename Read>
+auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Read read, Looks looks)
+    -> Outcome<typename decltype(read(line))::value_type> {
   const auto limit = std::chrono::duration<double>(std::min(seconds, kLongestS));
-  auto said = WaitForLine(Clock::now() + std::chrono::duration_cast<Clock::duration>(limit), seconds);
-  if (!said) return said;
-  const auto more = child->NextLine();
-  if (more || !child->PartOfLine().empty()) {
-    return Failed(Status::kBadOutput,
-                  "said more than one line: " + Printable(more.value_or(std::string(child->PartOfLine()))));
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
+  child->Send(line);  // one that no longer listens is noticed by its silence
+  while (true) {
+    const auto said = WaitForLine(deadline);
+    if (!said && said.error().status == Status::kTimeout) {
+      return Failed(Status::kTimeout, fmt::format("took longer than {:g} s", seconds));
+    }
+    if (!said) return tl::unexpected(said.error());
+    auto reply = read(*said);
+    if (!reply && Clock::now() < deadline && IsRepeated(*said)) {
+      ++repeated;
+      continue;
+    }
+    if (!reply) return BadOutput(reply.error());
+    if (looks == Looks::kAlways || Clock::now() >= last_look + kLookEvery) {
+      RETURN_IF_ERROR(Look());
+    }
+    if constexpr (std::is_void_v<typename decltype(reply)::value_type>) {
+      return {};
+    } else {
+      return std::move(*reply);
+    }
   }
-  if (looks == Looks::kAlways || Clock::now() >= last_look + kLookEvery) {
-    RETURN_IF_ERROR(Look());
-  }
-  return said;
 }
 
-Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadline, double seconds) {
+/// Whether a line answers what has an answer. When it comes must not matter: it may come with the first answer, or only
+/// after the next question.
+bool OutsideMethod::State::IsRepeated(const std::string& line) const {
+  const Answered about = WhatItAnswers(line);
+  if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;
+  return answered.contains(about.id);
+}
+
+/// The next line; a failure without words when there is none by the deadline.
+Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadline) {
   Clock::time_point next_look = Clock::now() + kLookEvery;
   while (true) {
+    if (auto line = child->NextLine()) return std::move(*line);
+    if (Clock::now() >= deadline) return Failed(Status::kTimeout, "");
     const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, deadline) - Clock::now());
     std::array<pollfd, 2> watched{
         {{child->output(), POLLIN, 0}, {child->HasUnsent() ? child->input() : -1, POLLOUT, 0}}};
@@ -222,9 +269,7 @@ Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadlin
     if (over || watched[0].revents != 0 || watched[1].revents != 0) {
       over = !child->Receive(kLongestReply) || over;
     }
-    if (auto line = child->NextLine()) return std::move(*line);
-    if (over) return tl::unexpected(HowItEnded());
-    if (Clock::now() >= deadline) return Failed(Status::kTimeout, fmt::format("took longer than {:g} s", seconds));
+    if (over && child->PartOfLine().find('\n') == std::string_view::npos) return tl::unexpected(HowItEnded());
   }
 }
 
@@ -235,8 +280,11 @@ Outcome<void> OutsideMethod::State::Look() {
   const ProcessUsage usage = child->Measure();
   cpu_s = std::max(cpu_s, usage.cpu_s);  // it may have vanished meanwhile
   peak_mb = std::max(peak_mb, usage.resident_mb);
-  if (usage.resident_mb <= options.memory_mb) return {};
-  return Failed(Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", options.memory_mb));
+  if (usage.resident_mb > options.memory_mb) {
+    return Failed(Status::kOutOfMemory, fmt::format("held more than {:g} MB of memory", options.memory_mb));
+  }
+  if (usage.processes <= ProgramLimits::kProcesses) return {};
+  return Failed(Status::kOutOfMemory, fmt::format("held more than {} processes", ProgramLimits::kProcesses));
 }
 
 /// Of a program from which no whole line will come any more.
@@ -253,6 +301,12 @@ Failure OutsideMethod::State::HowItEnded() {
   if (const std::string words = errors.LastLine(); !words.empty())
     reason += "; its last words: " + Printable(words, 200);
   return {Status::kCrashed, std::move(reason)};
+}
+
+/// Its answers become those to a question asked before.
+void OutsideMethod::State::EndSession() {
+  if (session) answered.insert(session->id);
+  session.reset();
 }
 
 std::string OutsideMethod::State::Stop(int patience_ms) {
@@ -297,7 +351,7 @@ OutsideReply OutsideMethod::Step(const Json& step) {
   assert(state_->session.has_value());
   OutsideReply reply = state_->ReplyOf(state_->Step(step));
   if (reply.status == Status::kOk) return reply;
-  state_->session.reset();
+  state_->EndSession();
   state_->errors.Save();
   return reply;
 }
@@ -308,6 +362,7 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   OutsideReply reply;
   reply.cpu_s = cpu_s - cpu_charged_s;
   reply.peak_mb = peak_mb;
+  reply.repeated = std::exchange(repeated, 0);
   cpu_charged_s = cpu_s;
   if (!said) {
     reply.status = said.error().status;

@@ -7,6 +7,7 @@
 #include "bench/files/json.h"
 #include "bench/model/cell_result.h"
 #include "bench/model/payload.h"
+#include "bench/process/fence.h"
 
 namespace etude {
 
@@ -22,6 +23,7 @@ struct OutsideOptions {
   std::string error_file = {};       ///< its standard error is kept here, up to 1 MiB; "" = it shares ours
   /// Handshake and setting may take this long each, where time_s is less: programs load libraries and models then.
   double start_s = 30;
+  Fence fence = {};  ///< that it runs in
 };
 
 /// How long Ask may take at most, with the start_s above: handshake, setting, problem, and the clearing away.
@@ -34,10 +36,12 @@ struct OutsideReply {
   JsonPtr answer;      ///< an object, whose numbers are finite
   double cpu_s = 0;    ///< of the program since its last reply; zero when it ended before it was looked at
   double peak_mb = 0;  ///< the largest resident size seen while it worked on this; looked at 50 times a second
+  int repeated = 0;    ///< lines that were passed over before this reply, because they answered what had an answer
 };
 
 /// A program that answers problems over its standard input and output. Started at its first problem, kept for
-/// the next ones, and started anew after it has failed. What goes wrong in its start or in a setting three times
+/// the next ones, and started anew after it has failed. What it says again of a question that it has answered is passed
+/// over, whenever it comes. What goes wrong in its start or in a setting three times
 /// in a row is not tried again: the reply is the same as that of the third time.
 class OutsideMethod {
  public:

@@ -14,6 +14,7 @@ SeatedProgram::SeatedProgram(OutsideMethod& method, std::string setting_id, cons
 OutsideReply SeatedProgram::Note(OutsideReply reply) {
   cpu_s_ += reply.cpu_s;
   peak_mb_ = std::max(peak_mb_, reply.peak_mb);
+  repeated_ += reply.repeated;
   if (reply.status != Status::kOk) failure_ = CellResult::Ended(reply.status, reply.reason);
   return reply;
 }

@@ -22,6 +22,7 @@ class SeatedProgram : public LiveProgram {
   const std::optional<CellResult>& failure() const { return failure_; }
   double cpu_s() const { return cpu_s_; }
   double peak_mb() const { return peak_mb_; }
+  int repeated() const { return repeated_; }
   /// Of all that it has answered.
   std::string AnswersDigest() const { return answers_.Hex(); }
 
@@ -35,6 +36,7 @@ class SeatedProgram : public LiveProgram {
   int sessions_ = 0;
   std::optional<CellResult> failure_;
   double cpu_s_ = 0, peak_mb_ = 0;
+  int repeated_ = 0;
   Digest answers_;
 };
 

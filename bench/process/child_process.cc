@@ -4,20 +4,22 @@
 #include <linux/close_range.h>
 #include <signal.h>
 #include <sys/prctl.h>
-#include <sys/stat.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <set>
 #include <utility>
 
 #include "bench/process/descriptor.h"
+#include "bench/process/find_program.h"
 #include "bench/process/held_tree.h"
 #include "bench/process/pinned_environment.h"
+#include "bench/process/program_limits.h"
 
 namespace etude {
 namespace {
@@ -31,29 +33,6 @@ std::vector<char*> Pointers(std::vector<std::string>& texts) {
   return pointers;
 }
 
-bool IsProgram(const std::string& path) {
-  struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) && ::access(path.c_str(), X_OK) == 0;
-}
-
-/// The path of a program, the way a shell finds it.
-Result<std::string> FindProgram(const std::string& name) {
-  if (name.find('/') != std::string::npos) {
-    if (::access(name.c_str(), F_OK) != 0) return Fail({name, 0, 0}, "no such program: {}", std::strerror(errno));
-    if (!IsProgram(name)) return Fail({name, 0, 0}, "is no program that may be executed");
-    return name;
-  }
-  const char* variable = ::getenv("PATH");
-  const std::string folders = variable != nullptr ? variable : "/usr/bin:/bin";
-  for (std::size_t start = 0; start <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', start), folders.size());
-    const std::string folder = end == start ? "." : folders.substr(start, end - start);
-    if (std::string path = folder + "/" + name; !name.empty() && IsProgram(path)) return path;
-    start = end + 1;
-  }
-  return Fail({}, "no program '{}' in PATH ({})", name, folders);
-}
-
 struct Pipe {
   Descriptor read, write;
 };
@@ -64,14 +43,31 @@ Result<Pipe> MakePipe() {
   return Pipe{Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
+void Limit(__rlimit_resource resource, rlim_t most) {
+  rlimit limit{};
+  ::getrlimit(resource, &limit);
+  limit.rlim_max = std::min(limit.rlim_max, most);
+  limit.rlim_cur = std::min(limit.rlim_cur, limit.rlim_max);
+  ::setrlimit(resource, &limit);
+}
+
+/// What keeps a program that is not ours within bounds wherever it runs.
+void LimitProgram() {
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  Limit(RLIMIT_FSIZE, ProgramLimits::kFileBytes);
+  Limit(RLIMIT_NOFILE, ProgramLimits::kOpenFiles);
+  Limit(RLIMIT_CORE, 0);
+}
+
 /// What a forked child does to become the program. Only system calls are safe here.
 [[noreturn]] void BecomeProgram(const char* path, char* const* argv, char* const* envp, int input, int output,
-                                int errors, int report, pid_t parent) {
+                                int errors, int report, pid_t parent, bool limited) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // orphans below it stay below it, where they can be found
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(0);  // we died before the line above
   for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGCHLD, SIGXFSZ}) ::signal(number, SIG_DFL);
+  if (limited) LimitProgram();
   ::dup2(input, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
   if (errors >= 0) ::dup2(errors, STDERR_FILENO);
@@ -82,7 +78,41 @@ Result<Pipe> MakePipe() {
   ::_exit(127);
 }
 
+/// The children of this process that are spoken to. Where it adopts orphans, all others are such.
+std::set<pid_t>& Spoken() {
+  static std::set<pid_t> children;
+  return children;
+}
+
+/// Ends what a child that has ended left behind, if this process adopts it.
+void EndOrphans() {
+  int adopts = 0;
+  ::prctl(PR_GET_CHILD_SUBREAPER, &adopts);
+  if (adopts == 0) return;
+  constexpr int kMostLooks = 100;  // at orphans of orphans
+  bool found = true;
+  for (int i = 0; found && i < kMostLooks; ++i) {
+    found = false;
+    for (const pid_t child : ChildrenOf(::getpid())) {
+      if (Spoken().contains(child)) continue;
+      found = true;
+      HeldTree(child).Kill();
+      ::waitpid(child, nullptr, 0);
+    }
+  }
+}
+
+/// How a program ended. A shell, and a fence, tell a signal by an exit code beyond 128.
+std::string DescribeEnd(int status) {
+  const int code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  const int signal = code - 128;
+  if (signal <= 0 || signal >= NSIG) return fmt::format("exit code {}", code);
+  return fmt::format("signal {} ({})", signal, strsignal(signal));
+}
+
 }  // namespace
+
+void AdoptOrphans() { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 
 Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   ASSIGN_OR_RETURN(const auto path, FindProgram(options.program));
@@ -106,9 +136,10 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   const pid_t pid = ::fork();
   if (pid == 0) {
     BecomeProgram(path.c_str(), argv.data(), envp.data(), input->read.number(), output->write.number(), errors.number(),
-                  report->write.number(), parent);
+                  report->write.number(), parent, options.limited);
   }
   if (pid < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
+  Spoken().insert(pid);
   report->write.Close();
   int reason = 0;
   ssize_t count = 0;
@@ -116,6 +147,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   }
   if (count > 0) {
     ::waitpid(pid, nullptr, 0);
+    Spoken().erase(pid);
     return Fail({path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
   }
   ::fcntl(input->write.number(), F_SETFL, O_NONBLOCK);
@@ -213,9 +245,10 @@ std::string ChildProcess::Finish(int patience_ms) {
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
+  Spoken().erase(pid_);
+  EndOrphans();
   pid_ = input_ = output_ = -1;
-  if (WIFSIGNALED(status)) return fmt::format("signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-  return fmt::format("exit code {}", WEXITSTATUS(status));
+  return DescribeEnd(status);
 }
 
 }  // namespace etude

@@ -16,7 +16,12 @@ struct ChildOptions {
   std::string program;  ///< a path, or a name to be found in PATH
   std::vector<std::string> arguments = {};
   std::string error_file = {};  ///< its standard error is appended here; "" = it shares ours
+  bool limited = false;         ///< it is not ours: it gains no privileges and is kept within ProgramLimits
 };
+
+/// From now on what a child leaves behind becomes a child of this process, which ends it with the child. For processes
+/// whose only children are those of ChildProcess.
+void AdoptOrphans();
 
 /// A child that is spoken to in lines: its standard input and output are ours. It runs in the pinned
 /// environment, leads a process group of its own (a terminal's Ctrl-C does not reach it), inherits no other
@@ -52,7 +57,8 @@ class ChildProcess {
   /// Whether the program itself has ended; what it has started may still hold its output open.
   bool HasEnded() const;
   /// Ends its input, gives it `patience_ms` to end by itself, then kills it; kills what it has started either
-  /// way. Says how it ended: "exit code 2", "signal 11 (Segmentation fault)".
+  /// way. Says how it ended: "exit code 2", "signal 11 (Segmentation fault)"; the latter also of exit code 139, by
+  /// which shells and fences tell it.
   std::string Finish(int patience_ms = 50);
 
  private:

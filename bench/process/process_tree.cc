@@ -72,7 +72,13 @@ ProcessUsage MeasureProcess(pid_t process) {
   static const double seconds_per_tick = 1.0 / static_cast<double>(::sysconf(_SC_CLK_TCK));
   static const double mb_per_page = static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
   return {static_cast<double>(resident_pages) * mb_per_page,
-          OwnCpuSeconds(process) + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick};
+          OwnCpuSeconds(process) + static_cast<double>(user_waited_for + system_waited_for) * seconds_per_tick, 1};
+}
+
+std::vector<pid_t> ChildrenOf(pid_t parent) {
+  std::vector<pid_t> children;
+  AddChildren(parent, children);
+  return children;
 }
 
 std::vector<pid_t> ProcessTree(pid_t root) {
@@ -87,6 +93,7 @@ ProcessUsage MeasureTree(pid_t root) {
     const ProcessUsage usage = MeasureProcess(process);
     sum.resident_mb += usage.resident_mb;
     sum.cpu_s += usage.cpu_s;
+    sum.processes += usage.processes;
   }
   return sum;
 }

@@ -145,7 +145,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-Result<CellCheck> ReplayPack(const std::string& file) {
+Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside) {
   ASSIGN_OR_RETURN(auto pack, ReadPack(file));
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("replay"));
   try {
@@ -154,6 +154,7 @@ Result<CellCheck> ReplayPack(const std::string& file) {
     return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
   }
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(pack.suite));
+  RETURN_IF_ERROR(CheckPrograms(file, scenarios, outside));
   const Plan plan(scenarios);
   std::size_t cell = 0;
   while (cell < plan.cell_count() && plan.IdentityOf(cell).Id() != pack.row.Id()) ++cell;
@@ -161,7 +162,11 @@ Result<CellCheck> ReplayPack(const std::string& file) {
   const std::size_t world = plan.WorldOf(cell);
   std::optional<CellCheck> check;
   RETURN_IF_ERROR(RunOrders(pack.suite, plan, {{world, {cell - plan.CellAt(world, 0)}}},
-                            {.program = ThisProgram(), .error_folder = "", .jobs = 1, .stop = nullptr},
+                            {.program = ThisProgram(),
+                             .error_folder = "",
+                             .fence = FenceFor(scenarios, outside, ""),
+                             .jobs = 1,
+                             .stop = nullptr},
                             [&](const DeliveredCell& again) -> Result<void> {
                               ASSIGN_OR_RETURN(const auto finished, again.Read(plan));
                               check = CompareRows(pack.row, finished.row);

@@ -62,10 +62,12 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
     return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", run.rows.size(), plan.cell_count());
   }
   ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared.suite.scored));
+  RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
+  const Fence fence = FenceFor(prepared.scenarios, options.outside, options.folder);
   std::map<std::size_t, CellCheck> checks;
   const auto whole =
       RunOrders(prepared.suite, plan, OrdersOf(plan, chosen),
-                {.program = ThisProgram(), .error_folder = "", .jobs = options.jobs, .stop = options.stop},
+                {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
                 [&](const DeliveredCell& cell) -> Result<void> {
                   ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
                   checks.emplace(cell.head.cell, CompareRows(run.rows[cell.head.cell], finished.row));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/results/folder.h"
+#include "bench/run/outside_programs.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -24,6 +25,7 @@ struct ReplayOptions {
   std::vector<std::string> cells;  ///< identities as in cells.jsonl; empty = a sample
   std::size_t sample = 0;          ///< how many cells, drawn by the suite's seed; 0 = all
   int jobs = 0;                    ///< 0 = one per processor
+  OutsideRules outside;
   Sealing sealing = Sealing::kRequired;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -37,6 +39,6 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
                       Sealing sealing = Sealing::kRequired);
 
 /// Runs the cell of such a file again.
-Result<CellCheck> ReplayPack(const std::string& file);
+Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside = {});
 
 }  // namespace etude

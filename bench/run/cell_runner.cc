@@ -60,7 +60,7 @@ double CellRunner::PeakMemory::Mb() {
   return mb_ = ReadPeakMemoryMb();
 }
 
-CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folder)
+CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence)
     : scenario_(scenario), error_folder_(std::move(error_folder)) {
   const Scenario& told = scenario.scenario();
   for (std::size_t m = 0; m < told.methods.size(); ++m) {
@@ -71,7 +71,8 @@ CellRunner::CellRunner(const PreparedScenario& scenario, std::string error_folde
                                        .options_json = method.options_json,
                                        .time_s = method.time_s.value_or(told.limits.time_s),
                                        .memory_mb = told.limits.memory_mb,
-                                       .error_file = ErrorFileOf(error_folder_, scenario, method)}));
+                                       .error_file = ErrorFileOf(error_folder_, scenario, method),
+                                       .fence = fence}));
   }
 }
 

@@ -29,8 +29,8 @@ struct FinishedCell {
 /// stay alive from world to world.
 class CellRunner {
  public:
-  /// Standard error of methods outside goes to files in `error_folder`; "" = to our own.
-  CellRunner(const PreparedScenario& scenario, std::string error_folder);
+  /// Standard error of methods outside goes to files in `error_folder`; "" = to our own. They run in `fence`.
+  CellRunner(const PreparedScenario& scenario, std::string error_folder, const Fence& fence);
   ~CellRunner();
 
   /// Builds the world. Whatever goes wrong in it is told by every cell.

@@ -24,10 +24,11 @@ int CountUnitsOf(const PreparedScenario& prepared) {
   return static_cast<int>(units.size());
 }
 
-double MeasureSecondsPerWorld(const PreparedScenario& prepared, double until, Clock::time_point start) {
+double MeasureSecondsPerWorld(const PreparedScenario& prepared, const Fence& fence, double until,
+                              Clock::time_point start) {
   const Scenario& scenario = prepared.scenario();
   const auto began = Clock::now();
-  CellRunner runner(prepared, "");
+  CellRunner runner(prepared, "", fence);
   int condition = 0;
   do {
     runner.Open(condition, 0);
@@ -43,6 +44,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
   ASSIGN_OR_RETURN(const auto suite, ReadSuiteToRun(options));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareToRun(suite, options));
   Forecast forecast{.scenarios = {}, .workers = WorkerCount(options.jobs)};
+  const Fence fence = FenceFor(scenarios, options.outside, "");
   const auto start = Clock::now();
   double total = 0;
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
@@ -55,7 +57,7 @@ Result<Forecast> DryRun(const RunOptions& options, double sample_seconds) {
                          .unit = scenario.unit,
                          .units = CountUnitsOf(scenarios[i])};
     const double until = sample_seconds * static_cast<double>(i + 1) / static_cast<double>(scenarios.size());
-    one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], until, start);
+    one.seconds_per_world = MeasureSecondsPerWorld(scenarios[i], fence, until, start);
     one.comparisons = CountComparisons(StudyOf(scenario));
     total += one.seconds_per_world * static_cast<double>(one.worlds * one.conditions);
     forecast.scenarios.push_back(std::move(one));

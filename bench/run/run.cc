@@ -149,10 +149,12 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   }
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
+  const Fence fence = FenceFor(scenarios, options.outside, folder);
   Keeper keeper(cells, std::move(journal), cells.AddFile(folder / kJournalFile), before, on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),
+                                .fence = fence,
                                 .jobs = options.jobs,
                                 .stop = options.stop},
                                [&](const DeliveredCell& cell) {
@@ -172,10 +174,12 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .cells_ok = progress.cells_ok,
                      .seconds = SecondsSince(start),
                      .stopped = !*whole,
+                     .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
                      .damaged_lines = std::move(damaged)};
   if (outcome.stopped) return outcome;
   claimed.Keep();
-  const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
+  Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
+  if (!outcome.fence.empty()) host["fence"] = outcome.fence;
   if (options.shard.IsWhole()) {
     RETURN_IF_ERROR(FinishRun(folder, plan, cells, host));
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/run/journal.h"
+#include "bench/run/outside_programs.h"
 #include "bench/run/plan.h"
 #include "engine/base/result.h"
 
@@ -26,8 +27,9 @@ struct RunOptions {
   bool resume = false;                 ///< go on with the run that the folder holds
   Shard shard;                         ///< run this part only
   int jobs = 0;                        ///< worker processes; 0 = one per processor
-  JournalLag sync;                     ///< how far the disk may be behind
-  std::string command_line;            ///< for host.json
+  OutsideRules outside;
+  JournalLag sync;           ///< how far the disk may be behind
+  std::string command_line;  ///< for host.json
   std::string program_version;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -46,7 +48,8 @@ struct RunOutcome {
   std::size_t cells = 0;  ///< that have their row
   std::size_t cells_ok = 0;
   double seconds = 0;
-  bool stopped = false;  ///< ended early; the journal holds what was done
+  bool stopped = false;    ///< ended early; the journal holds what was done
+  std::string fence = {};  ///< what methods outside ran in; "" = there were none
   /// Lines of the journal gone on with that were not as they had been written; their cells were run again.
   std::vector<int> damaged_lines = {};
 };

@@ -173,6 +173,7 @@ Result<std::vector<PreparedScenario>> PrepareToRun(const SuiteSetup& suite, cons
   ASSIGN_OR_RETURN(auto scenarios, PrepareAll(suite));
   if (!options.from.empty()) {
     RETURN_IF_ERROR(CheckClips(options.from, scenarios));
+    RETURN_IF_ERROR(CheckPrograms(options.from, scenarios, options.outside));
   }
   return scenarios;
 }

@@ -14,6 +14,7 @@
 
 #include "bench/process/child_process.h"
 #include "bench/run/clock.h"
+#include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 
 namespace etude {
@@ -64,8 +65,10 @@ class Supervisor {
         paces_(plan.scenarios().size()) {}
 
   Result<bool> Run(const SuiteSetup& setup) {
-    ASSIGN_OR_RETURN(const auto setup_line,
-                     WriteJson({{"setup", EncodeSetup(setup)}, {"error_folder", options_.error_folder}}));
+    AdoptOrphans();  // a worker that is killed leaves its methods outside to us
+    ASSIGN_OR_RETURN(const auto setup_line, WriteJson({{"setup", EncodeSetup(setup)},
+                                                       {"error_folder", options_.error_folder},
+                                                       {"fence", EncodeFence(options_.fence)}}));
     setup_line_ = setup_line;
     const std::size_t jobs = std::min<std::size_t>(WorkerCount(options_.jobs), orders_.size());
     while (workers_.size() < jobs) {

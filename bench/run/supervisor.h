@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/process/fence.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/plan.h"
 
@@ -15,6 +16,7 @@ namespace etude {
 struct SupervisorOptions {
   std::string program;       ///< what to start as `PROGRAM worker`
   std::string error_folder;  ///< where methods outside leave what they say on standard error; "" = nowhere
+  Fence fence = {};          ///< that methods outside run in
   int jobs = 0;              ///< worker processes; 0 = one per processor
   const std::atomic<bool>* stop = nullptr;  ///< set (by Ctrl-C) to end early
 };

@@ -8,8 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "bench/process/child_process.h"
 #include "bench/run/cell_line.h"
 #include "bench/run/cell_runner.h"
+#include "bench/run/outside_programs.h"
 
 namespace etude {
 namespace {
@@ -43,6 +45,7 @@ Result<void> Execute(const Json& order, std::span<const std::unique_ptr<CellRunn
 
 int RunWorker(std::istream& in, std::ostream& out) {
   FixEigenBlocking();
+  AdoptOrphans();
   // A job scheduler signals every process of a job; only the parent decides whether workers stop.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
@@ -56,9 +59,10 @@ int RunWorker(std::istream& in, std::ostream& out) {
     if (!setup) return Misunderstood(setup.error());
     const auto scenarios = PrepareAll(*setup);
     if (!scenarios) return Misunderstood(scenarios.error());
+    const Fence fence = DecodeFence(json->at("fence"));
     std::vector<std::unique_ptr<CellRunner>> runners;
     for (const PreparedScenario& scenario : *scenarios) {
-      runners.push_back(std::make_unique<CellRunner>(scenario, json->at("error_folder").get<std::string>()));
+      runners.push_back(std::make_unique<CellRunner>(scenario, json->at("error_folder").get<std::string>(), fence));
     }
     out << kWorkerReady << '\n' << std::flush;
     while (std::getline(in, line)) {

@@ -10,7 +10,7 @@ constexpr const char* kWorkerReady = "ready";
 constexpr const char* kWorldBuilt = "built";
 
 /// The whole life of a worker process (`etude worker`): one line of set-up,
-/// `{"setup": …, "error_folder": "…"}`, answered by kWorkerReady; then one line per order,
+/// `{"setup": …, "error_folder": "…", "fence": …}`, answered by kWorkerReady; then one line per order,
 /// `{"world": [scenario, condition, trial], "first_cell": 12, "methods": [0, 2]}` with the number of the world's first
 /// cell, answered by kWorldBuilt and one line per method, in order (cell_line.h). Ends when `in` does. Returns the exit
 /// code; 2 when it is told something that it cannot understand.

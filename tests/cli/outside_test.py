@@ -70,9 +70,9 @@ class OutsideMethods(EtudeCase):
 
     def test_check_method_tells_what_a_method_does_wrong(self):
         for command, code, words in [
-                ([EXAMPLES / "ik_dls.py"], 0, "8 of 8 checks passed"),
+                ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([HOSTILE, "answers_twice"], 1, "said more than one line")]:
+                ([HOSTILE, "answers_twice"], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
             self.assertIn(words, result.stdout)

@@ -74,6 +74,21 @@ def answers_twice(problem):
     write(line + line)
 
 
+def answers_again_after_the_next_question(problem, asked=[]):
+    """Of the two answers to each question, the second says something else, and comes late."""
+    for question in asked[-1:]:
+        answer(question, answer={"number": 2})
+    answer(problem)
+    asked.append(problem)
+
+
+def repeats_itself_without_end(problem, asked=[]):
+    asked.append(problem["id"])
+    while len(asked) > 1:
+        say(type="answer", id=asked[0], answer=ANSWER)
+    answer(problem)
+
+
 def answers_another_question(problem):
     answer(problem, id="another")
 
@@ -148,8 +163,8 @@ def at_step(number, then):
 dies_in_a_session = at_step(2, lambda step: sys.exit("out of luck"))
 hangs_in_a_session = at_step(2, hangs)
 prints_garbage_in_a_session = at_step(2, prints_garbage)
-answers_a_session_twice = at_step(2, answers_twice)
-answers_another_step = at_step(2, lambda step: answer(step, number=1))
+answers_a_session_twice = at_step(2, lambda step: (answer(step), answer(step)))
+answers_another_step = at_step(2, lambda step: answer(step, number=7))
 gives_up_in_a_session = at_step(2, lambda step: gives_up(step))
 
 

@@ -19,8 +19,14 @@ using ::testing::StartsWith;
 
 Payload Show(Json json, std::vector<Attachment> files = {}) { return PayloadOf(std::move(json), std::move(files)); }
 
-OutsideOptions Behaving(const std::string& behaviour) {
+const Fence& TheFence() {
+  static const Fence fence = Fence::Find();
+  return fence;
+}
+
+OutsideOptions Behaving(const std::string& behaviour, const Fence& fence = {}) {
   OutsideOptions options;
+  options.fence = fence;
   options.command = {"python3", "tests/bench/outside/hostile.py", behaviour};
   options.task = "echo";
   options.time_s = 20;
@@ -75,10 +81,10 @@ struct Hostility {
 
 class Hostile : public ::testing::TestWithParam<Hostility> {};
 
-TEST_P(Hostile, BecomesAReplyAndTheNextProblemIsPutToANewProgram) {
+TEST_P(Hostile, BecomesTheSameReplyWithAndWithoutAFenceAndTheNextProblemIsPutToANewProgram) {
   const Hostility& hostility = GetParam();
-  OutsideMethod method(Behaving(hostility.behaviour));
-  for (int i = 0; i < 2; ++i) {
+  for (const Fence& fence : {Fence(), TheFence()}) {
+    OutsideMethod method(Behaving(hostility.behaviour, fence));
     const OutsideReply reply = Ask(method);
     EXPECT_EQ(StatusName(reply.status), StatusName(hostility.status));
     EXPECT_THAT(reply.reason, StartsWith(hostility.reason));
@@ -89,24 +95,23 @@ TEST_P(Hostile, BecomesAReplyAndTheNextProblemIsPutToANewProgram) {
 
 INSTANTIATE_TEST_SUITE_P(
     OutsideMethod, Hostile,
-    ::testing::Values(
-        Hostility{"crashes", Status::kCrashed,
-                  "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"},
-        Hostility{"exits", Status::kCrashed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
-        Hostility{"prints_garbage", Status::kBadOutput,
-                  R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
-        Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 52: '"},
-        Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
-        Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 deep: '[[[["},
-        Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
-        Hostility{"answers_without_end", Status::kBadOutput, "said a line of more than 16 MiB: 'xxx"},
-        Hostility{"answers_twice", Status::kBadOutput, R"(said more than one line: '{"type": "answer", "id": "p")"},
-        Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p'"},
-        Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
-        Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
-        Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
-        Hostility{"leaves_a_child_at_its_output", Status::kCrashed, "ended with exit code 5"},
-        Hostility{"speaks_another_protocol", Status::kBadOutput, "in its start: does not speak protocol 1: "}),
+    ::testing::Values(Hostility{"crashes", Status::kCrashed,
+                                "ended with signal 11 (Segmentation fault); its last words: 'about to fall'"},
+                      Hostility{"exits", Status::kCrashed, R"(ended with exit code 3, amid the line '{"type": "ans')"},
+                      Hostility{"prints_garbage", Status::kBadOutput,
+                                R"(said something that is not JSON: 'loading model \x1b[1m100%\x1b[0m')"},
+                      Hostility{"answers_nan", Status::kBadOutput, "said something that is not JSON near byte 52: '"},
+                      Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
+                      Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 deep: '[[[["},
+                      Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
+                      Hostility{"answers_without_end", Status::kBadOutput, "said a line of more than 16 MiB: 'xxx"},
+                      Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p'"},
+                      Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
+                      Hostility{"eats_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
+                      Hostility{"lets_a_child_eat_memory", Status::kOutOfMemory, "held more than 200 MB of memory"},
+                      Hostility{"leaves_a_child_at_its_output", Status::kCrashed, "ended with exit code 5"},
+                      Hostility{"speaks_another_protocol", Status::kBadOutput,
+                                "in its start: does not speak protocol 1: "}),
     [](const auto& tested) { return tested.param.behaviour; });
 
 TEST(OutsideMethod, ClosingItsOutputIsNoWayToLiveOn) {
@@ -132,6 +137,28 @@ TEST(OutsideMethod, ALateAnswerIsNotTakenForTheNextOne) {
   options.time_s = 0.1;
   OutsideMethod method(options);
   EXPECT_EQ(Ask(method, "first").status, Status::kTimeout);
+  EXPECT_EQ(Ask(method, "second").status, Status::kTimeout);
+}
+
+TEST(OutsideMethod, AnAnswerGivenAgainIsPassedOverWheneverItComes) {
+  for (const char* behaviour : {"answers_twice", "answers_again_after_the_next_question"}) {
+    OutsideMethod method(Behaving(behaviour));
+    int repeated = 0;
+    for (const char* id : {"a", "b", "c", "d"}) {
+      const OutsideReply reply = Ask(method, id);
+      ASSERT_EQ(reply.status, Status::kOk) << behaviour << ": " << reply.reason;
+      EXPECT_EQ(reply.answer->dump(), R"({"number":1})") << behaviour;
+      repeated += reply.repeated;
+    }
+    EXPECT_GE(repeated, 2) << behaviour;
+  }
+}
+
+TEST(OutsideMethod, WhoOnlyRepeatsItselfTakesTooLong) {
+  OutsideOptions options = Behaving("repeats_itself_without_end");
+  options.time_s = 0.5;
+  OutsideMethod method(options);
+  EXPECT_EQ(Ask(method, "first").status, Status::kOk);
   EXPECT_EQ(Ask(method, "second").status, Status::kTimeout);
 }
 
@@ -212,19 +239,22 @@ TEST(OutsideMethod, MakesTheFolderOfItsStandardErrorWhenItHasSomethingToKeep) {
 }
 
 TEST(OutsideMethod, AttachmentsLieInAFolderWhileItWorks) {
-  OutsideOptions options = Behaving("is_good");
-  options.command = {
-      "sh", "-c",
-      "read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"cat\",\"version\":\"1\"}';"
-      "read setting; echo '{\"type\":\"ready\"}'; read problem;"
-      "folder=$(echo \"$problem\" | sed 's/.*\"files\":\"\\([^\"]*\\)\".*/\\1/');"
-      "echo \"{\\\"type\\\":\\\"answer\\\",\\\"id\\\":\\\"p\\\",\\\"answer\\\":{\\\"folder\\\":\\\"$folder\\\","
-      "\\\"text\\\":\\\"$(cat \"$folder/a.txt\")\\\"}}\"; read x"};
-  OutsideMethod method(options);
-  const OutsideReply reply = method.Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}, {{"a.txt", "inside"}}));
-  ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
-  EXPECT_EQ((*reply.answer)["text"], "inside");
-  EXPECT_FALSE(std::filesystem::exists((*reply.answer)["folder"].get<std::string>()));
+  for (const Fence& fence : {Fence(), TheFence()}) {
+    OutsideOptions options = Behaving("is_good", fence);
+    options.command = {
+        "sh", "-c",
+        "read hello; echo '{\"type\":\"hello\",\"protocol\":1,\"name\":\"cat\",\"version\":\"1\"}';"
+        "read setting; echo '{\"type\":\"ready\"}'; read problem;"
+        "folder=$(echo \"$problem\" | sed 's/.*\"files\":\"\\([^\"]*\\)\".*/\\1/');"
+        "echo \"{\\\"type\\\":\\\"answer\\\",\\\"id\\\":\\\"p\\\",\\\"answer\\\":{\\\"folder\\\":\\\"$folder\\\","
+        "\\\"text\\\":\\\"$(cat \"$folder/a.txt\")\\\"}}\"; read x"};
+    OutsideMethod method(options);
+    const OutsideReply reply =
+        method.Ask("s", Show({{"size", 1}}), "p", Show({{"question", 2}}, {{"a.txt", "inside"}}));
+    ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+    EXPECT_EQ((*reply.answer)["text"], "inside");
+    EXPECT_FALSE(std::filesystem::exists((*reply.answer)["folder"].get<std::string>()));
+  }
 }
 
 OutsideReply Begin(OutsideMethod& method, const std::string& id = "session") {
@@ -245,6 +275,18 @@ TEST(LiveSession, GoesOnStepByStepInOneLife) {
   EXPECT_EQ(method.End(5000), "exit code 0");
 }
 
+TEST(LiveSession, AStepAnsweredAgainIsPassedOver) {
+  OutsideMethod method(Behaving("answers_a_session_twice"));
+  for (const char* id : {"first", "second"}) {
+    ASSERT_EQ(Begin(method, id).status, Status::kOk);
+    for (int i = 0; i < 5; ++i) {
+      const OutsideReply reply = method.Step(Json::object());
+      ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
+      EXPECT_EQ(reply.repeated, i == 3 ? 1 : 0);
+    }
+  }
+}
+
 class HostileInASession : public ::testing::TestWithParam<Hostility> {};
 
 TEST_P(HostileInASession, EndsTheSessionAndTheNextOneBeginsAnew) {
@@ -262,17 +304,17 @@ TEST_P(HostileInASession, EndsTheSessionAndTheNextOneBeginsAnew) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    OutsideMethod, HostileInASession,
-    ::testing::Values(
-        Hostility{"dies_in_a_session", Status::kCrashed, "ended with exit code 1; its last words: 'out of luck'"},
-        Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
-        Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
-                  "at step 2: said something that is not JSON: 'loading model"},
-        Hostility{"answers_a_session_twice", Status::kBadOutput, "said more than one line: "},
-        Hostility{"answers_another_step", Status::kBadOutput, "at step 2: answered another step than 2: "},
-        Hostility{"gives_up_in_a_session", Status::kUnsolved, "gave no answer: 'no way\\x0aout'"}),
-    [](const auto& tested) { return tested.param.behaviour; });
+INSTANTIATE_TEST_SUITE_P(OutsideMethod, HostileInASession,
+                         ::testing::Values(Hostility{"dies_in_a_session", Status::kCrashed,
+                                                     "ended with exit code 1; its last words: 'out of luck'"},
+                                           Hostility{"hangs_in_a_session", Status::kTimeout, "took longer than 0.1 s"},
+                                           Hostility{"prints_garbage_in_a_session", Status::kBadOutput,
+                                                     "at step 2: said something that is not JSON: 'loading model"},
+                                           Hostility{"answers_another_step", Status::kBadOutput,
+                                                     "at step 2: answered another step than 2: "},
+                                           Hostility{"gives_up_in_a_session", Status::kUnsolved,
+                                                     "gave no answer: 'no way\\x0aout'"}),
+                         [](const auto& tested) { return tested.param.behaviour; });
 
 TEST(LiveSession, AnswersAreToSayTheirStep) {
   OutsideMethod method(Behaving("says_no_number"));

@@ -83,6 +83,11 @@ TEST(ChildProcess, TellsHowItEnded) {
   LinesUntilEnd(crashes);
   EXPECT_EQ(exits.Finish(), "exit code 3");
   EXPECT_EQ(crashes.Finish(), "signal 11 (Segmentation fault)");
+  ChildProcess told = Shell("sh -c 'kill -SEGV $$'"), failed = Shell("exit 255");
+  LinesUntilEnd(told);
+  LinesUntilEnd(failed);
+  EXPECT_EQ(told.Finish(), "signal 11 (Segmentation fault)") << "as its shell tells it";
+  EXPECT_EQ(failed.Finish(), "exit code 255");
 }
 
 TEST(ChildProcess, AProgramThatCannotBeStartedIsAnError) {
@@ -136,6 +141,43 @@ TEST(ChildProcess, ADeadChildsGroupIsKilledToo) {
   EXPECT_TRUE(child.Receive()) << "its output is still held open";
   EXPECT_EQ(child.Finish(), "exit code 1");
   EXPECT_TRUE(VanishesSoon(grandchild));
+}
+
+// In a process of its own, since whoever adopts orphans may have no other children.
+TEST(ChildProcess, WhoAdoptsOrphansEndsTheDaemonThatAChildStartsAsItEnds) {
+  for (const bool adopts : {false, true}) {
+    const std::string file = ::testing::TempDir() + "daemon-" + std::to_string(adopts);
+    std::ofstream(file) << "";
+    const pid_t we = ::fork();
+    if (we == 0) {
+      if (adopts) AdoptOrphans();
+      ChildProcess other = Shell("echo $$; read x");
+      const std::string number = ReadLine(other);
+      ChildProcess child = Shell("cat; setsid sh -c '(sleep 5 & echo $! >" + file + ") &'; sleep 0.2");
+      child.Finish(5000);
+      ::_exit(other.HasEnded() ? 1 : 0);
+    }
+    int status = 0;
+    ::waitpid(we, &status, 0);
+    EXPECT_EQ(status, 0) << "a child that is spoken to is no orphan";
+    pid_t daemon = 0;
+    std::ifstream(file) >> daemon;
+    ASSERT_GT(daemon, 0);
+    EXPECT_EQ(::kill(daemon, 0) != 0, adopts);
+    ::kill(daemon, SIGKILL);
+  }
+}
+
+TEST(ChildProcess, WhatIsNotOursIsLimited) {
+  const auto words = [](bool limited) {
+    auto child =
+        ChildProcess::Start({.program = "/bin/sh",
+                             .arguments = {"-c", "grep NoNewPrivs /proc/self/status; ulimit -c; ulimit -n; ulimit -f"},
+                             .limited = limited});
+    return LinesUntilEnd(*child);
+  };
+  EXPECT_EQ(words(true), (std::vector<std::string>{"NoNewPrivs:\t1", "0", "4096", "524288"}));
+  EXPECT_EQ(words(false).at(0), "NoNewPrivs:\t0");
 }
 
 TEST(ChildProcess, DiesWithUs) {

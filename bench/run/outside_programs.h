@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/files/json.h"
+#include "bench/process/fence.h"
+#include "bench/run/setup.h"
+
+namespace etude {
+
+/// How methods outside may be run.
+struct OutsideRules {
+  bool is_fenced = true;    ///< where the kernel allows it
+  bool allow_exec = false;  ///< also those that a manifest or a pack names, which may come from anybody
+};
+
+/// "python3 my_solver.py (ik-weights/mine)" of every method that is a program.
+std::vector<std::string> ProgramsOf(std::span<const PreparedScenario> scenarios);
+
+/// Refuses to run the programs that `file` names unless that is allowed, and lists them.
+Result<void> CheckPrograms(const std::string& file, std::span<const PreparedScenario> scenarios,
+                           const OutsideRules& rules);
+
+/// The fence for the methods outside of these scenarios, which shall not see `folder`. It is looked for only where
+/// there are such methods.
+Fence FenceFor(std::span<const PreparedScenario> scenarios, const OutsideRules& rules,
+               const std::filesystem::path& folder);
+
+/// For a worker's set-up.
+Json EncodeFence(const Fence& fence);
+Fence DecodeFence(const Json& json);
+
+}  // namespace etude

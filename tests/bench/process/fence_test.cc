@@ -1,0 +1,103 @@
+#include "bench/process/fence.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "bench/process/child_process.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Fence& TheFence() {
+  static const Fence fence = Fence::Find();
+  return fence;
+}
+
+/// All that a script says in the fence.
+std::string Say(const Fence& fence, const std::string& script, const std::vector<fs::path>& shown = {}) {
+  const std::vector<std::string> command = fence.Around({"/bin/sh", "-c", script + " 2>&1"}, shown);
+  auto child = ChildProcess::Start({.program = command[0], .arguments = {command.begin() + 1, command.end()}});
+  std::string said;
+  for (bool open = true; open;) {
+    pollfd watched{child->output(), POLLIN, 0};
+    if (::poll(&watched, 1, 10000) <= 0) return said + "(no end)";
+    open = child->Receive();
+    while (auto line = child->NextLine()) said += *line + "\n";
+  }
+  return said;
+}
+
+class FenceTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!TheFence().IsUp()) GTEST_SKIP() << TheFence().description();
+    folder_ = ::testing::TempDir() + "fence-test-XXXXXX";
+    ASSERT_NE(::mkdtemp(folder_.data()), nullptr);
+    std::ofstream(folder_ + "/secret.txt") << "the truth\n";
+  }
+  void TearDown() override {
+    if (!folder_.empty()) fs::remove_all(folder_);
+  }
+
+  std::string folder_;
+};
+
+TEST_F(FenceTest, SaysWhatItIsMadeOf) { EXPECT_THAT(TheFence().description(), ::testing::StartsWith("bubblewrap ")); }
+
+TEST_F(FenceTest, RunsAProgramInOurFolder) {
+  EXPECT_EQ(Say(TheFence(), "pwd"), fs::current_path().string() + "\n");
+  EXPECT_EQ(Say(TheFence(), "exit 3"), "");
+}
+
+TEST_F(FenceTest, HoldsNoProcessButItsOwn) {
+  const std::string script = "kill -0 " + std::to_string(::getpid()) + " 2>/dev/null && echo seen || echo none";
+  EXPECT_EQ(Say(TheFence(), script), "none\n");
+  EXPECT_EQ(Say(Fence(), script), "seen\n");
+}
+
+TEST_F(FenceTest, HasNoNetworkAndNoPrivileges) {
+  EXPECT_EQ(Say(TheFence(), "ls /sys/class/net/ >/dev/null; cat /proc/net/dev | grep -c :"), "1\n") << "loopback only";
+  EXPECT_EQ(Say(TheFence(), "grep -E 'NoNewPrivs|CapEff' /proc/self/status"),
+            "CapEff:\t0000000000000000\nNoNewPrivs:\t1\n");
+}
+
+TEST_F(FenceTest, CanWriteOnlyToScratchFoldersThatGoWithIt) {
+  const std::string script = "for f in /tmp /var/tmp /dev/shm / /dev /run . /etc " + folder_ +
+                             "; do (echo x > $f/of-the-fence-test) 2>/dev/null && echo $f; done";
+  EXPECT_EQ(Say(TheFence(), script, {folder_}), "/tmp\n/var/tmp\n/dev/shm\n");
+  for (const char* folder : {"/tmp", "/var/tmp", "/dev/shm"}) {
+    EXPECT_FALSE(fs::exists(fs::path(folder) / "of-the-fence-test")) << folder;
+  }
+}
+
+TEST_F(FenceTest, ScratchFoldersAreBounded) {
+  EXPECT_EQ(Say(TheFence(), "head -c 300M /dev/zero >/tmp/a; wc -c </tmp/a"), "268435456\n");
+}
+
+TEST_F(FenceTest, OfTemporaryFoldersItSeesWhatItIsShownOrTold) {
+  const std::string read = "cat " + folder_ + "/secret.txt";
+  EXPECT_THAT(Say(TheFence(), read), ::testing::HasSubstr("No such file"));
+  EXPECT_EQ(Say(TheFence(), read, {folder_}), "the truth\n");
+  const auto words = TheFence().Around({"/bin/cat", folder_ + "/secret.txt"}, {});
+  auto child = ChildProcess::Start({.program = words[0], .arguments = {words.begin() + 1, words.end()}});
+  while (child->Receive()) ::usleep(1000);
+  EXPECT_EQ(child->NextLine(), "the truth");
+}
+
+TEST_F(FenceTest, WhatIsHiddenIsEmpty) {
+  Fence fence = TheFence();
+  fence.Hide(folder_);
+  EXPECT_EQ(Say(fence, "ls " + folder_, {folder_}), "");
+  EXPECT_EQ(Say(TheFence(), "ls " + folder_, {folder_}), "secret.txt\n");
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,651 @@
+"""Programs that try to get out: `zoo.py SPECIMEN DEN`. Each solves what it is asked (task ik: all angles zero) and, at its
+first problem or where its name says so, does what a hostile program would do. DEN is a folder that zoo_test.py watches.
+
+Every specimen is bounded by what it does itself, for the day on which no fence holds: few processes, each of which ends
+within seconds; few megabytes; no signal but to those whom zoo_test.py has put there to be hit.
+"""
+import ctypes
+import json
+import os
+import pathlib
+import resource
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+
+SPECIMEN, DEN = sys.argv[1], pathlib.Path(sys.argv[2])
+LIFE_S = 20  # of whatever is left behind, unless somebody ends it
+VICTIM = json.loads((DEN / "victim.json").read_text()) if (DEN / "victim.json").exists() else {}
+
+resource.setrlimit(resource.RLIMIT_AS, (1 << 31, 1 << 31))
+resource.setrlimit(resource.RLIMIT_FSIZE, (64 << 20, 64 << 20))
+resource.setrlimit(resource.RLIMIT_CPU, (30, 30))
+signal.alarm(LIFE_S)
+os.environ["ZOO_DEN"] = str(DEN)  # by which zoo_test.py knows what a specimen has started
+
+
+def say(**message):
+    sys.stdout.write(json.dumps(message) + "\n")
+    sys.stdout.flush()
+
+
+def answer(problem):
+    angles = [0] * say.angles
+    say(type="answer", id=problem["id"], answer={"angles_deg": angles})
+
+
+def is_fenced():
+    """Whether this process is in another space of processes than zoo_test.py."""
+    return os.readlink("/proc/self/ns/pid") != VICTIM["processes"]
+
+
+def live_on():
+    """What a daemon does here: it lets itself be seen, tries to do harm, and ends after LIFE_S."""
+    signal.alarm(LIFE_S)
+    harm("survivor")
+    time.sleep(LIFE_S)
+    os._exit(0)
+
+
+def harm(what):
+    """Leaves a mark outside, where it can."""
+    for place in (DEN / "marks", pathlib.Path("/var/tmp")):
+        try:
+            (place / f"zoo-{SPECIMEN}-{what}").write_text("was here\n")
+        except OSError:
+            pass
+
+
+def victimise(what):
+    """Tells the watcher that `what` succeeded: through the one file that is everybody's."""
+    try:
+        with open(DEN / "marks" / "victims", "a") as file:
+            file.write(f"{SPECIMEN}: {what}\n")
+    except OSError:
+        pass
+    print(f"ZOO-VICTIM {SPECIMEN}: {what}", file=sys.stderr, flush=True)
+
+
+def daemon(setsid=True, twice=True):
+    if os.fork() == 0:
+        if setsid:
+            os.setsid()
+        if twice and os.fork():
+            os._exit(0)
+        live_on()
+
+
+# --- processes that stay ---------------------------------------------------------------------------------------------
+def forks_once(problem):
+    daemon(setsid=False, twice=False)
+
+
+def forks_twice(problem):
+    daemon()
+
+
+def forks_twice_and_dies(problem):
+    daemon()
+    os._exit(0)
+
+
+def forks_twice_and_is_killed(problem):
+    daemon()
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def forks_twice_when_input_ends():
+    daemon()
+
+
+def forks_thrice_when_input_ends():
+    if os.fork() == 0:
+        os.setsid()
+        daemon()
+        os._exit(0)
+
+
+def forks_late_when_input_ends():
+    if os.fork() == 0:
+        os.setsid()
+        time.sleep(0.3)
+        daemon()
+        os._exit(0)
+
+
+def ignores_every_signal(problem):
+    if os.fork() == 0:
+        os.setsid()
+        for number in range(1, 32):
+            if number not in (signal.SIGKILL, signal.SIGSTOP, signal.SIGALRM):
+                signal.signal(number, signal.SIG_IGN)
+        live_on()
+
+
+def renames_itself(problem):
+    if os.fork() == 0:
+        os.setsid()
+        ctypes.CDLL(None).prctl(15, b"kworker/0:1", 0, 0, 0)
+        live_on()
+
+
+def stops_itself_when_input_ends():
+    if os.fork() == 0:
+        os.setsid()
+        os.kill(os.getpid(), signal.SIGSTOP)
+        live_on()
+
+
+def runs_from_stop_to_stop(problem):
+    """Forks anew every 20 ms, so that no list of processes is up to date."""
+    if os.fork() == 0:
+        os.setsid()
+        end = time.monotonic() + 5
+        while time.monotonic() < end:
+            time.sleep(0.02)
+            if os.fork():
+                os._exit(0)
+        live_on()
+
+
+def execs_another_program(problem):
+    if os.fork() == 0:
+        os.setsid()
+        os.execvp("sleep", ["sleep", str(LIFE_S)])
+
+
+def keeps_a_shell(problem):
+    subprocess.Popen(["sh", "-c", f"trap '' HUP TERM INT; sleep {LIFE_S}"], start_new_session=True)
+
+
+def is_not_reaped(problem):
+    for _ in range(50):
+        if os.fork() == 0:
+            os._exit(0)
+
+
+def becomes_subreaper(problem):
+    ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)
+    daemon()
+
+
+def clears_its_death_signal(problem):
+    ctypes.CDLL(None).prctl(1, 0, 0, 0, 0)
+    daemon()
+
+
+def never_ends():
+    time.sleep(LIFE_S)
+
+
+def never_ends_in_a_thread():
+    threading.Thread(target=live_on).start()
+
+
+# --- others ----------------------------------------------------------------------------------------------------------
+def kills_its_parent(problem):
+    parent = os.getppid()
+    if parent > 1 and "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text():
+        victimise("killed its parent")
+        os.kill(parent, signal.SIGKILL)
+
+
+def stops_its_parent(problem):
+    """For a moment."""
+    parent = os.getppid()
+    if parent > 1 and "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text():
+        os.kill(parent, signal.SIGSTOP)
+        victimise("stopped its parent")
+        time.sleep(0.1)
+        os.kill(parent, signal.SIGCONT)
+
+
+def kills_the_victim(problem):
+    try:
+        os.kill(VICTIM["pid"], signal.SIGUSR1)
+        victimise("signalled another process")
+    except OSError:
+        pass
+
+
+def kills_all(problem):
+    if is_fenced():
+        os.kill(-1, signal.SIGKILL)  # kills itself not
+    else:
+        kills_the_victim(problem)
+
+
+def kills_its_group(problem):
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    os.kill(0, signal.SIGTERM)
+
+
+def reads_its_parents_memory(problem):
+    try:
+        with open(f"/proc/{os.getppid()}/maps") as maps:
+            line = next(line for line in maps if "[heap]" in line)
+        start = int(line.split("-")[0], 16)
+        with open(f"/proc/{os.getppid()}/mem", "rb") as memory:
+            memory.seek(start)
+            if memory.read(4096) and "etude" in pathlib.Path(f"/proc/{os.getppid()}/comm").read_text():
+                victimise("read its parent's memory")
+    except (OSError, StopIteration):
+        pass
+
+
+def reads_its_parents_files(problem):
+    parent = os.getppid()
+    try:
+        links = [os.readlink(f"/proc/{parent}/fd/{name}") for name in os.listdir(f"/proc/{parent}/fd")]
+        if "etude" in pathlib.Path(f"/proc/{parent}/comm").read_text() and links:
+            victimise("read its parent's open files")
+    except OSError:
+        pass
+
+
+def reads_its_parents_environment(problem):
+    try:
+        if pathlib.Path(f"/proc/{os.getppid()}/environ").read_bytes() and os.getppid() > 1:
+            victimise("read its parent's environment")
+    except OSError:
+        pass
+
+
+def traces_the_victim(problem):
+    if ctypes.CDLL(None, use_errno=True).ptrace(16, VICTIM["pid"], 0, 0) == 0:
+        victimise("traced another process")
+
+
+def lists_processes(problem):
+    if any(name == str(VICTIM["pid"]) for name in os.listdir("/proc")):
+        victimise("saw another process")
+
+
+def writes_to_the_victims_output(problem):
+    try:
+        with open(f"/proc/{VICTIM['pid']}/fd/1", "w") as file:
+            file.write("")
+        victimise("opened another process's output")
+    except OSError:
+        pass
+
+
+def changes_the_victims_priority(problem):
+    try:
+        os.setpriority(os.PRIO_PROCESS, VICTIM["pid"], 5)
+        victimise("changed another process's priority")
+    except OSError:
+        pass
+
+
+def limits_the_victim(problem):
+    try:
+        resource.prlimit(VICTIM["pid"], resource.RLIMIT_CORE, (0, resource.RLIM_INFINITY))
+        victimise("changed another process's limits")
+    except (OSError, ValueError):
+        pass
+
+
+# --- network and messages --------------------------------------------------------------------------------------------
+def connects_to_a_port(problem):
+    with socket.socket() as link:
+        link.settimeout(0.5)
+        if link.connect_ex(("127.0.0.1", VICTIM["port"])) == 0:
+            victimise("reached a port of this machine")
+
+
+def connects_to_a_socket_file(problem):
+    with socket.socket(socket.AF_UNIX) as link:
+        if link.connect_ex(VICTIM["socket"]) == 0:
+            victimise("reached a socket file")
+
+
+def connects_to_an_abstract_socket(problem):
+    with socket.socket(socket.AF_UNIX) as link:
+        if link.connect_ex("\0" + VICTIM["abstract"]) == 0:
+            victimise("reached an abstract socket")
+
+
+def listens_at_a_port(problem):
+    listener = socket.create_server(("127.0.0.1", 0))
+    if os.readlink("/proc/self/ns/net") == VICTIM["network"]:
+        victimise(f"listens at port {listener.getsockname()[1]} of this machine")
+
+
+def asks_a_name_server(problem):
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as link:
+        try:
+            link.connect(("192.0.2.1", 53))  # TEST-NET-1: nobody; only a route is looked for
+            victimise("has a route to the network")
+        except OSError:
+            pass
+
+
+def opens_a_raw_socket(problem):
+    try:
+        socket.socket(socket.AF_PACKET, socket.SOCK_RAW).close()
+        victimise("opened a raw socket")
+    except OSError:
+        pass
+
+
+def finds_shared_memory(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.shmget(VICTIM["shared_memory"], 1, 0) >= 0:
+        victimise("found shared memory")
+
+
+def makes_shared_memory(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    number = libc.shmget(0x5A006E57, 4096, 0o1600)
+    if number >= 0 and not is_fenced():
+        victimise("made shared memory that would outlive it")
+        libc.shmctl(number, 0, None)
+
+
+def makes_a_message_queue(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    number = libc.msgget(0x5A006E58, 0o1600)
+    if number >= 0 and not is_fenced():
+        victimise("made a message queue that would outlive it")
+        libc.msgctl(number, 0, None)
+
+
+# --- files -----------------------------------------------------------------------------------------------------------
+def try_to_write(path, what):
+    try:
+        with open(path, "a") as file:
+            file.write("zoo")
+        victimise(what)
+    except OSError:
+        pass
+
+
+def writes_into_the_run(problem):
+    for name in ("journal.jsonl", "manifest.json", "seal.json", "note.txt"):
+        try_to_write(DEN / "out" / name, f"wrote {name} of the run")
+
+
+def reads_the_run(problem):
+    try:
+        if (DEN / "out" / "manifest.json").read_text():
+            victimise("read the manifest of the run")
+    except OSError:
+        pass
+
+
+def removes_the_run(problem):
+    try:
+        os.rename(DEN / "out" / "stderr", DEN / "out" / "errors")
+        os.rename(DEN / "out" / "errors", DEN / "out" / "stderr")
+        victimise("renamed a folder of the run")
+    except OSError:
+        pass
+
+
+def writes_into_its_folder(problem):
+    try_to_write(DEN / "marks" / "note.txt", "wrote into its folder")
+
+
+def writes_into_home(problem):
+    try_to_write(pathlib.Path(VICTIM["home"]) / "profile", "wrote into a home folder")
+
+
+def writes_into_tmp(problem):
+    for folder in ("/tmp", "/var/tmp", "/dev/shm"):
+        try:
+            pathlib.Path(folder, "zoo-left-behind").write_text("zoo")
+        except OSError:
+            pass
+
+
+def links_to_the_victims_file(problem):
+    try:
+        os.link(VICTIM["file"], DEN / "marks" / "link")
+        victimise("linked to a file")
+    except OSError:
+        pass
+
+
+def changes_a_mode(problem):
+    try:
+        os.chmod(VICTIM["file"], 0o600)
+        victimise("changed a file's mode")
+    except OSError:
+        pass
+
+
+def truncates_a_file(problem):
+    try:
+        os.truncate(VICTIM["file"], 0)
+        victimise("truncated a file")
+    except OSError:
+        pass
+
+
+def reads_others_temporary_files(problem):
+    try:
+        if pathlib.Path(VICTIM["file"]).read_text():
+            victimise("read another's temporary file")
+    except OSError:
+        pass
+
+
+def fills_the_disk(problem):
+    for folder in ("/tmp", "/var/tmp", "/dev/shm", str(DEN / "marks")):
+        try:
+            with open(f"{folder}/zoo-large", "wb") as file:
+                for _ in range(32):
+                    file.write(bytes(1 << 20))
+            if folder == str(DEN / "marks"):
+                victimise("filled the disk")
+        except OSError:
+            pass
+
+
+def makes_many_files(problem):
+    try:
+        os.mkdir("/tmp/zoo-many")
+        for i in range(20000):
+            os.mknod(f"/tmp/zoo-many/{i}")
+    except OSError:
+        pass
+
+
+def mounts_over(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    os.makedirs("/tmp/zoo-mount", exist_ok=True)
+    if libc.mount(b"none", b"/tmp/zoo-mount", b"tmpfs", 0, None) == 0:
+        libc.umount2(b"/tmp/zoo-mount", 2)
+        victimise("mounted a file system")
+
+
+def remounts_writable(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    if is_fenced() and libc.mount(None, b"/", None, 32 | 4096, None) == 0:
+        victimise("made the system writable")
+
+
+def makes_a_namespace(problem):
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.unshare(0x10000000) == 0:
+        victimise("made a user namespace")
+
+
+def gains_privileges(problem):
+    flag = ctypes.CDLL(None).prctl(39, 0, 0, 0, 0)
+    if flag != 1:
+        victimise("may gain privileges")
+
+
+def leaves_its_root(problem):
+    try:
+        os.chroot("/tmp")
+        victimise("changed its root")
+    except OSError:
+        pass
+
+
+def types_at_the_terminal(problem):
+    import fcntl
+    import termios
+    try:
+        with open("/dev/tty", "w") as terminal:
+            fcntl.ioctl(terminal, termios.TIOCSTI, b" ")
+        victimise("typed at the terminal")
+    except OSError:
+        pass
+
+
+# --- too much --------------------------------------------------------------------------------------------------------
+def fork_bomb(problem):
+    """400 processes, each ending after seconds: more than ProgramLimits::kProcesses."""
+    for _ in range(20):
+        if os.fork() == 0:
+            signal.alarm(8)
+            for _ in range(19):
+                if os.fork() == 0:
+                    signal.alarm(8)
+                    time.sleep(LIFE_S)
+                    os._exit(0)
+            time.sleep(LIFE_S)
+            os._exit(0)
+    time.sleep(LIFE_S)
+
+
+def eats_memory(problem):
+    eaten = []
+    for _ in range(60):
+        eaten.append(bytearray(b"x" * 10_000_000))
+    time.sleep(LIFE_S)
+
+
+def lets_a_child_eat_memory(problem):
+    if os.fork() == 0:
+        os.setsid()
+        eats_memory(problem)
+    time.sleep(LIFE_S)
+
+
+def floods_standard_error(problem):
+    for _ in range(300):
+        sys.stderr.write("x" * 99999 + "\n")
+
+
+def floods_standard_output(problem):
+    for _ in range(300):
+        sys.stdout.write("x" * 99999)
+
+
+def opens_many_files(problem):
+    files = []
+    try:
+        for _ in range(10000):
+            files.append(os.open("/dev/null", os.O_RDONLY))
+    except OSError:
+        pass
+    if len(files) > 5000:
+        victimise("opened more files than allowed")
+    for file in files:
+        os.close(file)
+
+
+def starts_many_threads(problem):
+    for _ in range(200):
+        threading.Thread(target=time.sleep, args=(1,), daemon=True).start()
+
+
+def spins(problem):
+    for _ in range(4):
+        if os.fork() == 0:
+            signal.alarm(3)
+            while True:
+                pass
+
+
+def dumps_core(problem):
+    os.abort()
+
+
+# --- descriptors -----------------------------------------------------------------------------------------------------
+def closes_its_descriptors(problem):
+    for number in (0, 1, 2):
+        os.close(number)
+    time.sleep(LIFE_S)
+
+
+def reopens_its_descriptors(problem):
+    """Its output becomes a file of its own; what it says is heard by nobody."""
+    file = os.open("/tmp/zoo-output", os.O_RDWR | os.O_CREAT)
+    os.dup2(file, 1)
+
+
+def writes_to_its_input(problem):
+    try:
+        os.write(0, b"{}\n")
+        victimise("wrote to its input")
+    except OSError:
+        pass
+
+
+def reads_its_output(problem):
+    try:
+        os.set_blocking(1, False)
+        os.read(1, 1)
+        victimise("read its output")
+    except OSError:
+        pass
+    finally:
+        os.set_blocking(1, True)
+
+
+def inherits_descriptors(problem):
+    extra = [name for name in os.listdir("/proc/self/fd") if int(name) > 3]
+    if extra:
+        victimise(f"inherited descriptors {extra}")
+
+
+def seeks_its_standard_error(problem):
+    """It is a file: what twins have said in it shall not be changed."""
+    try:
+        os.ftruncate(2, 0)
+    except OSError:
+        pass
+
+
+AT_THE_END = {"forks_twice_when_input_ends", "forks_thrice_when_input_ends", "forks_late_when_input_ends",
+              "stops_itself_when_input_ends", "never_ends", "never_ends_in_a_thread"}
+HELPERS = {"say", "answer", "is_fenced", "live_on", "harm", "victimise", "daemon", "try_to_write",
+           "main"}
+
+
+def specimens():
+    return [name for name, thing in globals().items()
+            if callable(thing) and getattr(thing, "__module__", "") == "__main__" and name not in HELPERS | {"specimens"}]
+
+
+def main():
+    if SPECIMEN == "list":
+        print("\n".join(specimens()))
+        return
+    act, acted = globals()[SPECIMEN], False
+    for line in sys.stdin:
+        message = json.loads(line)
+        if message["type"] == "hello":
+            say(type="hello", protocol=1, name="zoo", version="1.0")
+        elif message["type"] == "setting":
+            say.angles = len(message["setting"]["angles"])
+            say(type="ready")
+        else:
+            if SPECIMEN not in AT_THE_END and not acted:
+                act(message)
+            acted = True
+            answer(message)
+    if SPECIMEN in AT_THE_END:
+        act()
+
+
+main()

@@ -1,0 +1,204 @@
+"""Hostile programs as methods outside, each in a run of its own, with and without a fence. Watched are a process, its files
+and sockets, the folders for temporary files, the run, and who is still there when the run has ended."""
+import ctypes
+import json
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+ETUDE = os.environ["ETUDE"]
+ZOO = pathlib.Path(__file__).with_name("zoo.py")
+SCRATCH = [pathlib.Path(folder) for folder in ("/tmp", "/var/tmp", "/dev/shm")]
+
+SCENARIO = """scenario: zoo
+question: Who gets out?
+task: ik
+trials: 2
+limits: {{time_s: 60, memory_mb: 400}}
+methods:
+  - {{name: neighbour, solver: damped-least-squares}}
+  - {{name: specimen, exec: [{python}, {zoo}, {name}, {den}], time_s: 3}}
+"""
+
+
+class Victim:
+    """Somebody who has nothing to do with the run: a process, with a file, a home, sockets and shared memory."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.connections = 0
+        self.home = folder / "home"
+        self.home.mkdir()
+        (self.home / "profile").write_text("mine\n")
+        (folder / "file").write_text("mine\n")
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", "import signal, time\n"
+             "signal.signal(signal.SIGUSR1, lambda *_: print('hit', flush=True))\n"
+             "print('ready', flush=True)\ntime.sleep(3600)\n"], stdout=subprocess.PIPE, text=True, start_new_session=True)
+        self.process.stdout.readline()
+        self.listeners = [socket.create_server(("127.0.0.1", 0)), socket.socket(socket.AF_UNIX), socket.socket(socket.AF_UNIX)]
+        self.listeners[1].bind(str(folder / "socket"))
+        self.listeners[2].bind("\0zoo-" + folder.name)
+        for listener in self.listeners:
+            listener.listen()
+            threading.Thread(target=self.accept, args=(listener,), daemon=True).start()
+        self.libc = ctypes.CDLL(None)
+        self.key = 0x5A000000 | os.getpid()
+        self.shared_memory = self.libc.shmget(self.key, 4096, 0o1600)
+        self.before = self.look()
+
+    def accept(self, listener):
+        while True:
+            try:
+                listener.accept()
+            except OSError:
+                return
+            self.connections += 1
+
+    def tell(self, den):
+        (den / "victim.json").write_text(json.dumps({
+            "pid": self.process.pid, "port": self.listeners[0].getsockname()[1], "socket": str(self.folder / "socket"),
+            "abstract": "zoo-" + self.folder.name, "shared_memory": self.key, "home": str(self.home),
+            "file": str(self.folder / "file"), "processes": os.readlink("/proc/self/ns/pid"),
+            "network": os.readlink("/proc/self/ns/net")}))
+
+    def look(self):
+        """All that somebody could have changed."""
+        stat = (self.folder / "file").stat()
+        return {"file": ((self.folder / "file").read_text(), stat.st_mode, stat.st_nlink),
+                "home": {path.name: path.read_text() for path in self.home.iterdir()},
+                "alive": self.process.poll() is None,
+                "priority": os.getpriority(os.PRIO_PROCESS, self.process.pid),
+                "connections": self.connections}
+
+    def end(self):
+        self.process.kill()
+        self.process.wait()
+        self.process.stdout.close()
+        for listener in self.listeners:
+            listener.close()
+        self.libc.shmctl(self.shared_memory, 0, None)
+
+
+def left_in_scratch():
+    return sorted(str(path) for folder in SCRATCH for path in folder.glob("zoo-*") if not path.name.startswith("zoo-test-"))
+
+
+def clear_scratch():
+    for path in left_in_scratch():
+        shutil.rmtree(path, ignore_errors=True) if os.path.isdir(path) else os.unlink(path)
+
+
+def processes_of(den):
+    """Who was started by a specimen: by its words, or by a variable that it has set."""
+    found, mark = [], str(den).encode()
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        if int(process.name) == os.getpid():
+            continue
+        try:
+            if process.joinpath("stat").read_text().rsplit(")", 1)[1].split()[0] == "Z":
+                continue
+            if mark in process.joinpath("cmdline").read_bytes() or b"ZOO_DEN=" + mark in process.joinpath("environ").read_bytes():
+                found.append(int(process.name))
+        except OSError:
+            continue  # it has just ended
+    return found
+
+
+class Zoo(unittest.TestCase):
+    longMessage = True
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="zoo-test-"))
+        self.addCleanup(shutil.rmtree, self.folder, True)
+        clear_scratch()
+        self.addCleanup(clear_scratch)
+
+    def release(self, name, *options):
+        """Runs a specimen; gives its statuses, and what it did: to others, to files elsewhere, and who survived."""
+        with tempfile.TemporaryDirectory(prefix="zoo-test-victim-") as others:
+            victim = Victim(pathlib.Path(others))
+            den = self.folder / f"{name}{''.join(options)}"
+            (den / "marks").mkdir(parents=True)
+            victim.tell(den)
+            scenario = den / "zoo.yaml"
+            scenario.write_text(SCENARIO.format(python=sys.executable, zoo=ZOO, name=name, den=den))
+            out = den / "out"
+            run = subprocess.run([ETUDE, "run", scenario, "-o", out, "--jobs", "1", *options], capture_output=True, text=True,
+                                 timeout=120, cwd=ZOO.parent)
+            deadline = time.monotonic() + 2
+            while (survivors := processes_of(den)) and time.monotonic() < deadline:
+                time.sleep(0.02)
+            for process in survivors:
+                os.kill(process, signal.SIGKILL)
+            victims, rows = [], []
+            if run.returncode == 0:
+                rows = [json.loads(line) for line in (out / "cells.jsonl").read_text().splitlines()]
+                seen = subprocess.run([ETUDE, "report", out, "--no-video"], capture_output=True, text=True)
+            if run.returncode != 0 or seen.returncode != 0:
+                victims.append("the run is not whole: " + (run if run.returncode else seen).stderr.splitlines()[-1])
+            for log in (out / "stderr").glob("*"):
+                victims += [line.split(": ", 1)[1] for line in log.read_text(errors="replace").splitlines()
+                            if line.startswith("ZOO-VICTIM ")]
+            now = victim.look()
+            victims += [f"its {key} changed" for key in now if now[key] != victim.before[key]]
+            victim.end()
+            neighbours = [row for row in rows if row["method"] == "neighbour"]
+            if neighbours != self.neighbours():
+                victims.append("its neighbour's rows changed")
+            elsewhere = left_in_scratch() + sorted(path.name for path in (den / "marks").iterdir())
+            elsewhere += sorted(path.name for path in out.iterdir() if path.name not in {
+                "manifest.json", "host.json", "cells.jsonl", "timings.jsonl", "summary.json", "series", "recordings", "seal.json", "stderr",
+                "report", "journal.jsonl"})
+            clear_scratch()
+            statuses = [row["status"] for row in rows if row["method"] == "specimen"] or ["no row"]
+            return statuses, victims, survivors, elsewhere
+
+    def neighbours(self):
+        """The rows of the method beside, where nobody is hostile."""
+        if not hasattr(Zoo, "alone"):
+            scenario = self.folder / "alone.yaml"
+            scenario.write_text(SCENARIO.format(python="python3", zoo="", name="", den="").rsplit("\n", 2)[0] + "\n")
+            subprocess.run([ETUDE, "run", scenario, "-o", self.folder / "alone"], check=True, capture_output=True)
+            Zoo.alone = [json.loads(line) for line in (self.folder / "alone" / "cells.jsonl").read_text().splitlines()]
+        return Zoo.alone
+
+    def test_nobody_gets_out(self):
+        names = os.environ.get("ETUDE_SPECIMENS", "").split() or subprocess.run(
+            [sys.executable, ZOO, "list", "/"], capture_output=True, text=True, check=True).stdout.split()
+        fenced = subprocess.run([ETUDE, "check-method", "--task", "ik", "--", "true"], capture_output=True, text=True)
+        if not fenced.stdout.startswith("fence: bubblewrap"):
+            self.skipTest(fenced.stdout)
+        for name in names:
+            with self.subTest(name):
+                statuses, victims, survivors, elsewhere = self.release(name)
+                print(f"fenced    {name}: {statuses[0]}", flush=True)
+                self.assertEqual((victims, survivors, elsewhere), ([], [], []), name)
+        if "ETUDE_SPECIMENS" not in os.environ:
+            self.assertGreaterEqual(len(names), 50)
+
+    def test_without_a_fence_nobody_survives(self):
+        harm = {}
+        names = os.environ.get("ETUDE_SPECIMENS", "").split() or subprocess.run(
+            [sys.executable, ZOO, "list", "/"], capture_output=True, text=True, check=True).stdout.split()
+        for name in names:
+            with self.subTest(name):
+                statuses, victims, survivors, elsewhere = self.release(name, "--no-fence")
+                print(f"unfenced  {name}: {statuses[0]}; victims {victims}; elsewhere {elsewhere}", flush=True)
+                if victims or elsewhere:
+                    harm[name] = victims + elsewhere
+                self.assertEqual(survivors, [], name)
+        print(f"{len(names)} specimens without a fence: {len(harm)} did harm, none survived")
+        self.assertTrue(harm, "a zoo that harms nobody without a fence proves nothing of the fence")
+
+
+if __name__ == "__main__":
+    unittest.main()
