@@ -1,7 +1,10 @@
 """Methods from outside in a run: a good one is a method among others; a hostile one becomes rows, and nothing else
 suffers."""
+import json
+import os
 import pathlib
 import subprocess
+import sys
 import time
 import unittest
 
@@ -68,11 +71,61 @@ class OutsideMethods(EtudeCase):
         self.assertIn("no program 'no-such-program' in PATH", none[0]["reason"])
         self.assertEqual({row["status"] for row in rows if row["method"] != "none"} - {"ok", "unsolved"}, set())
 
+    def test_a_fence_changes_no_result_and_is_told_of(self):
+        suite = self.write("suite.yaml", IK + outside("good", EXAMPLES / "ik_dls.py") + outside("crashes", HOSTILE, "crashes"))
+        self.run_suite(suite, "--jobs", 2)
+        open_air = self.folder / "no-fence"
+        self.run_suite(suite, "--no-fence", out=open_air)
+        self.assert_same_results(self.out, open_air)
+        self.assertRegex(json.loads((self.out / "host.json").read_text())["fence"], r"^(bubblewrap \d|none \()")
+        self.assertEqual(json.loads((open_air / "host.json").read_text())["fence"], "none (not asked for)")
+
+    def test_without_bubblewrap_methods_run_in_no_fence_and_that_is_said(self):
+        suite = self.write("suite.yaml", IK + f"  - {{name: good, exec: [{sys.executable}, {EXAMPLES / 'ik_dls.py'}]}}\n")
+        nothing = self.folder / "bin"
+        nothing.mkdir()
+        refused = nothing / "bwrap"
+        for script, words in ((None, "bubblewrap is not installed"),
+                              ("#!/bin/sh\necho bwrap: No permissions to create new namespace >&2\nexit 1\n",
+                               "bwrap: No permissions to create new namespace")):
+            if script:
+                refused.write_text(script)
+                refused.chmod(0o755)
+                (nothing / "sh").symlink_to("/bin/sh")
+            run = subprocess.run([ETUDE, "run", suite, "-o", self.out, "--overwrite"], capture_output=True, text=True,
+                                 env=os.environ | {"PATH": str(nothing)})
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn(f"methods outside ran in no fence: none ({words})", run.stderr)
+            self.assertEqual(json.loads((self.out / "host.json").read_text())["fence"], f"none ({words})")
+
+    def test_programs_that_a_manifest_a_run_or_a_pack_names_need_leave(self):
+        mark = self.folder / "started"
+        program = self.folder / "method.sh"
+        program.write_text(f"#!/bin/sh\necho started >>{mark}\nexit 1\n")
+        program.chmod(0o755)
+        cell = "ik/joint_noise_deg=2/000/mine"
+        self.run_suite(self.write("suite.yaml", IK + f"  - {{name: mine, exec: [{program}, --fast]}}\n"), "--no-fence")
+        self.assertTrue(mark.exists())
+        mark.unlink()
+        pack = self.folder / "cell.etude"
+        self.assertEqual(self.etude("replay", self.out, "--cell", cell, "--pack", pack).returncode, 0)
+        for words in (["run", "--from", self.out / "manifest.json", "-o", self.folder / "again"],
+                      ["run", "--dry-run", "--from", self.out / "manifest.json"],
+                      ["replay", self.out, "--sample", "1"], ["replay", pack]):
+            refused = self.etude(*words)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn(f"would run programs, which --allow-exec allows: {program} --fast (ik/mine)", refused.stderr)
+            self.assertEqual(refused.stderr.count("\n"), 1)
+            self.assertFalse(mark.exists())
+        allowed = self.etude("replay", pack, "--allow-exec", "--no-fence")
+        self.assertEqual(allowed.returncode, 0, allowed.stderr)
+        self.assertTrue(mark.exists())
+
     def test_check_method_tells_what_a_method_does_wrong(self):
         for command, code, words in [
                 ([EXAMPLES / "ik_dls.py"], 0, "9 of 9 checks passed"),
                 ([HOSTILE, "crashes"], 1, "FAILED  gives answers that can be scored: crashed: ended with signal 11"),
-                ([HOSTILE, "answers_twice"], 1, "FAILED  answers every question once")]:
+                ([HOSTILE, "answers_twice", json.dumps({"angles_deg": [0] * 29})], 1, "FAILED  answers every question once")]:
             result = self.etude("check-method", "--task", "ik", "--", "python3", *command)
             self.assertEqual(result.returncode, code, result.stdout + result.stderr)
             self.assertIn(words, result.stdout)

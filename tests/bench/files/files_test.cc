@@ -2,6 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
 
 #include "bench/files/temporary_folder.h"
 
@@ -9,6 +14,7 @@ namespace etude {
 namespace {
 
 using testing::HasSubstr;
+namespace fs = std::filesystem;
 
 TEST(Files, ReadBackWhatTheyWroteAndLeaveNothingBeside) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "etude files";
@@ -27,6 +33,39 @@ TEST(Files, OfAPlainNameAreWrittenWhereWeStand) {
   std::filesystem::current_path(before);
   EXPECT_TRUE(written);
   EXPECT_EQ(ReadWholeFile(folder->path() / "plain.txt"), "bytes");
+}
+
+TEST(TemporaryFolders, OfAKilledProcessGoWithTheNextOneOfALivingOneStay) {
+  int report[2];
+  ASSERT_EQ(::pipe(report), 0);
+  const pid_t other = ::fork();
+  if (other == 0) {
+    const auto folder = TemporaryFolder::Make("files-test");
+    std::ofstream(folder->path() / "a") << "text";
+    const std::string name = folder->path().string();
+    if (::write(report[1], name.data(), name.size()) < 0) ::_exit(1);
+    ::pause();
+  }
+  char name[4096] = {};
+  ASSERT_GT(::read(report[0], name, sizeof name - 1), 0);
+  ::close(report[0]);
+  ::close(report[1]);
+  const auto mine = TemporaryFolder::Make("files-test");
+  EXPECT_TRUE(fs::exists(fs::path(name) / "a"));
+  ::kill(other, SIGKILL);
+  ::waitpid(other, nullptr, 0);
+  EXPECT_TRUE(fs::exists(fs::path(name) / "a"));
+  TemporaryFolder::RemoveAbandoned();
+  EXPECT_FALSE(fs::exists(name));
+  EXPECT_TRUE(fs::exists(mine->path()));
+}
+
+TEST(TemporaryFolders, AreToldFromFoldersOfPeopleByTheirName) {
+  const fs::path folder = fs::temp_directory_path() / "etude-results-of-the-files-test";
+  fs::create_directories(folder);
+  TemporaryFolder::RemoveAbandoned();
+  EXPECT_TRUE(fs::exists(folder));
+  fs::remove_all(folder);
 }
 
 TEST(TemporaryFolders, GoAwayWithAllThatIsInThem) {
