@@ -179,18 +179,17 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   manifest["scored"].update(answers);
   const fs::path folder = options.output;
   RETURN_IF_ERROR(SaveJson(folder / "manifest.json", manifest));
-  const auto whole =
-      RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
-                {.program = ThisProgram(),
-                 .error_folder = "",
-                 .fence = FenceFor(scenarios, options.outside, folder),
-                 .jobs = options.jobs,
-                 .stop = options.stop},
-                [&](const DeliveredCell& cell) -> Result<void> {
-                  meter.Count(cell.head.status);
-                  cells.Put(cell.head.cell, std::string(cell.line));
-                  return {};
-                });
+  const auto whole = RunOrders(suite, plan, plan.OrdersFor({}, cells.Done()),
+                               {.program = ThisProgram(),
+                                .error_folder = "",
+                                .fence = FenceFor(scenarios, options.outside, folder),
+                                .jobs = options.jobs,
+                                .stop = options.stop},
+                               [&](const DeliveredCell& cell) -> Result<void> {
+                                 meter.Count(cell.head.status);
+                                 cells.Put(cell.head.cell, std::string(cell.line));
+                                 return {};
+                               });
   if (!whole) return tl::unexpected(whole.error());
   outcome.run.stopped = !*whole;
   outcome.run.cells = meter.progress().cells_done;

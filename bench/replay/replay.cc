@@ -65,14 +65,14 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
   const Fence fence = FenceFor(prepared.scenarios, options.outside, options.folder);
   std::map<std::size_t, CellCheck> checks;
-  const auto whole =
-      RunOrders(prepared.suite, plan, OrdersOf(plan, chosen),
-                {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
-                [&](const DeliveredCell& cell) -> Result<void> {
-                  ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
-                  checks.emplace(cell.head.cell, CompareRows(run.rows[cell.head.cell], finished.row));
-                  return {};
-                });
+  const auto whole = RunOrders(
+      prepared.suite, plan, OrdersOf(plan, chosen),
+      {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
+      [&](const DeliveredCell& cell) -> Result<void> {
+        ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
+        checks.emplace(cell.head.cell, CompareRows(run.rows[cell.head.cell], finished.row));
+        return {};
+      });
   if (!whole) return tl::unexpected(whole.error());
   std::vector<CellCheck> list;
   for (auto& [cell, check] : checks) list.push_back(std::move(check));
