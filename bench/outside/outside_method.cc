@@ -45,6 +45,8 @@ tl::unexpected<Failure> Failed(Status status, std::string reason) {
   return tl::unexpected<Failure>({status, std::move(reason)});
 }
 
+Failure TooLong(double seconds) { return {Status::kTimeout, fmt::format("took longer than {:g} s", seconds)}; }
+
 /// What a program said is its fault; what cannot be said to it is not.
 tl::unexpected<Failure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
 tl::unexpected<Failure> Unspeakable(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
@@ -71,7 +73,7 @@ struct OutsideMethod::State {
   auto Exchange(const std::string& line, double seconds, Read read, Looks looks = Looks::kAlways)
       -> Outcome<typename decltype(read(line))::value_type>;
   bool IsRepeated(const std::string& line) const;
-  Outcome<std::string> WaitForLine(Clock::time_point deadline);
+  Outcome<std::string> WaitForLine(Clock::time_point deadline, double seconds);
   Outcome<void> Look();
   Failure HowItEnded();
   void EndSession();
@@ -219,13 +221,11 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   child->Send(line);  // one that no longer listens is noticed by its silence
   while (true) {
-    const auto said = WaitForLine(deadline);
-    if (!said && said.error().status == Status::kTimeout) {
-      return Failed(Status::kTimeout, fmt::format("took longer than {:g} s", seconds));
-    }
+    const auto said = WaitForLine(deadline, seconds);
     if (!said) return tl::unexpected(said.error());
     auto reply = read(*said);
-    if (!reply && Clock::now() < deadline && IsRepeated(*said)) {
+    if (!reply && IsRepeated(*said)) {
+      if (Clock::now() >= deadline) return tl::unexpected(TooLong(seconds));
       ++repeated;
       continue;
     }
@@ -249,12 +249,11 @@ bool OutsideMethod::State::IsRepeated(const std::string& line) const {
   return answered.contains(about.id);
 }
 
-/// The next line; a failure without words when there is none by the deadline.
-Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadline) {
+Outcome<std::string> OutsideMethod::State::WaitForLine(Clock::time_point deadline, double seconds) {
   Clock::time_point next_look = Clock::now() + kLookEvery;
   while (true) {
     if (auto line = child->NextLine()) return std::move(*line);
-    if (Clock::now() >= deadline) return Failed(Status::kTimeout, "");
+    if (Clock::now() >= deadline) return tl::unexpected(TooLong(seconds));
     const auto patience = std::chrono::ceil<std::chrono::milliseconds>(std::min(next_look, deadline) - Clock::now());
     std::array<pollfd, 2> watched{
         {{child->output(), POLLIN, 0}, {child->HasUnsent() ? child->input() : -1, POLLOUT, 0}}};

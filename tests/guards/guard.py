@@ -33,7 +33,7 @@ DOORS = {
     "CLI/": ["cli"],
     "Random123/": ["sim/random"],
     "xxhash.h": ["engine/base"],
-    "nlohmann/": ["bench", "engine/formats/deepmimic", "engine/streams", "reports"],
+    "nlohmann/": ["bench", "engine/formats/deepmimic", "engine/formats/gltf", "engine/streams", "reports"],
     "boost/": ["bench/statistics"],
     "hwy/": ["engine/kinematics/solvers", "engine/transitions/search", "engine/vision"],
     "libxml/": ["engine/cameras", "engine/transitions/tags_file"],

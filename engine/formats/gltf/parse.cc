@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/base/names.h"
@@ -126,6 +127,27 @@ Result<void> CheckExtensions(const tinygltf::Model& model, const std::string& fi
   return {};
 }
 
+/// tinygltf takes an optional index or count that is negative, or no number, for one that is not there.
+Result<void> CheckCounts(const nlohmann::json& json, const std::string& where, const std::string& file) {
+  constexpr std::array<std::string_view, 10> kCounts = {
+      "bufferView", "byteOffset", "byteStride", "indices", "material", "mesh", "mode", "scene", "skeleton", "skin"};
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      if (key == "extras" || key == "extensions") continue;
+      const std::string name = where.empty() ? key : where + "." + key;
+      if (std::ranges::find(kCounts, key) != kCounts.end() && !value.is_number_unsigned() && !value.is_object()) {
+        return Fail({file}, "{}: found {}; allowed: a whole number from 0", name, value.dump().substr(0, 40));
+      }
+      RETURN_IF_ERROR(CheckCounts(value, name, file));
+    }
+  } else if (json.is_array()) {
+    for (std::size_t i = 0; i < json.size(); ++i) {
+      RETURN_IF_ERROR(CheckCounts(json[i], fmt::format("{}[{}]", where, i), file));
+    }
+  }
+  return {};
+}
+
 /// Every clip copies the names of its joints: long ones would multiply.
 constexpr std::size_t kLongestName = 500;
 
@@ -180,6 +202,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
   if (!model->asset.version.starts_with("2.")) {
     return Fail({file}, "asset.version: found {}; allowed: 2.0", Quote(model->asset.version));
   }
+  RETURN_IF_ERROR(CheckCounts(nlohmann::json::parse(container.json, nullptr, /*allow_exceptions=*/false), "", file));
   RETURN_IF_ERROR(TidyAllNames(*model, file));
   return model;
 }

@@ -94,6 +94,9 @@ constexpr BrokenText kBrokenTexts[] = {
     {"stride past the end", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteStride":16})", "found 3 elements of 12 bytes every 16 bytes at byte 0; bufferViews[0] holds 36"},
     {"buffer out of range", R"({"buffer":0,"byteLength":36})", R"({"buffer":-1,"byteLength":36})", "bufferViews[0].buffer: found -1; allowed: 0 to 0"},
     {"view past its buffer", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":280})", "bufferViews[0]: found 36 bytes at byte 280; buffer 0 holds 292"},
+    {"negative offset", R"({"bufferView":0,)", R"({"bufferView":0,"byteOffset":-4,)", "byteOffset: found -4; allowed: a whole number from 0"},
+    {"negative offset of a view", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":-4})", "bufferViews[0].byteOffset: found -4; allowed"},
+    {"offset that is a text", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":"4"})", "bufferViews[0].byteOffset: found \"4\"; allowed"},
     {"view near 2^64", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":18446744073709551615,"byteOffset":12})", "bufferViews[0]: found 18446744073709551615 bytes at byte 12"},
     {"offset of a view near 2^64", R"({"buffer":0,"byteLength":36})", R"({"buffer":0,"byteLength":36,"byteOffset":18446744073709551600})", "bufferViews[0]: found 36 bytes at byte 18446744073709551600"},
     {"buffer beyond the file", R"("byteLength":292)", R"("byteLength":296)", "not glTF 2.0: Invalid `byteLength'"},
@@ -103,7 +106,7 @@ constexpr BrokenText kBrokenTexts[] = {
     {"sparse of nothing", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":-1,"indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":3}}},)", "sparse.count: found -1"},
     {"sparse with float indices", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"componentType":5126},"values":{"bufferView":3}}},)", "sparse.indices.componentType: found 5126"},
     {"sparse index out of range", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":2,"componentType":5125},"values":{"bufferView":3}}},)", "sparse.indices: found 1065353216; allowed: 0 to 2"},
-    {"sparse with a negative offset", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"byteOffset":-6,"componentType":5123},"values":{"bufferView":3}}},)", "sparse: found a negative byteOffset"},
+    {"sparse with a negative offset", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"byteOffset":-6,"componentType":5123},"values":{"bufferView":3}}},)", "sparse.indices.byteOffset: found -6; allowed: a whole number from 0"},
     {"sparse values past the view", R"("count":3,"type":"SCALAR"},)", R"("count":3,"type":"SCALAR","sparse":{"count":1,"indices":{"bufferView":3,"componentType":5123},"values":{"bufferView":3,"byteOffset":5}}},)", "sparse.values: found 1 elements of 2 bytes every 2 bytes at byte 5; bufferViews[3] holds 6"},
 };
 // clang-format on
