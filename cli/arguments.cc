@@ -119,12 +119,18 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
 void DefineReport(CLI::App& app, Action& action) {
   auto folder = Keep<std::string>();
   auto no_video = Keep<bool>(false);
+  auto whole_sessions = Keep<bool>(false);
   CLI::App* command = app.add_subcommand("report", "Write the page, tables, JUnit and video of a run");
   command->add_option("folder", *folder, "A result folder")->required();
   command->add_flag("--no-video", *no_video, "Leave the video out");
+  command->add_flag("--whole-sessions", *whole_sessions, "Film coached sessions whole, not around a correction");
   auto sealing = Keep<Sealing>();
   AddUnsealed(*command, *sealing);
-  command->callback([=, &action] { action = [=] { return ReportCommand(*folder, !*no_video, *sealing); }; });
+  command->callback([=, &action] {
+    action = [=] {
+      return ReportCommand(*folder, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing);
+    };
+  });
 }
 
 void DefineReplay(CLI::App& app, Action& action) {

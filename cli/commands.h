@@ -9,6 +9,7 @@
 #include "bench/outside/outside_method.h"
 #include "bench/results/folder.h"
 #include "bench/run/run.h"
+#include "reports/report.h"
 
 namespace etude {
 
@@ -56,7 +57,7 @@ int ExportCommand(const ExportOptions& options);
 /// `etude score`: scores a folder of answers into a result folder.
 int ScoreCommand(const ScoreOptions& options);
 /// `etude report DIR`: writes DIR/report and DIR/video.
-int ReportCommand(const std::string& folder, bool with_video, Sealing sealing);
+int ReportCommand(const std::string& folder, const ReportOptions& options, Sealing sealing);
 
 enum class Listing { kMethods, kScenarios, kClips };
 /// `etude list …`: what can be named in a scenario.

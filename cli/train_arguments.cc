@@ -17,13 +17,15 @@ constexpr const char* kTrainExamples =
     "the close pairs best. Clips held out are never learnt from: only what is known about them counts.\n\n"
     "A scenario uses the file by `fuzzy: tuned.yaml`; docs/fuzzy-system.md tells what is in it.\n\n"
     "With --recogniser it makes the model of the recogniser `learnt` anew (docs/detection.md): simulated people dance\n"
-    "the labelled clips, right and wrong, and the model learns to tell which.\n\n"
+    "the labelled clips, right and wrong, and the model learns to tell which. With --coached that of `coached`: they\n"
+    "dance songs along with a coach (docs/coach.md).\n\n"
     "Try:\n"
     "  etude train 'builtin:*' -o tuned.yaml                           S, by a genetic algorithm\n"
     "  etude train 'builtin:*' -o tuned.yaml --memberships             the membership functions, too\n"
     "  etude train 'builtin:*' -o tuned.yaml --method adaptive         S, by logistic regression\n"
     "  etude train 'builtin:*' 'mocap/*.bvh' -o tuned.yaml --hold-out 'mass_*'    judge by these\n"
-    "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows";
+    "  etude train 'builtin:*' -o learnt.yaml --recogniser             what recogniser learnt knows\n"
+    "  etude train groove sprint warm_up -o coached.yaml --coached     what recogniser coached knows";
 
 }  // namespace
 
@@ -50,18 +52,24 @@ void DefineTrain(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_flag("--recogniser", options->recogniser, "Learn the recogniser `learnt`");
-  command->add_option("--sessions", options->sessions, "Of simulated people, 16 performances each (recogniser)")
-      ->check(CLI::Range(10, 10000))
-      ->capture_default_str()
-      ->needs("--recogniser");
+  command->add_flag("--coached", options->coached, "Learn the recogniser `coached`: CLIPS are built-in songs")
+      ->excludes("--recogniser");
+  command
+      ->add_option(
+          "--sessions", options->sessions,
+          "Of simulated people: 16 performances each (recogniser, 400), three minutes before a coach (coached, "
+          "300)")
+      ->check(CLI::Range(10, 10000));
   for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {
-    command->get_option(other)->excludes("--recogniser");
+    command->get_option(other)->excludes("--recogniser")->excludes("--coached");
   }
   command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
   AddReading(*command, options->reading);
   command->footer(kTrainExamples);
   command->callback([=, &action] {
-    action = [=] { return options->recogniser ? TrainRecogniserCommand(*options) : TrainCommand(*options); };
+    action = [=] {
+      return options->recogniser || options->coached ? TrainRecogniserCommand(*options) : TrainCommand(*options);
+    };
   });
 }
 

@@ -1,7 +1,11 @@
 #include <fmt/core.h>
 
+#include <string>
+#include <utility>
+
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
+#include "bench/tasks/coach/train_coached.h"
 #include "bench/tasks/detection/train_recogniser.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
@@ -12,8 +16,17 @@
 namespace etude {
 namespace {
 
-Result<void> TrainIntoFile(const TrainOptions& options) {
-  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+/// A model, and what made it.
+struct Trained {
+  LearntModel model;
+  std::string header;
+};
+
+constexpr const char* kHeader =
+    "# What the recogniser `{}` knows, by `etude train --{} --sessions {} --seed {}` of\n#   {}\n"
+    "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n";
+
+Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading));
@@ -21,12 +34,24 @@ Result<void> TrainIntoFile(const TrainOptions& options) {
   if (repertoire.taught.size() < 2) {
     return Fail({}, "{} labelled clips; a recogniser learns from two at least", repertoire.taught.size());
   }
-  const LearntModel model = TrainRecogniser(repertoire, {.sessions = options.sessions, .seed = options.seed});
-  const std::string header = fmt::format(
-      "# What the recogniser `learnt` knows, by `etude train --recogniser --sessions {} --seed {}` of\n#   {}\n"
-      "# Trees: measure and limit of each question, then what the answers add to the log-odds of \"right\".\n",
-      options.sessions, options.seed, Join(NamesOf(repertoire.taught)));
-  return WriteFileAtomically(options.output, header + WriteLearntModel(model));
+  RecogniserTraining training{.seed = options.seed};
+  training.sessions = options.sessions.value_or(training.sessions);
+  return Trained{TrainRecogniser(repertoire, training), fmt::format(kHeader, "learnt", "recogniser", training.sessions,
+                                                                    training.seed, Join(NamesOf(repertoire.taught)))};
+}
+
+Result<Trained> TrainCoachedOf(const TrainOptions& options) {
+  CoachedTraining training{.seed = options.seed};
+  training.sessions = options.sessions.value_or(training.sessions);
+  ASSIGN_OR_RETURN(LearntModel model, TrainCoached(options.clips, training));
+  return Trained{std::move(model),
+                 fmt::format(kHeader, "coached", "coached", training.sessions, training.seed, Join(options.clips))};
+}
+
+Result<void> TrainIntoFile(const TrainOptions& options) {
+  RETURN_IF_ERROR(CheckOutput(options.output, options.overwrite));
+  ASSIGN_OR_RETURN(const Trained trained, options.coached ? TrainCoachedOf(options) : TrainLearnt(options));
+  return WriteFileAtomically(options.output, trained.header + WriteLearntModel(trained.model));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ std::string WhatHolds(const AcrossVerdict& across) {
 
 std::string MethodsOf(const AcrossVerdict& across) { return across.method + " − " + across.baseline; }
 
-/// "+3.2 better"
+/// "3.10 pp better"
 std::string EachText(const AcrossVerdict& across, const AcrossVerdict::Each& each) {
   if (!each.difference) return std::string(VerdictName(each.verdict));
   const MetricWords words = WordsFor(across.metric);

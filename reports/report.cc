@@ -65,7 +65,8 @@ Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_fo
 
   Media media;
   if (options.pictures) {
-    media = MakeMedia(run, {.films = run_folder / "video", .pictures = folder / "pictures"});
+    media = MakeMedia(run, {.films = run_folder / "video", .pictures = folder / "pictures"},
+                      {.whole_sessions = options.whole_sessions});
   } else {
     media.film.why_not = "There is no film: none was asked for.";
   }

@@ -11,6 +11,8 @@ struct ReportOptions {
   /// Draw the film and the picture strip. They take most of a report's time; without them the page
   /// says that none was asked for.
   bool pictures = true;
+  /// Films show coached sessions from their first frame to their last, not around a correction.
+  bool whole_sessions = false;
 };
 
 /// Writes what people and other programs read of a run: `report/index.html` (self-contained),

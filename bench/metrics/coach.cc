@@ -33,6 +33,16 @@ bool IsAnswered(const CoachedSession& session, std::size_t i) {
   });
 }
 
+/// From the decision to correct until the act begins, or the session ends.
+std::vector<Wait> FeedbackWaits(const CoachedSession& session) {
+  std::vector<Wait> waits;
+  for (const GivenCorrection& correction : session.corrections) {
+    const int until = correction.act_frame.value_or(session.frames);
+    waits.push_back({(until - correction.decided_frame) / session.rate_hz, correction.act_frame.has_value()});
+  }
+  return waits;
+}
+
 }  // namespace
 
 CorrectionTally TallyCorrections(const CoachedSession& session) {
@@ -64,12 +74,15 @@ std::optional<double> DecisionDelaySeconds(const CoachedSession& session) {
 }
 
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session) {
-  std::vector<Wait> waits;
-  for (const GivenCorrection& correction : session.corrections) {
-    const int until = correction.act_frame.value_or(session.frames);
-    waits.push_back({(until - correction.decided_frame) / session.rate_hz, correction.act_frame.has_value()});
+  return KaplanMeierMedian(FeedbackWaits(session));
+}
+
+std::optional<double> LongestFeedbackDelaySeconds(const CoachedSession& session) {
+  std::optional<double> longest;
+  for (const Wait& wait : FeedbackWaits(session)) {
+    if (wait.happened) longest = std::max(longest.value_or(0), wait.seconds);
   }
-  return KaplanMeierMedian(waits);
+  return longest;
 }
 
 std::optional<double> RepetitionsUntilRight(std::span<const std::vector<PerformanceTruth>> moves) {

@@ -52,6 +52,8 @@ std::optional<double> AnsweredShare(const CorrectionTally& tally);
 std::optional<double> DecisionDelaySeconds(const CoachedSession& session);
 /// `feedback_delay_s`: from the decision to correct to the act's first frame, given up at the session's end. Likewise.
 std::optional<double> FeedbackDelaySeconds(const CoachedSession& session);
+/// `feedback_delay_max_s`: the longest of those waits, of the acts that began. Empty when none did.
+std::optional<double> LongestFeedbackDelaySeconds(const CoachedSession& session);
 
 /// `repetitions_until_right`: `moves` holds, per move, what its performances were, in order of time. Of the moves whose
 /// first performance was wrong: how many performances until the first right one, it included; Kaplan–Meier median,

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "engine/coaching/coach.h"
 #include "engine/recognition/filters.h"
@@ -37,6 +38,8 @@ class CoachSession {
   CoachOutput Next(const SensedFrame& frame, const SessionInput& input = {});
 
   const CoachState& state() const { return state_; }
+  /// Goes on from another state, when no window is open: what was seen of the player so far is not forgotten.
+  void GoOnFrom(CoachState state) { state_ = std::move(state); }
 
  private:
   struct Eyes;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/named.h"
 #include "engine/document/fields.h"
 #include "engine/recognition/measuring_recogniser.h"
 
@@ -88,22 +89,40 @@ std::string WriteLearntModel(const LearntModel& model) {
   return WriteTrees("asked", model.asked) + WriteTrees("spotted", model.spotted);
 }
 
+namespace {
+
+LearntModel ReadBuiltin(std::string_view name) {
+  const EmbeddedText* file = FindByName(BuiltinLearntModelFiles(), name, StemOf);
+  assert(file != nullptr);
+  auto read = ReadLearntModel(file->text, std::string(file->name));
+  assert(read);  // a test reads it
+  return *std::move(read);
+}
+
+}  // namespace
+
 const LearntModel& BuiltinLearntModel() {
+  static const LearntModel model = ReadBuiltin("learnt");
+  return model;
+}
+
+const LearntModel& BuiltinCoachedModel() {
   static const LearntModel model = [] {
-    const EmbeddedText& file = BuiltinLearntModelFiles().front();
-    auto read = ReadLearntModel(file.text, std::string(file.name));
-    assert(read);  // a test reads it
-    return *std::move(read);
+    LearntModel coached = ReadBuiltin("coached");
+    coached.spotted = BuiltinLearntModel().spotted;
+    return coached;
   }();
   return model;
 }
 
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
-                                                 const LearntModel& model) {
+                                                 const LearntModel& model, ByClock by_clock) {
   return MakeMeasuringRecogniser(
-      taught, weights, [&model](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
+      taught, weights,
+      [&model](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
         return (occasion == Occasion::kAsked ? model.asked : model.spotted).Probability(measures);
-      });
+      },
+      by_clock);
 }
 
 }  // namespace etude

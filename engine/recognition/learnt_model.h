@@ -8,6 +8,7 @@
 #include "engine/base/embedded_text.h"
 #include "engine/base/result.h"
 #include "engine/recognition/boosted_trees.h"
+#include "engine/recognition/measuring_recogniser.h"
 #include "engine/recognition/recogniser.h"
 #include "engine/recognition/taught_move.h"
 #include "engine/recognition/weighting.h"
@@ -26,12 +27,15 @@ std::string WriteLearntModel(const LearntModel& model);
 
 /// scenarios/recognisers/*.yaml (written by the build).
 std::span<const EmbeddedText> BuiltinLearntModelFiles();
-/// The one that recogniser `learnt` has: scenarios/recognisers/learnt.yaml.
+/// What recogniser `learnt` knows: scenarios/recognisers/learnt.yaml.
 const LearntModel& BuiltinLearntModel();
+/// What recogniser `coached` knows: scenarios/recognisers/coached.yaml of performances asked for, learnt.yaml of
+/// others.
+const LearntModel& BuiltinCoachedModel();
 
 /// Ours: performances are aligned with the taught examples, measured, and judged by what simulated people taught the
-/// model. The moves are those taught: the model knows none.
+/// model. The moves are those taught: the model knows none. `by_clock`: as the model was fitted.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
-                                                 const LearntModel& model);
+                                                 const LearntModel& model, ByClock by_clock = ByClock::kNo);
 
 }  // namespace etude

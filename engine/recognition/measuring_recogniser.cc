@@ -63,10 +63,11 @@ class RecentCosts {
 class MeasuringFollower final : public StepFollower {
  public:
   MeasuringFollower(const std::vector<TaughtExample>& examples, std::size_t moves, const SightWeights& weights,
-                    const PerformanceJudge& judge, double rate_hz)
+                    const PerformanceJudge& judge, ByClock by_clock, double rate_hz)
       : StepFollower(PoseParts::kLimbs, weights, moves, rate_hz),
         examples_(examples),
         judge_(judge),
+        by_clock_(by_clock),
         steps_(LongestOf(examples)),
         costs_(std::max<std::size_t>(moves, 1)) {
     for (const TaughtExample& example : examples) always_.emplace_back(example.pattern, example.longest);
@@ -86,7 +87,8 @@ class MeasuringFollower final : public StepFollower {
     in_window_.clear();
     opened_at_ = steps_.Count();
     for (const TaughtExample& example : examples_) {
-      if (example.move == move) in_window_.push_back({&example, {example.pattern, example.longest}});
+      if (example.move != move) continue;
+      in_window_.push_back({&example, {example.pattern, example.longest}, ClockComparison(example.pattern)});
     }
   }
 
@@ -106,13 +108,16 @@ class MeasuringFollower final : public StepFollower {
     }
     if (lowest < kUnaligned) {
       const TaughtExample& example = examples_[nearest];
-      spotted[example.move] = judge_(Occasion::kSpotted, example.move, MeasureNow(example, always_[nearest], 0));
+      spotted[example.move] =
+          judge_(Occasion::kSpotted, example.move, MeasureNow(example, always_[nearest], 0, nullptr));
     }
     double evidence = 0;
-    for (auto& [example, aligner] : in_window_) {
+    for (auto& [example, aligner, clock] : in_window_) {
       aligner.Update(step);
+      if (by_clock_ == ByClock::kYes) clock.Update(step);
       if (aligner.Cost() == kUnaligned) continue;
-      const PerformanceMeasures measures = MeasureNow(*example, aligner, opened_at_);
+      const PerformanceMeasures measures =
+          MeasureNow(*example, aligner, opened_at_, by_clock_ == ByClock::kYes ? &clock : nullptr);
       evidence = std::max(evidence, judge_(Occasion::kAsked, example->move, measures));
       if (aligner.Cost() < nearest_cost_) {
         nearest_cost_ = aligner.Cost();
@@ -122,8 +127,9 @@ class MeasuringFollower final : public StepFollower {
     return evidence;
   }
 
-  /// `first`: the number of the step that the aligner calls its first.
-  PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first) const {
+  /// `first`: the number of the step that the aligner calls its first. `clock`: null = not measured by it.
+  PerformanceMeasures MeasureNow(const TaughtExample& example, const SubsequenceAligner& aligner, int first,
+                                 const ClockComparison* clock) const {
     const std::vector<StepPair> path = aligner.Path();
     const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
     PerformanceMeasures measures = Measure({.path = path,
@@ -131,6 +137,9 @@ class MeasuringFollower final : public StepFollower {
                                             .pattern = example.pattern,
                                             .cost = aligner.Cost(),
                                             .other_cost = costs_.LowestOther(example.move)});
+    if (clock != nullptr) {
+      std::ranges::copy(clock->Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
+    }
     usual_.Relate(measures);
     return measures;
   }
@@ -138,10 +147,12 @@ class MeasuringFollower final : public StepFollower {
   struct InWindow {
     const TaughtExample* example;
     SubsequenceAligner aligner;
+    ClockComparison clock;
   };
 
   const std::vector<TaughtExample>& examples_;
   const PerformanceJudge& judge_;
+  ByClock by_clock_;
   RecentSteps steps_;
   RecentCosts costs_;
   std::vector<SubsequenceAligner> always_;  // one per example
@@ -155,11 +166,15 @@ class MeasuringFollower final : public StepFollower {
 class MeasuringRecogniser final : public Recogniser {
  public:
   MeasuringRecogniser(std::vector<TaughtExample> examples, std::size_t moves, const SightWeights& weights,
-                      PerformanceJudge judge)
-      : examples_(std::move(examples)), moves_(moves), weights_(weights), judge_(std::move(judge)) {}
+                      PerformanceJudge judge, ByClock by_clock)
+      : examples_(std::move(examples)),
+        moves_(moves),
+        weights_(weights),
+        judge_(std::move(judge)),
+        by_clock_(by_clock) {}
 
   std::unique_ptr<MoveFollower> Follow(double rate_hz) const override {
-    return std::make_unique<MeasuringFollower>(examples_, moves_, weights_, judge_, rate_hz);
+    return std::make_unique<MeasuringFollower>(examples_, moves_, weights_, judge_, by_clock_, rate_hz);
   }
 
  private:
@@ -167,12 +182,13 @@ class MeasuringRecogniser final : public Recogniser {
   std::size_t moves_;
   SightWeights weights_;
   PerformanceJudge judge_;
+  ByClock by_clock_;
 };
 
 }  // namespace
 
 std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
-                                                    PerformanceJudge judge) {
+                                                    PerformanceJudge judge, ByClock by_clock) {
   std::vector<TaughtExample> examples;
   for (std::size_t move = 0; move < taught.size(); ++move) {
     const int longest = static_cast<int>(std::ceil(taught[move].span_s * kStepsPerSecond));
@@ -181,7 +197,7 @@ std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> 
       if (!pattern.empty()) examples.push_back({move, std::move(pattern), longest});
     }
   }
-  return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge));
+  return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge), by_clock);
 }
 
 }  // namespace etude

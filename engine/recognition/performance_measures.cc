@@ -59,14 +59,14 @@ constexpr std::array<std::size_t, 4> kMiddle = {0, 1, 2, 11};
 constexpr std::array<std::array<std::size_t, 2>, 4> kPairs = {{{3, 4}, {5, 6}, {7, 8}, {9, 10}}};
 
 /// How the clock of a performance went against the example's, seconds.
-struct ClockMeasures {
+struct PathClock {
   double lag = 0;       ///< mean, from the first step seen
   double stretch = 0;   ///< 0 at the taught tempo, 1 at half of it
   double unsteady = 0;  ///< root mean square about a steady tempo
   double worst = 0;     ///< likewise, at most
 };
 
-ClockMeasures MeasureClock(std::span<const StepPair> path) {
+PathClock MeasureClock(std::span<const StepPair> path) {
   const double count = static_cast<double>(path.size());
   double seen = 0, taught = 0, seen_squares = 0, taught_squares = 0, products = 0;
   for (const StepPair& pair : path) {
@@ -109,6 +109,14 @@ const std::vector<std::string>& MeasureNames() {
       list.emplace_back(other);
     }
     for (std::size_t i = 0; i < kOwnMeasures; ++i) list.push_back(list[i] + ", beyond the usual");
+    for (const char* clock :
+         {"shift", "shift of the first half", "shift of the second half", "drift", "distance by the clock",
+          "gained by a shift", "gained in the first half", "gained in the second half"}) {
+      list.emplace_back(clock);
+    }
+    for (std::size_t i = 0; i < kClockMeasures; ++i) {
+      list.push_back(list[kFirstClockMeasure + i] + ", beyond the usual");
+    }
     return list;
   }();
   return names;
@@ -141,7 +149,7 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
     worst = std::max(worst, limb.error);
     mean += limb.error / kPosePartCount;
   }
-  const ClockMeasures clock = MeasureClock(performance.path);
+  const PathClock clock = MeasureClock(performance.path);
   const double both = performance.cost + performance.other_cost;
   for (double value :
        {std::sqrt(performance.cost), thirds[0].Root(), thirds[1].Root(), thirds[2].Root(), worst, mean, clock.lag,
@@ -151,22 +159,39 @@ PerformanceMeasures Measure(const AlignedPerformance& performance) {
   return measures;
 }
 
+namespace {
+
+/// Calls `relate(own, beyond)` with the indices of every measure and of what it is beyond the usual.
+template <typename Relate>
+void ForEachOwn(const Relate& relate) {
+  for (std::size_t m = 0; m < kOwnMeasures; ++m) relate(m, kOwnMeasures + m);
+  for (std::size_t m = kFirstClockMeasure; m < kFirstClockMeasure + kClockMeasures; ++m) relate(m, kClockMeasures + m);
+}
+
+}  // namespace
+
 void PersonsUsual::Add(const PerformanceMeasures& performance) {
   constexpr std::size_t kLatest = 32;
   if (latest_.size() == kLatest) latest_.erase(latest_.begin());
   latest_.push_back(performance);
   std::vector<double> values(latest_.size());
-  for (std::size_t m = 0; m < kOwnMeasures; ++m) {
-    for (std::size_t i = 0; i < latest_.size(); ++i) values[i] = latest_[i][m];
+  ForEachOwn([&](std::size_t own, std::size_t) {
+    for (std::size_t i = 0; i < latest_.size(); ++i) values[i] = latest_[i][own];
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
-    usual_[m] = *middle;
-  }
+    usual_[own] = *middle;
+  });
 }
 
 void PersonsUsual::Relate(PerformanceMeasures& performance) const {
   if (latest_.empty()) return;
-  for (std::size_t m = 0; m < kOwnMeasures; ++m) performance[kOwnMeasures + m] = performance[m] - usual_[m];
+  ForEachOwn([&](std::size_t own, std::size_t beyond) { performance[beyond] = performance[own] - usual_[own]; });
+}
+
+double PersonsUsual::Shift() const {
+  // A window opens a reaction time after the coach begins, and people follow a little later than that: ours.
+  constexpr double kUnknown = -0.1;
+  return latest_.empty() ? kUnknown : usual_[kFirstClockMeasure];
 }
 
 }  // namespace etude

@@ -104,8 +104,16 @@ std::span<const RecogniserKind> AllRecognisers() {
       {.name = "learnt",
        .description = "ours: limbs aligned with the taught examples, judged by what simulated people taught a model",
        .needs_examples = true,
+       .teach =
+           [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
+             return MakeLearntRecogniser(taught, options.weights, BuiltinLearntModel());
+           }},
+      {.name = "coached",
+       .description =
+           "ours: learnt, for who is asked by a clock that keeps the music's time; taught by people before a coach",
+       .needs_examples = true,
        .teach = [](std::span<const TaughtMove> taught, const RecogniserOptions& options) {
-         return MakeLearntRecogniser(taught, options.weights, BuiltinLearntModel());
+         return MakeLearntRecogniser(taught, options.weights, BuiltinCoachedModel(), ByClock::kYes);
        }}};
   return recognisers;
 }

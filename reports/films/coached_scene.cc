@@ -29,6 +29,11 @@ constexpr Paint kRight{0.36, 0.74, 0.46, 1}, kWrong{0.88, 0.36, 0.32, 1}, kGrey{
 
 constexpr int kBeforeCorrection = 3 * kFilmRate;
 
+/// What the timeline shows at most; of a longer film what is around the present.
+constexpr int kTimelineFrames = 24 * kFilmRate;
+
+const Room kMeadow{.casts_shadows = false};
+
 Paint PaintOfMode(const std::string& mode) {
   if (mode == "dance") return kAccent;
   if (mode == "correct") return kWarm;
@@ -67,12 +72,11 @@ CoachedScene::CoachedScene(CoachedSessionFacts facts, std::string heading, int l
       heading_(std::move(heading)),
       renderer_(renderer),
       bear_(BearCharacter()),
-      learner_(MannequinCharacter()),
-      forest_(ForestFigure()) {
+      learner_(MannequinCharacter()) {
   const int frames = facts_.Frames();
   if (!facts_.corrections.empty()) first_ = facts_.corrections.front() - kBeforeCorrection;
-  first_ = std::clamp(first_, 0, std::max(0, frames - longest));
-  last_ = std::min(frames, first_ + longest);
+  first_ = std::clamp(first_, 0, std::max(0, frames - std::min(frames, longest)));
+  last_ = first_ + std::min(frames - first_, longest);
 }
 
 int CoachedScene::PosterFrame() const {
@@ -87,9 +91,16 @@ std::string CoachedScene::Words() const {
       "A coached session, seconds {} to {} of {}: the coach in its forest, the learner as danced beside it, and as the "
       "sensor "
       "saw it (lower right). Timeline: what the coach does; what every performance truly was; what it was taken for. "
-      "{} corrections in the whole session. Without sound.",
+      "{} corrections in the whole session. A click for every beat of the music.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.corrections.size());
+}
+
+const ColourImage& CoachedScene::Backdrop(const Camera& camera) {
+  if (backdrop_.pixels.empty()) {
+    backdrop_ = renderer_.Render(kMeadow, {ForestFigure()}, camera, Targets::kColour).colour;
+  }
+  return backdrop_;
 }
 
 void CoachedScene::DrawStage(Canvas& canvas, int frame) {
@@ -104,9 +115,13 @@ void CoachedScene::DrawStage(Canvas& canvas, int frame) {
   const BodyPose coach = PutAt(facts_.coach.poses[t], kCoachAt), learner = PutAt(facts_.learner.poses[t], kLearnerAt);
   Figure spots;
   spots.surfaces = {SpotBelow(coach), SpotBelow(learner)};
-  const std::vector<Figure> figures{forest_, spots, PosedFigure(bear_, coach), PosedFigure(learner_, learner)};
-  const Room meadow{.casts_shadows = false};
-  canvas.DrawImage(renderer_.Render(meadow, figures, camera, Targets::kColour).colour, kStage, kPanelRadius);
+  const std::vector<Figure> people{spots, PosedFigure(bear_, coach), PosedFigure(learner_, learner)};
+  const View seen = renderer_.Render(kMeadow, people, camera, Targets::kColourAndLabels);
+  ColourImage stage = Backdrop(camera);
+  for (std::size_t i = 0; i < stage.pixels.size(); ++i) {
+    if (seen.labels.pixels[i] != static_cast<std::uint8_t>(Part::kBackground)) stage.pixels[i] = seen.colour.pixels[i];
+  }
+  canvas.DrawImage(stage, kStage, kPanelRadius);
   DrawTag(canvas, kStage, fmt::format("The coach: {}", InForce(facts_.modes, frame).mode));
   std::string why;
   for (const auto& decision : facts_.decisions) {
@@ -132,19 +147,26 @@ void CoachedScene::DrawHint(Canvas& canvas, int frame) const {
   canvas.DrawText({kHint.x + 10, kHint.y + kHint.height - 12}, words.hint, 11, kInk, kHint.width - 20, true);
 }
 
-double CoachedScene::PlaceOf(int frame) const {
-  const double left = kTimeline.x + kTimelineLeft, width = kTimeline.width - kTimelineLeft - 12;
-  return left + width * std::clamp(frame - first_, 0, Frames()) / std::max(1, Frames());
+FrameSpan CoachedScene::TimelineAt(int now) const {
+  if (Frames() <= kTimelineFrames) return {first_, last_};
+  const int begin = std::clamp(now - kTimelineFrames / 2, first_, last_ - kTimelineFrames);
+  return {begin, begin + kTimelineFrames};
 }
 
-void CoachedScene::DrawTimeline(Canvas& canvas, int frame) const {
+void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
   canvas.FillBox(kTimeline, {0.13, 0.15, 0.17, 1}, kPanelRadius);
+  const FrameSpan shown = TimelineAt(now);
+  const auto place = [&](int frame) {
+    const double left = kTimeline.x + kTimelineLeft, width = kTimeline.width - kTimelineLeft - 12;
+    const int length = shown.end - shown.begin;
+    return left + width * std::clamp(frame - shown.begin, 0, length) / std::max(1, length);
+  };
   const auto row_y = [](int row) { return kTimeline.y + 12 + row * (kTimelineRow + 8); };
   const auto label = [&](int row, const char* text) {
     canvas.DrawText({kTimeline.x + 12, row_y(row) + 18}, text, 13, kSoftInk, kTimelineLeft - 16);
   };
   const auto bar = [&](int row, int begin, int end, const Paint& paint) {
-    const double left = PlaceOf(begin), right = PlaceOf(end);
+    const double left = place(begin), right = place(end);
     if (right > left) canvas.FillBox({left, row_y(row), right - left - 1, kTimelineRow}, paint, 4);
   };
   label(0, "coach");
@@ -155,19 +177,28 @@ void CoachedScene::DrawTimeline(Canvas& canvas, int frame) const {
     bar(0, facts_.modes[i].begin_frame, end, PaintOfMode(facts_.modes[i].mode));
   }
   for (const auto& performance : facts_.performances) {
-    if (performance.end_frame < first_ || performance.begin_frame > last_) continue;
+    if (performance.end_frame < shown.begin || performance.begin_frame > shown.end) continue;
     bar(1, performance.begin_frame, performance.end_frame, PaintOfWord(performance.truth));
-    if (frame >= performance.end_frame) {
+    if (now >= performance.end_frame) {
       bar(2, performance.begin_frame, performance.end_frame, PaintOfWord(performance.called));
     }
-    canvas.DrawText({PlaceOf(performance.begin_frame) + 5, row_y(1) + 18}, performance.move, 12, kBackdrop,
-                    std::max(0.0, PlaceOf(performance.end_frame) - PlaceOf(performance.begin_frame) - 8));
+    canvas.DrawText({place(performance.begin_frame) + 5, row_y(1) + 18}, performance.move, 12, kBackdrop,
+                    std::max(0.0, place(performance.end_frame) - place(performance.begin_frame) - 8));
   }
   for (const int seam : facts_.transitions) {
-    if (seam < first_ || seam >= last_) continue;
-    canvas.DrawLine({PlaceOf(seam), row_y(0) - 4}, {PlaceOf(seam), row_y(0) + kTimelineRow + 4}, 2, kInk);
+    if (seam < shown.begin || seam >= shown.end) continue;
+    canvas.DrawLine({place(seam), row_y(0) - 4}, {place(seam), row_y(0) + kTimelineRow + 4}, 2, kInk);
   }
-  canvas.DrawLine({PlaceOf(frame), row_y(0) - 6}, {PlaceOf(frame), row_y(2) + kTimelineRow + 6}, 2, kInk);
+  canvas.DrawLine({place(now), row_y(0) - 6}, {place(now), row_y(2) + kTimelineRow + 6}, 2, kInk);
+}
+
+std::vector<double> CoachedScene::Beats() const {
+  const double begin_s = first_ / kJudgedRateHz, end_s = last_ / kJudgedRateHz;
+  std::vector<double> beats;
+  for (const double beat : facts_.beats_s) {
+    if (beat >= begin_s && beat < end_s) beats.push_back(beat - begin_s);
+  }
+  return beats;
 }
 
 Canvas CoachedScene::Draw(int frame) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/motion/character.h"
 #include "reports/films/coached_session.h"
@@ -9,8 +10,13 @@
 
 namespace etude {
 
+/// Frames [begin, end) of a session.
+struct FrameSpan {
+  int begin = 0, end = 0;
+};
+
 /// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
-/// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions.
+/// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions. A beat is a click.
 class CoachedScene : public Scene {
  public:
   /// Shows at most `longest` frames, cut around the session's first correction. The renderer must outlive the scene.
@@ -20,20 +26,24 @@ class CoachedScene : public Scene {
   int PosterFrame() const override;
   std::string Words() const override;
   Canvas Draw(int frame) override;
+  std::vector<double> Beats() const override;
 
  private:
+  /// The stage without anybody, drawn once: everybody stands before it.
+  const ColourImage& Backdrop(const Camera& camera);
   void DrawStage(Canvas& canvas, int frame);
   void DrawSkeletonInset(Canvas& canvas, int frame) const;
   void DrawHint(Canvas& canvas, int frame) const;
-  void DrawTimeline(Canvas& canvas, int frame) const;
-  double PlaceOf(int frame) const;
+  void DrawTimeline(Canvas& canvas, int now) const;
+  /// The frames of the session that the timeline shows at one of them.
+  FrameSpan TimelineAt(int now) const;
 
   CoachedSessionFacts facts_;
   std::string heading_;
   Renderer& renderer_;
-  int first_ = 0, last_ = 0;  ///< [first, last) of the session
+  int first_ = 0, last_ = 0;  ///< [first_, last_) of the session
   Character bear_, learner_;
-  Figure forest_;
+  ColourImage backdrop_;  ///< empty until it is needed
 };
 
 }  // namespace etude

@@ -51,6 +51,7 @@ void Fill(const Json& extras, CoachedSessionFacts& facts) {
   for (const Json& frame : extras.at("transitions")) {
     facts.transitions.push_back(std::clamp(frame.get<int>(), 0, frames - 1));
   }
+  facts.beats_s = extras.at("beats_s").get<std::vector<double>>();
 }
 
 }  // namespace

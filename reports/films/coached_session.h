@@ -36,6 +36,7 @@ struct CoachedSessionFacts {
   std::vector<Words> words;
   std::vector<Decision> decisions;
   std::vector<int> corrections, transitions;
+  std::vector<double> beats_s;        ///< when the music's beats sounded, ascending
   BodyMotion coach, learner, sensed;  ///< of one length
 
   int Frames() const { return static_cast<int>(coach.poses.size()); }

@@ -20,44 +20,20 @@
 namespace etude {
 namespace {
 
-// One thread: the number of threads changes the bytes. The bitexact flags keep dates and versions out.
+// One thread: the number of threads changes the bytes. The bitexact flags keep dates and versions out. Sound is FLAC:
+// no floating-point arithmetic, so the same bytes on every CPU, and browsers play it in an MP4.
 std::vector<std::string> Arguments(const std::string& program, const std::filesystem::path& out, int width, int height,
-                                   int rate_hz) {
-  return {program,
-          "-loglevel",
-          "error",
-          "-xerror",
-          "-y",
-          "-f",
-          "rawvideo",
-          "-pix_fmt",
-          "rgb24",
-          "-s",
-          fmt::format("{}x{}", width, height),
-          "-r",
-          fmt::format("{}", rate_hz),
-          "-i",
-          "-",
-          "-sws_flags",
-          "+accurate_rnd+bitexact",
-          "-an",
-          "-c:v",
-          "libx264",
-          "-preset",
-          "veryfast",
-          "-crf",
-          "20",
-          "-pix_fmt",
-          "yuv420p",
-          "-threads",
-          "1",
-          "-fflags",
-          "+bitexact",
-          "-flags:v",
-          "+bitexact",
-          "-map_metadata",
-          "-1",
-          out.string()};
+                                   int rate_hz, const std::filesystem::path& sound) {
+  std::vector<std::string> all = {program, "-loglevel", "error", "-xerror", "-y"};
+  const auto add = [&](const std::vector<std::string>& words) { all.insert(all.end(), words.begin(), words.end()); };
+  add({"-f", "rawvideo", "-pix_fmt", "rgb24", "-s", fmt::format("{}x{}", width, height)});
+  add({"-r", fmt::format("{}", rate_hz), "-i", "-"});
+  if (!sound.empty()) add({"-i", sound.string(), "-c:a", "flac", "-strict", "-2", "-flags:a", "+bitexact"});
+  if (sound.empty()) add({"-an"});
+  add({"-sws_flags", "+accurate_rnd+bitexact", "-c:v", "libx264", "-preset", "veryfast", "-crf", "20"});
+  add({"-pix_fmt", "yuv420p", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"});
+  add({"-map_metadata", "-1", out.string()});
+  return all;
 }
 
 int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_t& child) {
@@ -77,7 +53,7 @@ int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_
 }  // namespace
 
 Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int height, int rate_hz,
-                               const std::string& program) {
+                               const std::filesystem::path& sound, const std::string& program) {
   const Place place{.file = path.string()};
   RETURN_IF_ERROR(MakeFolder(path.parent_path()));
   Log log(std::tmpfile(), std::fclose);
@@ -89,7 +65,7 @@ Result<Encoder> Encoder::Start(const std::filesystem::path& path, int width, int
   }
   pid_t child = -1;
   const int error =
-      Spawn(Arguments(program, TemporaryName(path), width, height, rate_hz), ends[1], fileno(log.get()), child);
+      Spawn(Arguments(program, TemporaryName(path), width, height, rate_hz, sound), ends[1], fileno(log.get()), child);
   close(ends[1]);
   if (error != 0) {
     close(ends[0]);

@@ -17,10 +17,10 @@ namespace etude {
 /// dropped before Finish leaves nothing behind.
 class Encoder {
  public:
-  /// Pictures must have this size (even numbers) and follow at `rate_hz`. Fails when `program` cannot
-  /// be started, saying why.
+  /// Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes with them, kept
+  /// without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
   static Result<Encoder> Start(const std::filesystem::path& path, int width, int height, int rate_hz,
-                               const std::string& program = "ffmpeg");
+                               const std::filesystem::path& sound = {}, const std::string& program = "ffmpeg");
   ~Encoder();
   Encoder(Encoder&& other) noexcept;
   Encoder& operator=(Encoder&&) = delete;

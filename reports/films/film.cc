@@ -1,14 +1,48 @@
 #include "reports/films/film.h"
 
+#include <utility>
+
 #include "bench/files/files.h"
+#include "engine/formats/wav.h"
 #include "reports/films/encoder.h"
 #include "reports/films/look.h"
+#include "sim/music/click_track.h"
 
 namespace etude {
 namespace {
 
+/// A click track that lies beside the film while it is encoded.
+class SoundFile {
+ public:
+  static Result<SoundFile> Make(const Scene& scene, const std::filesystem::path& film) {
+    SoundFile sound;
+    const std::vector<double> beats = scene.Beats();
+    if (beats.empty()) return sound;
+    constexpr int kSoundRate = 44100;
+    sound.path_ = TemporaryName(film);
+    sound.path_ += ".wav";
+    const double seconds = static_cast<double>(scene.Frames()) / kFilmRate;
+    RETURN_IF_ERROR(WriteFileAtomically(sound.path_, WriteWav(ClickTrack(beats, seconds, kSoundRate), kSoundRate)));
+    return sound;
+  }
+  ~SoundFile() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  SoundFile(SoundFile&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+  SoundFile& operator=(SoundFile&&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }  ///< empty: silence
+
+ private:
+  SoundFile() = default;
+  std::filesystem::path path_;
+};
+
 Result<std::string> Encode(Scene& scene, const std::filesystem::path& path) {
-  ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate));
+  RETURN_IF_ERROR(MakeFolder(path.parent_path()));
+  ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene, path));
+  ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate, sound.path()));
   for (int frame = 0; frame < scene.Frames(); ++frame) {
     RETURN_IF_ERROR(encoder.Add(scene.Draw(frame).Pixels()));
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "reports/films/canvas.h"
 #include "reports/films/media.h"
@@ -22,6 +23,8 @@ class Scene {
   virtual std::string Words() const = 0;
   /// A canvas of kFilmWidth × kFilmHeight. Frames are asked for in order, the poster's before them.
   virtual Canvas Draw(int frame) = 0;
+  /// When a beat clicks, seconds since the film began, ascending. None: the film is silent.
+  virtual std::vector<double> Beats() const { return {}; }
 };
 
 /// An empty canvas of a film's size, with its heading in the uppermost 52 pixels.

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -125,10 +126,9 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
-/// A coached session around a correction; or, in words, why there is no film of it.
+/// A coached session of at most so many frames, around a correction; or, in words, why there is no film of it.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
-                     LazyRenderer& lazy) {
-  constexpr int kLongest = 12 * kFilmRate;
+                     int longest, LazyRenderer& lazy) {
   Film film;
   film.file = path.filename().string();
   if (!cell) {
@@ -142,26 +142,31 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
     return film;
   }
   CoachedScene scene(std::move(*facts), fmt::format("{} · {} · {}", cell->scenario->name, cell->row->method, which),
-                     kLongest, **renderer);
+                     longest, **renderer);
   return Shoot(scene, path);
 }
 
-/// A typical session, and the worst where that is another learner's.
-void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, LazyRenderer& lazy,
-                      Media& media) {
+/// A typical session, and the worst where that is another learner's or another coach's.
+void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
+                      LazyRenderer& lazy, Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
+  const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 12 * kFilmRate;
+  const auto add = [&](const std::optional<CastCell>& cell, const std::string& which, std::string_view file) {
+    Film film = MakeSessionFilm(cell, which, paths.films / FilmName(run, index, file), longest, lazy);
+    media.scenario_films.push_back({scenario.name, std::move(film)});
+  };
   const auto typical = ChooseCell(run, scenario, "coach"), worst = ChooseWorstSession(run, scenario);
-  media.scenario_films.push_back({scenario.name, MakeSessionFilm(typical, "a typical session",
-                                                                 paths.films / FilmName(run, index, "session"), lazy)});
-  if (!worst || (typical && worst->row->trial == typical->row->trial)) return;
-  media.scenario_films.push_back(
-      {scenario.name,
-       MakeSessionFilm(worst, "the worst session", paths.films / FilmName(run, index, "worst-session"), lazy)});
+  add(typical, "a typical session", "session");
+  const auto same = [&] {
+    return worst->row->trial == typical->row->trial && worst->row->method == typical->row->method;
+  };
+  if (!worst || (typical && same())) return;
+  add(worst, "the worst session", "worst-session");
 }
 
 }  // namespace
 
-Media MakeMedia(const RunData& run, const MediaPaths& paths) {
+Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options) {
   Media media;
   LazyRenderer renderer;
   MakeStageFilm(run, paths, renderer, media);
@@ -176,7 +181,7 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
                                                 paths.films / FilmName(run, i, "transitions"), renderer);
     } else if (scenario.task == "coach") {
-      MakeSessionFilms(run, i, paths, renderer, media);
+      MakeSessionFilms(run, i, paths, options, renderer, media);
       continue;
     } else {
       continue;

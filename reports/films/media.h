@@ -59,8 +59,12 @@ struct MediaPaths {
   std::filesystem::path pictures;  ///< a folder: colour, depth and labels of the strip's moments, as EXR
 };
 
+struct MediaOptions {
+  bool whole_sessions = false;  ///< coached sessions are not cut around their first correction
+};
+
 /// Draws what the recordings of a run show: the films, their posters, the strip and the pictures behind it.
 /// Whatever cannot be made is left out, with the reason in `why_not`; never a failure of the report.
-Media MakeMedia(const RunData& run, const MediaPaths& paths);
+Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options = {});
 
 }  // namespace etude

@@ -213,7 +213,8 @@ std::vector<GradedFault> Learner::DrawFaults(RandomStream& dice, std::size_t mov
     const auto ways = std::ranges::equal_range(showable, fault, {}, &GradedFault::fault);
     if (ways.empty() || happens >= known_[move].ChanceOf(fault)) continue;
     const auto way = static_cast<std::size_t>(choice * static_cast<double>(ways.size()));
-    faults.push_back({fault, kLeastSeverity + (1 - kLeastSeverity) * severity, ways[way].choice});
+    const double thrown = kLeastSeverity + (1 - kLeastSeverity) * severity;
+    faults.push_back({fault, options_.severity.value_or(thrown), ways[way].choice});
   }
   instead = (move + 1 + dice.IndexBelow(std::max<std::size_t>(1, moves_.size() - 1))) % moves_.size();
   return faults;

@@ -39,6 +39,8 @@ struct LearnerOptions {
   double guidance = 0.5;
   /// Where every skill starts, in [0, 1]; else by the person's kind, another for every fault of every move.
   std::optional<double> skill = {};
+  /// How bad every fault is that happens, in [0, 1]; else thrown.
+  std::optional<double> severity = {};
   bool gives_up = true;  ///< whether patience can end
 };
 

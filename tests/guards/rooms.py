@@ -155,8 +155,8 @@ MAY_INCLUDE = {
         "sim/render bench/clips bench/files reports/films reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
-        "engine/base engine/cameras engine/kinematics engine/motion sim/body sim/camera sim/character sim/render sim/sensors "
-        "sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
+        "engine/base engine/cameras engine/formats engine/kinematics engine/motion sim/body sim/camera sim/character sim/music "
+        "sim/render sim/sensors sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model reports/words",

@@ -1,9 +1,14 @@
 #include "bench/tasks/coach/coach_task.h"
 
+#include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bench/tasks/base/read_methods.h"
 #include "bench/tasks/coach/exchange.h"
+#include "bench/tasks/coach/operating_point.h"
 #include "bench/tasks/coach/options.h"
 #include "bench/tasks/coach/recording.h"
 #include "bench/tasks/coach/run.h"
@@ -20,23 +25,52 @@ constexpr const char* kOnlyLive = "a session answers back: it has no problem tha
 struct Rehearsal {
   CoachCondition condition;
   CoachStage stage;
-  std::vector<ReadyCoach> coaches;
+  std::vector<CoachMethod> methods;
+};
+
+/// A rehearsal's coaches, made ready the first time that worlds of a scenario and seed ask for them: with an operating
+/// point their thresholds are set on people keyed apart from those judged.
+class ReadyCoaches {
+ public:
+  /// `rehearsal` must outlive this.
+  explicit ReadyCoaches(const Rehearsal& rehearsal) : rehearsal_(rehearsal) {}
+
+  /// Fails where a method's recogniser cannot be taught.
+  Result<std::vector<ReadyCoach>*> For(const WorldKey& key) {
+    const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
+    if (is_new) {
+      std::vector<CoachMethod> methods = rehearsal_.methods;
+      RETURN_IF_ERROR(SetThresholds(rehearsal_.condition, rehearsal_.stage, key, methods));
+      ASSIGN_OR_RETURN(known->second, MakeReady(std::move(methods), rehearsal_.stage));
+    }
+    return &known->second;
+  }
+
+ private:
+  const Rehearsal& rehearsal_;
+  std::map<std::pair<std::uint64_t, std::string>, std::vector<ReadyCoach>> known_;
 };
 
 class CoachTaskWorld final : public TaskWorld {
  public:
-  CoachTaskWorld(const Rehearsal& shared, const WorldKey& key, bool keeps_motion)
-      : shared_(shared), world_(MakeCoachWorld(shared.condition, key)), keeps_motion_(keeps_motion) {}
+  CoachTaskWorld(const Rehearsal& shared, ReadyCoaches& coaches, const WorldKey& key, bool keeps_motion)
+      : shared_(shared),
+        coaches_(coaches),
+        world_(MakeCoachWorld(shared.condition, key)),
+        keeps_motion_(keeps_motion) {}
+
+  /// The coaches, which all worlds of the condition share.
+  void PrepareShared() override { Coaches(); }
 
   CellResult Run(std::size_t method) override {
-    const auto log = RunMethod(shared_.coaches[method], shared_.condition, shared_.stage, world_, nullptr);
+    const auto log = RunMethod(Coaches()[method], shared_.condition, shared_.stage, world_, nullptr);
     if (!log) return CellResult::Ended(Status::kFailed, log.error().message);
     return Score(*log);
   }
 
   Result<CellResult> RunWith(LiveProgram& program, std::size_t method) override {
     ASSIGN_OR_RETURN(const SessionLog log,
-                     RunMethod(shared_.coaches[method], shared_.condition, shared_.stage, world_, &program));
+                     RunMethod(Coaches()[method], shared_.condition, shared_.stage, world_, &program));
     return Score(log);
   }
 
@@ -53,7 +87,11 @@ class CoachTaskWorld final : public TaskWorld {
     return result;
   }
 
+  /// Made once before, when the task was: they can be taught.
+  const std::vector<ReadyCoach>& Coaches() const { return **coaches_.For(world_.key); }
+
   const Rehearsal& shared_;
+  ReadyCoaches& coaches_;
   const CoachWorld world_;
   const bool keeps_motion_;
 };
@@ -63,13 +101,14 @@ class CoachTask final : public Task {
   explicit CoachTask(Rehearsal shared) : shared_(std::move(shared)) {}
 
   std::unique_ptr<TaskWorld> MakeWorld(const WorldKey& key, bool keeps_motion) const override {
-    return std::make_unique<CoachTaskWorld>(shared_, key, keeps_motion);
+    return std::make_unique<CoachTaskWorld>(shared_, coaches_, key, keeps_motion);
   }
   std::vector<std::string> ClipsOf(const WorldKey& /*key*/) const override { return {}; }
   Result<Payload> Setting() const override { return DancePayload(shared_.stage); }
 
  private:
   const Rehearsal shared_;
+  mutable ReadyCoaches coaches_{shared_};  // a memory of what depends on keys alone
 };
 
 Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
@@ -87,10 +126,16 @@ Result<std::unique_ptr<Task>> MakeCoachTask(TaskInput& input) {
                 "method {}: a coach cannot wait for later pictures; allowed: 'capture' with 'causal: true'",
                 methods[i].name);
   }
+  if (shared.condition.sight.has_cameras && shared.condition.operating_point) {
+    return Fail(input.condition.node().place,
+                "'operating_point' goes with the skeleton sensor: cameras show every method something else; say "
+                "'threshold'");
+  }
   ASSIGN_OR_RETURN(shared.stage, SetCoachStage(shared.condition.song));
-  auto ready = MakeReady(std::move(methods), shared.stage);
-  if (!ready) return Fail(input.condition.node().place, "{}", ready.error().message);
-  shared.coaches = *std::move(ready);
+  if (const auto ready = MakeReady(methods, shared.stage); !ready) {
+    return Fail(input.condition.node().place, "{}", ready.error().message);
+  }
+  shared.methods = std::move(methods);
   return std::make_unique<CoachTask>(std::move(shared));
 }
 

@@ -12,6 +12,16 @@ constexpr Range kShare{0, 1};
 using Condition = CoachCondition;
 using Method = CoachMethod;
 
+const FieldTable<CoachOperatingPoint>& OperatingPointFieldsOfCoach() {
+  using Key = Field<CoachOperatingPoint>;
+  static const FieldTable<CoachOperatingPoint> table{
+      {Key::Number("needless_per_min", &CoachOperatingPoint::needless_per_min, {0, 60},
+                   "How many right performances a minute may be taken for mistakes."),
+       Key::Number("sessions", &CoachOperatingPoint::sessions, {1, 1000},
+                   "On how many sessions of other people the thresholds are set.")}};
+  return table;
+}
+
 std::vector<Field<Method>> CoachFields() {
   using Key = Field<Method>;
   return {Key::Number(
@@ -86,6 +96,10 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
         Key::Number(
             "skill", [](auto& c) -> auto& { return c.learner.skill; }, kShare, "Where every skill starts.")
             .WhenAbsent("(by the kind of people)"),
+        Key::Number(
+            "severity", [](auto& c) -> auto& { return c.learner.severity; }, kShare,
+            "How bad every fault is that happens: 1 is a full mistake, as bad as that fault gets.")
+            .WhenAbsent("(thrown evenly from 0.35 to 1 for each)"),
         Key::Flag(
             "gives_up", [](auto& c) -> auto& { return c.learner.gives_up; }, "Whether the learner's patience ends."),
         Key::Number("test_after", &Condition::test_after, {0, 10000},
@@ -103,8 +117,21 @@ const FieldTable<CoachCondition>& CoachConditionFields() {
                                       "distance_m", "sensor_height_m", "occluder", "threshold"};
     for (const auto& field : CameraSensingFields().fields) sight.push_back(field.info.key);
     Append(FieldsOf<Condition>(DetectionConditionFields(), &Condition::sight, Keep::kThese, sight), fields);
-    return FieldTable<Condition>{std::move(fields),
-                                 [](Fields& mapping, Condition& c) { CheckSensorKeys(mapping, c.sight); }};
+    fields.push_back(Key{
+        {"operating_point", MappingKind("a mapping", OperatingPointFieldsOfCoach().Describe()), "(none)",
+         "Sets from which evidence on a performance is right on other people, whom nobody interrupts, so that so many "
+         "right performances a minute are taken for mistakes."},
+        [](Fields& condition, Condition& c) {
+          if (condition.Raw("operating_point") == nullptr) return;
+          ReadNested(condition, "operating_point", OperatingPointFieldsOfCoach(), c.operating_point.emplace());
+        }});
+    return FieldTable<Condition>{std::move(fields), [](Fields& condition, Condition& c) {
+                                   CheckSensorKeys(condition, c.sight);
+                                   if (!c.sight.threshold || !c.operating_point) return;
+                                   condition.Complain(
+                                       condition.Raw("threshold")->place,
+                                       "'threshold' and 'operating_point' both set thresholds; allowed: one of them");
+                                 }};
   }();
   return table;
 }

@@ -12,6 +12,13 @@
 
 namespace etude {
 
+/// Where coaches are compared: each with the evidence from which on a performance is right that takes so many right
+/// ones a minute for mistakes, of other people under the same condition.
+struct CoachOperatingPoint {
+  double needless_per_min = 0.2;
+  int sessions = 24;  ///< of those people, one each
+};
+
 /// One condition of a coach scenario: who learns what, how well the sensor sees it, and how well the music keeps time.
 ///
 ///     song: groove       # what is danced
@@ -23,6 +30,7 @@ struct CoachCondition {
   std::string song = "groove";
   double session_s = 180;
   LearnerOptions learner;
+  std::optional<CoachOperatingPoint> operating_point;  ///< sets the thresholds of methods that say none
   int test_after = 20;  ///< so many performances' time after the session what was kept is tested
   MusicClockOptions music;
   DetectionOptions sight;  ///< who is there and how they are seen: its session's script is not read

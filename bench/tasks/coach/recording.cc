@@ -68,6 +68,7 @@ Recording RecordCoaching(const CoachStage& stage, const SessionLog& log) {
   for (const LoggedTransition& transition : log.transitions) {
     for (const int seam : transition.seams) extras["transitions"].push_back(seam);
   }
+  extras["beats_s"] = log.beats_s;
   extras["joint_states"] = OrderedJson::array();
   for (const SensedFrame& frame : log.sensed.frames) extras["joint_states"].push_back(StateLetters(frame));
   return {.tracks = {{"coach", log.coach}, {"truth", log.learner}, {"sensed", MotionOf(log.sensed)}},

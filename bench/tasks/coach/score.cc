@@ -54,6 +54,8 @@ void MeasureCorrections(const CoachedSession& session, CellResult& result) {
                    tally.due == 0 ? no_mistake : "fewer than half of the mistakes were called so");
   result.MeasureOr("feedback_delay_s", FeedbackDelaySeconds(session),
                    tally.given == 0 ? "nothing was corrected" : "fewer than half of the acts began");
+  result.MeasureOr("feedback_delay_max_s", LongestFeedbackDelaySeconds(session),
+                   tally.given == 0 ? "nothing was corrected" : "no act began");
 }
 
 void AddMotion(const BodyMotion& motion, Digest& digest) {
@@ -128,6 +130,7 @@ std::vector<std::string> CoachMetrics() {
           "wrong_praise_per_min",
           "decision_delay_s",
           "feedback_delay_s",
+          "feedback_delay_max_s",
           "repetitions_until_right",
           "danced_share",
           "gave_up",

@@ -19,7 +19,9 @@ class Loop {
  public:
   Loop(const SessionParts& parts, const CoachWorld& world, Player& player, MomentSource* moments)
       : parts_(parts), world_(world), player_(player), moments_(moments), music_(world.music, world.key) {
-    Begin(parts.coach.BeginDancing());
+    coach_ = std::make_unique<CoachSession>(
+        CoachSession::Parts{.coach = &parts.coach, .recogniser = &parts.recogniser, .filter = parts.filter},
+        parts.coach.BeginDancing());
   }
 
   Result<SessionLog> Run() {
@@ -43,18 +45,12 @@ class Loop {
   }
 
  private:
-  void Begin(CoachState state) {
-    first_frame_ = frame_;
-    coach_ = std::make_unique<CoachSession>(
-        CoachSession::Parts{.coach = &parts_.coach, .recogniser = &parts_.recogniser, .filter = parts_.filter},
-        std::move(state));
-  }
-
-  /// The song is over: it begins anew, and what the coach remembers of the player stays.
+  /// The song is over: it begins anew; what the coach remembers of the player, and what it has seen of them, stays.
   void DanceAgain() {
     CoachState state = parts_.coach.BeginDancing();
     state.moves = coach_->state().moves;
-    Begin(std::move(state));
+    first_frame_ = frame_ + 1;
+    coach_->GoOnFrom(std::move(state));
   }
 
   void MoveLearner() { log_.learner.poses.push_back(player_.Next(shown_)); }
@@ -93,7 +89,17 @@ class Loop {
   void PlayMusic() {
     if (shown_.music.kind == MusicCommand::Kind::kPlayFrom) music_.PlayFrom(shown_.music.music_s);
     if (shown_.music.kind == MusicCommand::Kind::kPause) music_.Pause();
+    const double before = music_.Now();
     music_.Tick();
+    if (music_.IsPlaying()) NoteBeats(before, music_.Now());
+  }
+
+  /// Those that sound while the music goes from one moment of its own to another, within this frame.
+  void NoteBeats(double from_s, double to_s) {
+    const std::vector<double>& beats = parts_.coach.dance().beats_s;
+    for (auto beat = std::ranges::lower_bound(beats, from_s); beat != beats.end() && *beat < to_s; ++beat) {
+      log_.beats_s.push_back((frame_ + (*beat - from_s) / (to_s - from_s)) / kJudgedRateHz);
+    }
   }
 
   /// Keeps what this frame came to.

@@ -43,6 +43,7 @@ struct SessionLog {
   std::vector<LoggedTransition> transitions;
   std::vector<LoggedWords> words;     ///< whenever they change
   std::vector<double> beat_errors_s;  ///< of the frames danced to music
+  std::vector<double> beats_s;        ///< when the music's beats sounded, seconds since the session began
   BodyMotion coach;                   ///< as shown
   BodyMotion learner;                 ///< as danced
   SkeletonStream sensed;              ///< as the coach sees it, before its filter

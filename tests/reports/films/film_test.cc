@@ -6,6 +6,7 @@
 
 #include "bench/files/files.h"
 #include "bench/recordings/capture_extras.h"
+#include "engine/formats/wav.h"
 #include "reports/films/canvas.h"
 #include "reports/films/capture_panel.h"
 #include "reports/films/capture_plate.h"
@@ -20,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // What cairo makes of the panel's colour for the body's left side.
 constexpr Rgb8 kLeftBone{255, 204, 76};
@@ -176,9 +178,9 @@ TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
 }
 
 TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
-  const auto encode = [] {
+  const auto encode = [](const fs::path& sound) {
     const fs::path path = FilmPath();
-    auto encoder = Encoder::Start(path, 64, 48, 30);
+    auto encoder = Encoder::Start(path, 64, 48, 30, sound);
     EXPECT_TRUE(encoder.has_value()) << ToString(encoder.error());
     for (int i = 0; i < 10; ++i) {
       EXPECT_TRUE(encoder->Add(ColourImage(64, 48, {static_cast<std::uint8_t>(20 * i), 90, 30})).has_value());
@@ -188,19 +190,27 @@ TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
     EXPECT_FALSE(fs::exists(TemporaryName(path)));
     return ReadWholeFile(path).value_or("");
   };
-  const std::string first = encode();
-  EXPECT_THAT(first.substr(0, 12), HasSubstr("ftyp"));
-  EXPECT_EQ(first, encode());
+  const std::string silent = encode({});
+  EXPECT_THAT(silent.substr(0, 12), HasSubstr("ftyp"));
+  EXPECT_THAT(silent, Not(HasSubstr("fLaC")));
+  EXPECT_EQ(silent, encode({}));
+
+  const fs::path clicks = fs::path(::testing::TempDir()) / "etude_film_clicks.wav";
+  ASSERT_TRUE(WriteFileAtomically(clicks, WriteWav(std::vector<double>(44100 / 3, 0.5), 44100)));
+  const std::string clicking = encode(clicks);
+  EXPECT_THAT(clicking, HasSubstr("fLaC"));
+  EXPECT_EQ(clicking, encode(clicks));
+  fs::remove(clicks);
 }
 
 TEST(Encoder, SaysThatTheProgramIsMissing) {
-  const auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, "no-such-encoder");
+  const auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, {}, "no-such-encoder");
   ASSERT_FALSE(encoder.has_value());
   EXPECT_THAT(ToString(encoder.error()), HasSubstr("no-such-encoder could not be started"));
 }
 
 TEST(Encoder, ReportsAProgramThatGivesUpInsteadOfDying) {
-  auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, "false");
+  auto encoder = Encoder::Start(FilmPath(), 64, 48, 30, {}, "false");
   ASSERT_TRUE(encoder.has_value());
   Result<void> added;
   for (int i = 0; i < 500 && added; ++i) added = encoder->Add(ColourImage(64, 48));

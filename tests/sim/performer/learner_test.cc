@@ -78,6 +78,29 @@ TEST(Learner, WhoCanDoEverythingIsAlwaysRight) {
   }
 }
 
+TEST(Learner, MakesFullMistakesWhereAskedTo) {
+  Coaching thrown({.skill = 0.1}), full({.skill = 0.1, .severity = 1.0});
+  int faults = 0;
+  for (std::size_t move = 0; move < AllMoves().size(); ++move) {
+    for (int i = 0; i < 3; ++i) {
+      thrown.Dance(move);
+      full.Dance(move);
+    }
+  }
+  for (std::size_t i = 0; i < full.learner().performances().size(); ++i) {
+    const auto& as_thrown = thrown.learner().performances()[i].event.faults;
+    const auto& as_asked = full.learner().performances()[i].event.faults;
+    ASSERT_EQ(as_thrown.size(), as_asked.size());  // the same luck
+    for (std::size_t f = 0; f < as_asked.size(); ++f) {
+      EXPECT_EQ(as_asked[f].fault, as_thrown[f].fault);
+      EXPECT_EQ(as_asked[f].severity, 1);
+      EXPECT_LT(as_thrown[f].severity, 1);
+      ++faults;
+    }
+  }
+  EXPECT_GT(faults, 10);
+}
+
 TEST(Learner, WhoIsAbsentIsNeverRight) {
   Coaching coaching({}, People::kAbsent);
   for (std::size_t move = 0; move < AllMoves().size(); ++move) EXPECT_EQ(coaching.Dance(move), Truth::kWrong);

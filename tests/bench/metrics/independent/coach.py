@@ -73,6 +73,11 @@ def feedback_delay(given):
                                 for correction in given["corrections"]])
 
 
+def longest_feedback_delay(given):
+    begun = [c for c in given["corrections"] if c["act_frame"] is not None]
+    return max(((c["act_frame"] - c["decided_frame"]) / given["rate_hz"] for c in begun), default=None)
+
+
 def repetitions_until_right(given):
     waits = []
     for truths in given["moves"]:
@@ -104,6 +109,7 @@ METRICS = {
         lambda given: [i for i in mistakes(given) if given["performances"][i]["called_right"]]),
     "decision_delay_s": decision_delay,
     "feedback_delay_s": feedback_delay,
+    "feedback_delay_max_s": longest_feedback_delay,
     "repetitions_until_right": repetitions_until_right,
     "retention": lambda given: common.mean(given["chances"]),
     "danced_share": lambda given: given["danced_frames"] / given["frames"],

@@ -1,0 +1,86 @@
+#include "bench/tasks/coach/train_coached.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "bench/tasks/coach/followed_session.h"
+#include "bench/tasks/coach/learner_player.h"
+#include "bench/tasks/coach/run.h"
+#include "engine/recognition/measuring_recogniser.h"
+
+namespace etude {
+namespace {
+
+/// A song and somebody who dances it without ever interrupting or judging early.
+struct Lesson {
+  CoachStage stage;
+  ReadyCoach coach;
+};
+
+Result<std::unique_ptr<Lesson>> MakeLesson(const std::string& song) {
+  auto lesson = std::make_unique<Lesson>();
+  ASSIGN_OR_RETURN(lesson->stage, SetCoachStage(song));
+  ASSIGN_OR_RETURN(lesson->coach, MakeWatching(lesson->stage));
+  return lesson;
+}
+
+/// A person before a sensor, thrown.
+CoachCondition ThrowCondition(const WorldKey& key) {
+  RandomStream dice(key, "condition");
+  constexpr std::array<double, 4> kNoises = {0.5, 1, 1, 2};
+  CoachCondition condition;
+  condition.sight.noise = kNoises[dice.IndexBelow(kNoises.size())];
+  if (dice.Chance(0.5)) condition.sight.sensor = SensorV1();
+  condition.sight.session.people = People::kMixed;
+  condition.learner.skill = dice.Uniform(0.1, 0.8);
+  if (dice.Chance(0.5)) condition.learner.severity = 1;  // full mistakes: seldom else, and they must not be missed
+  return condition;
+}
+
+/// What was measured in each window, the nearest first and not more than can matter; grey ones left out.
+void AddSession(const Lesson& lesson, const SessionLog& log, Weighting weighting, std::vector<LabelledBag>& bags) {
+  constexpr std::size_t kMost = 12;
+  const auto& names = MeasureNames();
+  const auto distance = static_cast<std::size_t>(std::ranges::find(names, "distance") - names.begin());
+  std::vector<PerformanceMeasures> measured;
+  const auto recogniser = MakeMeasuringRecogniser(
+      lesson.stage.taught, {.weighting = weighting},
+      [&](Occasion occasion, std::size_t, const PerformanceMeasures& measures) {
+        if (occasion == Occasion::kAsked) measured.push_back(measures);
+        return 0.0;
+      },
+      ByClock::kYes);
+  FollowPerformances(log, *recogniser, {}, [&](const LoggedPerformance& performance, double) {
+    std::vector<PerformanceMeasures> own = std::exchange(measured, {});
+    if (performance.judged.truth == PerformanceTruth::kGrey || own.empty()) return;
+    std::ranges::stable_sort(own, [&](const auto& a, const auto& b) { return a[distance] < b[distance]; });
+    own.resize(std::min(own.size(), kMost));
+    bags.push_back({performance.judged.truth == PerformanceTruth::kRight, std::move(own)});
+  });
+}
+
+}  // namespace
+
+Result<LearntModel> TrainCoached(std::span<const std::string> songs, const CoachedTraining& training) {
+  std::vector<std::unique_ptr<Lesson>> lessons;
+  for (const std::string& song : songs) {
+    ASSIGN_OR_RETURN(auto lesson, MakeLesson(song));
+    lessons.push_back(std::move(lesson));
+  }
+  std::vector<LabelledBag> bags;
+  for (int session = 0; session < training.sessions; ++session) {
+    const WorldKey key{.suite_seed = training.seed, .scenario = "coached-training", .trial = session};
+    const auto index = static_cast<std::size_t>(session);
+    const Lesson& lesson = *lessons[index % lessons.size()];
+    const CoachCondition condition = ThrowCondition(key);
+    const CoachWorld world = MakeCoachWorld(condition, key);
+    ASSIGN_OR_RETURN(const SessionLog log, RunMethod(lesson.coach, condition, lesson.stage, world, nullptr));
+    const bool weighs = index / lessons.size() % 2 == 1;
+    AddSession(lesson, log, weighs ? Weighting::kAdaptive : Weighting::kFixed, bags);
+  }
+  return LearntModel{.asked = FitBoostedTrees(bags, training.boosting), .spotted = {}};
+}
+
+}  // namespace etude

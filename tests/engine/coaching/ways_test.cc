@@ -1,0 +1,89 @@
+// Every way that a session can need, of every song, by paper A's transitions (sections 3.5 and 4): from the end of every
+// window into every corrective act, from there into the slow demonstration, from there back to the dance.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "engine/coaching/dance_transitions.h"
+#include "engine/transitions/choices/choice.h"
+#include "engine/transitions/joins/join.h"
+#include "sim/choreography/dance_of.h"
+#include "sim/choreography/song.h"
+
+namespace etude {
+namespace {
+
+constexpr double kWaitLimit_s = TransitionRequest{}.budget_s;
+
+/// What all those ways came to.
+struct Ways {
+  int count = 0, through_in_betweens = 0, unmatched = 0;
+  double longest_s = 0;
+  std::set<std::string> pairs;  ///< of what is left and what is entered
+};
+
+void Add(const ShownPath& path, const std::string& pair, Ways& ways) {
+  ++ways.count;
+  const Branch branch = path.record->branch;
+  ways.through_in_betweens += branch == Branch::kInBetween;
+  ways.unmatched += branch != Branch::kFrontHalf && branch != Branch::kRearHalf && branch != Branch::kInBetween;
+  ways.longest_s = std::max(ways.longest_s, static_cast<double>(path.entered) / kJudgedRateHz);
+  ways.pairs.insert(pair);
+}
+
+Ways WaysOf(const std::string& song, const char* choice) {
+  const Dance dance = *DanceOf(*LoadBuiltinSong(song));
+  const DanceLibrary library = *DanceLibrary::Make(dance);
+  const DanceTransitions transitions(library, {.choice = FindChoice(choice), .join = FindJoin("cut")});
+  constexpr int kWindowLag = 9;  // frames after the repetition, as coaches have it by default
+  const auto last_of = [&](int clip) { return static_cast<int>(library.library().motions[clip].poses.size()) - 1; };
+  Ways ways;
+  for (int r = 0; r < static_cast<int>(dance.repetitions.size()); ++r) {
+    const Repetition& repetition = dance.repetitions[static_cast<std::size_t>(r)];
+    const std::string move = dance.moves[static_cast<std::size_t>(repetition.move)].name;
+    const auto closes = static_cast<double>(repetition.end + kWindowLag);
+    const int leaving = library.ClipLeaving(library.RepetitionAt(closes));
+    const int frame = std::min(static_cast<int>(closes - static_cast<double>(library.DanceFrameOf(leaving))),
+                               last_of(leaving));
+    const int slow = library.ClipOfSlow(repetition.move);
+    for (const std::string act : {"head_shake", "wave", "puzzled"}) {
+      const int whole = library.ClipOfAct(act);
+      Add(*transitions.Find(leaving, frame, library.ClipEntering(whole)), move + " > " + act, ways);
+      Add(*transitions.Find(whole, last_of(whole) - 30, library.ClipEntering(slow)), act + " > slow " + move, ways);
+    }
+    Add(*transitions.Find(slow, last_of(slow) - 30, library.ClipReturning(r)), "slow " + move + " > " + move, ways);
+  }
+  return ways;
+}
+
+TEST(Ways, NoneTakesLongerThanTheWaitAndTheLongestInBetween) {
+  for (const std::string& song : BuiltinSongNames()) {
+    const Ways ways = WaysOf(song, "fuzzy-bridge");
+    EXPECT_GT(ways.count, 100) << song;
+    EXPECT_LE(ways.longest_s, kWaitLimit_s + LongestInBetween({}, kJudgedRateHz)) << song;
+    EXPECT_GT(ways.longest_s, 0) << song;
+  }
+}
+
+// Paper A's economy: nobody has to draw an in-between for any of these pairs, for bridge frames and one set of in-betweens
+// made of bridge frames join them all.
+TEST(Ways, AreAllCarriedByBridgeFrames) {
+  for (const std::string& song : BuiltinSongNames()) {
+    const Ways ways = WaysOf(song, "fuzzy-bridge");
+    RecordProperty(song + "_pairs", static_cast<int>(ways.pairs.size()));
+    RecordProperty(song + "_through_in_betweens", ways.through_in_betweens);
+    EXPECT_GE(ways.pairs.size(), 56u) << song;  // seven for each of at least eight moves
+    EXPECT_EQ(ways.unmatched, 0) << song << ": of " << ways.count;
+    EXPECT_LT(ways.through_in_betweens, ways.count) << song;
+  }
+}
+
+TEST(Ways, AreNotCarriedByThemWhoIsCutOffAtOnce) {  // the control
+  const Ways ways = WaysOf("groove", "now");
+  EXPECT_EQ(ways.unmatched, ways.count);
+}
+
+}  // namespace
+}  // namespace etude
