@@ -1,5 +1,5 @@
-// Every way that a session can need, of every song, by paper A's transitions (sections 3.5 and 4): from the end of every
-// window into every corrective act, from there into the slow demonstration, from there back to the dance.
+// Every way that a session can need, of every song, by paper A's transitions (sections 3.5 and 4): from the end of
+// every window into every corrective act, from there into the slow demonstration, from there back to the dance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,8 +45,8 @@ Ways WaysOf(const std::string& song, const char* choice) {
     const std::string move = dance.moves[static_cast<std::size_t>(repetition.move)].name;
     const auto closes = static_cast<double>(repetition.end + kWindowLag);
     const int leaving = library.ClipLeaving(library.RepetitionAt(closes));
-    const int frame = std::min(static_cast<int>(closes - static_cast<double>(library.DanceFrameOf(leaving))),
-                               last_of(leaving));
+    const int frame =
+        std::min(static_cast<int>(closes - static_cast<double>(library.DanceFrameOf(leaving))), last_of(leaving));
     const int slow = library.ClipOfSlow(repetition.move);
     for (const std::string act : {"head_shake", "wave", "puzzled"}) {
       const int whole = library.ClipOfAct(act);
@@ -67,8 +67,8 @@ TEST(Ways, NoneTakesLongerThanTheWaitAndTheLongestInBetween) {
   }
 }
 
-// Paper A's economy: nobody has to draw an in-between for any of these pairs, for bridge frames and one set of in-betweens
-// made of bridge frames join them all.
+// Paper A's economy: nobody has to draw an in-between for any of these pairs, for bridge frames and one set of
+// in-betweens made of bridge frames join them all.
 TEST(Ways, AreAllCarriedByBridgeFrames) {
   for (const std::string& song : BuiltinSongNames()) {
     const Ways ways = WaysOf(song, "fuzzy-bridge");

@@ -38,7 +38,7 @@ class AnyRecogniser : public ::testing::TestWithParam<const RecogniserKind*> {
     return *FollowStream(*recogniser, 2, SeeStream(stream, {}), {{AskedMove{1, {30, End(stream)}}}});
   }
   /// What it learnt of dances it may only rank elsewhere: its scale is not these moves'.
-  static bool IsLearnt() { return GetParam()->name == "learnt"; }
+  static bool IsLearnt() { return GetParam()->name == "learnt" || GetParam()->name == "coached"; }
   static int End(const SkeletonStream& stream) { return static_cast<int>(stream.frames.size()) - 15; }
 };
 
@@ -106,7 +106,8 @@ TEST_P(AnyRecogniser, LivesThroughWhatSensorsLoseAndThroughAnyRate) {
 std::vector<const RecogniserKind*> Kinds(bool with_learnt) {
   std::vector<const RecogniserKind*> kinds;
   for (const RecogniserKind& kind : AllRecognisers()) {
-    if (with_learnt || kind.name != "learnt") kinds.push_back(&kind);
+    const bool is_learnt = kind.name == "learnt" || kind.name == "coached";
+    if (with_learnt || !is_learnt) kinds.push_back(&kind);
   }
   return kinds;
 }

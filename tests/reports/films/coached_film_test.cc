@@ -16,7 +16,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-
 Renderer& Drawing() {
   static const auto renderer = Renderer::Create();
   EXPECT_TRUE(renderer.has_value());
