@@ -85,7 +85,7 @@ MAY_INCLUDE = {
     "bench/micro":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
-        "sim/character sim/choreography sim/random sim/render sim/stage bench/clips",
+        "sim/character sim/choreography sim/random sim/render sim/stage bench/clips bench/tasks/coach",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",
