@@ -38,9 +38,9 @@ Searcher Ask(std::shared_ptr<const Index> index) {
 
 /// Ours comes first.
 #ifdef ETUDE_HAS_NANOFLANN
-constexpr int kNanoflannLeaves[] = {10, 20, 40, 64};
-constexpr const char* kSearcherNames[] = {"index",        "loop",         "vector-loop", "nanoflann-10",
-                                          "nanoflann-20", "nanoflann-40", "nanoflann-64"};
+constexpr int kNanoflannLeaves[] = {20, 40, 80, 160};
+constexpr const char* kSearcherNames[] = {"index",        "loop",         "vector-loop",  "nanoflann-20",
+                                          "nanoflann-40", "nanoflann-80", "nanoflann-160"};
 #else
 constexpr const char* kSearcherNames[] = {"index", "loop", "vector-loop"};
 #endif
@@ -103,14 +103,13 @@ HardQueries FindHardQueries(const Searcher& ours, const SearchData& data) {
   return hard;
 }
 
-/// A library of one size with everyone's index of it.
+/// A library with everyone's index of it.
 struct Measured {
   SearchData data;
   std::vector<Searcher> searchers;
   HardQueries hard;
 
-  Measured(std::span<const BodyMotion> seeds, int count)
-      : data(MakeSearchData(seeds, count)), searchers(MakeSearchers(data.frames)) {
+  explicit Measured(SearchData given) : data(std::move(given)), searchers(MakeSearchers(data.frames)) {
     for (const Queries* queries : {&data.own, &data.varied, &data.foreign}) CompareAnswers(searchers, *queries);
     hard = FindHardQueries(searchers.front(), data);
   }
@@ -124,22 +123,30 @@ struct Measured {
 };
 constexpr const char* kQueryKinds[] = {"own", "varied", "foreign", "most", "none"};
 
+/// So many varied frames, or the captured ones as they are.
+struct LibraryKind {
+  int count = 0;
+  bool captured = false;
+  std::string Name() const { return captured ? "captured" : std::to_string(count); }
+};
+
 /// Makes libraries when they are asked for, and holds one at a time: a million frames in every form take gigabytes.
 class Libraries {
  public:
-  explicit Libraries(std::vector<BodyMotion> seeds) : seeds_(std::move(seeds)) {}
-  const Measured& Of(int count) {
-    if (count != count_) {
+  explicit Libraries(std::vector<Seed> seeds) : seeds_(std::move(seeds)) {}
+  bool HasCaptures() const { return std::ranges::any_of(seeds_, &Seed::captured); }
+  const Measured& Of(const LibraryKind& kind) {
+    if (!held_ || kind.Name() != held_name_) {
       held_.reset();
-      held_ = std::make_unique<Measured>(seeds_, count);
-      count_ = count;
+      held_ = std::make_unique<Measured>(kind.captured ? MakeCapturedData(seeds_) : MakeSearchData(seeds_, kind.count));
+      held_name_ = kind.Name();
     }
     return *held_;
   }
 
  private:
-  std::vector<BodyMotion> seeds_;
-  int count_ = 0;
+  std::vector<Seed> seeds_;
+  std::string held_name_;
   std::unique_ptr<Measured> held_;
 };
 
@@ -156,7 +163,7 @@ void AskAll(benchmark::State& state, const Searcher& searcher, const Queries& qu
   state.counters["answers"] = benchmark::Counter(static_cast<double>(answers), benchmark::Counter::kAvgIterations);
 }
 
-void RegisterSearches(Libraries& libraries, int count) {
+void RegisterSearches(Libraries& libraries, const LibraryKind& library) {
   const std::map<std::string, Question> questions = {
       {"nearest", [](const Searcher& s, const Grades& query) { return s.nearest(query, 1).size(); }},
       {"nearest10", [](const Searcher& s, const Grades& query) { return s.nearest(query, 10).size(); }},
@@ -166,11 +173,11 @@ void RegisterSearches(Libraries& libraries, int count) {
   for (const auto& [name, ask] : questions) {
     for (const char* kind : kQueryKinds) {
       for (std::size_t i = 0; i < std::size(kSearcherNames); ++i) {
-        const auto run = [&libraries, count, kind, i, ask = ask](benchmark::State& state) {
-          const Measured& of = libraries.Of(count);
+        const auto run = [&libraries, library, kind, i, ask = ask](benchmark::State& state) {
+          const Measured& of = libraries.Of(library);
           AskAll(state, of.searchers[i], of.QueriesOf(kind), ask);
         };
-        const std::string full_name = name + "/" + std::to_string(count) + "/" + kind + "/" + kSearcherNames[i];
+        const std::string full_name = name + "/" + library.Name() + "/" + kind + "/" + kSearcherNames[i];
         benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMicrosecond)->MinTime(0.1);
       }
     }
@@ -178,17 +185,17 @@ void RegisterSearches(Libraries& libraries, int count) {
 }
 
 template <class Index>
-void RegisterBuild(Libraries& libraries, int count, const std::string& name, auto... options) {
+void RegisterBuild(Libraries& libraries, const LibraryKind& library, const std::string& name, auto... options) {
   const auto run = [=, &libraries](benchmark::State& state) {
-    const std::vector<Grades>& frames = libraries.Of(count).data.frames;
+    const std::vector<Grades>& frames = libraries.Of(library).data.frames;
     double bytes = 0;
     for (auto _ : state) {
       const Index index(frames, PaperWeights(), options...);
       bytes = static_cast<double>(index.Bytes());
     }
-    state.counters["bytes_per_frame"] = bytes / count;
+    state.counters["bytes_per_frame"] = bytes / static_cast<double>(frames.size());
   };
-  const std::string full_name = "build/" + std::to_string(count) + "/" + name;
+  const std::string full_name = "build/" + library.Name() + "/" + name;
   benchmark::RegisterBenchmark(full_name.c_str(), run)->Unit(benchmark::kMillisecond)->MinTime(0.2);
 }
 
@@ -240,12 +247,12 @@ void AskForPartners(benchmark::State& state, const std::vector<std::vector<Grade
   state.counters["share"] = found / (count * (count - 1) * static_cast<double>(clips[0].size()));
 }
 
-void RegisterMatches(Libraries& libraries, int count) {
+void RegisterMatches(Libraries& libraries, const LibraryKind& library) {
   constexpr std::size_t kClipLength = 1000;
-  const std::string name = "matches/" + std::to_string(count) + "/";
+  const std::string name = "matches/" + library.Name() + "/";
   const auto add = [&](const std::string& variant, auto run) {
     benchmark::RegisterBenchmark((name + variant).c_str(), [=, &libraries](benchmark::State& state) {
-      run(state, libraries.Of(count).data);
+      run(state, libraries.Of(library).data);
     })->Unit(benchmark::kMillisecond);
   };
   add("1000-each/index", [](benchmark::State& state, const SearchData& data) {
@@ -263,15 +270,16 @@ void RegisterMatches(Libraries& libraries, int count) {
 }
 
 void RegisterAll(Libraries& libraries) {
-  for (int count : {1000, 10'000, 100'000, 1'000'000}) {
-    RegisterBuild<GradeIndex>(libraries, count, "index");
+  for (const LibraryKind& library : {LibraryKind{1000}, {10'000}, {100'000}, {1'000'000}, {.captured = true}}) {
+    if (library.captured && !libraries.HasCaptures()) continue;
+    RegisterBuild<GradeIndex>(libraries, library, "index");
 #ifdef ETUDE_HAS_NANOFLANN
     for (int leaf : kNanoflannLeaves) {
-      RegisterBuild<NanoflannPeer>(libraries, count, "nanoflann-" + std::to_string(leaf), leaf);
+      RegisterBuild<NanoflannPeer>(libraries, library, "nanoflann-" + std::to_string(leaf), leaf);
     }
 #endif
-    RegisterSearches(libraries, count);
-    if (count == 10'000 || count == 100'000) RegisterMatches(libraries, count);
+    RegisterSearches(libraries, library);
+    if (library.count == 10'000 || library.count == 100'000) RegisterMatches(libraries, library);
   }
 }
 
@@ -280,7 +288,9 @@ void RegisterAll(Libraries& libraries) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  etude::Libraries libraries(etude::LoadSeeds({argv + 1, argv + argc}));
+  std::vector<etude::Seed> seeds = etude::LoadSeeds({argv + 1, argv + argc});
+  benchmark::AddCustomContext("frames of the seeds", etude::MakeUp(seeds));
+  etude::Libraries libraries(std::move(seeds));
   etude::RegisterAll(libraries);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -47,9 +47,11 @@ std::vector<Grades> Some(std::span<const Grades> frames) {
   return some;
 }
 
+bool StaysOut(std::size_t seed) { return seed % 5 == 1; }
+
 }  // namespace
 
-std::vector<BodyMotion> LoadSeeds(const std::vector<std::string>& files) {
+std::vector<Seed> LoadSeeds(const std::vector<std::string>& files) {
   std::vector<std::string> references = files;
   if (files.empty()) {
     for (const char* name : {"01_01", "01_03", "Boxing_Toes"}) {
@@ -64,14 +66,25 @@ std::vector<BodyMotion> LoadSeeds(const std::vector<std::string>& files) {
     std::fprintf(stderr, "%s\n", ToString(library.error()).c_str());
     std::exit(2);
   }
-  std::vector<BodyMotion> seeds;
-  for (const LibraryClip& clip : library->clips) seeds.push_back(clip.motion);
+  std::vector<Seed> seeds;
+  for (const LibraryClip& clip : library->clips) {
+    seeds.push_back({clip.name, !clip.name.starts_with(kBuiltinPrefix), clip.motion});
+  }
   return seeds;
 }
 
-SearchData MakeSearchData(std::span<const BodyMotion> seeds, int count) {
+std::string MakeUp(std::span<const Seed> seeds) {
+  std::string text;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const std::string seed = seeds[i].name + " " + std::to_string(seeds[i].motion.poses.size());
+    text += (i == 0 ? "" : ", ") + (StaysOut(i) ? "[" + seed + "]" : seed);
+  }
+  return text;
+}
+
+SearchData MakeSearchData(std::span<const Seed> seeds, int count) {
   std::vector<BodyMotion> known, foreign;
-  for (std::size_t i = 0; i < seeds.size(); ++i) (i % 5 == 1 ? foreign : known).push_back(seeds[i]);
+  for (std::size_t i = 0; i < seeds.size(); ++i) (StaysOut(i) ? foreign : known).push_back(seeds[i].motion);
   const WorldKey world{.suite_seed = 1, .scenario = "bridge_search_bench", .trial = 0};
   RandomStream library_dice(world, "library"), varied_dice(world, "varied"), foreign_dice(world, "foreign");
   SearchData data;
@@ -80,6 +93,24 @@ SearchData MakeSearchData(std::span<const BodyMotion> seeds, int count) {
   data.own = Some(data.frames);
   data.varied = Some(Joined(VaryGrades(known, 20'000, varied_dice)));
   data.foreign = Some(Joined(VaryGrades(foreign, 20'000, foreign_dice)));
+  return data;
+}
+
+SearchData MakeCapturedData(std::span<const Seed> seeds) {
+  SearchData data;
+  std::vector<Grades> foreign;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    if (!seeds[i].captured) continue;
+    std::vector<Grades> grades = GradesOf(seeds[i].motion);
+    if (StaysOut(i)) {
+      foreign.insert(foreign.end(), grades.begin(), grades.end());
+    } else {
+      data.clips.push_back(std::move(grades));
+    }
+  }
+  data.frames = Joined(data.clips);
+  if (!data.frames.empty()) data.own = Some(data.frames);
+  if (!foreign.empty()) data.foreign = Some(foreign);
   return data;
 }
 

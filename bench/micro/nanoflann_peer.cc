@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <nanoflann.hpp>
+#include <numeric>
 
 #include "bench/micro/search_peers.h"
 
@@ -25,10 +26,12 @@ using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<
 /// nanoflann's interface for results of one's own: the least frame below a distance.
 class FirstFrame {
  public:
-  explicit FirstFrame(double squared_limit) : limit_(squared_limit) {}
+  FirstFrame(double squared_limit, std::span<const std::uint32_t> frame_of)
+      : limit_(squared_limit), frame_of_(frame_of) {}
   bool full() const { return true; }
   double worstDist() const { return limit_; }
-  bool addPoint(double squared, std::uint32_t frame) {
+  bool addPoint(double squared, std::uint32_t point) {
+    const std::uint32_t frame = frame_of_[point];
     if (squared < limit_ && frame < frame_) {
       frame_ = frame;
       squared_ = squared;
@@ -43,6 +46,7 @@ class FirstFrame {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   double limit_;
+  std::span<const std::uint32_t> frame_of_;
   std::uint32_t frame_ = kNone;
   double squared_ = 0;
 };
@@ -51,8 +55,21 @@ class FirstFrame {
 
 struct NanoflannPeer::Tree {
   Cloud cloud;
+  std::vector<std::uint32_t> frame_of;  ///< of each point
   std::unique_ptr<KdTree> kd_tree;
+
+  void PutPointsInLeafOrder();
 };
+
+/// nanoflann reads its points through a table; in the order of its leaves they are read one after the other.
+void NanoflannPeer::Tree::PutPointsInLeafOrder() {
+  frame_of = kd_tree->vAcc;
+  std::vector<GradePoint> ordered;
+  ordered.reserve(frame_of.size());
+  for (std::uint32_t frame : frame_of) ordered.push_back(cloud.points[frame]);
+  cloud.points = std::move(ordered);
+  std::iota(kd_tree->vAcc.begin(), kd_tree->vAcc.end(), 0u);
+}
 
 NanoflannPeer::NanoflannPeer(std::span<const Grades> frames, const FeatureWeights& weights, int leaf_size)
     : roots_(RootsOf(weights)), tree_(std::make_unique<Tree>()) {
@@ -60,13 +77,14 @@ NanoflannPeer::NanoflannPeer(std::span<const Grades> frames, const FeatureWeight
   const nanoflann::KDTreeSingleIndexAdaptorParams params(static_cast<std::size_t>(leaf_size));
   tree_->kd_tree = std::make_unique<KdTree>(static_cast<int>(kTermCount), tree_->cloud, params);
   tree_->kd_tree->buildIndex();
+  tree_->PutPointsInLeafOrder();
 }
 
 NanoflannPeer::~NanoflannPeer() = default;
 
 std::optional<Neighbour> NanoflannPeer::First(const Grades& query, double threshold) const {
   const GradePoint point = PointOf(query, roots_);
-  FirstFrame first(threshold * threshold);
+  FirstFrame first(threshold * threshold, tree_->frame_of);
   tree_->kd_tree->findNeighbors(first, point.data(), {});
   return first.Found();
 }
@@ -78,23 +96,28 @@ std::vector<Neighbour> NanoflannPeer::Within(const Grades& query, double thresho
   unsorted.sorted = false;
   tree_->kd_tree->radiusSearch(point.data(), threshold * threshold, near, unsorted);
   std::vector<Neighbour> found;
-  for (const auto& [frame, squared] : near) found.push_back({static_cast<int>(frame), std::sqrt(squared)});
+  for (const auto& [point_found, squared] : near) {
+    found.push_back({static_cast<int>(tree_->frame_of[point_found]), std::sqrt(squared)});
+  }
   std::ranges::sort(found, {}, &Neighbour::frame);
   return found;
 }
 
 std::vector<Neighbour> NanoflannPeer::Nearest(const Grades& query, int k) const {
   const GradePoint point = PointOf(query, roots_);
-  std::vector<std::uint32_t> frames(static_cast<std::size_t>(k));
-  std::vector<double> squared(frames.size());
-  const std::size_t count = tree_->kd_tree->knnSearch(point.data(), frames.size(), frames.data(), squared.data());
+  std::vector<std::uint32_t> points(static_cast<std::size_t>(k));
+  std::vector<double> squared(points.size());
+  const std::size_t count = tree_->kd_tree->knnSearch(point.data(), points.size(), points.data(), squared.data());
   std::vector<Neighbour> found;
-  for (std::size_t i = 0; i < count; ++i) found.push_back({static_cast<int>(frames[i]), std::sqrt(squared[i])});
+  for (std::size_t i = 0; i < count; ++i) {
+    found.push_back({static_cast<int>(tree_->frame_of[points[i]]), std::sqrt(squared[i])});
+  }
   return found;
 }
 
 std::size_t NanoflannPeer::Bytes() const {
-  return tree_->cloud.points.size() * sizeof(GradePoint) + tree_->kd_tree->usedMemory(*tree_->kd_tree);
+  return tree_->cloud.points.size() * (sizeof(GradePoint) + sizeof(std::uint32_t)) +
+         tree_->kd_tree->usedMemory(*tree_->kd_tree);
 }
 
 }  // namespace etude

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -70,9 +71,12 @@ BlockResult Distances(const GradeMetric& metric, const Grades& query, const Fram
 
 BlockResult Bounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit) {
   const Tag tag;
+  const hn::Rebind<float, Tag> stored;
   return SumSquares(metric, limit, [&](std::size_t t, std::size_t lane) HWY_ATTR {
-    const Vec below = hn::Sub(hn::Load(tag, &block.low[t][lane]), hn::Set(tag, query.high[t]));
-    const Vec above = hn::Sub(hn::Set(tag, query.low[t]), hn::Load(tag, &block.high[t][lane]));
+    const Vec low = hn::PromoteTo(tag, hn::Load(stored, &block.low[t][lane]));
+    const Vec high = hn::PromoteTo(tag, hn::Load(stored, &block.high[t][lane]));
+    const Vec below = hn::Sub(low, hn::Set(tag, query.high[t]));
+    const Vec above = hn::Sub(hn::Set(tag, query.low[t]), high);
     return hn::Max(hn::Max(below, above), hn::Zero(tag));
   });
 }
@@ -111,9 +115,11 @@ GradeBox BoxOf(std::span<const Grades> frames) {
 }
 
 void BoxBlock::Set(int lane, const GradeBox& box) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (std::size_t t = 0; t < kTermCount; ++t) {
-    low[t][lane] = box.low[t];
-    high[t][lane] = box.high[t];
+    const float nearest_low = static_cast<float>(box.low[t]), nearest_high = static_cast<float>(box.high[t]);
+    low[t][lane] = nearest_low <= box.low[t] ? nearest_low : std::nextafter(nearest_low, -kInfinity);
+    high[t][lane] = nearest_high >= box.high[t] ? nearest_high : std::nextafter(nearest_high, kInfinity);
   }
 }
 

@@ -31,9 +31,10 @@ struct GradeBox {
 /// The box of at least one frame.
 GradeBox BoxOf(std::span<const Grades> frames);
 
-/// Sixteen boxes, term by term.
+/// Sixteen boxes, term by term; rounded outwards to single precision, since reading them is what a search costs.
 struct alignas(64) BoxBlock {
-  std::array<BlockLanes, kTermCount> low{}, high{};
+  using Lanes = std::array<float, kBlockLanes>;
+  std::array<Lanes, kTermCount> low{}, high{};
 
   void Set(int lane, const GradeBox& box);
 };
@@ -68,9 +69,9 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
 /// d² of `query` and every frame of the block: the very bits that `ComputeDistance` takes the root of, on every CPU.
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
-/// The least d² that any frame of `query` can have from any frame of each box. It is never greater than the d² of such
-/// a pair as `ComputeDistance` rounds it: both are made by the same operations in the same order, and rounding keeps
-/// order.
+/// The least d² that any frame of `query` can have from any frame of each box (rounded outwards). It is never greater
+/// than the d² of such a pair as `ComputeDistance` rounds it: both are made by the same operations in the same order, and
+/// rounding keeps order.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
 /// A limit on d² that no frame exceeds whose rounded distance is at most `distance`.
