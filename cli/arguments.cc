@@ -133,6 +133,16 @@ void DefineReport(CLI::App& app, Action& action) {
   });
 }
 
+void DefineRows(CLI::App& app, Action& action) {
+  auto folder = Keep<std::string>(), file = Keep<std::string>();
+  CLI::App* command = app.add_subcommand("rows", "The rows of a run as lines of text, as cells.jsonl has them");
+  command->add_option("folder", *folder, "A result folder, also one of columns")->required();
+  command->add_option("-o,--output", *file, "Into this file (default: to standard output)");
+  auto sealing = Keep<Sealing>();
+  AddUnsealed(*command, *sealing);
+  command->callback([=, &action] { action = [=] { return RowsCommand(*folder, *file, *sealing); }; });
+}
+
 void DefineReplay(CLI::App& app, Action& action) {
   struct Options {
     std::string target, pack_file;
@@ -301,6 +311,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineRun(app, command_line, action);
   DefineMerge(app, command_line, action);
   DefineReport(app, action);
+  DefineRows(app, action);
   DefineReplay(app, action);
   DefineGate(app, action);
   DefineCompare(app, action);

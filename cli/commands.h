@@ -56,6 +56,8 @@ int CheckMethodCommand(OutsideOptions options, const std::string& seat, bool is_
 int ExportCommand(const ExportOptions& options);
 /// `etude score`: scores a folder of answers into a result folder.
 int ScoreCommand(const ScoreOptions& options);
+/// `etude rows DIR`: writes the rows as lines of text into `file`, "" = to standard output.
+int RowsCommand(const std::string& folder, const std::string& file, Sealing sealing);
 /// `etude report DIR`: writes DIR/report and DIR/video.
 int ReportCommand(const std::string& folder, const ReportOptions& options, Sealing sealing);
 

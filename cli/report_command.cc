@@ -1,5 +1,9 @@
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
 #include "bench/results/folder.h"
 #include "cli/commands.h"
 #include "reports/report.h"
@@ -15,6 +19,23 @@ int ReportCommand(const std::string& folder, const ReportOptions& options, Seali
   if (!written) return Complain(written.error());
   fmt::print("{}/report/index.html\n", folder);
   return kSuccess;
+}
+
+int RowsCommand(const std::string& folder, const std::string& file, Sealing sealing) {
+  if (file.empty()) {
+    const auto written = WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
+      if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
+      return Fail({"standard output"}, "cannot be written: {}", std::strerror(errno));
+    });
+    return written ? kSuccess : Complain(written.error());
+  }
+  const auto write = [&]() -> Result<void> {
+    ASSIGN_OR_RETURN(auto out, AtomicFile::Begin(file));
+    RETURN_IF_ERROR(WriteRows(folder, sealing, [&](std::string_view line) { return out.Write(line); }));
+    return out.Finish();
+  };
+  const auto written = write();
+  return written ? kSuccess : Complain(written.error());
 }
 
 }  // namespace etude

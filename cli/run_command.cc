@@ -22,12 +22,15 @@ std::string Value(const MethodSummary& method, const MetricInfo& metric) {
   return "-";
 }
 
-/// Why nothing was measured under a condition of which every cell was skipped; else "".
-std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
-  const bool skipped = std::all_of(condition.methods.begin(), condition.methods.end(), [](const auto& method) {
+bool IsSkipped(const ConditionSummary& condition) {
+  return std::all_of(condition.methods.begin(), condition.methods.end(), [](const auto& method) {
     return method.statuses.size() == 1 && method.statuses.front().first == Status::kSkipped;
   });
-  if (!skipped) return "";
+}
+
+/// Why nothing was measured under a condition of which every cell was skipped; else "".
+std::string WhySkipped(const ConditionSummary& condition, const std::string& scenario, const std::vector<Row>& rows) {
+  if (!IsSkipped(condition)) return "";
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& other) {
     return other.scenario == scenario && other.condition == condition.condition;
   });
@@ -71,7 +74,11 @@ void PrintSummary(const RunData& run) {
 }
 
 int ShowOutcome(const RunOutcome& outcome) {
-  const auto run = LoadRun(outcome.folder);
+  auto run = LoadRunOutline(outcome.folder);
+  const auto has_skipped = [](const ScenarioSummary& scenario) {
+    return std::ranges::any_of(scenario.conditions, IsSkipped);
+  };
+  if (run && std::ranges::any_of(run->scenarios, has_skipped)) run = LoadRun(outcome.folder);  // rows tell why
   if (!run) return Complain(run.error());
   PrintSummary(*run);
   const std::string folder = outcome.folder.string();

@@ -16,7 +16,7 @@ Ruling MetWhen(bool holds) { return holds ? Ruling::kMet : Ruling::kUnmet; }
 JunitCase EveryCellHasARow(const RunData& run, const ScenarioSummary& scenario) {
   std::set<std::string> ids;
   std::set<std::pair<std::string, int>> worlds;
-  for (const Row& row : run.rows) {
+  for (const Row& row : run.rows) {  // of a run that is not held, all rows stand in their places
     if (row.scenario != scenario.name) continue;
     ids.insert(row.Id());
     worlds.emplace(ConditionLabel(row.condition), row.trial);

@@ -70,6 +70,15 @@ from it, and with fewer than six clips there is no such verdict.</p>
 failed is counted and named; a missing value is shown as —, never as zero.</p></section>
 )";
 
+/// What of a large run the pictures show.
+std::string LeftOutSentence(const RunData& run) {
+  if (!run.source) return "";
+  return fmt::format(
+      " Figures and verdicts are of all cells; dots, curves and why values are missing, of {} of them: "
+      "whole worlds at equal steps.",
+      FormatCount(static_cast<long long>(run.rows.size())));
+}
+
 std::string Footer(const RunData& run) {
   std::string html = "<footer><dl>";
   const auto entry = [&](std::string_view name, const std::string& value) {
@@ -98,7 +107,8 @@ std::string WritePage(const RunData& run, const Media& media) {
   html += fmt::format(
       "<body>{}<a class=\"skip\" href=\"#{}\">Skip to the answers</a><main><header><p class=\"eyebrow\">Etude"
       "</p><h1>The {} suite</h1><p class=\"verdict\">{}</p></header>",
-      MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite), EscapeMarkup(FindingsOf(run).sentence));
+      MarkDefsSvg(), CardAnchor(0), EscapeMarkup(run.suite),
+      EscapeMarkup(FindingsOf(run).sentence + LeftOutSentence(run)));
   html += FilmElement(media.film, true);
   html += Contents(run, findings);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);

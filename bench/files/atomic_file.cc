@@ -59,6 +59,13 @@ Result<void> AtomicFile::Flush() {
   return {};
 }
 
+Result<void> AtomicFile::Overwrite(std::uint64_t offset, std::string_view bytes) {
+  RETURN_IF_ERROR(Flush());
+  if (::pwrite(file_, bytes.data(), bytes.size(), static_cast<off_t>(offset)) == static_cast<ssize_t>(bytes.size()))
+    return {};
+  return Failure();
+}
+
 Result<void> AtomicFile::Finish() {
   RETURN_IF_ERROR(Flush());
   if (::close(std::exchange(file_, -1)) != 0) {

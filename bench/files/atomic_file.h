@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ class AtomicFile {
   ~AtomicFile();
 
   Result<void> Write(std::string_view bytes);
+  /// Puts bytes in the place of some that were written.
+  Result<void> Overwrite(std::uint64_t offset, std::string_view bytes);
   /// Gives the file its name.
   Result<void> Finish();
 

@@ -38,11 +38,11 @@ std::vector<std::string> DescribeMachineEnds(const FinishedRun& run) {
     std::string first;
   };
   std::map<std::pair<std::string, std::string>, Ends> ends;  // by scenario and status
-  for (const Row& row : run.data.rows) {
-    if (!DependsOnMachine(StatusLetter(row.result.status))) continue;
+  ForEachRow(run.data, [&](const Row& row, std::size_t) {
+    if (!DependsOnMachine(StatusLetter(row.result.status))) return;
     Ends& found = ends[{row.scenario, std::string(StatusName(row.result.status))}];
     if (found.cells++ == 0) found.first = fmt::format("{}: {}", row.Id(), row.result.reason);
-  }
+  });
   std::vector<std::string> sentences;
   for (const auto& [key, found] : ends) {
     sentences.push_back(fmt::format("{}: {} × {}, which depends on the machine; the first is {}", key.first,

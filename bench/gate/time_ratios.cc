@@ -14,13 +14,12 @@ namespace {
 std::map<std::pair<std::string, int>, double> SecondsOf(const FinishedRun& run, const std::string& scenario,
                                                         const std::string& method) {
   std::map<std::pair<std::string, int>, double> seconds;
-  for (const Row& row : run.data.rows) {
-    if (row.scenario != scenario || row.method != method) continue;
-    const auto measured = run.data.cpu_seconds.find(row.Id());
-    if (measured == run.data.cpu_seconds.end() || measured->second <= 0) continue;
-    if (DependsOnMachine(StatusLetter(row.result.status))) continue;
-    seconds[{CompactLabel(row.condition), row.trial}] = measured->second;
-  }
+  ForEachRow(run.data, [&](const Row& row, std::size_t place) {
+    if (row.scenario != scenario || row.method != method) return;
+    const double measured = CpuSecondsOf(run.data, row, place).value_or(0);
+    if (measured <= 0 || DependsOnMachine(StatusLetter(row.result.status))) return;
+    seconds[{CompactLabel(row.condition), row.trial}] = measured;
+  });
   return seconds;
 }
 

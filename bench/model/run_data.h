@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "bench/model/row.h"
+#include "bench/model/row_source.h"
 #include "bench/model/summary.h"
 
 namespace etude {
@@ -20,7 +22,7 @@ struct CellRecording {
   Recording recording;
 };
 
-/// A whole result folder in memory.
+/// A whole result folder in memory; of a run of many cells some of its worlds, and a way to all others.
 struct RunData {
   std::string suite;
   std::uint64_t seed = 1;
@@ -29,11 +31,23 @@ struct RunData {
   std::string host;          ///< one line about the machine
   double wall_seconds = 0;
   std::vector<Row> rows;  ///< canonical order: scenario, condition, trial, method
+  /// All rows, when there are too many to be held; `rows`, `series` and `cpu_seconds` are then those of whole worlds at
+  /// equal steps.
+  std::shared_ptr<const RowSource> source;
   std::vector<ScenarioSummary> scenarios;
   std::vector<CellSeries> series;
   std::vector<CellRecording> recordings;
   std::string unsealed;  ///< why the folder is not as the run wrote it, when it was read all the same; else ""
   std::map<std::string, double> cpu_seconds;  ///< processor time, by Row::Id(); empty where the folder tells of none
 };
+
+std::size_t CountRows(const RunData& run);
+/// Hands on every row of the run, also those that are not held, and its place.
+void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use);
+Row RowAt(const RunData& run, std::size_t place);
+/// The place of the row of this identity; nothing where there is none.
+std::optional<std::size_t> FindRow(const RunData& run, const std::string& id);
+/// Processor time of a row at its place; nothing where the folder tells of none.
+std::optional<double> CpuSecondsOf(const RunData& run, const Row& row, std::size_t place);
 
 }  // namespace etude

@@ -121,17 +121,18 @@ Result<Pack> ReadPack(const std::string& file) {
 
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file, Sealing sealing) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
-  const auto row = std::find_if(run.rows.begin(), run.rows.end(), [&](const Row& r) { return r.Id() == cell; });
-  if (row == run.rows.end()) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
+  const auto place = FindRow(run, cell);
+  if (!place) return Fail({folder, 0, 0}, "holds no cell '{}'", cell);
+  const Row row = RowAt(run, *place);
   ASSIGN_OR_RETURN(auto whole, PrepareRun(fs::path(folder) / "manifest.json"));
   const std::vector<PreparedScenario>& scenarios = whole.scenarios;
   const auto prepared = std::find_if(scenarios.begin(), scenarios.end(), [&](const PreparedScenario& scenario) {
-    return scenario.scenario().name == row->scenario;
+    return scenario.scenario().name == row.scenario;
   });
-  if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row->scenario);
+  if (prepared == scenarios.end()) return Fail({folder, 0, 0}, "names no scenario '{}'", row.scenario);
   SuiteSetup suite = whole.suite;
   ASSIGN_OR_RETURN(auto clips, PackMotions(*prepared));
-  if (suite.scored && row->method == suite.scored->name) {
+  if (suite.scored && row.method == suite.scored->name) {
     return Fail({folder, 0, 0}, "'{}' is an answer that was scored, not run", cell);
   }
   suite.scored.reset();
@@ -139,7 +140,7 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
   const Json pack{{"etude_pack", kPackVersion},
                   {"etude", run.program_version},
                   {"setup", EncodeSetup(suite)},
-                  {"row", EncodeRow(*row)},
+                  {"row", EncodeRow(row)},
                   {"motions", std::move(clips)}};
   const std::vector<std::uint8_t> bytes = Json::to_cbor(pack);
   return WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -24,25 +24,29 @@ Result<std::set<std::size_t>> ChooseCells(const ReplayOptions& options, const Ru
   const auto was_run = [&](const Row& row) { return !scored || row.method != scored->name; };
   std::set<std::size_t> chosen;
   for (const std::string& wanted : options.cells) {
-    const auto row = std::find_if(run.rows.begin(), run.rows.end(), [&](const Row& r) { return r.Id() == wanted; });
-    if (row == run.rows.end()) {
+    const auto place = FindRow(run, wanted);
+    if (!place) {
       std::vector<std::string> known;
       for (const Row& other : run.rows) known.push_back(other.Id());
       const std::string nearest = NearestName(wanted, known);
       return Fail({options.folder, 0, 0}, "holds no cell '{}'{}", wanted,
                   nearest.empty() ? ", such as '" + known.front() + "'" : "; did you mean '" + nearest + "'?");
     }
-    if (!was_run(*row)) return Fail({options.folder, 0, 0}, "'{}' is an answer that was scored, not run", wanted);
-    chosen.insert(static_cast<std::size_t>(row - run.rows.begin()));
+    if (!was_run(RowAt(run, *place))) {
+      return Fail({options.folder, 0, 0}, "'{}' is an answer that was scored, not run", wanted);
+    }
+    chosen.insert(*place);
   }
   if (!options.cells.empty()) return chosen;
   // Selection sampling (Knuth, volume 2, algorithm S): every set of `count` cells is as likely.
-  std::size_t left = static_cast<std::size_t>(std::count_if(run.rows.begin(), run.rows.end(), was_run));
+  std::size_t left = 0;
+  ForEachRow(run, [&](const Row& row, std::size_t) { left += was_run(row) ? 1 : 0; });
   const std::size_t count = options.sample == 0 ? left : std::min(options.sample, left);
   RandomStream dice({.suite_seed = run.seed, .scenario = "replay", .trial = 0}, "sample");
-  for (std::size_t cell = 0; chosen.size() < count; ++cell) {
-    if (was_run(run.rows[cell]) && dice.IndexBelow(left--) < count - chosen.size()) chosen.insert(cell);
-  }
+  ForEachRow(run, [&](const Row& row, std::size_t place) {
+    if (chosen.size() == count) return;
+    if (was_run(row) && dice.IndexBelow(left--) < count - chosen.size()) chosen.insert(place);
+  });
   return chosen;
 }
 
@@ -58,8 +62,8 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(options.folder, options.sealing));
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(fs::path(options.folder) / "manifest.json"));
   const Plan plan(prepared.scenarios);
-  if (run.rows.size() != plan.cell_count()) {
-    return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", run.rows.size(), plan.cell_count());
+  if (CountRows(run) != plan.cell_count()) {
+    return Fail({options.folder, 0, 0}, "has {} rows; its manifest makes {}", CountRows(run), plan.cell_count());
   }
   ASSIGN_OR_RETURN(const auto chosen, ChooseCells(options, run, prepared.suite.scored));
   RETURN_IF_ERROR(CheckPrograms(options.folder, prepared.scenarios, options.outside));
@@ -70,7 +74,7 @@ Result<std::vector<CellCheck>> ReplayRun(const ReplayOptions& options) {
       {.program = ThisProgram(), .error_folder = "", .fence = fence, .jobs = options.jobs, .stop = options.stop},
       [&](const DeliveredCell& cell) -> Result<void> {
         ASSIGN_OR_RETURN(const auto finished, cell.Read(plan));
-        checks.emplace(cell.head.cell, CompareRows(run.rows[cell.head.cell], finished.row));
+        checks.emplace(cell.head.cell, CompareRows(RowAt(run, cell.head.cell), finished.row));
         return {};
       });
   if (!whole) return tl::unexpected(whole.error());

@@ -1,6 +1,8 @@
 #include "bench/results/folder.h"
 
 #include <algorithm>
+#include <cassert>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -14,6 +16,9 @@ namespace etude {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kCellsFile = "cells.jsonl";
+constexpr const char* kTimingsFile = "timings.jsonl";
 
 /// "scenario/condition/trial/method" as one file name; a long one is cut, and told apart by its digest.
 std::string FileNameOf(std::string cell) {
@@ -66,7 +71,7 @@ Result<void> LoadRecordings(const fs::path& folder, RunData& run) {
 }
 
 Result<void> LoadTimes(const fs::path& folder, RunData& run) {
-  const fs::path path = folder / "timings.jsonl";
+  const fs::path path = folder / kTimingsFile;
   if (std::error_code none; !fs::exists(path, none)) return {};
   return ForEachJson(path, [&](const Json& json, const Place& place) -> Result<void> {
     try {
@@ -99,47 +104,82 @@ Result<void> LoadManifest(const fs::path& folder, RunData& run) {
 
 }  // namespace
 
-Result<ResultWriter> ResultWriter::Begin(const fs::path& folder) {
-  ASSIGN_OR_RETURN(auto cells, AtomicFile::Begin(folder / "cells.jsonl"));
-  return ResultWriter(folder, std::move(cells));
+Result<ResultWriter> ResultWriter::Begin(const fs::path& folder, std::span<const Study> studies,
+                                         std::size_t most_as_text) {
+  ResultWriter writer(folder);
+  std::size_t rows = 0;
+  for (const Study& study : studies) {
+    rows += study.conditions.size() * static_cast<std::size_t>(study.trials) * study.methods.size();
+  }
+  if (rows > most_as_text) {
+    writer.studies_.assign(studies.begin(), studies.end());
+    return writer;
+  }
+  ASSIGN_OR_RETURN(writer.cells_, AtomicFile::Begin(folder / kCellsFile));
+  if (!studies.empty()) {
+    ASSIGN_OR_RETURN(writer.timings_, AtomicFile::Begin(folder / kTimingsFile));
+  }
+  return writer;
 }
 
-Result<void> ResultWriter::Add(const Row& row) {
-  ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeRow(row)));
-  RETURN_IF_ERROR(cells_.Write(line + "\n"));
-  if (row.scenario != scenario_) {
-    if (series_) RETURN_IF_ERROR(series_->Finish());
-    series_.reset();
-    scenario_ = row.scenario;
-  }
-  if (!row.result.series.empty()) {
-    if (!series_) {
-      ASSIGN_OR_RETURN(series_, AtomicFile::Begin(folder_ / "series" / (scenario_ + ".jsonl")));
-    }
-    ASSIGN_OR_RETURN(const auto curves, WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}}));
-    RETURN_IF_ERROR(series_->Write(curves + "\n"));
-  }
+Result<void> ResultWriter::BeginScenario(const std::string& scenario) {
+  RETURN_IF_ERROR(FinishScenario());
+  scenario_ = scenario;
+  if (cells_) return {};
+  const auto study = std::ranges::find(studies_, scenario, &Study::scenario);
+  assert(study != studies_.end());
+  columns_.emplace(folder_, *study);
+  return {};
+}
+
+Result<void> ResultWriter::FinishScenario() {
+  if (series_) RETURN_IF_ERROR(series_->Finish());
+  series_.reset();
+  if (columns_) RETURN_IF_ERROR(columns_->Finish());
+  columns_.reset();
+  return {};
+}
+
+Result<void> ResultWriter::Add(const Row& row, const CellUsage& usage) {
+  if (row.scenario != scenario_) RETURN_IF_ERROR(BeginScenario(row.scenario));
+  RETURN_IF_ERROR(columns_ ? columns_->Add(row, usage) : AddAsText(row, usage));
   if (!row.result.recording) return {};
   ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
   ASSIGN_OR_RETURN(const auto text, WriteJson(json));
   return WriteFileAtomically(folder_ / "recordings" / FileNameOf(row.Id()), text + "\n");
 }
 
+Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
+  ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeRow(row)));
+  RETURN_IF_ERROR(cells_->Write(line + "\n"));
+  if (timings_) {
+    ASSIGN_OR_RETURN(const auto times, WriteJson(EncodeUsage(row.Id(), usage)));
+    RETURN_IF_ERROR(timings_->Write(times + "\n"));
+  }
+  if (row.result.series.empty()) return {};
+  if (!series_) {
+    ASSIGN_OR_RETURN(series_, AtomicFile::Begin(folder_ / "series" / (scenario_ + ".jsonl")));
+  }
+  ASSIGN_OR_RETURN(const auto curves, WriteJson({{"cell", row.Id()}, {"series", EncodeSeries(row.result.series)}}));
+  return series_->Write(curves + "\n");
+}
+
 Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios) {
-  if (series_) RETURN_IF_ERROR(series_->Finish());
+  RETURN_IF_ERROR(FinishScenario());
   ASSIGN_OR_RETURN(const auto summary, WriteJson(EncodeSummaries(scenarios)));
   RETURN_IF_ERROR(WriteFileAtomically(folder_ / "summary.json", summary + "\n"));
-  return cells_.Finish();
+  if (timings_) RETURN_IF_ERROR(timings_->Finish());
+  return cells_ ? cells_->Finish() : Result<void>();
 }
 
 Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios) {
   ASSIGN_OR_RETURN(auto writer, ResultWriter::Begin(folder));
-  for (const Row& row : rows) RETURN_IF_ERROR(writer.Add(row));
+  for (const Row& row : rows) RETURN_IF_ERROR(writer.Add(row, {}));
   return writer.Finish(scenarios);
 }
 
-Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
+Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {
   RunData run;
   const Place place{folder.string(), 0, 0};
   std::error_code error;
@@ -158,37 +198,71 @@ Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
     }
     run.unsealed = ToString(sealed.error());
   }
-  RETURN_IF_ERROR(ForEachJson(folder / "cells.jsonl", [&](const Json& json, const Place& line) -> Result<void> {
-    ASSIGN_OR_RETURN(auto row, DecodeRow(json, line));
-    run.rows.push_back(std::move(row));
-    return {};
-  }));
   ASSIGN_OR_RETURN(const auto summary, ReadJsonFile(folder / "summary.json"));
-  ASSIGN_OR_RETURN(auto scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
-  run.scenarios = std::move(scenarios);
-  RETURN_IF_ERROR(LoadSeries(folder, run));
-  RETURN_IF_ERROR(LoadRecordings(folder, run));
-  RETURN_IF_ERROR(LoadTimes(folder, run));
+  ASSIGN_OR_RETURN(run.scenarios, DecodeSummaries(summary, {(folder / "summary.json").string(), 0, 0}));
+  if (!fs::exists(folder / kColumnsFolder, error)) return run;
+  std::vector<std::string> names;
+  for (const ScenarioSummary& scenario : run.scenarios) names.push_back(scenario.name);
+  ASSIGN_OR_RETURN(run.source, OpenColumns(folder, names));
   return run;
 }
 
+Result<RunData> LoadRun(const fs::path& folder, Sealing sealing) {
+  ASSIGN_OR_RETURN(auto run, LoadRunOutline(folder, sealing));
+  if (run.source) {
+    for (const std::size_t place : run.source->PlacesAtEqualSteps(kMostRowsHeld)) {
+      const Row& row = run.rows.emplace_back(RowAt(run, place));
+      if (auto series = run.source->SeriesOf(place); !series.empty())
+        run.series.push_back({row.Id(), std::move(series)});
+      if (const auto cpu_s = run.source->CpuSecondsOf(place)) run.cpu_seconds[row.Id()] = *cpu_s;
+    }
+  } else {
+    RETURN_IF_ERROR(ForEachJson(folder / kCellsFile, [&](const Json& json, const Place& line) -> Result<void> {
+      ASSIGN_OR_RETURN(auto row, DecodeRow(json, line));
+      run.rows.push_back(std::move(row));
+      return {};
+    }));
+    RETURN_IF_ERROR(LoadSeries(folder, run));
+    RETURN_IF_ERROR(LoadTimes(folder, run));
+  }
+  RETURN_IF_ERROR(LoadRecordings(folder, run));
+  return run;
+}
+
+Result<void> WriteRows(const fs::path& folder, Sealing sealing,
+                       const std::function<Result<void>(std::string_view line)>& write) {
+  ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder, sealing));
+  if (!run.source) {
+    return ForEachLine(folder / kCellsFile,
+                       [&](std::string_view line, const Place&) { return write(std::string(line) + "\n"); });
+  }
+  Row row;
+  for (std::size_t place = 0; place < run.source->size(); ++place) {
+    run.source->Read(place, row);
+    ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeRow(row)));
+    RETURN_IF_ERROR(write(line + "\n"));
+  }
+  return {};
+}
+
 Result<void> CheckRowsAgainstSummary(const fs::path& folder, const RunData& run) {
-  const Place place{(folder / "cells.jsonl").string(), 0, 0};
+  const Place place{(folder / (run.source ? kColumnsFolder : kCellsFile)).string(), 0, 0};
   std::set<std::string> ids;
   for (const Row& row : run.rows) {
     if (!ids.insert(row.Id()).second) return Fail(place, "holds the cell {} twice", row.Id());
   }
+  std::map<std::string, std::size_t> found;
+  ForEachRow(run, [&](const Row& row, std::size_t) { ++found[row.scenario]; });
   for (const ScenarioSummary& scenario : run.scenarios) {
-    std::ptrdiff_t summed = 0;
+    std::size_t summed = 0;
     for (const ConditionSummary& condition : scenario.conditions) {
       for (const MethodSummary& method : condition.methods) {
-        for (const auto& [status, count] : method.statuses) summed += count;
+        for (const auto& [status, count] : method.statuses) summed += static_cast<std::size_t>(count);
       }
     }
-    const auto found =
-        std::count_if(run.rows.begin(), run.rows.end(), [&](const Row& row) { return row.scenario == scenario.name; });
-    if (found != summed) {
-      return Fail(place, "holds {} rows of scenario {}; summary.json sums up {}", found, scenario.name, summed);
+    if (found[scenario.name] != summed) {
+      return Fail(place, "holds {} rows of scenario {}; summary.json sums up {}", found[scenario.name], scenario.name,
+                  summed);
     }
   }
   return {};

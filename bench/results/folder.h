@@ -1,13 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/files/atomic_file.h"
 #include "bench/files/json.h"
 #include "bench/model/run_data.h"
+#include "bench/model/study.h"
+#include "bench/results/columns.h"
 
 namespace etude {
 
@@ -17,27 +22,39 @@ constexpr int kResultSchema = 3;
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
 
-/// Writes cells.jsonl, series/, recordings/ and summary.json of a whole run, row by row; these files are the same bytes
+/// Runs of more cells than this keep them as columns (columns.h) instead of lines of text.
+constexpr std::size_t kMostRowsAsText = 100'000;
+/// Of such runs LoadRun holds about so many rows.
+constexpr std::size_t kMostRowsHeld = 20'000;
+
+/// Writes cells, series, recordings, times and summary of a whole run, row by row; all but the times are the same bytes
 /// for any number of workers.
 class ResultWriter {
  public:
-  static Result<ResultWriter> Begin(const std::filesystem::path& folder);
+  /// Of rows of these studies; without any, of few.
+  static Result<ResultWriter> Begin(const std::filesystem::path& folder, std::span<const Study> studies = {},
+                                    std::size_t most_as_text = kMostRowsAsText);
 
   /// The next row, in canonical order.
-  Result<void> Add(const Row& row);
+  Result<void> Add(const Row& row, const CellUsage& usage);
   /// What stands in the folder then is all there is.
   Result<void> Finish(const std::vector<ScenarioSummary>& scenarios);
 
  private:
-  ResultWriter(std::filesystem::path folder, AtomicFile cells) : folder_(std::move(folder)), cells_(std::move(cells)) {}
+  explicit ResultWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  Result<void> BeginScenario(const std::string& scenario);
+  Result<void> FinishScenario();
+  Result<void> AddAsText(const Row& row, const CellUsage& usage);
 
   std::filesystem::path folder_;
-  AtomicFile cells_;
-  std::optional<AtomicFile> series_;  ///< of the scenario whose rows come now
-  std::string scenario_;
+  std::optional<AtomicFile> cells_, timings_;  ///< of rows as text
+  std::vector<Study> studies_;                 ///< of rows as columns
+  std::string scenario_;                       ///< whose rows come now
+  std::optional<AtomicFile> series_;
+  std::optional<ColumnWriter> columns_;
 };
 
-/// The same of rows that are all there.
+/// The same of rows that are all there, as text, without their times.
 Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
                          const std::vector<ScenarioSummary>& scenarios);
 
@@ -50,6 +67,13 @@ enum class Sealing {
 /// Reads a result folder. Fails with file:line when a file is missing, torn or of another schema
 /// version, when the run did not come to its end, and when its seal does not hold.
 Result<RunData> LoadRun(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
+
+/// A result folder without its rows, series and recordings.
+Result<RunData> LoadRunOutline(const std::filesystem::path& folder, Sealing sealing = Sealing::kRequired);
+
+/// Writes every row of a result folder as a line of cells.jsonl, whether or not the folder holds them so.
+Result<void> WriteRows(const std::filesystem::path& folder, Sealing sealing,
+                       const std::function<Result<void>(std::string_view line)>& write);
 
 /// Whether the rows are those that summary.json sums up: as many of each scenario, none twice.
 Result<void> CheckRowsAgainstSummary(const std::filesystem::path& folder, const RunData& run);

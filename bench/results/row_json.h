@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/files/json.h"
+#include "bench/model/cell_usage.h"
 #include "bench/model/row.h"
 
 namespace etude {
@@ -16,5 +17,8 @@ std::vector<Series> DecodeSeries(const Json& json);
 /// A recording: each track's poses as rows of 60 numbers (x, y, z of the 20 joints, metres).
 Result<Json> EncodeRecording(const Recording& recording);
 Result<Recording> DecodeRecording(const Json& json, const Place& place);
+
+/// A line of timings.jsonl.
+Json EncodeUsage(const std::string& cell, const CellUsage& usage);
 
 }  // namespace etude

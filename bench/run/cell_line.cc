@@ -288,13 +288,4 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
   return cell;
 }
 
-Json EncodeUsage(const std::string& cell, const CellUsage& usage) {
-  Json json{{"cell", cell}, {"wall_s", usage.wall_s}, {"cpu_s", usage.cpu_s}, {"peak_mb", usage.peak_mb}};
-  if (usage.world_wall_s > 0) {
-    json["world_wall_s"] = usage.world_wall_s;
-    json["world_cpu_s"] = usage.world_cpu_s;
-  }
-  return json;
-}
-
 }  // namespace etude

@@ -5,7 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "bench/files/json.h"
 #include "bench/run/cell_runner.h"
 
 namespace etude {
@@ -37,8 +36,5 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
 /// A JSON object in one line, without a line end, as one whose last member is a sum of its text.
 std::string WithSum(std::string json);
 bool HasRightSum(std::string_view line);
-
-/// A line of timings.jsonl.
-Json EncodeUsage(const std::string& cell, const CellUsage& usage);
 
 }  // namespace etude

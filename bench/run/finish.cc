@@ -6,8 +6,8 @@
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
+#include "bench/run/sum_up.h"
 #include "bench/scenario/study_of.h"
-#include "bench/statistics/summary.h"
 
 namespace etude {
 
@@ -18,28 +18,26 @@ Result<void> SaveJson(const fs::path& path, const Json& json) {
   return WriteFileAtomically(path, text + "\n");
 }
 
-Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host) {
-  ASSIGN_OR_RETURN(auto results, ResultWriter::Begin(folder));
-  ASSIGN_OR_RETURN(auto timings, AtomicFile::Begin(folder / "timings.jsonl"));
+Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs) {
+  std::vector<Study> studies;
+  for (const PreparedScenario& prepared : plan.scenarios()) studies.push_back(StudyOf(prepared.scenario()));
+  ASSIGN_OR_RETURN(auto results, ResultWriter::Begin(folder, studies));
   std::vector<ScenarioSummary> summaries;
   std::size_t cell = 0;
-  for (const PreparedScenario& prepared : plan.scenarios()) {
-    const Scenario& scenario = prepared.scenario();
-    const std::size_t count =
-        scenario.conditions.size() * static_cast<std::size_t>(scenario.trials) * scenario.methods.size();
-    const Study study = StudyOf(scenario);
+  for (std::size_t s = 0; s < studies.size(); ++s) {
+    const Study& study = studies[s];
+    const std::size_t end =
+        cell + study.conditions.size() * static_cast<std::size_t>(study.trials) * study.methods.size();
     ScenarioTable table(study);
-    for (const std::size_t end = cell + count; cell < end; ++cell) {
+    for (; cell < end; ++cell) {
       ASSIGN_OR_RETURN(const auto finished, cells.Read(cell, plan));
       table.Add(finished.row);
-      RETURN_IF_ERROR(results.Add(finished.row));
-      ASSIGN_OR_RETURN(const auto line, WriteJson(EncodeUsage(finished.row.Id(), finished.usage)));
-      RETURN_IF_ERROR(timings.Write(line + "\n"));
+      RETURN_IF_ERROR(results.Add(finished.row, finished.usage));
     }
-    summaries.push_back(Summarise(study, table, prepared.setup().seed));
+    ASSIGN_OR_RETURN(auto summary, SumUp(study, table, plan.scenarios()[s].setup().seed, jobs));
+    summaries.push_back(std::move(summary));
   }
   RETURN_IF_ERROR(results.Finish(summaries));
-  RETURN_IF_ERROR(timings.Finish());
   RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
   // The journal is the only other place that knows the results: it goes when all of them are on the disk.
   RETURN_IF_ERROR(SealRun(folder));

@@ -9,7 +9,9 @@ namespace etude {
 
 /// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings and, last,
 /// host.json. Then the journal, if any, is removed: without it a folder counts as finished. `cells` must be complete.
-Result<void> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host);
+/// Many are summed up by `jobs` processes.
+Result<void> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
+                       int jobs);
 
 /// Writes one JSON value and a line end, whole or not at all.
 Result<void> SaveJson(const std::filesystem::path& path, const Json& json);

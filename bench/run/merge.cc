@@ -9,6 +9,7 @@
 #include "bench/run/manifest.h"
 #include "bench/run/run.h"
 #include "bench/run/run_folder.h"
+#include "bench/run/supervisor.h"
 #include "engine/base/digest.h"
 #include "engine/base/names.h"
 
@@ -116,7 +117,7 @@ Result<RunOutcome> Merge(const MergeOptions& options) {
   RunOutcome outcome{.folder = options.output, .cells = cells.size(), .cells_ok = cells_ok};
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
-  RETURN_IF_ERROR(FinishRun(options.output, plan, cells, host));
+  RETURN_IF_ERROR(FinishRun(options.output, plan, cells, host, WorkerCount(0)));
   claimed.Keep();
   return outcome;
 }

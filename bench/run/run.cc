@@ -1,6 +1,5 @@
 #include "bench/run/run.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -102,10 +101,16 @@ class Keeper {
 
 /// The outcome of a folder that needs nothing more.
 Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
-  ASSIGN_OR_RETURN(const auto run, LoadRun(folder));
-  RunOutcome outcome{.folder = folder, .cells = run.rows.size()};
-  outcome.cells_ok = static_cast<std::size_t>(
-      std::count_if(run.rows.begin(), run.rows.end(), [](const Row& row) { return row.result.status == Status::kOk; }));
+  ASSIGN_OR_RETURN(const auto run, LoadRunOutline(folder));
+  RunOutcome outcome{.folder = folder};
+  for (const ScenarioSummary& scenario : run.scenarios) {
+    for (const ConditionSummary& condition : scenario.conditions) {
+      for (const MethodSummary& method : condition.methods) {
+        outcome.cells_ok += static_cast<std::size_t>(method.ok);
+        for (const auto& [status, count] : method.statuses) outcome.cells += static_cast<std::size_t>(count);
+      }
+    }
+  }
   return outcome;
 }
 
@@ -181,7 +186,7 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
   if (!outcome.fence.empty()) host["fence"] = outcome.fence;
   if (options.shard.IsWhole()) {
-    RETURN_IF_ERROR(FinishRun(folder, plan, cells, host));
+    RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs)));
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
     RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
     RETURN_IF_ERROR(SyncTree(folder));

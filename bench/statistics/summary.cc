@@ -109,62 +109,56 @@ int SizeOf(const Study& study, int methods) {
 }
 
 /// Every method against its baseline.
-std::vector<std::vector<Question>> AskAgainstBaselines(const Study& study, const ScenarioTable& table,
-                                                       std::uint64_t seed) {
+std::vector<Question> AskAgainstBaselines(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
   const Family family{study, seed, CountComparisons(study)};
-  std::vector<std::vector<Question>> asked;
-  for (const ConditionTable& condition : table.conditions()) {
-    std::vector<Question>& questions = asked.emplace_back();
-    for (const ComparedMethod& entry : study.methods) {
-      if (entry.name == entry.against) continue;
-      for (const std::string& id : study.metrics) {
-        const std::string purpose = PurposeOf(study.scenario, condition.condition, id, entry.against, entry.name);
-        const PairedWorlds worlds = PairsOf(condition, entry.against, entry.name, id);
-        questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
-        questions.back().comparison.baseline = entry.against;
-        questions.back().comparison.method = entry.name;
-      }
+  std::vector<Question> questions;
+  for (const ComparedMethod& entry : study.methods) {
+    if (entry.name == entry.against) continue;
+    for (const std::string& id : study.metrics) {
+      const std::string purpose = PurposeOf(study.scenario, condition.condition, id, entry.against, entry.name);
+      const PairedWorlds worlds = PairsOf(condition, entry.against, entry.name, id);
+      questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
+      questions.back().comparison.baseline = entry.against;
+      questions.back().comparison.method = entry.name;
     }
   }
-  return asked;
+  return questions;
 }
 
 /// Every method that competes against the strongest other one.
-std::vector<std::vector<Question>> AskAgainstRivals(const Study& study, const ScenarioTable& table,
-                                                    std::uint64_t seed) {
+std::vector<Question> AskAgainstRivals(const Study& study, const ConditionTable& condition, std::uint64_t seed) {
   const auto asking = std::count_if(study.methods.begin(), study.methods.end(), [&](const ComparedMethod& method) {
     return Competes(study, method) && method.name != study.rival;
   });
   const Family family{study, seed, SizeOf(study, static_cast<int>(asking))};
-  std::vector<std::vector<Question>> asked(table.conditions().size());
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const ConditionTable& condition = table.conditions()[i];
-    for (const ComparedMethod& entry : study.methods) {
-      if (!Competes(study, entry)) continue;
-      for (const std::string& id : study.metrics) {
-        const RivalWorlds found = FindRival(study, condition, entry.name, id);
-        if (found.rival.empty()) continue;
-        const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
-        asked[i].push_back(family.Ask(found.worlds, condition, *FindMetric(id), purpose));
-        asked[i].back().comparison.baseline = found.rival;
-        asked[i].back().comparison.method = entry.name;
-        if (!found.note.empty()) asked[i].back().comparison.notes.push_back(found.note);
-      }
+  std::vector<Question> questions;
+  for (const ComparedMethod& entry : study.methods) {
+    if (!Competes(study, entry)) continue;
+    for (const std::string& id : study.metrics) {
+      const RivalWorlds found = FindRival(study, condition, entry.name, id);
+      if (found.rival.empty()) continue;
+      const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
+      questions.push_back(family.Ask(found.worlds, condition, *FindMetric(id), purpose));
+      questions.back().comparison.baseline = found.rival;
+      questions.back().comparison.method = entry.name;
+      if (!found.note.empty()) questions.back().comparison.notes.push_back(found.note);
     }
   }
-  return asked;
+  return questions;
 }
 
 /// Judges all of them together and gives each condition its own; returns how many they are.
-int JudgeTogether(std::vector<std::vector<Question>>& asked, SamplingUnit unit,
-                  std::vector<Comparison> ConditionSummary::*member, std::vector<ConditionSummary>& conditions) {
+int JudgeTogether(std::vector<ConditionFindings>& findings, SamplingUnit unit,
+                  std::vector<Question> ConditionFindings::*asked, std::vector<Comparison> ConditionSummary::*judged) {
   std::vector<Question*> family;
-  for (std::vector<Question>& questions : asked) {
-    for (Question& question : questions) family.push_back(&question);
+  for (ConditionFindings& of_condition : findings) {
+    for (Question& question : of_condition.*asked) family.push_back(&question);
   }
   JudgeFamily(family, unit);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    for (Question& question : asked[i]) (conditions[i].*member).push_back(std::move(question.comparison));
+  for (ConditionFindings& of_condition : findings) {
+    for (Question& question : of_condition.*asked) {
+      (of_condition.summary.*judged).push_back(std::move(question.comparison));
+    }
   }
   return static_cast<int>(family.size());
 }
@@ -177,27 +171,42 @@ int CountComparisons(const Study& study) {
   return SizeOf(study, static_cast<int>(compared));
 }
 
-ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed) {
+ConditionFindings MeasureCondition(const Study& study, const ConditionTable& table, std::uint64_t seed) {
+  ConditionFindings findings;
+  findings.summary.condition = table.condition;
+  const std::vector<const MetricInfo*> metrics = MetricsIn(table);
+  for (const MethodColumns& method : table.methods) {
+    findings.summary.methods.push_back(SummariseMethod(method, table, metrics, study, seed));
+  }
+  if (!study.metrics.empty()) {
+    findings.summary.budgets = ComputeErrorBudgets(study, table, study.metrics.front(), seed);
+  }
+  findings.against_baselines = AskAgainstBaselines(study, table, seed);
+  findings.against_rivals = AskAgainstRivals(study, table, seed);
+  return findings;
+}
+
+ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
+                              std::uint64_t seed) {
   ScenarioSummary summary{study.scenario, study.task, study.question, study.unit, {}, study.metrics, {}, {}};
   for (const ComparedMethod& entry : study.methods) summary.methods.push_back(entry.name);
-  for (const ConditionTable& condition : table.conditions()) {
-    const std::vector<const MetricInfo*> metrics = MetricsIn(condition);
-    ConditionSummary& part = summary.conditions.emplace_back();
-    part.condition = condition.condition;
-    for (const MethodColumns& method : condition.methods) {
-      part.methods.push_back(SummariseMethod(method, condition, metrics, study, seed));
-    }
-    if (!study.metrics.empty()) part.budgets = ComputeErrorBudgets(study, condition, study.metrics.front(), seed);
-  }
-  auto against_baselines = AskAgainstBaselines(study, table, seed),
-       against_rivals = AskAgainstRivals(study, table, seed);
-  summary.family = JudgeTogether(against_baselines, study.unit, &ConditionSummary::comparisons, summary.conditions);
-  JudgeTogether(against_rivals, study.unit, &ConditionSummary::rivals, summary.conditions);
+  summary.family =
+      JudgeTogether(findings, study.unit, &ConditionFindings::against_baselines, &ConditionSummary::comparisons);
+  JudgeTogether(findings, study.unit, &ConditionFindings::against_rivals, &ConditionSummary::rivals);
+  for (ConditionFindings& of_condition : findings) summary.conditions.push_back(std::move(of_condition.summary));
   summary.across = JudgeAcross(study, summary.conditions);
   for (const Expectation& expectation : study.expectations) {
     summary.expectations.push_back(JudgeExpectation(expectation, study, table, seed));
   }
   return summary;
+}
+
+ScenarioSummary Summarise(const Study& study, const ScenarioTable& table, std::uint64_t seed) {
+  std::vector<ConditionFindings> findings;
+  for (const ConditionTable& condition : table.conditions()) {
+    findings.push_back(MeasureCondition(study, condition, seed));
+  }
+  return JudgeFindings(study, table, std::move(findings), seed);
 }
 
 }  // namespace etude

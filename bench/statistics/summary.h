@@ -1,12 +1,27 @@
 #pragma once
 
+#include <vector>
+
 #include "bench/model/summary.h"
+#include "bench/statistics/family.h"
 #include "bench/statistics/scenario_table.h"
 
 namespace etude {
 
 /// How many comparisons of methods with their baselines are judged together.
 int CountComparisons(const Study& study);
+
+/// What the rows of one condition say, before its comparisons are judged together with those of all others.
+struct ConditionFindings {
+  ConditionSummary summary;  ///< without comparisons
+  std::vector<Question> against_baselines, against_rivals;
+};
+/// Seeded by what is measured alone: conditions may be measured in any order, and anywhere.
+ConditionFindings MeasureCondition(const Study& study, const ConditionTable& table, std::uint64_t seed);
+
+/// The summary of a study from the findings of all its conditions, in their order.
+ScenarioSummary JudgeFindings(const Study& study, const ScenarioTable& table, std::vector<ConditionFindings> findings,
+                              std::uint64_t seed);
 
 /// Sums up one study's rows: per condition and method the aggregate of every metric with its
 /// interval and its share of cells that are ok, every method against its baseline on the headline metrics, judged

@@ -49,33 +49,42 @@ std::string MeasuredSentence(const RunFindings& f) {
   return text + ".";
 }
 
-SuccessFinding SuccessBy(const MetricInfo& metric, const RunData& run, const ScenarioSummary& scenario) {
-  std::map<std::string, std::pair<double, int>> sums;
-  for (const Row& row : run.rows) {
-    if (row.scenario != scenario.name) continue;
-    const auto value = ValueOf(row, metric.id);
-    if (!value) continue;
-    auto& [sum, count] = sums[row.method];
-    sum += *value;
-    ++count;
+/// The mean of each metric of success, by method; what no row of the scenario has is left out.
+class Successes {
+ public:
+  Successes() {
+    for (const MetricInfo& metric : AllMetrics()) {
+      if (metric.is_success) sums_.emplace_back(metric.id, Sums());
+    }
   }
-  SuccessFinding finding{metric.id, {}};
-  for (const std::string& method : scenario.methods) {
-    const auto found = sums.find(method);
-    if (found != sums.end()) finding.shares.emplace_back(method, found->second.first / found->second.second);
-  }
-  return finding;
-}
 
-std::vector<SuccessFinding> SuccessesOf(const RunData& run, const ScenarioSummary& scenario) {
-  std::vector<SuccessFinding> found;
-  for (const MetricInfo& metric : AllMetrics()) {
-    if (!metric.is_success) continue;
-    SuccessFinding finding = SuccessBy(metric, run, scenario);
-    if (!finding.shares.empty()) found.push_back(std::move(finding));
+  void Add(const Row& row) {
+    for (auto& [metric, sums] : sums_) {
+      const auto value = ValueOf(row, metric);
+      if (!value) continue;
+      auto& [sum, count] = sums[row.method];
+      sum += *value;
+      ++count;
+    }
   }
-  return found;
-}
+
+  std::vector<SuccessFinding> Of(const ScenarioSummary& scenario) const {
+    std::vector<SuccessFinding> successes;
+    for (const auto& [metric, sums] : sums_) {
+      if (sums.empty()) continue;
+      SuccessFinding& finding = successes.emplace_back(SuccessFinding{metric, {}});
+      for (const std::string& method : scenario.methods) {
+        const auto found = sums.find(method);
+        if (found != sums.end()) finding.shares.emplace_back(method, found->second.first / found->second.second);
+      }
+    }
+    return successes;
+  }
+
+ private:
+  using Sums = std::map<std::string, std::pair<double, int>>;
+  std::vector<std::pair<std::string, Sums>> sums_;
+};
 
 }  // namespace
 
@@ -106,13 +115,15 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 
   std::map<Status, int> statuses;
   std::map<std::tuple<Status, std::string, std::string>, int> reasons;
-  for (const Row& row : run.rows) {
-    if (row.scenario != scenario.name) continue;
+  Successes successes;
+  ForEachRow(run, [&](const Row& row, std::size_t) {
+    if (row.scenario != scenario.name) return;
     ++findings.cells;
     ++statuses[row.result.status];
     if (row.result.status != Status::kOk) ++reasons[{row.result.status, row.method, row.result.reason}];
-  }
-  findings.successes = SuccessesOf(run, scenario);
+    successes.Add(row);
+  });
+  findings.successes = successes.Of(scenario);
   findings.statuses.assign(statuses.begin(), statuses.end());
   for (const auto& [key, cells] : reasons) {
     findings.reasons.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), cells});
@@ -123,7 +134,7 @@ ScenarioFindings FindingsOf(const RunData& run, const ScenarioSummary& scenario)
 
 RunFindings FindingsOf(const RunData& run) {
   RunFindings f;
-  for (const Row& row : run.rows) {
+  ForEachRow(run, [&](const Row& row, std::size_t) {
     ++f.cells;
     switch (row.result.status) {
       case Status::kOk:
@@ -138,7 +149,7 @@ RunFindings FindingsOf(const RunData& run) {
       default:
         ++f.broken;
     }
-  }
+  });
   for (const ScenarioSummary& scenario : run.scenarios) {
     for (const ExpectationResult& expectation : scenario.expectations) {
       if (expectation.ruling == Ruling::kMet) ++f.met;
@@ -155,8 +166,7 @@ std::string SuccessSentence(const SuccessFinding& finding) {
   std::string text = fmt::format("Reached ({}):", words.label);
   const auto share = [&](const auto& of) { return fmt::format(" {} {}", of.first, FormatValue(of.second, words)); };
   if (finding.shares.size() > kMostSuccesses) {
-    const auto [least, most] =
-        std::ranges::minmax_element(finding.shares, {}, &std::pair<std::string, double>::second);
+    const auto [least, most] = std::ranges::minmax_element(finding.shares, {}, &std::pair<std::string, double>::second);
     return fmt::format("{} from{} to{}, of {}.", text, share(*least), share(*most),
                        Plural(static_cast<long long>(finding.shares.size()), "method"));
   }

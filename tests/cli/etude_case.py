@@ -23,7 +23,7 @@ methods:
 
 
 # What a run promises to be the same bytes, however it came about.
-SHARED = ["manifest.json", "cells.jsonl", "summary.json", "series", "recordings"]
+SHARED = ["manifest.json", "cells.jsonl", "columns", "summary.json", "series", "recordings"]
 
 
 def cells_in_journal(folder):

@@ -1,0 +1,40 @@
+#include "bench/model/run_data.h"
+
+namespace etude {
+
+std::size_t CountRows(const RunData& run) { return run.source ? run.source->size() : run.rows.size(); }
+
+void ForEachRow(const RunData& run, const std::function<void(const Row& row, std::size_t place)>& use) {
+  if (!run.source) {
+    for (std::size_t place = 0; place < run.rows.size(); ++place) use(run.rows[place], place);
+    return;
+  }
+  Row row;
+  for (std::size_t place = 0; place < run.source->size(); ++place) {
+    run.source->Read(place, row);
+    use(row, place);
+  }
+}
+
+Row RowAt(const RunData& run, std::size_t place) {
+  if (!run.source) return run.rows[place];
+  Row row;
+  run.source->Read(place, row);
+  return row;
+}
+
+std::optional<std::size_t> FindRow(const RunData& run, const std::string& id) {
+  std::optional<std::size_t> found;
+  ForEachRow(run, [&](const Row& row, std::size_t place) {
+    if (!found && row.Id() == id) found = place;
+  });
+  return found;
+}
+
+std::optional<double> CpuSecondsOf(const RunData& run, const Row& row, std::size_t place) {
+  if (run.source) return run.source->CpuSecondsOf(place);
+  const auto found = run.cpu_seconds.find(row.Id());
+  return found == run.cpu_seconds.end() ? std::nullopt : std::optional(found->second);
+}
+
+}  // namespace etude

@@ -1,0 +1,77 @@
+#include "bench/results/npy.h"
+
+#include <fcntl.h>
+#include <fmt/ranges.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace etude {
+namespace {
+
+constexpr std::string_view kMagic("\x93NUMPY\x01\x00", 8);
+
+/// The head of a file: magic, the length of what follows, and a Python dictionary, filled up with spaces.
+std::string HeadOf(std::string_view type, std::span<const std::size_t> shape) {
+  std::string text = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", type,
+                                 fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+  const std::size_t length = NpyFile::kHead - kMagic.size() - 2;
+  text.resize(length, ' ');
+  text.back() = '\n';
+  return std::string(kMagic) + static_cast<char>(length & 0xff) + static_cast<char>(length >> 8) + text;
+}
+
+std::size_t SizeOf(std::string_view type) { return static_cast<std::size_t>(type.back() - '0'); }
+
+}  // namespace
+
+Result<NpyWriter> NpyWriter::Begin(const std::filesystem::path& path, std::string_view type) {
+  ASSIGN_OR_RETURN(auto file, AtomicFile::Begin(path));
+  RETURN_IF_ERROR(file.Write(std::string(NpyFile::kHead, ' ')));
+  return NpyWriter(std::move(file), type);
+}
+
+Result<void> NpyWriter::Finish(std::vector<std::size_t> shape) {
+  if (shape.empty()) shape = {count_};
+  RETURN_IF_ERROR(file_.Overwrite(0, HeadOf(type_, shape)));
+  return file_.Finish();
+}
+
+Result<NpyFile> NpyFile::Open(const std::filesystem::path& path, std::string_view type) {
+  const Place place{path.string()};
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return Fail(place, "cannot read this file: {}", std::strerror(errno));
+  struct stat status {};
+  const bool is_large = ::fstat(file, &status) == 0 && static_cast<std::size_t>(status.st_size) >= kHead;
+  const auto size = is_large ? static_cast<std::size_t>(status.st_size) : 0;
+  void* const memory = is_large ? ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
+  ::close(file);
+  if (memory == MAP_FAILED) return Fail(place, "is no column: it is too short");
+  NpyFile opened(static_cast<const char*>(memory), size);
+  const std::string_view head(opened.data_, kHead);
+  const std::string wanted = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': (", type);
+  if (!head.starts_with(kMagic) || !head.substr(kMagic.size() + 2).starts_with(wanted) ||
+      (size - kHead) % SizeOf(type) != 0) {
+    return Fail(place, "is no column of numbers of type {}", type);
+  }
+  return opened;
+}
+
+NpyFile::NpyFile(NpyFile&& other) noexcept { *this = std::move(other); }
+
+NpyFile& NpyFile::operator=(NpyFile&& other) noexcept {
+  std::swap(data_, other.data_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+NpyFile::~NpyFile() {
+  if (data_ != nullptr) ::munmap(const_cast<char*>(data_), size_);
+}
+
+}  // namespace etude

@@ -1,0 +1,206 @@
+#include "bench/results/columns.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "bench/files/files.h"
+#include "bench/files/temporary_folder.h"
+#include "bench/results/folder.h"
+#include "bench/results/row_json.h"
+#include "bench/results/seal.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Two scenarios whose cells end in every way that one can; the second is of clips.
+std::vector<Study> Studies() {
+  Study first, second;
+  first.scenario = "poses";
+  first.task = "ik";
+  first.trials = 4;
+  first.methods = {{"one", "one", false}, {"two", "one", false}};
+  first.conditions = {{{"joint_noise_deg", "5"}, {"noise", "uniform"}}, {{"joint_noise_deg", "0.10"}, {"noise", "x"}}};
+  first.metrics = {"position_error_cm"};
+  second.scenario = "clips";
+  second.task = "transition";
+  second.trials = 3;
+  second.methods = {{"cut", "cut", false}};
+  second.conditions = {{}};
+  return {first, second};
+}
+
+CellResult ResultOf(std::size_t place) {
+  if (place % 5 == 3) {
+    CellResult broken = CellResult::Ended(Status::kBadOutput, fmt::format("line {} is \"odd\"", place));
+    broken.Missing("position_error_cm", broken.reason);
+    broken.Measure("solved_practical", 0);
+    return broken;
+  }
+  CellResult result = CellResult::Ended(place % 5 == 2 ? Status::kUnsolved : Status::kOk, "");
+  if (place % 5 == 2) result.reason = "stalled";
+  if (place % 4 == 1) result.Missing("hidden_angle_error_deg", "no truth");
+  result.Measure("position_error_cm", 0.1 * static_cast<double>(place) + 1e-17);
+  if (place > 6) result.Measure("iterations", -0.0);
+  result.digests = {{"world", fmt::format("{:016x}", place * 0x123456789abcdefULL)}};
+  if (place % 3 == 0) result.digests.emplace_back("solution", "00000000000000ff");
+  if (place != 1) {
+    result.series.push_back({"position_error_cm", "iteration", std::vector<double>(place % 4, 0.25 * place)});
+  }
+  return result;
+}
+
+std::vector<Row> RowsOf(const std::vector<Study>& studies) {
+  std::vector<Row> rows;
+  for (const Study& study : studies) {
+    for (const auto& condition : study.conditions) {
+      for (int trial = 0; trial < study.trials; ++trial) {
+        for (const ComparedMethod& method : study.methods) {
+          Row row{study.scenario, study.task, condition, trial, "", {}, method.name, ResultOf(rows.size())};
+          if (study.scenario == "clips") {
+            row.clip = trial == 1 ? "" : "builtin:clap";
+            row.units = {row.clip, "builtin:sway, \"slow\""};
+          }
+          rows.push_back(std::move(row));
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+class ColumnsTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto made = TemporaryFolder::Make("columns-test");
+    ASSERT_TRUE(made);
+    folder_.emplace(std::move(*made));
+    Write(folder(), 0);
+  }
+
+  void Write(const fs::path& to, std::size_t most_as_text) const {
+    auto writer = ResultWriter::Begin(to, studies_, most_as_text);
+    ASSERT_TRUE(writer);
+    for (const Row& row : rows_) {
+      const auto added = writer->Add(row, {.wall_s = 1, .cpu_s = 0.5 * row.trial, .peak_mb = 3});
+      ASSERT_TRUE(added) << ToString(added.error());
+    }
+    std::vector<ScenarioSummary> summaries;
+    for (const Study& study : studies_) summaries.emplace_back().name = study.scenario;
+    const auto finished = writer->Finish(summaries);
+    ASSERT_TRUE(finished) << ToString(finished.error());
+    ASSERT_TRUE(WriteFileAtomically(to / "manifest.json",
+                                    fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));
+    ASSERT_TRUE(WriteFileAtomically(to / "host.json", R"({"command_line":"c","host":"h","wall_seconds":1})"));
+    ASSERT_TRUE(SealRun(to));
+  }
+
+  const fs::path& folder() const { return folder_->path(); }
+  std::string Complaint() const {
+    const auto run = LoadRun(folder(), Sealing::kIgnored);
+    return run ? "" : ToString(run.error());
+  }
+
+  const std::vector<Study> studies_ = Studies();
+  const std::vector<Row> rows_ = RowsOf(studies_);
+  std::optional<TemporaryFolder> folder_;
+};
+
+TEST_F(ColumnsTest, GiveBackEveryRowToTheByte) {
+  std::string text, wanted;
+  const auto written = WriteRows(folder(), Sealing::kRequired, [&](std::string_view line) -> Result<void> {
+    text += line;
+    return {};
+  });
+  ASSERT_TRUE(written) << ToString(written.error());
+  for (const Row& row : rows_) wanted += *WriteJson(EncodeRow(row)) + "\n";
+  EXPECT_EQ(text, wanted);
+  // And so a run whose rows are text has the same, and the same from its columns as from its text.
+  const fs::path as_text = folder() / "as-text";
+  Write(as_text, rows_.size());
+  EXPECT_EQ(*ReadWholeFile(as_text / "cells.jsonl"), wanted);
+  EXPECT_FALSE(fs::exists(folder() / "cells.jsonl"));
+  EXPECT_FALSE(fs::exists(as_text / "columns"));
+}
+
+TEST_F(ColumnsTest, GiveBackCurvesAndTimes) {
+  const auto run = LoadRun(folder());
+  ASSERT_TRUE(run) << ToString(run.error());
+  ASSERT_EQ(run->source->size(), rows_.size());
+  for (std::size_t place = 0; place < rows_.size(); ++place) {
+    const auto series = run->source->SeriesOf(place);
+    ASSERT_EQ(series.size(), rows_[place].result.series.size()) << place;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      EXPECT_EQ(series[i].values, rows_[place].result.series[i].values) << place;
+      EXPECT_EQ(series[i].axis, "iteration");
+    }
+    EXPECT_EQ(run->source->CpuSecondsOf(place), 0.5 * rows_[place].trial);
+    EXPECT_EQ(RowAt(*run, place).Id(), rows_[place].Id());
+    EXPECT_EQ(FindRow(*run, rows_[place].Id()), place);
+  }
+  EXPECT_FALSE(FindRow(*run, "poses/-/000/one"));
+}
+
+TEST_F(ColumnsTest, GiveWholeWorldsAtEqualSteps) {
+  const auto run = LoadRun(folder());
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->rows.size(), rows_.size()) << "few rows are all held";
+  const auto places = run->source->PlacesAtEqualSteps(7);  // every third world
+  EXPECT_EQ(places, (std::vector<std::size_t>{0, 1, 6, 7, 12, 13, 16}));
+}
+
+TEST_F(ColumnsTest, AreWhatNumPySays) {
+  const std::string file = *ReadWholeFile(folder() / "columns" / "poses" / "position_error_cm.npy");
+  ASSERT_EQ(file.size(), NpyFile::kHead + 16 * sizeof(double));
+  EXPECT_EQ(file.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+  EXPECT_EQ(static_cast<unsigned char>(file[8]) + 256 * static_cast<unsigned char>(file[9]), NpyFile::kHead - 10);
+  EXPECT_THAT(file.substr(10), testing::StartsWith("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4, 2), }"));
+  EXPECT_EQ(file[NpyFile::kHead - 1], '\n');
+  const std::string flat = *ReadWholeFile(folder() / "columns" / "poses" / "series" / "position_error_cm.npy");
+  EXPECT_THAT(flat.substr(10), HasSubstr("'shape': (19,), }"));
+}
+
+// A column that was cut, left out, or leads out of what is there is refused, naming it.
+TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
+  const fs::path own = folder() / "columns" / "poses";
+  const auto with = [&](const fs::path& file, const auto& change) {
+    const std::string text = *ReadWholeFile(file);
+    std::string changed = text;
+    change(changed);
+    EXPECT_TRUE(WriteFileAtomically(file, changed));
+    EXPECT_THAT(ToString(LoadRun(folder()).error()), HasSubstr("is not as the run wrote it"));
+    const std::string complaint = Complaint();
+    EXPECT_TRUE(WriteFileAtomically(file, text));
+    return complaint;
+  };
+  EXPECT_EQ(Complaint(), "");
+  EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.pop_back(); }),
+              HasSubstr("status.npy: holds 15 numbers; its run has 16 rows"));
+  EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.resize(20); }), HasSubstr("it is too short"));
+  EXPECT_THAT(with(own / "status.npy", [](std::string& text) { text.back() = 8; }), HasSubstr("status.npy holds 8"));
+  EXPECT_THAT(with(own / "kind.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("kind.npy holds"));
+  EXPECT_THAT(with(own / "reason.npy", [](std::string& text) { text.back() = 1; }), HasSubstr("names text"));
+  EXPECT_THAT(with(own / "position_error_cm.npy", [](std::string& text) { text[14] = 'X'; }),
+              HasSubstr("is no column of numbers of type <f8"));
+  EXPECT_THAT(with(own / "series" / "position_error_cm.ends.npy", [](std::string& text) { text.back() = 1; }),
+              HasSubstr("do not follow each other"));
+  EXPECT_THAT(with(own / "index.json", [](std::string& text) { text = "{}"; }), HasSubstr("not an index of columns"));
+  fs::remove(own / "digest_world.npy");
+  EXPECT_THAT(Complaint(), HasSubstr("digest_world.npy: cannot read this file"));
+}
+
+TEST_F(ColumnsTest, RefuseADigestThatIsNone) {
+  ColumnWriter writer(folder() / "other", studies_.front());
+  Row row = rows_.front();
+  row.result.digests = {{"world", "happy"}};
+  const auto added = writer.Add(row, {});
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().message, HasSubstr("the digest of world is 'happy'"));
+}
+
+}  // namespace
+}  // namespace etude

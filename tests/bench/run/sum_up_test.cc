@@ -1,0 +1,84 @@
+#include "bench/run/sum_up.h"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/results/summary_json.h"
+#include "bench/run/forked.h"
+#include "sim/random/stream.h"
+
+namespace etude {
+namespace {
+
+using testing::HasSubstr;
+
+/// Many conditions of few worlds; some cells fail, so that comparisons have an answer with failures too.
+Study ManyConditions() {
+  Study study;
+  study.scenario = "many";
+  study.task = "ik";
+  study.trials = 60;
+  study.methods = {{"a", "a", false}, {"b", "a", false}};
+  study.metrics = {"position_error_cm", "solved_practical"};
+  for (int i = 0; i < 200; ++i) study.conditions.push_back({{"joint_noise_deg", std::to_string(i)}});
+  return study;
+}
+
+ScenarioTable Filled(const Study& study) {
+  ScenarioTable table(study);
+  RandomStream dice({.suite_seed = 1, .scenario = "sum-up", .trial = 0}, "values");
+  Row row{study.scenario, study.task, {}, 0, "", {}, "", {}};
+  for (const auto& condition : study.conditions) {
+    row.condition = condition;
+    for (row.trial = 0; row.trial < study.trials; ++row.trial) {
+      for (const ComparedMethod& method : study.methods) {
+        row.method = method.name;
+        const bool fails = method.name == "b" && dice.Chance(0.05);
+        row.result = CellResult::Ended(fails ? Status::kFailed : Status::kOk, fails ? "it did" : "");
+        row.result.MeasureOr("position_error_cm", fails ? std::nullopt : std::optional(dice.Uniform()), "it failed");
+        row.result.Measure("solved_practical", dice.Chance(0.7) ? 1 : 0);
+        table.Add(row);
+      }
+    }
+  }
+  return table;
+}
+
+TEST(SumUp, SaysTheSameForAnyNumberOfProcesses) {
+  const Study study = ManyConditions();
+  const ScenarioTable table = Filled(study);
+  const std::string alone = *WriteJson(EncodeSummaries({Summarise(study, table, 1)}));
+  EXPECT_THAT(alone, HasSubstr("only_baseline"));
+  for (const int jobs : {1, 2, 3}) {
+    const auto summary = SumUp(study, table, 1, jobs);
+    ASSERT_TRUE(summary) << ToString(summary.error());
+    EXPECT_EQ(*WriteJson(EncodeSummaries({*summary})), alone) << jobs;
+  }
+}
+
+TEST(RunForked, GivesAnswersInOrderHoweverLong) {
+  const auto answers = RunForked(
+      7, 3, [](std::size_t i) -> Result<std::string> { return std::string(i * 100'000, static_cast<char>('a' + i)); });
+  ASSERT_TRUE(answers);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ((*answers)[i], std::string(i * 100'000, static_cast<char>('a' + i)));
+  EXPECT_TRUE(RunForked(0, 3, [](std::size_t) -> Result<std::string> { return Fail({}, "never asked"); })->empty());
+}
+
+TEST(RunForked, PassesOnAComplaintAndNoticesADeath) {
+  const auto complaint = RunForked(5, 2, [](std::size_t i) -> Result<std::string> {
+    if (i == 3) return Fail({"x", 1, 0}, "the fourth is wrong");
+    return "fine";
+  });
+  ASSERT_FALSE(complaint);
+  EXPECT_THAT(ToString(complaint.error()), HasSubstr("x:1: the fourth is wrong"));
+  const auto death = RunForked(5, 2, [](std::size_t i) -> Result<std::string> {
+    if (i == 2) ::_exit(0);
+    return "fine";
+  });
+  EXPECT_FALSE(death) << "exit code 0 without its answers is none";
+}
+
+}  // namespace
+}  // namespace etude
