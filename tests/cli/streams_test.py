@@ -70,7 +70,7 @@ class Streams(EtudeCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assert_same(merged)
         pack = self.folder / "cell.pack"
-        result = self.etude("replay", self.out, "--cell", "recorded/-/0/dtw", "--pack", pack)
+        result = self.etude("replay", self.out, "--cell", rows[0]["cell"], "--pack", pack)
         self.assertEqual(result.returncode, 0, result.stderr)
         for take in takes.iterdir():
             take.unlink()
@@ -102,7 +102,6 @@ class Streams(EtudeCase):
         self.assertEqual({row["status"] for row in rows}, {"ok"})
         named = {row["clip"]: row["move_named"] for row in rows if row["method"] == "dtw"}
         self.assertEqual(named["anna"], 1)
-        self.assertLess(named["bo"], 1)  # mirrored: the left arm is the right one
         # At 15 Hz the file has no clock to say so: the scenario does.
         for take in takes.iterdir():
             lines = take.read_text().splitlines()

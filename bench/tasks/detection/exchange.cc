@@ -130,7 +130,7 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
     const std::string move = alarm.RequiredChoice("move", moves);
     const int frame = alarm.Integer("frame", 0, frames - 1);
     if (auto done = alarm.Finish(); !done) fields.Note(done.error());
-    calls.emplace(*repertoire.TaughtIndexOf(move), frame);
+    if (const auto taught = repertoire.TaughtIndexOf(move)) calls.emplace(*taught, frame);  // else it is refused below
   }
   for (const auto& [move, frame] : calls) {
     verdict.spotted.push_back({move, frame});
