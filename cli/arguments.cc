@@ -90,6 +90,12 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   for (CLI::Option* option : world_options) from->excludes(option);
   from->excludes(command->add_option("--library", options->libraries,
                                      "NAME=CLIPS: a library beside the scenarios', every condition once more for it"));
+  CLI::Option* streams = command->add_option(
+      "--streams", options->streams,
+      "Recordings of skeletons in the place of simulated people: files, patterns, folders (docs/streams.md)");
+  streams->excludes(from, world_options[2]);
+  from->excludes(command->add_option("--labels", options->labels,
+                                     "Who did what when in --streams or --clips: a file, or a folder of tag streams"));
   command->callback([=, &action] {
     action = [=] {
       if (options->scenarios.empty() == options->from.empty()) {

@@ -91,16 +91,20 @@ struct Field {
   }
 
   /// Any text; `allowed` says for people which.
-  static Field Text(const std::string& key, std::string Options::*member, std::string allowed, std::string meaning) {
+  template <typename Member>
+  static Field Text(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, TextKind(std::move(allowed)), Default(member), std::move(meaning)},
-            [=](Fields& fields, Options& options) { options.*member = fields.Text(key, options.*member); }};
+            [=](Fields& fields, Options& options) {
+              std::string& value = std::invoke(member, options);
+              value = fields.Text(key, value);
+            }};
   }
 
   /// A list of texts.
-  static Field Texts(const std::string& key, std::vector<std::string> Options::*member, std::string allowed,
-                     std::string meaning) {
+  template <typename Member>
+  static Field Texts(const std::string& key, Member member, std::string allowed, std::string meaning) {
     return {{key, ListKind(std::move(allowed), TextKind("")), "[]", std::move(meaning)},
-            [=](Fields& fields, Options& options) { options.*member = fields.Texts(key); }};
+            [=](Fields& fields, Options& options) { std::invoke(member, options) = fields.Texts(key); }};
   }
 
   /// One of several values by its name.

@@ -69,7 +69,20 @@ Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path&
   return references;
 }
 
-/// What a scenario's worlds are made of: {"clips": what PackClips gives, "libraries": {name: likewise, …}}.
+/// Recordings, in order, as clips are packed.
+Result<Json> PackStreams(const LabelledStreams& recordings) {
+  Json clips = Json::array(), files = Json::array();
+  for (const NamedStream& recording : recordings.streams) {
+    ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(recording.source));
+    clips.push_back({{"file", files.size()}, {"animation", ""}});
+    files.push_back({{"name", fs::path(recording.source).filename().string()},
+                     {"bytes", Json::binary({bytes.begin(), bytes.end()})}});
+  }
+  return Json{{"clips", std::move(clips)}, {"files", std::move(files)}};
+}
+
+/// What a scenario's worlds are made of: {"clips": what PackClips gives, "libraries": {name: likewise, …}, "streams":
+/// likewise, where there are any}.
 Result<Json> PackMotions(const PreparedScenario& scenario) {
   Json motions{{"clips", nullptr}, {"libraries", Json::object()}};
   for (const auto& [name, library] : scenario.libraries()) {
@@ -78,6 +91,9 @@ Result<Json> PackMotions(const PreparedScenario& scenario) {
   if (scenario.libraries().empty()) {
     ASSIGN_OR_RETURN(motions["clips"], PackClips(scenario.clips()));
   }
+  if (!scenario.setup().streams.empty()) {
+    ASSIGN_OR_RETURN(motions["streams"], PackStreams(*scenario.recordings()));
+  }
   return motions;
 }
 
@@ -85,6 +101,9 @@ Result<Json> PackMotions(const PreparedScenario& scenario) {
 Result<void> UnpackMotions(const Json& motions, const fs::path& folder, ScenarioSetup& scenario) {
   if (!motions.at("clips").is_null()) {
     ASSIGN_OR_RETURN(scenario.clips, UnpackClips(motions.at("clips"), folder));
+  }
+  if (motions.contains("streams")) {
+    ASSIGN_OR_RETURN(scenario.streams, UnpackClips(motions.at("streams"), folder / "streams"));
   }
   for (std::size_t i = 0; i < scenario.libraries.size(); ++i) {
     NamedClips& library = scenario.libraries[i];

@@ -104,6 +104,7 @@ Json EncodeSeries(const std::vector<Series>& series) {
   Json list = Json::array();
   for (const Series& curve : series) {
     list.push_back({{"name", curve.name}, {"axis", curve.axis}, {"values", curve.values}});
+    if (!curve.names.empty()) list.back()["names"] = curve.names;
   }
   return list;
 }
@@ -112,7 +113,7 @@ std::vector<Series> DecodeSeries(const Json& json) {
   std::vector<Series> series;
   for (const Json& curve : json) {
     series.push_back({curve.at("name").get<std::string>(), curve.at("axis").get<std::string>(),
-                      curve.at("values").get<std::vector<double>>()});
+                      curve.at("values").get<std::vector<double>>(), curve.value("names", std::vector<std::string>{})});
   }
   return series;
 }

@@ -213,7 +213,12 @@ std::string EncodeCellLine(std::size_t cell, FinishedCell finished) {
     line.AddText(",");
     line.AddString(series.axis);
     line.AddText(",[");
-    line.Add("{}]]", fmt::join(series.values, ","));
+    line.Add("{}]", fmt::join(series.values, ","));
+    for (const std::string& name : series.names) {
+      line.AddText(",");
+      line.AddString(name);
+    }
+    line.AddText("]");
   });
   if (!recording.empty()) line.Add(R"(,"recording":{})", recording);
   line.AddText("}");
@@ -272,6 +277,7 @@ Result<FinishedCell> DecodeCellLine(std::string_view line, Row identity, const P
         while (reader.Skip(","));
         reader.Expect("]");
       }
+      while (reader.Skip(",")) series.names.push_back(reader.ReadString());
       reader.Expect("]");
     });
     if (reader.Skip(R"(,"recording":)")) {

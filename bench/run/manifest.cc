@@ -52,6 +52,28 @@ bool IsFilmed(const Scenario& scenario) {
   });
 }
 
+/// Of the clips, then of the recordings of people.
+Json DescribeMotions(const PreparedScenario& scenario) {
+  Json motions = DescribeClips(scenario.clips());
+  if (scenario.setup().streams.empty()) return motions;
+  for (const NamedStream& recording : scenario.recordings()->streams) {
+    Digest digest;
+    for (const SensedFrame& frame : recording.stream.frames) {
+      digest.Add(std::int64_t{frame.body_seen});
+      for (const SensedJoint& joint : frame.joints) {
+        digest.Add(joint.position.x).Add(joint.position.y).Add(joint.position.z);
+        digest.Add(static_cast<std::int64_t>(joint.state));
+      }
+    }
+    motions.push_back({{"name", recording.name},
+                       {"source", recording.source},
+                       {"frames", recording.stream.frames.size()},
+                       {"digest", digest.Hex()},
+                       {"note", recording.description}});
+  }
+  return motions;
+}
+
 Result<Json> ReadManifestJson(const std::filesystem::path& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   auto json = ReadJson(text, path.string());
@@ -76,7 +98,7 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
     for (const std::string& id : kind.metrics) json["metrics"][id] = FindMetric(id)->version;
   }
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
-    json["scenarios"][s]["loaded_clips"] = DescribeClips(scenarios[s].clips());
+    json["scenarios"][s]["loaded_clips"] = DescribeMotions(scenarios[s]);
     const TaskKind& kind = *FindTaskKind(IsFilmed(scenarios[s].scenario()) ? "capture" : scenarios[s].scenario().task);
     if (kind.platform != nullptr) json["scenarios"][s]["platform"] = kind.platform();
   }
@@ -91,7 +113,7 @@ Result<SuiteSetup> ReadManifest(const std::filesystem::path& path) {
 Result<void> CheckClips(const std::filesystem::path& path, std::span<const PreparedScenario> scenarios) {
   ASSIGN_OR_RETURN(const auto json, ReadManifestJson(path));
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
-    const Json now = DescribeClips(scenarios[s].clips());
+    const Json now = DescribeMotions(scenarios[s]);
     const Json then = json.at("scenarios").at(s).value("loaded_clips", Json::array());
     if (now == then) continue;
     for (std::size_t c = 0; c < std::max(now.size(), then.size()); ++c) {

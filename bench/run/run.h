@@ -21,6 +21,8 @@ struct RunOptions {
   std::optional<int> trials;           ///< else each scenario's own
   std::vector<std::string> clips;      ///< replaces the scenarios' clips when not empty
   std::vector<std::string> libraries;  ///< NAME=CLIPS, beside the scenarios' libraries; one name may stand repeatedly
+  std::vector<std::string> streams;  ///< in the place of simulated people or the scenarios' recordings, when not empty
+  std::string labels;                ///< of `streams`, or of `clips`
   std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
   std::string output;                  ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
   bool overwrite = false;              ///< replace a folder that already holds a run

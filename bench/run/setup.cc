@@ -10,6 +10,7 @@
 
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/moves_key.h"
 #include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
@@ -31,10 +32,11 @@ Result<FuzzySystem> FuzzySystemOf(const Condition& condition, const SourceTexts&
   });
 }
 
-/// The texts of the sensor file and the calibration file that a condition names, by key.
+/// The texts of the sensor file, the calibration file and the file of taught moves that a condition names, by key.
 Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& condition, const SourceTexts& texts) {
   std::map<std::string, std::string> named_texts;
-  for (const auto& [key, is_file] : {std::pair{kSensorKey, &IsSensorFile}, std::pair{kRigFileKey, &IsRigFile}}) {
+  for (const auto& [key, is_file] :
+       {std::pair{kSensorKey, &IsSensorFile}, std::pair{kRigFileKey, &IsRigFile}, std::pair{kMovesKey, &IsMovesFile}}) {
     const Node* named = condition.node.Find(key);
     if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
     const auto text = texts.find(named->scalar);
@@ -48,7 +50,7 @@ Result<std::map<std::string, std::string>> NamedTextsOf(const Condition& conditi
 /// the scenario knows is refused here.
 Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
     const Scenario& scenario, const std::function<const ClipLibrary&(const Condition&)>& clips_of,
-    const SourceTexts& texts) {
+    const SourceTexts& texts, const LabelledStreams* recordings) {
   std::vector<Node> built_in;
   for (const MethodEntry& method : scenario.methods) {
     if (method.RunsInTask()) built_in.push_back(method.node);
@@ -59,7 +61,7 @@ Result<std::vector<std::unique_ptr<Task>>> MakeTasks(
     for (const KeyInfo& key : CommonScenarioKeys()) fields.Raw(key.key);
     ASSIGN_OR_RETURN(auto fuzzy, FuzzySystemOf(condition, texts));
     ASSIGN_OR_RETURN(auto named_texts, NamedTextsOf(condition, texts));
-    TaskInput input{fields, built_in, clips_of(condition), std::move(fuzzy), std::move(named_texts)};
+    TaskInput input{fields, built_in, clips_of(condition), std::move(fuzzy), std::move(named_texts), recordings};
     ASSIGN_OR_RETURN(auto task, FindTaskKind(scenario.task)->make(input));
     RETURN_IF_ERROR(fields.Finish());
     tasks.push_back(std::move(task));
@@ -97,6 +99,8 @@ Json EncodeSetup(const SuiteSetup& setup) {
                          {"clips", scenario.clips},
                          {"joint_map", scenario.joint_map},
                          {"digest", scenario.digest}});
+    if (!scenario.streams.empty()) scenarios.back()["streams"] = scenario.streams;
+    if (!scenario.labels.empty()) scenarios.back()["labels"] = scenario.labels;
     for (const NamedClips& library : scenario.libraries) {
       scenarios.back()["libraries"].push_back({{"name", library.name}, {"clips", library.clips}});
     }
@@ -122,6 +126,8 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
                                  scenario.at("seed").get<std::uint64_t>(), scenario.at("trials").get<int>(),
                                  scenario.at("clips").get<std::vector<std::string>>(), scenario.value("joint_map", ""),
                                  scenario.at("digest").get<std::string>()});
+      setup.scenarios.back().streams = scenario.value("streams", std::vector<std::string>{});
+      setup.scenarios.back().labels = scenario.value("labels", std::vector<std::string>{});
       for (const Json& library : scenario.value("libraries", Json::array())) {
         setup.scenarios.back().libraries.push_back(
             {library.at("name").get<std::string>(), library.at("clips").get<std::vector<std::string>>()});
@@ -137,6 +143,49 @@ Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
   return setup;
 }
 
+namespace {
+
+Result<OpenOptions> OpenOptionsOf(const ScenarioSetup& setup, const SourceTexts& texts) {
+  OpenOptions how;
+  if (setup.joint_map.empty()) return how;
+  const auto text = texts.find(setup.joint_map);
+  if (text == texts.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", setup.joint_map);
+  ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text->second, setup.joint_map));
+  how.roles = std::move(roles);
+  return how;
+}
+
+/// Null where worlds are not made of recordings.
+Result<std::unique_ptr<LabelledStreams>> LoadRecordings(const ScenarioSetup& setup, const StreamSource& source,
+                                                        const ClipLibrary& clips, const SourceTexts& texts) {
+  if (setup.streams.empty() && setup.labels.empty()) return nullptr;
+  LabelTexts labels;
+  for (const std::string& file : setup.labels) {
+    const auto text = texts.find(file);
+    if (text == texts.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", file);
+    labels[file] = text->second;
+  }
+  std::vector<NamedStream> streams = StreamsOf(clips);
+  if (!setup.streams.empty()) {
+    ASSIGN_OR_RETURN(auto loaded, LoadStreams(setup.streams, source.reading, source.making));
+    streams = std::move(loaded.streams);
+  }
+  if (streams.empty()) return Fail({setup.file, 0, 0}, "labels need 'streams' or 'clips' that they are of");
+  ASSIGN_OR_RETURN(auto labelled, LabelStreams(std::move(streams), labels));
+  return std::make_unique<LabelledStreams>(std::move(labelled));
+}
+
+}  // namespace
+
+Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
+                                               const SourceTexts& texts) {
+  if (setup.streams.empty() && setup.labels.empty()) return std::nullopt;
+  ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, texts));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips(setup.clips, {setup.file, 0, 0}, how));
+  ASSIGN_OR_RETURN(const auto recordings, LoadRecordings(setup, source, clips, texts));
+  return static_cast<int>(recordings->people.size());
+}
+
 Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& setup) {
   ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(setup.file, suite.sources));
   const auto named = std::find_if(scenarios.begin(), scenarios.end(),
@@ -146,13 +195,7 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   prepared.scenario_ = std::move(*named);
   prepared.scenario_.trials = setup.trials;
   AddLibraries(setup.libraries, prepared.scenario_);
-  OpenOptions how;
-  if (!setup.joint_map.empty()) {
-    const auto text = suite.sources.find(setup.joint_map);
-    if (text == suite.sources.end()) return Fail({setup.file, 0, 0}, "the text of '{}' is missing", setup.joint_map);
-    ASSIGN_OR_RETURN(auto roles, ReadJointMapFile(text->second, setup.joint_map));
-    how.roles = std::move(roles);
-  }
+  ASSIGN_OR_RETURN(const auto how, OpenOptionsOf(setup, suite.sources));
   ASSIGN_OR_RETURN(auto clips, LoadClips(setup.clips, {setup.file, 0, 0}, how));
   for (const NamedClips& library : setup.libraries) {
     ASSIGN_OR_RETURN(auto own, LoadClips(library.clips, {setup.file, 0, 0}, how));
@@ -161,8 +204,10 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
   }
   prepared.clips_ = std::make_unique<ClipLibrary>(std::move(clips));
   prepared.setup_ = setup;
+  ASSIGN_OR_RETURN(prepared.recordings_,
+                   LoadRecordings(setup, prepared.scenario_.streams, *prepared.clips_, suite.sources));
   const auto clips_of = [&](const Condition& condition) -> const ClipLibrary& { return prepared.ClipsOf(condition); };
-  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources));
+  ASSIGN_OR_RETURN(auto tasks, MakeTasks(prepared.scenario_, clips_of, suite.sources, prepared.recordings()));
   prepared.tasks_ = std::move(tasks);
   if (suite.scored) {
     RETURN_IF_ERROR(AddScoredMethod(*suite.scored, prepared.scenario_));

@@ -8,6 +8,7 @@
 
 #include "bench/files/json.h"
 #include "bench/scenario/scenario.h"
+#include "bench/streams/labelled.h"
 #include "bench/tasks/base/task.h"
 
 namespace etude {
@@ -22,6 +23,8 @@ struct ScenarioSetup {
   std::string joint_map;                   ///< a key of SuiteSetup::sources, "" = none
   std::string digest;                      ///< of the texts that the scenario stands in
   std::vector<NamedClips> libraries = {};  ///< the scenario's own, and those of --library
+  std::vector<std::string> streams = {};   ///< recordings; the scenario's own, or those of --streams
+  std::vector<std::string> labels = {};    ///< keys of SuiteSetup::sources
 };
 
 /// A method whose answers are known already (etude score).
@@ -51,6 +54,8 @@ class PreparedScenario {
   const ClipLibrary& clips() const { return *clips_; }
   /// By name, where there are any.
   const std::map<std::string, ClipLibrary>& libraries() const { return libraries_; }
+  /// Of people, where its worlds are made of them; else null.
+  const LabelledStreams* recordings() const { return recordings_.get(); }
   const Task& task(int condition) const { return *tasks_[condition]; }
 
   /// What keys the dice of a trial.
@@ -74,8 +79,14 @@ class PreparedScenario {
   Scenario scenario_;
   std::unique_ptr<ClipLibrary> clips_;
   std::map<std::string, ClipLibrary> libraries_;  ///< by name
-  std::vector<std::unique_ptr<Task>> tasks_;      ///< one per condition
+  std::unique_ptr<LabelledStreams> recordings_;
+  std::vector<std::unique_ptr<Task>> tasks_;  ///< one per condition
 };
+
+/// How many people a scenario's recordings show; nothing where its worlds are not made of them. `texts` hold its
+/// labels.
+Result<std::optional<int>> CountRecordedPeople(const ScenarioSetup& setup, const StreamSource& source,
+                                               const SourceTexts& texts);
 
 /// Reads the scenario, loads its clips and makes its tasks; every complaint about a scenario, its
 /// methods or its clips comes from here.

@@ -9,6 +9,7 @@
 #include "bench/run/manifest.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/base/moves_key.h"
 #include "bench/tasks/base/rig_key.h"
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
@@ -38,12 +39,12 @@ Result<void> KeepText(const std::string& file, SourceTexts& texts) {
   return {};
 }
 
-/// Likewise of the fuzzy systems, sensor files and calibration files that its conditions name. What is no text is
-/// refused when the tasks are made.
+/// Likewise of the fuzzy systems, sensor files, calibration files and taught moves that its conditions name. What is no
+/// text is refused when the tasks are made.
 Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   for (const Condition& condition : scenario.conditions) {
     for (const auto& [key, is_file] : {std::pair{kFuzzyKey, &IsFuzzyFile}, std::pair{kSensorKey, &IsSensorFile},
-                                       std::pair{kRigFileKey, &IsRigFile}}) {
+                                       std::pair{kRigFileKey, &IsRigFile}, std::pair{kMovesKey, &IsMovesFile}}) {
       const Node* named = condition.node.Find(key);
       if (named == nullptr || named->kind != Node::Kind::kScalar || !is_file(named->scalar)) continue;
       if (auto kept = KeepText(named->scalar, texts); !kept) {
@@ -54,14 +55,21 @@ Result<void> KeepNamedFiles(const Scenario& scenario, SourceTexts& texts) {
   return {};
 }
 
-/// Refuses --clips with a file or a folder that has no use for them; one that has may also hold scenarios without.
-Result<void> CheckThatClipsAreUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_clips) {
+/// The files of labels, by which `texts` keeps them.
+Result<std::vector<std::string>> KeepLabels(const std::string& path, SourceTexts& texts) {
+  if (path.empty()) return std::vector<std::string>{};
+  ASSIGN_OR_RETURN(auto files, LabelFiles(path));
+  for (const std::string& file : files) RETURN_IF_ERROR(KeepText(file, texts));
+  return files;
+}
+
+/// Refuses options with a file or a folder that has no use for them; one that has may also hold scenarios without.
+Result<void> CheckThatUsed(const std::vector<std::string>& paths, const std::set<std::string>& with_use,
+                           std::string_view why) {
   for (const std::string& path : paths) {
     ASSIGN_OR_RETURN(const auto files, FindScenarioFiles({path}));
-    const bool used = std::ranges::any_of(files, [&](const std::string& file) { return with_clips.contains(file); });
-    if (!used)
-      return Fail({path, 0, 0},
-                  "has no use for --clips or --library: no task of its scenarios makes its worlds of clips");
+    const bool used = std::ranges::any_of(files, [&](const std::string& file) { return with_use.contains(file); });
+    if (!used) return Fail({path, 0, 0}, "has no use for {}", why);
   }
   return {};
 }
@@ -114,7 +122,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
   std::map<std::string, std::string> file_of_name;
-  std::set<std::string> with_clips;  // files with a scenario that has a use for clips
+  std::set<std::string> with_clips, with_recordings;  // files with a scenario that has a use for them
   std::size_t cells = 0;
   for (const std::string& file : files) {
     SourceTexts texts;
@@ -146,19 +154,42 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
         return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one",
                     scenario.name);
       }
-      // Clips of no library are not loaded where there are libraries.
-      const std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
+      if (replaced && !scenario.streams.files.empty()) {
+        return Fail({file, 0, 0}, "--clips: scenario {} is about recordings; --streams names others", scenario.name);
+      }
+      const bool uses_recordings = FindTaskKind(scenario.task)->uses_recordings;
+      const bool is_recorded = uses_recordings && !options.streams.empty();
+      if (is_recorded && !scenario.libraries.empty()) {
+        return Fail({file, 0, 0}, "--streams: scenario {} is about libraries", scenario.name);
+      }
+      if (uses_recordings) with_recordings.insert(file);
+      if (is_recorded) scenario.streams.files = options.streams;
+      // Labels of other recordings are of no use.
+      if (is_recorded || (uses_recordings && !options.labels.empty())) scenario.streams.labels = options.labels;
+      // Clips of no library are not loaded where there are libraries, and none where there are recordings.
+      std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
+      if (!scenario.libraries.empty() || !scenario.streams.files.empty()) clips.clear();
       const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
       RETURN_IF_ERROR(KeepText(joint_map, suite.sources));
       RETURN_IF_ERROR(KeepNamedFiles(scenario, suite.sources));
-      suite.scenarios.push_back({file, scenario.name, options.seed ? *options.seed : scenario.seed.value_or(1), trials,
-                                 scenario.libraries.empty() ? clips : std::vector<std::string>{}, joint_map,
-                                 digest.Hex(), scenario.libraries});
+      ScenarioSetup setup{file,         scenario.name,      options.seed ? *options.seed : scenario.seed.value_or(1),
+                          trials,       std::move(clips),   joint_map,
+                          digest.Hex(), scenario.libraries, scenario.streams.files};
+      ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, suite.sources));
+      ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, suite.sources));
+      if (people) setup.trials = std::min(trials, *people);  // a person is judged once
+      suite.scenarios.push_back(std::move(setup));
     }
     suite.sources.merge(texts);
   }
-  if (!options.clips.empty() || !options.libraries.empty())
-    RETURN_IF_ERROR(CheckThatClipsAreUsed(options.scenarios, with_clips));
+  if (!options.clips.empty() || !options.libraries.empty()) {
+    RETURN_IF_ERROR(CheckThatUsed(options.scenarios, with_clips,
+                                  "--clips or --library: no task of its scenarios makes its worlds of clips"));
+  }
+  if (!options.streams.empty() || !options.labels.empty()) {
+    RETURN_IF_ERROR(CheckThatUsed(options.scenarios, with_recordings,
+                                  "--streams or --labels: no task of its scenarios makes its worlds of recordings"));
+  }
   return suite;
 }
 

@@ -1,5 +1,7 @@
 #include "bench/scenario/scenario.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +16,7 @@ namespace etude {
 namespace {
 
 constexpr Range kTrials{0, 1'000'000};
+constexpr Range kBodies{0, 1000};
 constexpr double kLargestSeed = 9007199254740992;  // 2^53: every whole number up to it is exact
 
 std::vector<std::string> TaskNames() {
@@ -60,6 +63,21 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
+/// What people did is read off recordings, or off clips that have labels.
+void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
+  for (const char* key : {"streams", "labels", "reading"}) {
+    const Node* named = fields.Raw(key);
+    if (named == nullptr) continue;
+    if (!kind.uses_recordings) fields.Complain(named->place, fmt::format("'{}' has no use in task {}", key, kind.name));
+    if (!scenario.libraries.empty())
+      fields.Complain(named->place, fmt::format("'{}' has no use with 'libraries'", key));
+  }
+  const Node* streams = fields.Raw("streams");
+  if (streams != nullptr && fields.Raw("clips") != nullptr) {
+    fields.Complain(streams->place, "'streams' stands in the place of 'clips'");
+  }
+}
+
 SamplingUnit ReadUnit(Fields& fields, const TaskKind& kind) {
   std::vector<std::string> names;
   for (SamplingUnit unit : kind.units) names.emplace_back(SamplingUnitName(unit));
@@ -67,6 +85,30 @@ SamplingUnit ReadUnit(Fields& fields, const TaskKind& kind) {
 }
 
 }  // namespace
+
+const FieldTable<StreamSource>& ReadingFields() {
+  using Key = Field<StreamSource>;
+  NamedValues<std::optional<StreamFormat>> formats;
+  for (const std::string& name : StreamFormatNames()) formats.emplace_back(name, FindStreamFormat(name));
+  static const FieldTable<StreamSource> table{
+      {Key::Name(
+           "format", [](auto& s) -> auto& { return s.reading.format; }, formats, "Of the files.")
+           .WhenAbsent("(told by content)"),
+       Key::Number(
+           "rate_hz", [](auto& s) -> auto& { return s.reading.rate_hz; }, {1, 1000}, "Of files without a clock.")
+           .WhenAbsent("30"),
+       {{"body", NumberKind(kBodies, true), "(the one seen longest)", "Which of several bodies, by first appearance."},
+        [](Fields& fields, StreamSource& s) {
+          if (const auto body = fields.OptionalWhole("body", kBodies)) s.reading.body = static_cast<int>(*body);
+        }},
+       Key::Flag(
+           "levels", [](auto& s) -> auto& { return s.making.levels; },
+           "Whether up and the floor are estimated; else they are the file's."),
+       Key::Flag(
+           "reflects", [](auto& s) -> auto& { return s.making.reflects; },
+           "Whether X is negated: of recordings that are mirrored.")}};
+  return table;
+}
 
 const FieldTable<Limits>& LimitFields() {
   using Key = Field<Limits>;
@@ -104,6 +146,19 @@ const FieldTable<Scenario>& ScenarioFields() {
         [](Fields& fields, Scenario& s) { s.task = fields.Choice("task", TaskNames(), ""); }},
        Key::Texts("clips", &Scenario::clips, "a list of `builtin:NAME`, `builtin:*`, BVH and glTF files, patterns",
                   "What worlds are made of; trials go through them in turn."),
+       Key::Texts(
+           "streams", [](auto& s) -> auto& { return s.streams.files; },
+           "a list of recordings of skeletons, patterns and folders (docs/streams.md)",
+           "In place of `clips` and simulated people: the recorded ones, a trial each; `etude run --streams` names "
+           "others."),
+       Key::Text(
+           "labels", [](auto& s) -> auto& { return s.streams.labels; }, "a file, or a folder of tag streams",
+           "Who did what when in `streams`, or in `clips`, whose people are then sensed and judged in place of "
+           "simulated "
+           "ones.")
+           .WhenAbsent("(a recording is one performance, called by its name)"),
+       {{"reading", MappingKind("a mapping", ReadingFields().Describe()), "{}", "How `streams` are read."},
+        [](Fields& fields, Scenario& s) { ReadNested(fields, "reading", ReadingFields(), s.streams); }},
        Key::Text("joint_map", &Scenario::joint_map, "a file",
                  "Teaches which joints of the clips play which roles, where names do not tell.")
            .WhenAbsent("(names tell)"),
@@ -124,8 +179,10 @@ const FieldTable<Scenario>& ScenarioFields() {
          "Instead of `clips`: every condition once for each, its worlds made of those clips alone; `etude run "
          "--library` "
          "adds some."},
-        when_right(
-            [](Fields& fields, Scenario& s, const TaskKind& kind) { AddLibraries(ReadLibraries(fields, kind), s); })},
+        when_right([](Fields& fields, Scenario& s, const TaskKind& kind) {
+          AddLibraries(ReadLibraries(fields, kind), s);
+          CheckStreams(fields, s, kind);
+        })},
        {{"methods",
          {"a list of 1…100 methods", R"({"type":"array","minItems":1,"maxItems":100})"},
          "",

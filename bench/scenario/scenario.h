@@ -10,6 +10,7 @@
 #include "bench/model/study.h"
 #include "bench/tasks/base/task.h"
 #include "engine/document/node.h"
+#include "engine/streams/stream_maker.h"
 
 namespace etude {
 
@@ -17,6 +18,14 @@ namespace etude {
 struct NamedClips {
   std::string name;
   std::vector<std::string> clips;  ///< references as written
+};
+
+/// Recordings of people, which worlds are made of in place of simulated ones.
+struct StreamSource {
+  std::vector<std::string> files;  ///< references as written
+  std::string labels;              ///< file, or folder of tag streams, that says what was done in streams or clips
+  StreamReading reading;
+  StreamOptions making;
 };
 
 /// One value of each swept parameter, and the scenario's mapping with those values put in.
@@ -61,7 +70,8 @@ struct Scenario {
   std::string task;
   std::vector<std::string> clips;     ///< references as written
   std::vector<NamedClips> libraries;  ///< instead of `clips`: every condition once for each
-  std::string joint_map;              ///< file that teaches the joints of the clips (docs/clips.md), "" = none
+  StreamSource streams;
+  std::string joint_map;  ///< file that teaches the joints of the clips (docs/clips.md), "" = none
   SamplingUnit unit = SamplingUnit::kWorld;
   int trials = 10;
   std::optional<std::uint64_t> seed;
@@ -95,6 +105,7 @@ Result<std::vector<Scenario>> ParseScenarios(const std::string& file, const Sour
 /// The keys of every scenario, whatever its task.
 std::span<const KeyInfo> CommonScenarioKeys();
 const FieldTable<Limits>& LimitFields();
+const FieldTable<StreamSource>& ReadingFields();
 /// Names methods of `scenario`, which must outlive it.
 FieldTable<RecordingSelection> VideoFields(const Scenario& scenario);
 

@@ -125,6 +125,12 @@ class Fold {
 
 }  // namespace
 
+std::optional<double> Accuracy(std::span<const Classified> verdicts) {
+  if (verdicts.empty()) return std::nullopt;
+  const auto right = std::ranges::count_if(verdicts, [](const Classified& v) { return v.truth == v.taken_for; });
+  return static_cast<double>(right) / static_cast<double>(verdicts.size());
+}
+
 std::optional<double> WarpedDistanceCm(const SkeletonStream& a, const SkeletonStream& b) {
   const double cost = WarpedCost(DescribeStream(a, PoseParts::kJoints), DescribeStream(b, PoseParts::kJoints), kFar);
   return cost < kFar ? std::optional(100 * std::sqrt(cost)) : std::nullopt;

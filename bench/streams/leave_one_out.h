@@ -1,16 +1,23 @@
 #pragma once
 
-#include "bench/streams/scores.h"
+#include "bench/metrics/action_points.h"
 #include "bench/streams/teach.h"
 #include "bench/streams/watch.h"
 
 namespace etude {
 
 /// What came of recognising each person by what the others taught.
+/// What a performance was, and what it was taken for; "" for nothing.
+struct Classified {
+  std::string truth, taken_for, person;
+};
+/// The share taken for what they were. Nothing of no verdicts.
+std::optional<double> Accuracy(std::span<const Classified> verdicts);
+
 struct LeaveOneOut {
   std::vector<std::string> people;         ///< sorted
-  std::vector<Classified> verdicts;           ///< of performances from a beginning to an end, done right
-  std::vector<Classified> nearest;            ///< the same by the nearest of all others' whole performances: the yardstick
+  std::vector<Classified> verdicts;        ///< of performances from a beginning to an end, done right
+  std::vector<Classified> nearest;         ///< the same by the nearest of all others' whole performances: the yardstick
   std::vector<Moment> points, detections;  ///< of recordings with action points, one after another in time
   int mistaught = 0;  ///< performances of moves that nobody else did right, in `verdicts` as taken for nothing
 };

@@ -40,19 +40,6 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   return text;
 }
 
-std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
-  std::vector<NamedStream> streams;
-  for (const LibraryClip& clip : library.clips) {
-    streams.push_back({.name = clip.name,
-                       .source = clip.source,
-                       .person = "",
-                       .stream = StreamOf(clip.motion),
-                       .start_s = 0,
-                       .description = fmt::format("clip, {:.1f} s", clip.motion.DurationSeconds())});
-  }
-  return streams;
-}
-
 /// All files below a folder, sorted; links to folders are not followed.
 Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   std::vector<std::string> files;
@@ -94,6 +81,20 @@ Result<void> AddFolder(const std::string& folder, const StreamReading& reading, 
 }
 
 }  // namespace
+
+std::vector<NamedStream> StreamsOf(const ClipLibrary& library) {
+  std::vector<NamedStream> streams;
+  for (const LibraryClip& clip : library.clips) {
+    streams.push_back({.name = clip.name,
+                       .source = clip.source,
+                       .person = "",
+                       .stream = StreamOf(clip.motion),
+                       .start_s = 0,
+                       .description = fmt::format("clip, {:.1f} s", clip.motion.DurationSeconds()),
+                       .motion = clip.motion});
+  }
+  return streams;
+}
 
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options) {
@@ -153,14 +154,17 @@ std::string PersonInName(std::string_view name) {
   return "";
 }
 
-Result<std::vector<Label>> LoadLabels(const std::string& path) {
+Result<std::vector<std::string>> LabelFiles(const std::string& path) {
   std::error_code ignored;
-  std::vector<std::string> files = {path};
-  if (fs::is_directory(path, ignored)) {
-    ASSIGN_OR_RETURN(files, FilesBelow(path));
-    std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
-    if (files.empty()) return Fail({path}, "no .tagstream in it; allowed: a labels file, or a folder of tag streams");
-  }
+  if (!fs::is_directory(path, ignored)) return std::vector{path};
+  ASSIGN_OR_RETURN(auto files, FilesBelow(path));
+  std::erase_if(files, [](const std::string& file) { return fs::path(file).extension() != ".tagstream"; });
+  if (files.empty()) return Fail({path}, "no .tagstream in it; allowed: a labels file, or a folder of tag streams");
+  return files;
+}
+
+Result<std::vector<Label>> LoadLabels(const std::string& path) {
+  ASSIGN_OR_RETURN(const auto files, LabelFiles(path));
   std::vector<Label> labels;
   for (const std::string& file : files) {
     ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/clips/clip_library.h"
 #include "engine/base/result.h"
 #include "engine/streams/labels.h"
 #include "engine/streams/stream_maker.h"
@@ -15,13 +17,17 @@ struct NamedStream {
   std::string source;  ///< what opens it again
   std::string person;  ///< as the file's name tells in sets that are known (PersonInName), else ""
   SkeletonStream stream;
-  double start_s = 0;       ///< of its first frame, by the file's own clock
-  std::string description;  ///< one line, for people: format, length, states, level, remarks
+  double start_s = 0;                     ///< of its first frame, by the file's own clock
+  std::string description;                ///< one line, for people: format, length, states, level, remarks
+  std::optional<BodyMotion> motion = {};  ///< what was truly done; of clips alone
 };
 
 /// Reads one recording or clip (BVH, glTF, "builtin:clap": what a sensor without errors would say of it).
 Result<std::vector<NamedStream>> LoadStream(const std::string& reference, const StreamReading& reading,
                                             const StreamOptions& options);
+
+/// Clips as recordings of a sensor without errors.
+std::vector<NamedStream> StreamsOf(const ClipLibrary& library);
 
 /// All recordings of files, patterns and folders (with all below, sorted).
 struct LoadedStreams {
@@ -37,6 +43,8 @@ Result<LoadedStreams> LoadStreams(const std::vector<std::string>& references, co
 /// "P1_1_1_p06", UTKinect's "s01" of "joints_s01_e02". Else "".
 std::string PersonInName(std::string_view name);
 
+/// The files of labels that a path means: itself, or, of a folder, all tag streams in it.
+Result<std::vector<std::string>> LabelFiles(const std::string& path);
 /// Labels of a file, or of all tag streams of a folder.
 Result<std::vector<Label>> LoadLabels(const std::string& path);
 

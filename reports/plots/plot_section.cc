@@ -11,6 +11,7 @@
 #include "reports/plots/strips.h"
 #include "reports/plots/survival.h"
 #include "reports/plots/verdict_curves.h"
+#include "reports/plots/verdict_tables.h"
 #include "reports/words/answer.h"
 #include "reports/words/escape.h"
 #include "reports/words/left_out.h"
@@ -117,8 +118,9 @@ std::string PlotSectionHtml(const RunData& run, const ScenarioSummary& scenario)
   const std::string& metric = scenario.headline_metrics.front();
   const std::string strips = Strips(run, scenario, metric);
   if (strips.empty()) return "";
-  return fmt::format("<div class=\"plots\">{}{}{}{}{}</div>", strips, VerdictCurvesHtml(run, scenario),
-                     Budgets(scenario), Comparisons(run, scenario, metric), SurvivalHtml(run, scenario));
+  return fmt::format("<div class=\"plots\">{}{}{}{}{}{}</div>", strips, VerdictCurvesHtml(run, scenario),
+                     VerdictTablesHtml(run, scenario), Budgets(scenario), Comparisons(run, scenario, metric),
+                     SurvivalHtml(run, scenario));
 }
 
 }  // namespace etude

@@ -26,9 +26,8 @@ struct Censored {
   std::string_view done;   ///< the metric that is 1 when it came to its end; "" = it did when there is a value
   std::string_view share;  ///< of what the curve tells
 };
-constexpr std::array<Censored, 3> kCensored = {{{"iterations", "solved_practical", "worlds not yet solved"},
-                                                {"latency_s", "", "sessions not yet answered"},
-                                                {"wait_s", "", "requests still waiting"}}};
+constexpr std::array<Censored, 2> kCensored = {
+    {{"iterations", "solved_practical", "worlds not yet solved"}, {"wait_s", "", "requests still waiting"}}};
 
 std::optional<Outcome> OutcomeOf(const Row& row, const Censored& rule) {
   if (row.result.status == Status::kSkipped) return std::nullopt;
@@ -48,7 +47,8 @@ std::vector<std::pair<std::size_t, std::vector<Outcome>>> OutcomesUnder(const Ru
     if (row.scenario != scenario.name || row.condition != condition.condition) continue;
     const auto outcome = OutcomeOf(row, rule);
     if (!outcome) continue;
-    const auto method = static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
+    const auto method =
+        static_cast<std::size_t>(std::ranges::find(scenario.methods, row.method) - scenario.methods.begin());
     outcomes[method].push_back(*outcome);
     if (ValueOf(row, rule.metric)) measured.insert(method);
   }
@@ -100,10 +100,11 @@ std::string PanelOf(const RunData& run, const ScenarioSummary& scenario, const C
   }
   const std::string condition_label = ConditionLabel(condition.condition);
   const MetricWords words = WordsFor(std::string(rule.metric));
-  return fmt::format("<figure><figcaption>{}{}: {}, per cent, by {}{}. What never is done stays.</figcaption>{}{}{}{}</svg></figure>",
-                     EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
-                     EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
-                     BeginPanel(kCurveHeight, described), UprightGrid(share), LyingGrid(time, kCurveTop, kCurveBottom), lines);
+  return fmt::format(
+      "<figure><figcaption>{}{}: {}, per cent, by {}{}. What never is done stays.</figcaption>{}{}{}{}</svg></figure>",
+      EscapeMarkup(condition_label), condition_label.empty() ? "How long it takes" : "", rule.share,
+      EscapeMarkup(words.plain_label), words.suffix.empty() ? "" : " (" + words.suffix.substr(1) + ")",
+      BeginPanel(kCurveHeight, described), UprightGrid(share), LyingGrid(time, kCurveTop, kCurveBottom), lines);
 }
 
 std::string SectionOf(const RunData& run, const ScenarioSummary& scenario, const Censored& rule) {

@@ -18,7 +18,7 @@ struct Outcome {
 /// common limit this is Kaplan and Meier's curve. Empty without outcomes.
 std::vector<std::pair<double, double>> NotYetDone(const std::vector<Outcome>& outcomes);
 
-/// Curves of what is censored in this scenario (solver steps of what was not solved, latencies with misses), a line per
+/// Curves of what is censored in this scenario (solver steps of what was not solved, waits without an end), a line per
 /// method and a panel per condition; "" where nothing is.
 std::string SurvivalHtml(const RunData& run, const ScenarioSummary& scenario);
 

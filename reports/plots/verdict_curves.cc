@@ -7,9 +7,11 @@
 #include <cmath>
 #include <map>
 
+#include "bench/statistics/distributions.h"
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
+#include "reports/words/yardstick.h"
 #include "reports/words/figures.h"
 
 namespace etude {
@@ -21,60 +23,92 @@ constexpr std::size_t kMostRocs = 16;
 
 using SharePoints = std::vector<std::pair<double, double>>;
 
-const Series* FindSeries(const CellSeries& cell, std::string_view name) {
-  const auto found = std::ranges::find(cell.series, name, &Series::name);
-  return found == cell.series.end() ? nullptr : &*found;
-}
+const Axis kSharesAcross{.low = 0, .high = 1, .from = kPanelLeft, .to = kPanelRight};
+const Axis kSharesUp{.low = 0, .high = 1, .from = kRocBottom, .to = kRocTop};
 
-void AddPerformances(const CellSeries& cell, int person, std::vector<JudgedPerformance>& all) {
-  const Series *score = FindSeries(cell, "performance_score"), *truth = FindSeries(cell, "performance_truth"),
-               *called = FindSeries(cell, "performance_called"), *severity = FindSeries(cell, "performance_severity");
-  if (score == nullptr || truth == nullptr || called == nullptr || severity == nullptr) return;
-  const std::size_t count = score->values.size();
-  if (truth->values.size() != count || called->values.size() != count || severity->values.size() != count) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    all.push_back({person, score->values[i], truth->values[i], called->values[i] > 0, severity->values[i]});
-  }
-}
-
-/// By method, in the scenario's order, of those that judged something.
-std::map<std::size_t, std::vector<JudgedPerformance>> PerformancesUnder(const RunData& run,
-                                                                        const ScenarioSummary& scenario,
-                                                                        const ConditionSummary& condition) {
-  std::map<std::string, const Row*> rows;
-  for (const Row& row : run.rows) {
-    if (row.scenario == scenario.name && row.condition == condition.condition) rows.emplace(row.Id(), &row);
-  }
-  std::map<std::size_t, std::vector<JudgedPerformance>> performances;
-  for (const CellSeries& cell : run.series) {
-    const auto row = rows.find(cell.cell);
-    if (row == rows.end()) continue;
-    const auto method = std::ranges::find(scenario.methods, row->second->method) - scenario.methods.begin();
-    AddPerformances(cell, row->second->trial, performances[static_cast<std::size_t>(method)]);
-  }
-  std::erase_if(performances, [](const auto& entry) { return entry.second.empty(); });
-  return performances;
-}
-
-std::string ShareLine(std::size_t method, const SharePoints& curve, const Axis& x, const Axis& y) {
+std::string LineThrough(std::size_t method, const SharePoints& points) {
   std::string path;
-  for (const auto& [at, value] : curve)
-    path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.At(at), y.At(value));
+  for (const auto& [x, y] : points) path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
   return fmt::format("<path class=\"line\" style=\"stroke:var(--m{})\"{} d=\"{}\"/>", method % kPlotColours.size(),
                      MarkDashes(method), path);
 }
 
-/// Lines of shares over shares, in per cent.
+std::string Figure(const std::string& caption, const std::string& words, const std::string& drawn) {
+  return fmt::format("<figure><figcaption>{}</figcaption>{}{}</svg></figure>", EscapeMarkup(caption),
+                     BeginPanel(kRocHeight, words), drawn);
+}
+
+/// Lines of shares over shares, a mark on each where there is one.
 std::string SharePanel(const std::string& caption, const std::string& words,
-                       const std::map<std::size_t, SharePoints>& curves) {
-  const Axis x{.low = 0, .high = 1, .from = kPanelLeft, .to = kPanelRight},
-      y{.low = 0, .high = 1, .from = kRocBottom, .to = kRocTop};
-  std::string lines;
+                       const std::map<std::size_t, SharePoints>& curves,
+                       const std::map<std::size_t, std::pair<double, double>>& marked = {}) {
+  std::string drawn = UprightGrid(kSharesUp) + LyingGrid(kSharesAcross, kRocTop, kRocBottom);
   for (const auto& [method, curve] : curves) {
-    if (method < kMostRocs) lines += ShareLine(method, curve, x, y);
+    SharePoints placed;
+    for (const auto& [x, y] : curve) placed.emplace_back(kSharesAcross.At(x), kSharesUp.At(y));
+    drawn += LineThrough(method, placed);
   }
-  return fmt::format("<figure><figcaption>{}</figcaption>{}{}{}{}</svg></figure>", EscapeMarkup(caption),
-                     BeginPanel(kRocHeight, words), UprightGrid(y), LyingGrid(x, kRocTop, kRocBottom), lines);
+  for (const auto& [method, at] : marked) {
+    drawn += MarkUse(method, method, kSharesAcross.At(at.first), kSharesUp.At(at.second));
+  }
+  return Figure(caption, words, drawn);
+}
+
+/// Shares as deviates of the normal distribution, from 1 to 99 %: two normal distributions of scores give a straight
+/// line (Martin et al. 1997).
+struct DeviateAxis {
+  static constexpr double kLow = 0.01, kHigh = 0.99;
+  double from = 0, to = 1;
+
+  double At(double share) const {
+    const double low = NormalQuantile(kLow), high = NormalQuantile(kHigh);
+    return from + (NormalQuantile(std::clamp(share, kLow, kHigh)) - low) / (high - low) * (to - from);
+  }
+};
+
+std::string DetPanel(const std::string& caption, const std::string& words,
+                     const std::map<std::size_t, SharePoints>& curves,
+                     const std::map<std::size_t, std::pair<double, double>>& marked) {
+  const DeviateAxis across{kPanelLeft, kPanelRight}, up{kRocBottom, kRocTop};
+  std::string drawn;
+  for (const double share : {0.01, 0.05, 0.2, 0.5, 0.8, 0.95, 0.99}) {
+    const std::string text = fmt::format("{:.0f} %", 100 * share);
+    drawn += fmt::format("<path d=\"M{} {:.1f}H{}M{:.1f} {}V{}\"/>", kPanelLeft, up.At(share), kPanelRight,
+                         across.At(share), kRocTop, kRocBottom) +
+             PanelText(kPanelLeft - 5, up.At(share) + 4, text, "end") +
+             PanelText(across.At(share), kRocBottom + 13, text, "middle");
+  }
+  for (const auto& [method, curve] : curves) {
+    SharePoints placed;
+    for (const auto& [wrong, right] : curve) placed.emplace_back(across.At(wrong), up.At(1 - right));
+    drawn += LineThrough(method, placed);
+  }
+  for (const auto& [method, at] : marked) {
+    drawn += MarkUse(method, method, across.At(at.first), up.At(1 - at.second));
+  }
+  return Figure(caption, words, drawn);
+}
+
+/// Steps of shares over seconds.
+std::string WaitPanel(const std::string& caption, const std::string& words,
+                      const std::map<std::size_t, SharePoints>& curves) {
+  Axis time{.low = 0, .high = 0, .from = kPanelLeft, .to = kPanelRight};
+  for (const auto& [method, curve] : curves) {
+    time.low = std::min(time.low, curve.front().first);
+    time.high = std::max(time.high, curve.back().first);
+  }
+  if (!(time.high > time.low)) return "";
+  std::string drawn = UprightGrid(kSharesUp) + LyingGrid(time, kRocTop, kRocBottom);
+  for (const auto& [method, curve] : curves) {
+    SharePoints steps{{time.from, kSharesUp.At(1)}};
+    for (const auto& [at, left] : curve) {
+      steps.emplace_back(time.At(at), steps.back().second);
+      steps.emplace_back(time.At(at), kSharesUp.At(left));
+    }
+    steps.emplace_back(time.to, steps.back().second);
+    drawn += LineThrough(method, steps);
+  }
+  return Figure(caption, words, drawn);
 }
 
 std::string ConditionPrefix(const ConditionSummary& condition) {
@@ -85,48 +119,74 @@ std::string ConditionPrefix(const ConditionSummary& condition) {
 std::string VerdictKey(const ScenarioSummary& scenario, std::size_t method, const std::string& told) {
   return fmt::format(
       "<span><svg class=\"linekey\" viewBox=\"0 0 28 10\" aria-hidden=\"true\"><path class=\"line\" "
-      "style=\"stroke:var(--m{})\"{} d=\"M1 5H27\"/></svg>{} {}</span> ",
-      method % kPlotColours.size(), MarkDashes(method), EscapeMarkup(MethodLabel(scenario, scenario.methods[method])),
-      told);
+      "style=\"stroke:var(--m{})\"{} d=\"M1 5H27\"/></svg>{} {} {}</span> ",
+      method % kPlotColours.size(), MarkDashes(method), MarkKeySvg(method, method),
+      EscapeMarkup(MethodLabel(scenario, scenario.methods[method])), told);
+}
+
+/// What the panels of one condition show, by method.
+struct Curves {
+  std::map<std::size_t, SharePoints> rocs, found, waiting;
+  std::map<std::size_t, std::pair<double, double>> operated;
+  std::string words, found_words, wait_words, keys;
+};
+
+void AddMethod(const ScenarioSummary& scenario, std::size_t method, const MethodVerdicts& verdicts, Curves& curves) {
+  const std::vector<JudgedPerformance>& performances = verdicts.performances;
+  const std::string& name = scenario.methods[method];
+  std::string told;
+  if (const auto area = PooledArea(performances)) {
+    curves.rocs[method] = PooledRoc(performances);
+    told += fmt::format("{:.3f} [{:.3f}, {:.3f}]", area->value, area->low, area->high);
+    curves.words += fmt::format("{}: area {:.3f}. ", name, area->value);
+  }
+  if (const auto at = OperatedAt(performances)) {
+    curves.operated[method] = *at;
+    told += fmt::format("; praises {:.0f} % of the right and {:.0f} % of the wrong; best F1 of any threshold {:.2f}",
+                        100 * at->second, 100 * at->first, *BestF1(performances));
+  }
+  if (const SharePoints by_severity = FoundBySeverity(performances); by_severity.size() > 1) {
+    curves.found[method] = by_severity;
+    if (const auto half = HalfFoundAt(by_severity)) told += fmt::format("; half found from severity {:.2f}", *half);
+    curves.found_words += fmt::format("{}: {:.0f} % of the worst. ", name, 100 * by_severity.back().second);
+  }
+  if (SharePoints waiting = StillWaiting(verdicts.waits); waiting.size() > 1) {
+    curves.wait_words += fmt::format("{}: {:.0f} % never. ", name, 100 * waiting.back().second);
+    curves.waiting[method] = std::move(waiting);
+  }
+  if (!told.empty()) curves.keys += VerdictKey(scenario, method, told);
 }
 
 std::string VerdictPanels(const RunData& run, const ScenarioSummary& scenario, const ConditionSummary& condition) {
-  std::map<std::size_t, SharePoints> rocs, found;
-  std::string words, found_words, keys;
-  for (const auto& [method, performances] : PerformancesUnder(run, scenario, condition)) {
-    if (method >= kMostRocs) continue;
-    std::string told;
-    if (const auto area = PooledArea(performances)) {
-      rocs[method] = PooledRoc(performances);
-      told += fmt::format("{:.3f} [{:.3f}, {:.3f}]", area->value, area->low, area->high);
-      words += fmt::format("{}: area {:.3f}. ", scenario.methods[method], area->value);
-    }
-    const SharePoints by_severity = FoundBySeverity(performances);
-    if (by_severity.size() > 1) {
-      found[method] = by_severity;
-      const auto half = HalfFoundAt(by_severity);
-      if (half) told += fmt::format("; half found from severity {:.2f}", *half);
-      found_words +=
-          fmt::format("{}: {:.0f} % of the worst. ", scenario.methods[method], 100 * by_severity.back().second);
-    }
-    if (!told.empty()) keys += VerdictKey(scenario, method, told);
+  Curves curves;
+  for (const auto& [method, verdicts] : VerdictsUnder(run, scenario, condition)) {
+    if (method < kMostRocs) AddMethod(scenario, method, verdicts, curves);
   }
+  const std::string prefix = ConditionPrefix(condition);
   std::string html;
-  if (!rocs.empty()) {
-    html += SharePanel(ConditionPrefix(condition) +
+  if (!curves.rocs.empty()) {
+    html += SharePanel(prefix +
                            "right performances called right over wrong ones called right, all thresholds, "
-                           "all people together",
-                       words, rocs);
+                           "all people together; the mark is the method's own threshold",
+                       curves.words, curves.rocs, curves.operated);
+    html += DetPanel(prefix + "the same errors on normal deviates: right ones missed over wrong ones called right",
+                     curves.words, curves.rocs, curves.operated);
   }
-  if (!found.empty()) {
-    html += SharePanel(ConditionPrefix(condition) + "faulty performances not called right, by how bad the fault is",
-                       found_words, found);
+  if (!curves.found.empty()) {
+    html += SharePanel(prefix + "faulty performances not called right, by how bad the fault is", curves.found_words,
+                       curves.found);
+  }
+  if (!curves.waiting.empty()) {
+    html += WaitPanel(prefix +
+                          "right performances still waiting to be called so, by seconds since they were truly right; "
+                          "those never called are censored when their window closes",
+                      curves.wait_words, curves.waiting);
   }
   if (html.empty()) return "";
   return fmt::format(
       "<div class=\"panels\">{}</div><p class=\"quiet legend units\">Area under the curve with 95 % "
       "interval over people: {}</p>",
-      html, keys);
+      html, curves.keys);
 }
 
 }  // namespace
@@ -149,6 +209,30 @@ std::vector<std::pair<double, double>> PooledRoc(std::span<const JudgedPerforman
     if (ends_tie) curve.emplace_back(wrong_above / wrong, right_above / right);
   }
   return curve;
+}
+
+std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedPerformance> performances) {
+  double right = 0, wrong = 0, right_called = 0, wrong_called = 0;
+  for (const JudgedPerformance& performance : performances) {
+    if (performance.truth == 0.5) continue;
+    (performance.truth > 0.5 ? right : wrong) += 1;
+    (performance.truth > 0.5 ? right_called : wrong_called) += performance.is_called;
+  }
+  if (right == 0 || wrong == 0) return std::nullopt;
+  return std::pair(wrong_called / wrong, right_called / right);
+}
+
+std::optional<double> BestF1(std::span<const JudgedPerformance> performances) {
+  const SharePoints curve = PooledRoc(performances);
+  if (curve.empty()) return std::nullopt;
+  const auto right = static_cast<double>(std::ranges::count(performances, 1.0, &JudgedPerformance::truth)),
+             wrong = static_cast<double>(std::ranges::count(performances, 0.0, &JudgedPerformance::truth));
+  double best = 0;
+  for (const auto& [wrong_share, right_share] : curve) {
+    const double hits = right_share * right, called = hits + wrong_share * wrong;
+    best = std::max(best, 2 * hits / (called + right));
+  }
+  return best;
 }
 
 double AreaUnder(std::span<const std::pair<double, double>> curve) {
@@ -207,6 +291,25 @@ std::optional<double> HalfFoundAt(std::span<const std::pair<double, double>> cur
     if (y0 < 0.5 && y1 >= 0.5) return x0 + (x1 - x0) * (0.5 - y0) / (y1 - y0);
   }
   return std::nullopt;
+}
+
+std::vector<std::pair<double, double>> StillWaiting(std::vector<PraiseWait> waits) {
+  if (waits.empty()) return {};
+  std::ranges::sort(waits, {}, &PraiseWait::seconds);
+  SharePoints curve{{waits.front().seconds, 1}};
+  double share = 1;
+  for (std::size_t i = 0; i < waits.size();) {
+    std::size_t end = i;
+    int over = 0;
+    while (end < waits.size() && waits[end].seconds == waits[i].seconds) over += waits[end++].is_over;
+    const auto at_risk = static_cast<double>(waits.size() - i);
+    if (over > 0) {
+      share *= 1 - over / at_risk;
+      curve.emplace_back(waits[i].seconds, share);
+    }
+    i = end;
+  }
+  return curve;
 }
 
 std::string VerdictCurvesHtml(const RunData& run, const ScenarioSummary& scenario) {

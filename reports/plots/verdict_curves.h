@@ -6,23 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "bench/model/run_data.h"
+#include "reports/plots/judged_performances.h"
 
 namespace etude {
-
-/// A performance that a method judged.
-struct JudgedPerformance {
-  int person = 0;    ///< who performed it: the trial
-  double score = 0;  ///< higher: looks righter
-  double truth = 0;  ///< 1 right, ½ grey, 0 wrong
-  bool is_called = false;
-  double severity = 0;  ///< of its worst fault; 0: none
-};
 
 /// The receiver operating characteristic of all performances that are not grey, pooled over people: (share of wrong
 /// ones let through, share of right ones), from (0, 0) to (1, 1), equal scores in one step. Empty without a right or a
 /// wrong one.
 std::vector<std::pair<double, double>> PooledRoc(std::span<const JudgedPerformance> performances);
+
+/// Where the method's own threshold lies on it. Nothing without a right or a wrong one.
+std::optional<std::pair<double, double>> OperatedAt(std::span<const JudgedPerformance> performances);
+
+/// The largest F1 that any threshold reaches on these performances: what the scores are worth, whatever a threshold was
+/// set for. Nothing without a curve.
+std::optional<double> BestF1(std::span<const JudgedPerformance> performances);
 
 /// The area under a curve of such points, by trapezoids.
 double AreaUnder(std::span<const std::pair<double, double>> curve);
@@ -44,8 +42,12 @@ std::vector<std::pair<double, double>> FoundBySeverity(std::span<const JudgedPer
 /// the curve does not rise through a half.
 std::optional<double> HalfFoundAt(std::span<const std::pair<double, double>> curve);
 
-/// A scenario's verdicts as curves, per condition: ROC of every method with its area, faults found by severity. ""
-/// where methods judge no performances.
+/// The estimated share still waiting from each time on at which a wait ended (Kaplan and Meier 1958), after (the
+/// earliest time, 1); what was given up is at risk until then.
+std::vector<std::pair<double, double>> StillWaiting(std::vector<PraiseWait> waits);
+
+/// A scenario's verdicts as curves, per condition: ROC of every method with its area, the same as a detection error
+/// trade-off, faults found by severity, waits for praise. "" where methods judge no performances.
 std::string VerdictCurvesHtml(const RunData& run, const ScenarioSummary& scenario);
 
 }  // namespace etude

@@ -94,9 +94,10 @@ MAY_INCLUDE = {
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":
         "engine/base bench/files bench/model bench/metrics bench/outside bench/process bench/results bench/scenario "
-        "bench/statistics bench/tasks bench/tasks/base",
+        "bench/statistics bench/streams bench/tasks bench/tasks/base",
     "bench/scenario":
-        "engine/base engine/document bench/files bench/keys bench/metrics bench/model bench/tasks bench/tasks/base",
+        "engine/base engine/document engine/streams bench/files bench/keys bench/metrics bench/model bench/tasks "
+        "bench/tasks/base",
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "sim/random bench/metrics bench/model",
@@ -117,8 +118,8 @@ MAY_INCLUDE = {
         "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
         "bench/tasks/base bench/tasks/detection bench/tasks/sensing bench/tasks/transition",
     "bench/tasks/detection":
-        "engine/base engine/formats engine/motion engine/recognition sim/choreography sim/performer "
-        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/tasks/base bench/tasks/capture "
+        "engine/base engine/formats engine/motion engine/recognition engine/teaching sim/choreography sim/performer "
+        "sim/skeleton_sensor bench/clips bench/keys bench/metrics bench/streams bench/tasks/base bench/tasks/capture "
         "bench/tasks/sensing",
     "bench/tasks/ik":
         "engine/base engine/kinematics engine/kinematics/solvers sim/random bench/files bench/metrics "
@@ -159,7 +160,7 @@ MAY_INCLUDE = {
         "sim/render sim/sensors sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
-    "reports/plots": "bench/model reports/words",
+    "reports/plots": "bench/model bench/statistics reports/words",
     "reports/sensors": "engine/base bench/model reports/films",
     "reports/transitions": "engine/base engine/fuzzy bench/files bench/model reports/words",
     "reports/words": "bench/metrics bench/model",

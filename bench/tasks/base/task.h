@@ -89,14 +89,18 @@ class Task {
 /// Every method of a world, in order; those of a world to be skipped are.
 std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion = false);
 
+struct LabelledStreams;
+
 /// What a scenario gives a task to make itself from.
 struct TaskInput {
   Fields& condition;              ///< the scenario's mapping, swept keys replaced; the task reads its own keys
   std::span<const Node> methods;  ///< each a mapping with at least `name`
   const ClipLibrary& clips;
   FuzzySystem fuzzy = {};  ///< what the condition's key `fuzzy` names, paper A's when it has none (fuzzy_key.h)
-  /// Of the other files that its keys name, by key (sensor_key.h, rig_key.h).
+  /// Of the other files that its keys name, by key (sensor_key.h, rig_key.h, moves_key.h).
   std::map<std::string, std::string> texts = {};
+  /// In place of simulated people, where the scenario has `streams` or `labels` (bench/streams); outlives the task.
+  const LabelledStreams* recordings = nullptr;
 };
 
 /// A kind of question that can be asked: one entry per folder of bench/tasks.
@@ -111,7 +115,8 @@ struct TaskKind {
   /// The seats of a loop that a program may take, named by its method's key `seat`; then it is spoken to step by step,
   /// and the method has the task's keys for all else. None: programs are asked one question a world.
   std::vector<std::string> seats = {};
-  bool uses_clips = true;  ///< whether its worlds are made of a scenario's `clips`
+  bool uses_clips = true;        ///< whether its worlds are made of a scenario's `clips`
+  bool uses_recordings = false;  ///< … or of its `streams`
   /// What its worlds are drawn from, and what else a scenario may say they are; at least one.
   std::vector<SamplingUnit> units = {SamplingUnit::kWorld};
   /// What its bytes depend on beside the build, for the manifest: "4.5 (Core Profile) Mesa 22.3.6".

@@ -51,6 +51,13 @@ Judgement ReadEvent(AnswerFields& fields, const FrameInterval& window) {
 
 }  // namespace
 
+Payload NamesPayload(std::span<const std::string> names) {
+  Payload setting = PayloadOf(DescribeBody());
+  Json& told = (*setting.json)["moves"] = Json::array();
+  for (const std::string& name : names) told.push_back({{"name", name}});
+  return setting;
+}
+
 Payload MovesPayload(std::span<const Move> moves) {
   Payload setting = PayloadOf(DescribeBody());
   Json& told = (*setting.json)["moves"] = Json::array();
@@ -67,29 +74,36 @@ Payload SessionPayload(const DetectionWorld& world) {
     frames.push_back(
         {{"pose", EncodePose(PoseOf(frame))}, {"states", StateLetters(frame)}, {"body_seen", frame.body_seen}});
   }
-  for (const SessionEvent& event : world.session.events) {
-    const FrameInterval window = WindowOf(event, world.stream);
+  for (const DetectionEvent& event : world.events) {
+    const FrameInterval& window = event.window;
     events.push_back({{"move", event.move}, {"begin_frame", window.begin}, {"end_frame", window.end}});
   }
   const char* file = "stream.trc";
   Json json = {
       {"rate_hz", world.stream.rate_hz}, {"frames", std::move(frames)}, {"events", std::move(events)}, {"file", file}};
+  if (world.IsRecorded()) {
+    json["person"] = world.person;
+    json["starts"] = world.starts;
+  }
   return PayloadOf(std::move(json), {{file, WriteTrc(MotionOf(world.stream), file)}});
 }
 
 Payload TruthPayload(const DetectionWorld& world) {
   Json events = Json::array();
-  for (const SessionEvent& event : world.session.events) {
-    const FrameInterval window = WindowOf(event, world.stream);
-    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", FaultNames(event.faults)},
+  for (const DetectionEvent& event : world.events) {
+    const FrameInterval& window = event.window;
+    Json told = {{"move", event.move},     {"is_right", event.IsRight()}, {"fault", event.FaultText()},
                  {"danced", event.danced}, {"begin_frame", window.begin}, {"end_frame", window.end}};
     if (event.first_right_s) told["first_right_s"] = *event.first_right_s;
     events.push_back(std::move(told));
   }
-  const BodyMotion& motion = world.session.motion;
+  const BodyMotion& motion = world.motion;
   const char* file = "truth.trc";
   Json json = {
       {"rate_hz", motion.rate_hz}, {"poses", EncodePoses(motion.poses)}, {"events", std::move(events)}, {"file", file}};
+  for (const ActionPoint& point : world.points) {
+    json["action_points"].push_back({{"move", point.move}, {"frame", point.frame}});
+  }
   return PayloadOf(std::move(json), {{file, WriteTrc(motion, file)}});
 }
 
@@ -99,26 +113,29 @@ Result<SessionVerdict> ReadSessionAnswer(const Json& answer, const DetectionWorl
   SessionVerdict verdict;
   verdict.filtered = world.stream;
 
-  const std::vector<SessionEvent>& asked = world.session.events;
+  const std::vector<DetectionEvent>& asked = world.events;
   const Json& events = fields.List("events", asked.size(), asked.size());
   for (std::size_t i = 0; i < events.size(); ++i) {
     AnswerFields event(events[i], fields.PathOf("events", i));
-    verdict.events.push_back(ReadEvent(event, WindowOf(asked[i], world.stream)));
+    verdict.events.push_back(ReadEvent(event, asked[i].window));
     if (auto done = event.Finish(); !done) fields.Note(done.error());
   }
 
   const std::vector<std::string> moves = NamesOf(repertoire.taught);
   const int frames = static_cast<int>(world.stream.frames.size());
-  std::set<std::pair<std::size_t, int>> alarms;  // by move, then by time; said twice is said once
+  std::set<std::pair<std::size_t, int>> calls;  // by move, then by time; said twice is said once
   const Json& said = fields.List("alarms", 0, moves.size() * world.stream.frames.size());
   for (std::size_t i = 0; i < said.size(); ++i) {
     AnswerFields alarm(said[i], fields.PathOf("alarms", i));
     const std::string move = alarm.RequiredChoice("move", moves);
     const int frame = alarm.Integer("frame", 0, frames - 1);
     if (auto done = alarm.Finish(); !done) fields.Note(done.error());
-    if (!IsPerformance(move, frame, world)) alarms.emplace(repertoire.IndexOf(move), frame);
+    if (const auto taught = repertoire.TaughtIndexOf(move)) calls.emplace(*taught, frame);  // else it is refused below
   }
-  for (const auto& [move, frame] : alarms) verdict.alarms.push_back({move, frame});
+  for (const auto& [move, frame] : calls) {
+    verdict.spotted.push_back({move, frame});
+    if (!IsPerformance(moves[move], frame, world)) verdict.alarms.push_back({move, frame});
+  }
 
   RETURN_IF_ERROR(fields.Finish());
   return verdict;

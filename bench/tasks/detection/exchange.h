@@ -20,13 +20,17 @@ namespace etude {
 /// paper A's ten, engine/fuzzy).
 Payload MovesPayload(std::span<const Move> moves);
 
+/// Likewise where recordings are all there is: the moves' names alone. What they look like, others must have taught.
+Payload NamesPayload(std::span<const std::string> names);
+
 /// Problem: what the sensor saw, and what the coach asked for and when. A performance is judged in its window
 /// [begin_frame, end_frame). `states` has one letter per joint: tracked, inferred, not tracked.
 ///
 ///     {"rate_hz": 30, "frames": [{"pose": [x, y, z, …], "states": "tttiiitttttttttttttn", "body_seen": true}, …],
 ///      "events": [{"move": "clap", "begin_frame": 30, "end_frame": 120}, …], "file": "stream.trc"}
 ///
-/// The file holds the same positions, for other tools.
+/// The file holds the same positions, for other tools. Of a recorded person `person` says who, all recordings stand one
+/// after another, and `starts` are the first frames of all but the first.
 Payload SessionPayload(const DetectionWorld& world);
 
 /// Truth: the session as it was performed. `first_right_s` is absent when the performance was not right.
@@ -35,6 +39,9 @@ Payload SessionPayload(const DetectionWorld& world);
 ///      "events": [{"move": "clap", "is_right": true, "fault": "none", "danced": "clap", "begin_frame": 30,
 ///                  "end_frame": 120, "first_right_s": 2.9}, …],
 ///      "file": "truth.trc"}
+///
+/// Of a recorded person also "action_points": [{"move": "clap", "frame": 88}, …], where labels have some; "poses" are
+/// as sensed where nobody knows better.
 Payload TruthPayload(const DetectionWorld& world);
 
 /// Answer: for each performance asked for, in order, the frame at which the method calls it right (in its window; null:

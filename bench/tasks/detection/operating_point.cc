@@ -10,10 +10,10 @@ double AlarmsPerMinute(std::span<const AlarmTrial> trials, const DecisionOptions
   std::size_t alarms = 0;
   double seconds = 0;
   for (const AlarmTrial& trial : trials) {
-    for (const Detection& detection : FindMoves(trial.trace, trial.rate_hz, decision)) {
+    for (const Detection& detection : FindMoves(*trial.trace, trial.rate_hz, decision)) {
       if (!trial.is_performance(detection)) ++alarms;
     }
-    seconds += static_cast<double>(trial.trace.asked.size()) / trial.rate_hz;
+    seconds += static_cast<double>(trial.trace->asked.size()) / trial.rate_hz;
   }
   return FalseAlarmsPerMinute(alarms, seconds);
 }
@@ -30,6 +30,35 @@ double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_m
   return enough;
 }
 
+void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
+               const Repertoire& repertoire, TrialsOfMethods& trials) {
+  const std::vector<FrameInterval> takes = world->Takes();
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    const auto& [method, recogniser] = methods[m];
+    if (method.threshold) continue;
+    const SeenStream seen = SeeSession(*world, method);
+    std::vector<EvidenceTrace> traces = FollowSession(*world, seen, repertoire, *recogniser);
+    for (std::size_t t = 0; t < takes.size(); ++t) {
+      const auto is_performance = [world, &repertoire, begin = takes[t].begin](const Detection& detection) {
+        return IsPerformance(repertoire.taught[detection.move].name, begin + detection.frame, *world);
+      };
+      trials[m].push_back(
+          {std::make_shared<const EvidenceTrace>(std::move(traces[t])), seen.filtered.rate_hz, is_performance});
+    }
+  }
+}
+
+std::vector<DecisionOptions> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
+                                      const std::optional<OperatingPoint>& point) {
+  std::vector<DecisionOptions> decisions;
+  for (std::size_t m = 0; m < methods.size(); ++m) {
+    DecisionOptions& decision = decisions.emplace_back(methods[m].method.Decision());
+    if (!point || methods[m].method.threshold) continue;
+    decision.threshold = ThresholdAt(trials[m], point->false_alarms_per_min, decision.refractory_s);
+  }
+  return decisions;
+}
+
 const std::vector<DecisionOptions>& MethodDecisions::For(const WorldKey& key) {
   const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
   if (is_new) known->second = Set(key);
@@ -37,32 +66,15 @@ const std::vector<DecisionOptions>& MethodDecisions::For(const WorldKey& key) {
 }
 
 std::vector<DecisionOptions> MethodDecisions::Set(const WorldKey& key) const {
-  std::vector<DecisionOptions> decisions;
-  for (const ReadyMethod& ready : methods_) decisions.push_back(ready.method.Decision());
-  if (!options_.operating_point) return decisions;
-
+  TrialsOfMethods trials(methods_.size());
+  const int sessions = options_.operating_point ? options_.operating_point->sessions : 0;
   const std::string others = std::string(key.scenario) + "/operating-point";
-  std::vector<std::vector<AlarmTrial>> trials(methods_.size());
-  for (int session = 0; session < options_.operating_point->sessions; ++session) {
+  for (int session = 0; session < sessions; ++session) {
     const auto world = std::make_shared<const DetectionWorld>(
         MakeDetectionWorld(repertoire_, options_, {key.suite_seed, others, session}));
-    const auto is_performance = [this, world](const Detection& detection) {
-      return IsPerformance(repertoire_.taught[detection.move].name, detection.frame, *world);
-    };
-    for (std::size_t m = 0; m < methods_.size(); ++m) {
-      const auto& [method, recogniser] = methods_[m];
-      if (method.threshold) continue;
-      const SeenStream seen = SeeSession(*world, method);
-      trials[m].push_back(
-          {FollowSession(*world, seen, repertoire_, *recogniser), seen.filtered.rate_hz, is_performance});
-    }
+    AddTrials(world, methods_, repertoire_, trials);
   }
-  for (std::size_t m = 0; m < methods_.size(); ++m) {
-    if (methods_[m].method.threshold) continue;
-    decisions[m].threshold =
-        ThresholdAt(trials[m], options_.operating_point->false_alarms_per_min, decisions[m].refractory_s);
-  }
-  return decisions;
+  return DecideBy(methods_, trials, options_.operating_point);
 }
 
 }  // namespace etude

@@ -23,7 +23,7 @@ struct ReadyMethod {
 
 /// The evidence of a session, and what is no false alarm in it.
 struct AlarmTrial {
-  EvidenceTrace trace;
+  std::shared_ptr<const EvidenceTrace> trace;
   double rate_hz = kJudgedRateHz;
   std::function<bool(const Detection&)> is_performance;
 };
@@ -33,8 +33,22 @@ struct AlarmTrial {
 /// trial, none without frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// What each method of a scenario decides by. With an operating point, thresholds that methods do not say themselves
-/// are set the first time they are asked for, on sessions of people that are keyed apart from those judged.
+/// Trials by method.
+using TrialsOfMethods = std::vector<std::vector<AlarmTrial>>;
+
+/// Adds what each method that says no threshold of its own sees in a world. `repertoire`: what all were taught; it and
+/// the world must outlive the trials.
+void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
+               const Repertoire& repertoire, TrialsOfMethods& trials);
+
+/// What each method decides by: its own threshold, else the one of the operating point on its trials, when there is an
+/// operating point. `trials`: everybody's but those of the person judged.
+std::vector<DecisionOptions> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
+                                      const std::optional<OperatingPoint>& point);
+
+/// What each method of a scenario of simulated people decides by. With an operating point, thresholds that methods do
+/// not say themselves are set the first time they are asked for, on sessions of people that are keyed apart from those
+/// judged.
 class MethodDecisions {
  public:
   /// The arguments must outlive this.

@@ -2,6 +2,7 @@
 
 #include "bench/keys/part_fields.h"
 #include "bench/keys/setting_fields.h"
+#include "bench/tasks/base/moves_key.h"
 #include "sim/skeleton_sensor/sensor_file.h"
 
 namespace etude {
@@ -68,7 +69,10 @@ FieldTable<DetectionOptions> MakeConditionFields() {
   using Options = DetectionOptions;
   using Key = Field<Options>;
   FieldTable<Options> made{
-      {Key::Number(
+      {Key{{kMovesKey, TextKind("a file that `etude teach` wrote"), "(each person is judged by what the others teach)",
+            "What recognisers are taught, where people were recorded."},
+           [](Fields& condition, Options& o) { o.moves = condition.Text(kMovesKey, ""); }},
+       Key::Number(
            "events", [](auto& o) -> auto& { return o.session.events; }, {1, 200},
            "How many performances a session holds."),
        Key::Number(
@@ -146,6 +150,17 @@ void CheckSensorKeys(Fields& condition, DetectionOptions& options) {
 const FieldTable<DetectionOptions>& DetectionConditionFields() {
   static const FieldTable<DetectionOptions> table = MakeConditionFields();
   return table;
+}
+
+std::span<const std::string_view> PeopleKeys() {
+  static constexpr std::string_view kKeys[] = {"events", "fault_share", "severity", "faults", "two_faults", "people"};
+  return kKeys;
+}
+
+std::span<const std::string_view> SensingKeys() {
+  static constexpr std::string_view kKeys[] = {"noise",      "turn_deg",        kSensorKey,
+                                               "distance_m", "sensor_height_m", "occluder"};
+  return kKeys;
 }
 
 const FieldTable<DetectionMethod>& DetectionMethodFields() {

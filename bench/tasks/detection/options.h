@@ -2,7 +2,9 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "bench/keys/field_table.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -39,6 +41,7 @@ struct OperatingPoint {
 ///     turn_deg: 0      # how far the performer is turned away from the sensor
 ///     occluder: none   # what stands between the two: table, chair, person
 struct DetectionOptions {
+  std::string moves;  ///< a file of taught moves (etude teach); of recordings
   SessionOptions session;
   double noise = 1;
   SkeletonSensorOptions sensor = SensorV2();  ///< strength aside; the task opens what the condition names
@@ -90,6 +93,9 @@ Result<void> BookCameras(const TaskInput& input, const Methods& methods, Sight s
 }
 
 const FieldTable<DetectionOptions>& DetectionConditionFields();
+/// The keys of a condition that say who is simulated, and those that say how they are sensed.
+std::span<const std::string_view> PeopleKeys();
+std::span<const std::string_view> SensingKeys();
 /// `threshold` may stand in the condition for all methods, which makes it sweepable.
 const FieldTable<DetectionMethod>& DetectionMethodFields();
 

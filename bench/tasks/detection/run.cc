@@ -1,27 +1,55 @@
 #include "bench/tasks/detection/run.h"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
+
+#include "bench/streams/watch.h"
 
 #include "bench/tasks/sensing/camera_stream.h"
 
 namespace etude {
+namespace {
 
-SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method) {
-  if (method.sees_truth) return SeeStream(StreamOf(world.session.motion), method.filter);
-  if (world.cameras == nullptr) return SeeStream(world.stream, method.filter);
-  const Result<SkeletonStream>& captured = world.cameras->See(method.Capture());
-  return SeeStream(captured ? *captured : world.stream, method.filter);
+SeenStream PartOf(const SeenStream& seen, const FrameInterval& frames) {
+  return {.filtered = PartOf(seen.filtered, frames.begin, frames.end),
+          .frames = {seen.frames.begin() + frames.begin, seen.frames.begin() + frames.end}};
 }
 
-EvidenceTrace FollowSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                            const Recogniser& recogniser) {
-  std::vector<AskedMove> asked;
-  for (const SessionEvent& event : world.session.events) {
-    asked.push_back({repertoire.IndexOf(event.move), WindowOf(event, world.stream)});
+}  // namespace
+
+SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method) {
+  if (world.cameras != nullptr && !method.sees_truth) {
+    const Result<SkeletonStream>& captured = world.cameras->See(method.Capture());
+    return SeeStream(captured ? *captured : world.stream, method.filter);
   }
-  auto trace = FollowStream(recogniser, repertoire.taught.size(), seen, asked);
-  assert(trace);  // a session's windows lie within it and never overlap
-  return *std::move(trace);
+  const SkeletonStream& stream = method.sees_truth ? StreamOf(world.motion) : world.stream;
+  const std::vector<FrameInterval> takes = world.Takes();
+  if (takes.size() == 1) return SeeStream(stream, method.filter);
+  SeenStream all{.filtered = {.rate_hz = stream.rate_hz, .frames = {}}, .frames = {}};
+  for (const auto& [begin, end] : takes) {
+    const SeenStream seen = SeeStream(PartOf(stream, begin, end), method.filter);
+    all.filtered.frames.insert(all.filtered.frames.end(), seen.filtered.frames.begin(), seen.filtered.frames.end());
+    all.frames.insert(all.frames.end(), seen.frames.begin(), seen.frames.end());
+  }
+  return all;
+}
+
+std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const SeenStream& seen,
+                                         const Repertoire& repertoire, const Recogniser& recogniser) {
+  std::vector<EvidenceTrace> traces;
+  for (const auto& [begin, end] : world.Takes()) {
+    std::vector<AskedMove> asked;
+    for (const DetectionEvent& event : world.events) {
+      const auto move = repertoire.TaughtIndexOf(event.move);
+      const bool is_here = event.window.begin >= begin && event.window.end <= end;
+      if (move && is_here) asked.push_back({*move, {event.window.begin - begin, event.window.end - begin}});
+    }
+    auto trace = FollowStream(recogniser, repertoire.taught.size(), PartOf(seen, {begin, end}), asked);
+    assert(trace);  // windows lie within their recording and never overlap
+    traces.push_back(*std::move(trace));
+  }
+  return traces;
 }
 
 namespace {
@@ -42,20 +70,37 @@ std::optional<std::size_t> MoveNamedIn(const FrameInterval& window, const Eviden
   return named;
 }
 
+/// Which move was seen most in a performance: of a recording's, cut out as its label says, as the papers of such sets
+/// have it; of a session's in its window, as it goes on.
+std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWorld& world, const SeenStream& seen,
+                                  const Repertoire& repertoire, const Recogniser& recogniser,
+                                  const FrameInterval& window, const EvidenceTrace& trace) {
+  if (!world.IsRecorded()) return MoveNamedIn(window, trace);
+  return Classify(seen, event.performed.begin, event.performed.end, recogniser, repertoire.taught.size());
+}
+
 }  // namespace
 
 SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
                             const Recogniser& recogniser, const DecisionOptions& decision) {
-  const EvidenceTrace trace = FollowSession(world, seen, repertoire, recogniser);
+  const std::vector<EvidenceTrace> traces = FollowSession(world, seen, repertoire, recogniser);
+  const std::vector<FrameInterval> takes = world.Takes();
   SessionVerdict verdict{.filtered = seen.filtered, .events = {}, .alarms = {}};
-  for (const SessionEvent& event : world.session.events) {
-    const FrameInterval window = WindowOf(event, world.stream);
-    verdict.events.push_back(JudgeWindow(trace, window, decision.threshold));
-    verdict.named.push_back(MoveNamedIn(window, trace));
+  auto event = world.events.begin();
+  for (std::size_t t = 0; t < takes.size(); ++t) {
+    const auto [begin, end] = takes[t];
+    for (; event != world.events.end() && event->window.end <= end; ++event) {
+      const FrameInterval window{event->window.begin - begin, event->window.end - begin};
+      verdict.events.push_back(JudgeWindow(traces[t], window, decision.threshold));
+      verdict.named.push_back(NameOf(*event, world, seen, repertoire, recogniser, window, traces[t]));
+    }
+    for (const Detection& detection : FindMoves(traces[t], seen.filtered.rate_hz, decision)) {
+      verdict.spotted.push_back({detection.move, begin + detection.frame});
+    }
   }
-  verdict.alarms = FindMoves(trace, seen.filtered.rate_hz, decision);
-  std::erase_if(verdict.alarms, [&](const Detection& detection) {
-    return IsPerformance(repertoire.taught[detection.move].name, detection.frame, world);
+  std::ranges::stable_sort(verdict.spotted, {}, &Detection::move);
+  std::ranges::copy_if(verdict.spotted, std::back_inserter(verdict.alarms), [&](const Detection& detection) {
+    return !IsPerformance(repertoire.taught[detection.move].name, detection.frame, world);
   });
   return verdict;
 }

@@ -16,15 +16,18 @@ struct SessionVerdict {
   /// One per event: the move (Repertoire::taught) with the most evidence in its window. None at all: an answer from
   /// outside, which names no moves.
   std::vector<std::optional<std::size_t>> named = {};
-  std::vector<Detection> alarms;  ///< false ones: by move (Repertoire::taught), then by time
+  std::vector<Detection> alarms;        ///< false ones: by move (Repertoire::taught), then by time
+  std::vector<Detection> spotted = {};  ///< all of them, true and false; where a world has action points
 };
 
-/// Filters what the sensor saw, or, for an oracle, how it was truly performed. Cameras that failed saw nobody.
+/// Filters what the sensor saw, or, for an oracle, how it was truly performed; every recording for itself. Cameras that
+/// failed saw nobody.
 SeenStream SeeSession(const DetectionWorld& world, const DetectionMethod& method);
 
-/// The evidence of the whole session: the recogniser is told what is asked for when its window opens.
-EvidenceTrace FollowSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                            const Recogniser& recogniser);
+/// The evidence of each recording (DetectionWorld::Takes), one after another: the recogniser is told what is asked for
+/// when its window opens.
+std::vector<EvidenceTrace> FollowSession(const DetectionWorld& world, const SeenStream& seen,
+                                         const Repertoire& repertoire, const Recogniser& recogniser);
 
 /// What that evidence comes to: a judgement of every performance asked for, and the false alarms. `seen` must be what
 /// the method sees of the world.

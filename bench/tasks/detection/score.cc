@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/metrics/action_points.h"
 #include "bench/metrics/detection.h"
 #include "engine/base/digest.h"
 
@@ -13,7 +14,7 @@ std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const Session
   std::vector<JudgedEvent> events;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const Judgement& judgement = verdict.events[i];
-    const SessionEvent& event = world.session.events[i];
+    const DetectionEvent& event = world.events[i];
     if (event.truth == Truth::kGrey) continue;
     events.push_back({event.IsRight(), judgement.recognised_at.has_value(), judgement.score});
   }
@@ -25,23 +26,21 @@ template <typename IsMeant>
 std::vector<bool> CalledRight(const DetectionWorld& world, const SessionVerdict& verdict, IsMeant is_meant) {
   std::vector<bool> called;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    if (is_meant(world.session.events[i])) called.push_back(verdict.events[i].recognised_at.has_value());
+    if (is_meant(world.events[i])) called.push_back(verdict.events[i].recognised_at.has_value());
   }
   return called;
 }
 
-bool IsGrey(const SessionEvent& event) { return event.truth == Truth::kGrey; }
+bool IsGrey(const DetectionEvent& event) { return event.truth == Truth::kGrey; }
 
-bool HasFault(const SessionEvent& event) {
-  return std::ranges::any_of(event.faults, [](const GradedFault& fault) { return fault.severity > 0; });
-}
+bool HasFault(const DetectionEvent& event) { return event.HasFault(); }
 
 void ScoreNames(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                 CellResult& result) {
   if (verdict.named.empty()) return result.Missing("move_named", "the method names no moves");
   std::vector<NamedMove> performances;
   for (std::size_t i = 0; i < verdict.named.size(); ++i) {
-    const std::string& danced = world.session.events[i].danced;
+    const std::string& danced = world.events[i].danced;
     if (danced.empty()) continue;
     performances.push_back({danced, verdict.named[i] ? repertoire.taught[*verdict.named[i]].name : ""});
   }
@@ -52,9 +51,9 @@ void ScoreNames(const DetectionWorld& world, const SessionVerdict& verdict, cons
 std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& verdict) {
   std::vector<Wait> waits;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const SessionEvent& event = world.session.events[i];
+    const DetectionEvent& event = world.events[i];
     if (!event.first_right_s) continue;
-    const FrameInterval window = WindowOf(event, world.stream);
+    const FrameInterval& window = event.window;
     const std::optional<int>& recognised_at = verdict.events[i].recognised_at;
     const std::optional<int> called = recognised_at ? std::optional(window.begin + *recognised_at) : std::nullopt;
     waits.push_back(WaitForPraise(*event.first_right_s, called, window.end, world.stream.rate_hz));
@@ -62,17 +61,29 @@ std::vector<Wait> WaitsOf(const DetectionWorld& world, const SessionVerdict& ver
   return waits;
 }
 
+/// Of labelled recordings: how well what was spotted at all agrees with their action points.
+std::optional<double> PointFScore(const DetectionWorld& world, const SessionVerdict& verdict,
+                                  const Repertoire& repertoire) {
+  const double rate = world.stream.rate_hz;
+  std::vector<Moment> points, detections;
+  for (const ActionPoint& point : world.points) points.push_back({point.move, point.frame / rate});
+  for (const Detection& detection : verdict.spotted) {
+    detections.push_back({repertoire.taught[detection.move].name, detection.frame / rate});
+  }
+  return MeanFScore(points, detections, kActionPointTolerance);
+}
+
 void AddPose(Digest& digest, const BodyPose& pose) {
   for (const glm::dvec3& joint : pose.joints) digest.Add(joint.x).Add(joint.y).Add(joint.z);
 }
 
-std::string SessionDigest(const Performance& session) {
+std::string SessionDigest(const DetectionWorld& world) {
   Digest digest;
-  for (const SessionEvent& event : session.events) {
-    digest.Add(event.move).Add(event.danced).Add(FaultNames(event.faults)).Add(event.start_s).Add(event.end_s);
+  for (const DetectionEvent& event : world.events) {
+    digest.Add(event.move).Add(event.danced).Add(event.FaultText()).Add(event.start_s).Add(event.end_s);
     digest.Add(event.first_right_s.value_or(-1));
   }
-  for (const BodyPose& pose : session.motion.poses) AddPose(digest, pose);
+  for (const BodyPose& pose : world.motion.poses) AddPose(digest, pose);
   return digest.Hex();
 }
 
@@ -111,17 +122,21 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   result.MeasureOr("grey_called_right", GreyCalledRight(CalledRight(world, verdict, IsGrey)),
                    "no performance was grey");
   ScoreNames(world, verdict, repertoire, result);
+  if (world.points.empty()) {
+    result.Missing("action_point_f", "no label is an action point");
+  } else {
+    result.MeasureOr("action_point_f", PointFScore(world, verdict, repertoire), "");
+  }
   result.MeasureOr("roc_auc", RocAuc(events), "all performances that are not grey were right, or all wrong");
   result.MeasureOr(
       "latency_s", KaplanMeierMedian(waits),
       waits.empty() ? "no performance was right" : "fewer than half of the right performances were recognised");
-  result.Measure("false_alarms_per_min",
-                 FalseAlarmsPerMinute(verdict.alarms.size(), world.session.motion.DurationSeconds()));
+  result.Measure("false_alarms_per_min", FalseAlarmsPerMinute(verdict.alarms.size(), world.motion.DurationSeconds()));
 }
 
 std::vector<std::string> DetectionMetrics() {
-  return {"f1",         "precision", "recall",    "fault_found",         "grey_called_right",
-          "move_named", "roc_auc",   "latency_s", "false_alarms_per_min"};
+  return {"f1",         "precision",      "recall",  "fault_found", "grey_called_right",
+          "move_named", "action_point_f", "roc_auc", "latency_s",   "false_alarms_per_min"};
 }
 
 std::optional<double> DetectionFailureValue(std::string_view metric, bool some_are_right) {
@@ -130,7 +145,7 @@ std::optional<double> DetectionFailureValue(std::string_view metric, bool some_a
 }
 
 StageDigests WorldDigests(const DetectionWorld& world) {
-  return {{"session", SessionDigest(world.session)}, {"stream", StreamDigest(world.stream)}};
+  return {{"session", SessionDigest(world)}, {"stream", StreamDigest(world.stream)}};
 }
 
 StageDigests VerdictDigests(const SessionVerdict& verdict, const Repertoire& repertoire) {
@@ -149,48 +164,66 @@ std::string StateLetters(const SensedFrame& frame) {
 Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict) {
   Series series{.name = "score", .axis = "frame", .values = std::vector<double>(world.stream.frames.size(), 0.0)};
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const FrameInterval window = WindowOf(world.session.events[i], world.stream);
+    const FrameInterval window = world.events[i].window;
     const std::vector<double>& scores = verdict.events[i].running_score;
     std::copy(scores.begin(), scores.end(), series.values.begin() + window.begin);
   }
   return series;
 }
 
+namespace {
+
+/// Among AllFaults; −1 none, or one of another name.
+double PlaceOf(const std::optional<Fault>& fault) {
+  if (!fault) return -1;
+  return static_cast<double>(std::ranges::find(AllFaults(), *fault) - AllFaults().begin());
+}
+
+}  // namespace
+
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire) {
   std::vector<double> score, truth, called, fault, severity, asked, danced, named;
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const SessionEvent& event = world.session.events[i];
+    const DetectionEvent& event = world.events[i];
     score.push_back(verdict.events[i].score);
     called.push_back(verdict.events[i].recognised_at ? 1 : 0);
     truth.push_back(event.IsRight() ? 1 : event.truth == Truth::kGrey ? 0.5 : 0);
     const auto worst = std::ranges::max_element(event.faults, {}, &GradedFault::severity);
-    const bool has_fault = worst != event.faults.end();
-    fault.push_back(has_fault ? static_cast<double>(std::ranges::find(AllFaults(), worst->fault) - AllFaults().begin())
-                              : -1);
-    severity.push_back(has_fault ? worst->severity : 0);
+    const bool is_graded = worst != event.faults.end();
+    fault.push_back(PlaceOf(is_graded ? std::optional(worst->fault) : FindFault(event.told_fault)));
+    severity.push_back(is_graded ? worst->severity : 0);
     asked.push_back(static_cast<double>(repertoire.IndexOf(event.move)));
     danced.push_back(event.danced.empty() ? -1 : static_cast<double>(repertoire.IndexOf(event.danced)));
-    if (!verdict.named.empty()) named.push_back(verdict.named[i] ? static_cast<double>(*verdict.named[i]) : -1);
+    if (verdict.named.empty()) continue;
+    const auto& name = verdict.named[i];
+    named.push_back(name ? static_cast<double>(repertoire.IndexOf(repertoire.taught[*name].name)) : -1);
+  }
+  std::vector<double> waited, answered;
+  for (const Wait& wait : WaitsOf(world, verdict)) {
+    waited.push_back(wait.seconds);
+    answered.push_back(wait.happened ? 1 : 0);
   }
   return {{"performance_score", "performance", std::move(score)},
           {"performance_truth", "performance", std::move(truth)},
           {"performance_called", "performance", std::move(called)},
-          {"performance_fault", "performance", std::move(fault)},
+          {"performance_fault", "performance", std::move(fault), FaultNameList()},
           {"performance_severity", "performance", std::move(severity)},
-          {"performance_asked", "performance", std::move(asked)},
-          {"performance_danced", "performance", std::move(danced)},
-          {"performance_named", "performance", std::move(named)}};
+          {"performance_asked", "performance", std::move(asked), repertoire.names},
+          {"performance_danced", "performance", std::move(danced), repertoire.names},
+          {"performance_named", "performance", std::move(named), repertoire.names},
+          {"right_wait_s", "right performance", std::move(waited)},
+          {"right_answered", "right performance", std::move(answered)}};
 }
 
 Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {
   nlohmann::ordered_json extras = {{"format", "etude-detection"}, {"version", 1}};
   extras["events"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const SessionEvent& event = world.session.events[i];
+    const DetectionEvent& event = world.events[i];
     const Judgement& judgement = verdict.events[i];
-    const FrameInterval window = WindowOf(event, world.stream);
-    nlohmann::ordered_json told = {{"move", event.move},      {"fault", FaultNames(event.faults)},
+    const FrameInterval& window = event.window;
+    nlohmann::ordered_json told = {{"move", event.move},      {"fault", event.FaultText()},
                                    {"danced", event.danced},  {"begin_frame", window.begin},
                                    {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},
                                    {"score", judgement.score}};
@@ -203,8 +236,7 @@ Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdi
   }
   extras["joint_states"] = nlohmann::ordered_json::array();
   for (const SensedFrame& frame : world.stream.frames) extras["joint_states"].push_back(StateLetters(frame));
-  return {.tracks = {{"truth", world.session.motion}, {"sensed", MotionOf(verdict.filtered)}},
-          .extras_json = extras.dump()};
+  return {.tracks = {{"truth", world.motion}, {"sensed", MotionOf(verdict.filtered)}}, .extras_json = extras.dump()};
 }
 
 }  // namespace etude

@@ -39,7 +39,8 @@ Series ScoreSeries(const DetectionWorld& world, const SessionVerdict& verdict);
 
 /// One value per performance, for curves over many sessions (reports/plots): `performance_score`; `_truth`, 1 right, ½
 /// grey, 0 wrong; `_called`, 1 right; `_fault`, the worst one's place in AllFaults, −1 none, and its `_severity`;
-/// `_asked`, `_danced` and `_named`, places in Repertoire::taught, −1 none.
+/// `_asked`, `_danced` and `_named`, places in Repertoire::names, −1 none. Of right performances alone `right_wait_s`,
+/// how long they waited to be called right, and `right_answered`, 1 when they were.
 std::vector<Series> PerformanceSeries(const DetectionWorld& world, const SessionVerdict& verdict,
                                       const Repertoire& repertoire);
 

@@ -75,10 +75,10 @@ std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoi
       });
   const auto follower = recogniser->Follow(world.stream.rate_hz);
   LiveSight sight({}, world.stream.rate_hz);
-  auto event = world.session.events.begin();
+  auto event = world.events.begin();
   for (const SensedFrame& sensed : world.stream.frames) {
-    if (event != world.session.events.end()) {
-      const FrameInterval window = WindowOf(*event, world.stream);
+    if (event != world.events.end()) {
+      const FrameInterval& window = event->window;
       if (frame == window.begin) follower->Ask(repertoire.IndexOf(event->move));
       if (frame == window.end) {
         follower->Ask(std::nullopt);
@@ -93,8 +93,8 @@ std::vector<Measured> MeasureSession(const DetectionWorld& world, const Repertoi
 
 /// The event in whose window the frame lies; -1: in none.
 int EventAt(int frame, const DetectionWorld& world) {
-  for (std::size_t i = 0; i < world.session.events.size(); ++i) {
-    const FrameInterval window = WindowOf(world.session.events[i], world.stream);
+  for (std::size_t i = 0; i < world.events.size(); ++i) {
+    const FrameInterval& window = world.events[i].window;
     if (frame >= window.begin && frame < window.end) return static_cast<int>(i);
   }
   return -1;
@@ -105,7 +105,7 @@ void AddSession(const DetectionWorld& world, const Repertoire& repertoire, const
   BagMaker asked_bags, spotted_bags;
   for (const Measured& each : measured) {
     const int index = EventAt(each.frame, world);
-    const SessionEvent* event = index >= 0 ? &world.session.events[static_cast<std::size_t>(index)] : nullptr;
+    const DetectionEvent* event = index >= 0 ? &world.events[static_cast<std::size_t>(index)] : nullptr;
     const std::string& name = repertoire.taught[each.move].name;
     const bool is_asked_for = event != nullptr && event->move == name;
     const bool is_danced = event != nullptr && event->danced == name;

@@ -36,51 +36,90 @@ Repertoire RepertoireOf(const ClipLibrary& library) {
     repertoire.taught.push_back(TaughtOf(*clip.move));
   }
   std::ranges::sort(repertoire.taught, {}, &TaughtMove::name);
+  repertoire.names = NamesOf(repertoire.taught);
   return repertoire;
 }
 
 std::size_t Repertoire::IndexOf(std::string_view move) const {
+  const auto found = std::ranges::find(names, move);
+  assert(found != names.end());
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+std::optional<std::size_t> Repertoire::TaughtIndexOf(std::string_view move) const {
   const TaughtMove* found = FindByName(taught, move);
-  assert(found != nullptr);
+  if (found == nullptr) return std::nullopt;
   return static_cast<std::size_t>(found - taught.data());
 }
 
-DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key) {
-  RandomStream plan_dice(key, "session-plan");
-  RandomStream dance_dice(key, "session-dance");
-  RandomStream place_dice(key, "sensor-place");
-  const Person person = DrawPerson(key, options.session.people);
-  const SessionPlan plan = PlanSession(plan_dice, repertoire.moves, person, options.session);
-  DetectionWorld world;
-  world.session = Perform(dance_dice, repertoire.moves, person, plan);
+bool DetectionEvent::HasFault() const {
+  return !told_fault.empty() ||
+         std::ranges::any_of(faults, [](const GradedFault& fault) { return fault.severity > 0; });
+}
 
-  if (options.has_cameras) {
-    world.cameras = std::make_shared<CameraTake>(options.cameras, world.session.motion, key);
-    world.stream.frames.resize(world.session.motion.poses.size());
-    return world;
+std::string DetectionEvent::FaultText() const { return told_fault.empty() ? FaultNames(faults) : told_fault; }
+
+std::vector<FrameInterval> DetectionWorld::Takes() const {
+  std::vector<FrameInterval> takes{{0, static_cast<int>(stream.frames.size())}};
+  for (const int start : starts) {
+    takes.back().end = start;
+    takes.push_back({start, static_cast<int>(stream.frames.size())});
   }
+  return takes;
+}
+
+SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key) {
   // The distance at which Kinect's makers ask players to stand, roughly.
   constexpr double kNearest = 2.5, kFarthest = 3.0;
+  RandomStream place_dice(key, "sensor-place");
   SkeletonSensorOptions errors = options.sensor;
   errors.strength = options.noise;
   const double thrown = place_dice.Uniform(kNearest, kFarthest);
   const SensorPlace place{.distance = options.distance_m.value_or(thrown),
                           .turn = Radians(options.turn_deg),
                           .height = options.sensor_height_m};
-  const Occluders occluders = MakeOccluders(options.occluder, place, world.session.motion.poses.size());
-  world.stream = SenseSkeleton(world.session.motion, SkeletonSensorAt(place, errors.view), occluders, errors, key);
-  return world;
+  const Occluders occluders = MakeOccluders(options.occluder, place, motion.poses.size());
+  return SenseSkeleton(motion, SkeletonSensorAt(place, errors.view), occluders, errors, key);
 }
 
-FrameInterval WindowOf(const SessionEvent& event, const SkeletonStream& stream) {
-  return FramesBetween(event.start_s, event.WindowEnd(), stream);
+DetectionEvent EventOf(const SessionEvent& event, const SkeletonStream& stream) {
+  return {.move = event.move,
+          .faults = event.faults,
+          .danced = event.danced,
+          .start_s = event.start_s,
+          .end_s = event.end_s,
+          .performed = FramesBetween(event.start_s, event.end_s, stream),
+          .window = FramesBetween(event.start_s, event.WindowEnd(), stream),
+          .truth = event.truth,
+          .first_right_s = event.first_right_s};
+}
+
+DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key) {
+  RandomStream plan_dice(key, "session-plan");
+  RandomStream dance_dice(key, "session-dance");
+  const Person person = DrawPerson(key, options.session.people);
+  const SessionPlan plan = PlanSession(plan_dice, repertoire.moves, person, options.session);
+  Performance session = Perform(dance_dice, repertoire.moves, person, plan);
+  DetectionWorld world{.motion = std::move(session.motion), .events = {}, .stream = {}};
+  if (options.has_cameras) {
+    world.cameras = std::make_shared<CameraTake>(options.cameras, world.motion, key);
+    world.stream.frames.resize(world.motion.poses.size());
+  } else {
+    world.stream = Sense(world.motion, options, key);
+  }
+  for (const SessionEvent& event : session.events) world.events.push_back(EventOf(event, world.stream));
+  return world;
 }
 
 bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world) {
   std::vector<MoveWindow> windows;
-  for (const SessionEvent& event : world.session.events) {
-    const FrameInterval window = WindowOf(event, world.stream);
-    windows.push_back({event.move, event.danced, window.begin, window.end});
+  for (const DetectionEvent& event : world.events) {
+    windows.push_back({event.move, event.danced, event.window.begin, event.window.end});
+  }
+  constexpr double kAboutPoints = 0.5;  // seconds
+  for (const ActionPoint& point : world.points) {
+    const auto margin = static_cast<int>(kAboutPoints * world.stream.rate_hz);
+    windows.push_back({point.move, point.move, point.frame - margin, point.frame + margin + 1});
   }
   return !IsFalseAlarm(move, frame, windows);
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,11 +16,14 @@ namespace etude {
 
 /// What may be performed, and what recognisers were taught of it.
 struct Repertoire {
-  std::vector<Move> moves;
+  std::vector<Move> moves;         ///< as authored; none where recordings are all there is
   std::vector<TaughtMove> taught;  ///< sorted by name
+  std::vector<std::string> names;  ///< of all moves that may be asked for or taught, sorted
 
-  /// Of a taught move's name.
+  /// Of the move's name among `names`, which must hold it.
   std::size_t IndexOf(std::string_view move) const;
+  /// The taught move of that name; nothing where nobody could teach it.
+  std::optional<std::size_t> TaughtIndexOf(std::string_view move) const;
 };
 
 /// The labelled clips of the library, each move once. Empty when there are none.
@@ -29,21 +34,58 @@ TaughtMove TaughtOf(const Move& move);
 
 class CameraTake;
 
-/// One trial: a session as it was truly performed, and as the sensor saw it.
+/// A performance that was asked for, and what is true of it. All times are seconds from the world's first frame.
+struct DetectionEvent {
+  std::string move;                      ///< asked for
+  std::vector<GradedFault> faults = {};  ///< of simulated people
+  std::string told_fault = {};           ///< of a recording: what its label says was wrong
+  std::string danced;                    ///< the move that was truly danced; empty: none, or nobody knows
+  double start_s = 0, end_s = 0;         ///< from the first beat to the last
+  FrameInterval performed;               ///< the same in frames
+  FrameInterval window;                  ///< in which it is judged; none overlaps another
+  Truth truth = Truth::kRight;
+  /// When it had truly passed through every key pose asked for; of right ones alone.
+  std::optional<double> first_right_s = {};
+
+  bool IsRight() const { return truth == Truth::kRight; }
+  bool HasFault() const;
+  /// "none", or names joined by "+".
+  std::string FaultText() const;
+};
+
+/// A moment at which somebody who watched says that a move was done.
+struct ActionPoint {
+  std::string move;
+  int frame = 0;
+};
+
+/// One trial: what was truly performed, and how the sensor saw it. Of a recorded person: all their recordings, one
+/// after another.
 struct DetectionWorld {
-  Performance session;
+  BodyMotion motion;  ///< as performed; of a recording, whose truth nobody knows, as sensed
+  std::vector<DetectionEvent> events;
   SkeletonStream stream;  ///< of a skeleton sensor; before cameras, whose skeletons are up to each method, of nobody
+  std::string person = {};               ///< of recordings
+  std::vector<ActionPoint> points = {};  ///< of recordings
   std::shared_ptr<CameraTake> cameras = {};  ///< null: there are none
+  std::vector<int> starts = {};          ///< the first frames of all recordings but the first
+
+  /// What is followed in one go: each recording.
+  std::vector<FrameInterval> Takes() const;
+  bool IsRecorded() const { return !person.empty(); }
 };
 
 /// `options` must outlive a world with cameras.
 DetectionWorld MakeDetectionWorld(const Repertoire& repertoire, const DetectionOptions& options, const WorldKey& key);
 
-/// The frames in which an event is judged: first beat to half a second after the last.
-FrameInterval WindowOf(const SessionEvent& event, const SkeletonStream& stream);
+/// The event of a session that `stream` shows.
+DetectionEvent EventOf(const SessionEvent& event, const SkeletonStream& stream);
 
-/// Whether the frame lies in a window in which the move was asked for or performed: taking it for performed is no false
-/// alarm there.
+/// What a sensor before this performer sees, under this condition.
+SkeletonStream Sense(const BodyMotion& motion, const DetectionOptions& options, const WorldKey& key);
+
+/// Whether a recogniser that takes `move` for performed at this frame is not wrong: it was asked for or performed
+/// there.
 bool IsPerformance(std::string_view move, int frame, const DetectionWorld& world);
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "bench/metrics/action_points.h"
 #include "bench/metrics/detection.h"
 #include "tests/bench/metrics/evaluators.h"
 
@@ -41,6 +42,17 @@ Value Named(const Json& in) {
   return MoveNamed(performances);
 }
 
+std::vector<Moment> MomentsOf(const Json& told) {
+  std::vector<Moment> moments;
+  for (const Json& each : told) moments.push_back({each.at("move").get<std::string>(), each.at("at_s").get<double>()});
+  return moments;
+}
+
+Value Points(const Json& in) {
+  constexpr double kTolerance = 0.333;
+  return MeanFScore(MomentsOf(in.at("points")), MomentsOf(in.at("detections")), kTolerance);
+}
+
 Value Latency(const Json& in) {
   std::vector<Wait> waits;
   for (const Json& event : in.at("performances")) {
@@ -75,6 +87,7 @@ std::span<const Evaluator> DetectionEvaluators() {
       {"fault_found", Found},
       {"grey_called_right", Grey},
       {"move_named", Named},
+      {"action_point_f", Points},
       {"roc_auc", [](const Json& in) -> Value { return RocAuc(EventsOf(in)); }},
       {"latency_s", Latency},
       {"false_alarms_per_min", [](const Json& in) -> Value { return FalseAlarms(in); }},

@@ -105,6 +105,9 @@ MUTANTS = {
         [time for time, happened in waits if happened])}, [
             "repetitions_until_right"]),
     "the mean beat error": (coach, {"PERCENTILE": 0.5}, ["beat_error_ms", "switch_natural_share"]),
+    "action points within half a second": (detection, {"POINT_TOLERANCE_S": 0.5}, ["action_point_f"]),
+    "several detections of one point": (detection, {"most_pairs": lambda points, detections: sum(
+        any(abs(d - p) <= 0.333 for p in points) for d in detections)}, ["action_point_f"]),
     "ties lost": (detection, {"tie_credit": lambda: 0.0}, ["roc_auc"]),
     "misses left out": (detection, {"kaplan_meier_median": lambda waits: or_nothing(statistics.median)(
         [seconds for seconds, called in waits if called])}, ["latency_s"]),

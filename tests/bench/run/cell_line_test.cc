@@ -23,7 +23,7 @@ FinishedCell SampleCell() {
   result.Measure("iterations", -0.0);
   result.Missing("orientation_error_deg", "");
   result.digests = {{"problem", "00ff"}, {"solution", "11ee"}};
-  result.series = {{"position_error_cm", "iteration", {3, 2, 1e300}}, {"empty", "frame", {}}};
+  result.series = {{"position_error_cm", "iteration", {3, 2, 1e300}}, {"empty", "frame", {}}, {"named", "performance", {1}, {"clap", "a \"so\""}}};
   BodyPose pose;
   pose[Role::kHead] = {0.1, 1.7, -0.3};
   result.recording = Recording{{{"truth", {30, {pose, pose}}}}, R"({"from":"clap"})"};
@@ -52,11 +52,12 @@ TEST(CellLine, SaysAllThatACellIsAndTook) {
   }
   EXPECT_TRUE(std::signbit(*is.metrics[2].value));
   EXPECT_EQ(is.digests, was.digests);
-  ASSERT_EQ(is.series.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
+  ASSERT_EQ(is.series.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(is.series[i].name, was.series[i].name);
     EXPECT_EQ(is.series[i].axis, was.series[i].axis);
     EXPECT_EQ(is.series[i].values, was.series[i].values);
+    EXPECT_EQ(is.series[i].names, was.series[i].names);
   }
   EXPECT_EQ(is.recording->tracks[0].motion.poses[1][Role::kHead], glm::dvec3(0.1, 1.7, -0.3));
   EXPECT_EQ(back->usage.cpu_s, 1e-7);

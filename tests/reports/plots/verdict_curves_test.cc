@@ -10,13 +10,43 @@ namespace {
 JudgedPerformance Right(double score, int person = 0) { return {.person = person, .score = score, .truth = 1}; }
 JudgedPerformance Wrong(double score, int person = 0) { return {.person = person, .score = score, .truth = 0}; }
 
+std::vector<JudgedPerformance> FourAndAGreyOne() {
+  return {Right(0.9), Wrong(0.7), Right(0.7), Wrong(0.1), {.score = 0.8, .truth = 0.5}};
+}
+
 TEST(PooledRoc, GoesThroughItsPointsAndLeavesOutWhatIsGrey) {
-  std::vector<JudgedPerformance> all = {Right(0.9), Wrong(0.7), Right(0.7), Wrong(0.1), {.score = 0.8, .truth = 0.5}};
+  const std::vector<JudgedPerformance> all = FourAndAGreyOne();
   const auto curve = PooledRoc(all);
   const std::vector<std::pair<double, double>> expected = {{0, 0}, {0, 0.5}, {0.5, 1}, {1, 1}};
   EXPECT_EQ(curve, expected);
   EXPECT_DOUBLE_EQ(AreaUnder(curve), 0.875) << "Mann-Whitney: (1 + 1 + ½ + 1) / 4";
   EXPECT_TRUE(PooledRoc(std::vector{Right(0.5)}).empty());
+}
+
+TEST(OperatedAt, IsAPointOfTheCurveWhereVerdictsFollowScores) {
+  std::vector<JudgedPerformance> all = FourAndAGreyOne();
+  for (JudgedPerformance& one : all) one.is_called = one.score >= 0.8;
+  EXPECT_EQ(*OperatedAt(all), (std::pair{0.0, 0.5}));
+  EXPECT_FALSE(OperatedAt(std::vector{Right(0.5)}));
+  // From 0.7 on: two hits and one false, 2·2 / (2·2 + 1).
+  EXPECT_DOUBLE_EQ(*BestF1(all), 0.8);
+}
+
+TEST(StillWaiting, IsTheEstimateOfKaplanAndMeier) {
+  // Remission under 6-mercaptopurine (Freireich et al. 1963): 6, 6, 6, 6+, 7, 9+, 10, 10+, 11+, 13, 16, 17+, …
+  std::vector<PraiseWait> waits = {{6, true},   {6, true},   {6, true},   {6, false}, {7, true},   {9, false},
+                                   {10, true},  {10, false}, {11, false}, {13, true}, {16, true},  {17, false},
+                                   {19, false}, {20, false}, {22, true},  {23, true}, {25, false}, {32, false},
+                                   {32, false}, {34, false}, {35, false}};
+  const auto curve = StillWaiting(waits);
+  const std::vector<std::pair<double, double>> published = {{6, 1},      {6, 0.857},  {7, 0.807},  {10, 0.753},
+                                                            {13, 0.690}, {16, 0.627}, {22, 0.538}, {23, 0.448}};
+  ASSERT_EQ(curve.size(), published.size());
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    EXPECT_EQ(curve[i].first, published[i].first);
+    EXPECT_NEAR(curve[i].second, published[i].second, 5e-4);
+  }
+  EXPECT_TRUE(StillWaiting({}).empty());
 }
 
 TEST(PooledArea, HasAnIntervalOverPeople) {

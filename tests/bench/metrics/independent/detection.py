@@ -1,6 +1,8 @@
 """Metrics of move detection."""
 from independent import common
 
+POINT_TOLERANCE_S = 0.333
+
 
 def precision(given):
     return common.share([event["right"] for event in given["events"] if event["called"]])
@@ -26,6 +28,32 @@ def grey_called_right(given):
 
 def move_named(given):
     return common.share([each["named"] == each["danced"] for each in given["dances"]])
+
+
+def action_point_f(given):
+    scores = []
+    for move in sorted({each["move"] for each in given["points"] + given["detections"]}):
+        points = [each["at_s"] for each in given["points"] if each["move"] == move]
+        detections = [each["at_s"] for each in given["detections"] if each["move"] == move]
+        scores.append(2 * most_pairs(points, detections) / (len(points) + len(detections)))
+    return common.mean(scores)
+
+
+def most_pairs(points, detections):
+    """Of a bipartite graph, by augmenting paths (Kuhn): no order of time is made use of."""
+    taken = {}
+
+    def place(point, seen):
+        for index, detection in enumerate(detections):
+            if index in seen or abs(detection - points[point]) > POINT_TOLERANCE_S + 1e-9:
+                continue
+            seen.add(index)
+            if index not in taken or place(taken[index], seen):
+                taken[index] = point
+                return True
+        return False
+
+    return sum(place(point, set()) for point in range(len(points)))
 
 
 def roc_auc(given):
@@ -73,6 +101,7 @@ METRICS = {
     "fault_found": fault_found,
     "grey_called_right": grey_called_right,
     "move_named": move_named,
+    "action_point_f": action_point_f,
     "roc_auc": roc_auc,
     "latency_s": latency,
     "false_alarms_per_min": false_alarms,

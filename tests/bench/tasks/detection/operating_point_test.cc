@@ -7,12 +7,11 @@ namespace {
 
 /// A minute at 10 Hz in which one move's evidence peaks to these heights, ten seconds apart.
 AlarmTrial Peaks(const std::vector<double>& heights) {
-  AlarmTrial trial{
-      .trace = {.moves = 1, .asked = std::vector<double>(600, 0.0), .spotted = std::vector<double>(600, 0.0)},
-      .rate_hz = 10,
-      .is_performance = [](const Detection&) { return false; }};
-  for (std::size_t i = 0; i < heights.size(); ++i) trial.trace.spotted[50 + 100 * i] = heights[i];
-  return trial;
+  EvidenceTrace trace{.moves = 1, .asked = std::vector<double>(600, 0.0), .spotted = std::vector<double>(600, 0.0)};
+  for (std::size_t i = 0; i < heights.size(); ++i) trace.spotted[50 + 100 * i] = heights[i];
+  return {.trace = std::make_shared<const EvidenceTrace>(std::move(trace)),
+          .rate_hz = 10,
+          .is_performance = [](const Detection&) { return false; }};
 }
 
 TEST(ThresholdAt, LetsAsManyAlarmsThroughAsAreBorne) {

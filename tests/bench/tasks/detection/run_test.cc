@@ -6,12 +6,14 @@ namespace etude {
 namespace {
 
 /// Asked for from 0.5 s to 2.5 s, the last half second to spare.
-SessionEvent AskedFor(const char* move, const char* danced) {
-  SessionEvent event;
+DetectionEvent AskedFor(const char* move, const char* danced) {
+  DetectionEvent event;
   event.move = move;
   event.danced = danced;
   event.start_s = 0.5;
   event.end_s = 2;
+  event.performed = {15, 60};
+  event.window = {15, 75};
   return event;
 }
 
@@ -30,7 +32,7 @@ DetectionWorld ArmRaised() {
     const bool raised = t >= 30 && t < 60;
     frame[Role::kRightElbow].position = {-0.2, raised ? 1.7 : 1.1, 0};
   }
-  world.session.motion.poses.resize(90);
+  world.motion.poses.resize(90);
   return world;
 }
 
@@ -38,9 +40,9 @@ TEST(JudgeSession, CountsAnAlarmOnlyWhereTheMoveWasNeitherAskedForNorDanced) {
   Repertoire repertoire;
   repertoire.taught = {{.name = "clap", .poses = {{{{Feature::kRH, 90, 20}}}}, .span_s = 2},
                        {.name = "raise", .poses = {{{{Feature::kRH, 180, 20}}}}, .span_s = 2}};
-  const auto alarms = [&](const std::vector<SessionEvent>& events) {
+  const auto alarms = [&](const std::vector<DetectionEvent>& events) {
     DetectionWorld world = ArmRaised();
-    world.session.events = events;
+    world.events = events;
     const DetectionMethod method;
     const auto recogniser = *MakeRecogniser(method.recogniser, repertoire.taught);
     return JudgeSession(world, SeeSession(world, method), repertoire, *recogniser, method.Decision()).alarms.size();

@@ -7,18 +7,23 @@
 namespace etude {
 namespace {
 
-SessionEvent Event(Truth truth, double start_s, std::optional<double> first_right_s) {
-  SessionEvent event;
+DetectionEvent Event(Truth truth, double start_s, std::optional<double> first_right_s) {
+  DetectionEvent event;
   event.move = "clap";
   event.danced = "clap";
   event.truth = truth;
   event.start_s = start_s;
-  event.end_s = start_s + 1.5;  // the window is 2 s long
+  event.end_s = start_s + 1.5;
+  const auto begin = static_cast<int>(30 * start_s);
+  event.performed = {begin, begin + 45};
+  event.window = {begin, begin + 60};
   event.first_right_s = first_right_s;
   return event;
 }
 
-const Repertoire kMoves{.moves = {}, .taught = {{.name = "boxing"}, {.name = "clap"}, {.name = "sway"}}};
+const Repertoire kMoves{.moves = {},
+                        .taught = {{.name = "boxing"}, {.name = "clap"}, {.name = "sway"}},
+                        .names = {"boxing", "clap", "sway"}};
 
 Judgement Called(std::optional<int> right_at, double score) {
   return {.recognised_at = right_at, .score = score, .running_score = std::vector<double>(60, score)};
@@ -34,14 +39,14 @@ double Value(const CellResult& cell, std::string_view id) {
 
 TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   DetectionWorld world;
-  world.session.motion.poses.resize(900);  // half a minute
+  world.motion.poses.resize(900);  // half a minute
   world.stream.frames.resize(900);
-  world.session.events = {Event(Truth::kRight, 1, 2.0),           Event(Truth::kRight, 5, 6.0),
-                          Event(Truth::kRight, 9, 10.0),          Event(Truth::kWrong, 13, std::nullopt),
-                          Event(Truth::kWrong, 17, std::nullopt), Event(Truth::kGrey, 21, std::nullopt)};
-  world.session.events[4].danced = "";
-  for (std::size_t faulty : {1, 3, 4}) world.session.events[faulty].faults = {{Fault::kAmplitude, 0.5}};
-  world.session.events[0].faults = {{Fault::kLate, 0}};  // changes nothing, is none
+  world.events = {Event(Truth::kRight, 1, 2.0),           Event(Truth::kRight, 5, 6.0),
+                  Event(Truth::kRight, 9, 10.0),          Event(Truth::kWrong, 13, std::nullopt),
+                  Event(Truth::kWrong, 17, std::nullopt), Event(Truth::kGrey, 21, std::nullopt)};
+  world.events[4].danced = "";
+  for (std::size_t faulty : {1, 3, 4}) world.events[faulty].faults = {{Fault::kAmplitude, 0.5}};
+  world.events[0].faults = {{Fault::kLate, 0}};  // changes nothing, is none
   SessionVerdict verdict;
   // Called right 0.1 s after the truth; 0.3 s after; missed; wrongly called right; rightly called wrong; grey.
   verdict.events = {Called(33, 0.9), Called(39, 0.8),         Called(std::nullopt, 0.4),
@@ -65,9 +70,9 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
 
 TEST(ScoreSession, SaysWhyAValueIsMissing) {
   DetectionWorld world;
-  world.session.motion.poses.resize(300);
+  world.motion.poses.resize(300);
   world.stream.frames.resize(300);
-  world.session.events = {Event(Truth::kRight, 1, 2.0)};
+  world.events = {Event(Truth::kRight, 1, 2.0)};
   SessionVerdict verdict;
   verdict.events = {Called(std::nullopt, 0.2)};
   CellResult cell;
@@ -78,15 +83,27 @@ TEST(ScoreSession, SaysWhyAValueIsMissing) {
     ++missing;
     EXPECT_FALSE(metric.null_reason.empty()) << metric.id;
   }
-  EXPECT_EQ(missing, 6);  // precision, fault_found, grey_called_right, move_named, roc_auc, latency_s
+  EXPECT_EQ(missing, 7);  // precision, fault_found, grey_called_right, move_named, action_point_f, roc_auc, latency_s
   EXPECT_EQ(Value(cell, "recall"), 0.0);
+}
+
+TEST(ScoreSession, PointsAreMetWithinAThirdOfASecond) {
+  DetectionWorld world;
+  world.motion.poses.resize(300);
+  world.stream.frames.resize(300);
+  world.points = {{"clap", 60}, {"sway", 150}};
+  SessionVerdict verdict;
+  verdict.spotted = {{1, 69}, {1, 240}, {2, 161}};  // 0.3 s late; of nothing; 0.37 s late
+  CellResult cell;
+  ScoreSession(world, verdict, kMoves, cell);
+  EXPECT_DOUBLE_EQ(Value(cell, "action_point_f"), (2.0 / 3 + 0) / 2);
 }
 
 TEST(PerformanceSeries, TellsWhatWasDoneAndSaid) {
   DetectionWorld world;
-  SessionEvent late = Event(Truth::kWrong, 1, std::nullopt);
+  DetectionEvent late = Event(Truth::kWrong, 1, std::nullopt);
   late.faults = {{Fault::kAmplitude, 0.2}, {Fault::kLate, 0.7}};
-  world.session.events = {late, Event(Truth::kGrey, 5, std::nullopt)};
+  world.events = {late, Event(Truth::kGrey, 5, std::nullopt)};
   SessionVerdict verdict;
   verdict.events = {Called(9, 0.6), Called(std::nullopt, 0.1)};
   verdict.named = {2, std::nullopt};
@@ -101,6 +118,7 @@ TEST(PerformanceSeries, TellsWhatWasDoneAndSaid) {
   EXPECT_EQ(told["performance_asked"], (Values{1, 1}));
   EXPECT_EQ(told["performance_danced"], (Values{1, 1}));
   EXPECT_EQ(told["performance_named"], (Values{2, -1}));
+  EXPECT_TRUE(told["right_wait_s"].empty()) << "none was right";
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ class DetectionWorldTest : public DetectionFixture {
     options.session = session;
     return MakeDetectionWorld(RepertoireOf(FourMoves()), options, World(trial));
   }
+  static double HeadHeight(const DetectionWorld& world) {
+    return world.motion.poses.front().joints[Index(Role::kHead)].y;
+  }
   static std::string ComplaintAbout(const std::string& keys) {
     const auto task = MakeTask(keys + "methods: [{name: a}]\n", FourMoves());
     return task ? "no complaint" : ToString(task.error());
@@ -26,20 +29,20 @@ class DetectionWorldTest : public DetectionFixture {
 };
 
 TEST_F(DetectionWorldTest, EveryTrialHasAPersonOfItsOwn) {
-  std::set<double> statures;
-  for (int trial = 0; trial < 8; ++trial) statures.insert(Make({.events = 2}, trial).session.person.stature_m);
-  EXPECT_EQ(statures.size(), 8u);
+  std::set<double> heights;
+  for (int trial = 0; trial < 8; ++trial) heights.insert(HeadHeight(Make({.events = 2}, trial)));
+  EXPECT_EQ(heights.size(), 8u);
 }
 
 TEST_F(DetectionWorldTest, SweepingPeopleAsksForTheSameMovesAndFaults) {
   const DetectionWorld toddler = Make({.people = People::kToddler, .events = 8}, 3),
                        expert = Make({.people = People::kExpert, .events = 8}, 3);
   for (std::size_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(toddler.session.events[i].move, expert.session.events[i].move);
-    EXPECT_EQ(FaultNames(toddler.session.events[i].faults), FaultNames(expert.session.events[i].faults));
+    EXPECT_EQ(toddler.events[i].move, expert.events[i].move);
+    EXPECT_EQ(FaultNames(toddler.events[i].faults), FaultNames(expert.events[i].faults));
   }
-  EXPECT_LT(toddler.session.person.stature_m, 1.2);
-  EXPECT_GT(expert.session.person.stature_m, 1.4);
+  EXPECT_LT(HeadHeight(toddler), 1.2);
+  EXPECT_GT(HeadHeight(expert), 1.2);
 }
 
 TEST_F(DetectionWorldTest, WorseFaultsLeaveFewerRight) {
@@ -47,7 +50,7 @@ TEST_F(DetectionWorldTest, WorseFaultsLeaveFewerRight) {
     int count = 0;
     for (int trial = 0; trial < 2; ++trial) {
       const DetectionWorld world = Make({.events = 8, .fault_share = 1, .severity = severity}, trial);
-      for (const SessionEvent& event : world.session.events) count += event.IsRight();
+      for (const DetectionEvent& event : world.events) count += event.IsRight();
     }
     return count;
   };

@@ -1,4 +1,4 @@
-#include "bench/streams/scores.h"
+#include "bench/metrics/action_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,12 +66,6 @@ std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const
     sum += *MatchMoments(of_move(points), of_move(detections), tolerance_s).FScore();  // every move here occurs
   }
   return sum / static_cast<double>(moves.size());
-}
-
-std::optional<double> Accuracy(std::span<const Classified> verdicts) {
-  if (verdicts.empty()) return std::nullopt;
-  const auto right = std::ranges::count_if(verdicts, [](const Classified& v) { return v.truth == v.taken_for; });
-  return static_cast<double>(right) / static_cast<double>(verdicts.size());
 }
 
 }  // namespace etude

@@ -29,11 +29,4 @@ MomentMatch MatchMoments(std::span<const Moment> points, std::span<const Moment>
 std::optional<double> MeanFScore(std::span<const Moment> points, std::span<const Moment> detections,
                                  double tolerance_s);
 
-/// What a performance was, and what it was taken for; "" for nothing.
-struct Classified {
-  std::string truth, taken_for, person;
-};
-/// The share taken for what they were. Nothing of no verdicts.
-std::optional<double> Accuracy(std::span<const Classified> verdicts);
-
 }  // namespace etude

@@ -1,4 +1,4 @@
-#include "bench/streams/scores.h"
+#include "bench/metrics/action_points.h"
 
 #include <gtest/gtest.h>
 
@@ -37,12 +37,6 @@ TEST(ActionPoints, TheMeanIsOverMovesNotOverPoints) {
   EXPECT_DOUBLE_EQ(*MeanFScore(points, detections, 0.333), 0.5);
   EXPECT_DOUBLE_EQ(*MatchMoments(points, detections, 0.333).FScore(), 8.0 / 9);
   EXPECT_FALSE(MeanFScore({}, {}, 0.333));
-}
-
-TEST(Accuracy, IsTheShareTakenForWhatTheyWere) {
-  const std::vector<Classified> some = {{"a", "a", "p"}, {"a", "b", "p"}, {"b", "", "p"}, {"b", "b", "q"}};
-  EXPECT_DOUBLE_EQ(*Accuracy(some), 0.5);
-  EXPECT_FALSE(Accuracy({}));
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/streams/labelled.h"
+#include "bench/tasks/detection/operating_point.h"
+#include "bench/tasks/detection/world.h"
+
+namespace etude {
+
+/// Everything that was recorded of one person, one recording after another, with what its labels say. Clips are sensed
+/// under the condition; a sensor's recordings are what they are. A performance is judged until half a second after its
+/// end, but not beyond the next one's beginning; where labels overlap, the earlier is judged as far as that.
+DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person, const DetectionOptions& options,
+                                 const WorldKey& key);
+
+/// Refuses labels by which nothing can be judged: two performances that begin at once, and, without `are_taught`, one
+/// person, or recordings of which nobody says who they show.
+Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
+
+/// What recognisers know when one person is judged: what the other people did.
+struct Fold {
+  Repertoire repertoire;
+  std::vector<ReadyMethod> methods;
+};
+
+/// `taught`: by whom and whatever; nothing: all moves by everybody but `person`, right performances as examples and
+/// wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails when there is none, and
+/// where a method needs more of a move than it has.
+Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
+                      std::string_view person, const std::vector<DetectionMethod>& methods);
+
+}  // namespace etude

@@ -1,0 +1,80 @@
+#include "reports/plots/judged_performances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+/// Series of one length; null where the cell has none of that name, or of another length.
+class Columns {
+ public:
+  Columns(const CellSeries& cell, std::size_t count) : cell_(cell), count_(count) {}
+
+  const Series* Find(std::string_view name) const {
+    const auto found = std::ranges::find(cell_.series, name, &Series::name);
+    return found == cell_.series.end() || found->values.size() != count_ ? nullptr : &*found;
+  }
+
+  /// What the series counts there; "" for −1 and for what it has no name for.
+  static std::string Name(const Series* series, std::size_t i) {
+    if (series == nullptr || !(series->values[i] >= 0)) return "";
+    const auto place = static_cast<std::size_t>(std::lround(series->values[i]));
+    return place < series->names.size() ? series->names[place] : "";
+  }
+
+ private:
+  const CellSeries& cell_;
+  std::size_t count_;
+};
+
+std::size_t LengthOf(const CellSeries& cell, std::string_view name) {
+  const auto found = std::ranges::find(cell.series, name, &Series::name);
+  return found == cell.series.end() ? 0 : found->values.size();
+}
+
+void Add(const CellSeries& cell, int person, MethodVerdicts& verdicts) {
+  const Columns columns(cell, LengthOf(cell, "performance_score"));
+  const Series *score = columns.Find("performance_score"), *truth = columns.Find("performance_truth"),
+               *called = columns.Find("performance_called"), *severity = columns.Find("performance_severity"),
+               *named = columns.Find("performance_named");
+  if (score == nullptr || truth == nullptr || called == nullptr || severity == nullptr) return;
+  for (std::size_t i = 0; i < score->values.size(); ++i) {
+    JudgedPerformance& one = verdicts.performances.emplace_back();
+    one.person = person;
+    one.score = score->values[i];
+    one.truth = truth->values[i];
+    one.is_called = called->values[i] > 0;
+    one.severity = severity->values[i];
+    one.fault = Columns::Name(columns.Find("performance_fault"), i);
+    one.danced = Columns::Name(columns.Find("performance_danced"), i);
+    if (named != nullptr) one.named = Columns::Name(named, i);
+  }
+  const Columns right(cell, LengthOf(cell, "right_wait_s"));
+  const Series *waited = right.Find("right_wait_s"), *is_over = right.Find("right_answered");
+  if (waited == nullptr || is_over == nullptr) return;
+  for (std::size_t i = 0; i < waited->values.size(); ++i) {
+    verdicts.waits.push_back({waited->values[i], is_over->values[i] > 0});
+  }
+}
+
+}  // namespace
+
+std::map<std::size_t, MethodVerdicts> VerdictsUnder(const RunData& run, const ScenarioSummary& scenario,
+                                                    const ConditionSummary& condition) {
+  std::map<std::string, const Row*> rows;
+  for (const Row& row : run.rows) {
+    if (row.scenario == scenario.name && row.condition == condition.condition) rows.emplace(row.Id(), &row);
+  }
+  std::map<std::size_t, MethodVerdicts> verdicts;
+  for (const CellSeries& cell : run.series) {
+    const auto row = rows.find(cell.cell);
+    if (row == rows.end()) continue;
+    const auto method = std::ranges::find(scenario.methods, row->second->method) - scenario.methods.begin();
+    Add(cell, row->second->trial, verdicts[static_cast<std::size_t>(method)]);
+  }
+  std::erase_if(verdicts, [](const auto& entry) { return entry.second.performances.empty(); });
+  return verdicts;
+}
+
+}  // namespace etude

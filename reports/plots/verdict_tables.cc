@@ -1,0 +1,197 @@
+#include "reports/plots/verdict_tables.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
+#include "reports/words/answer.h"
+#include "reports/words/escape.h"
+#include "reports/words/figures.h"
+#include "reports/words/left_out.h"
+
+namespace etude {
+namespace {
+
+constexpr std::size_t kMostTabled = 4;
+constexpr std::size_t kMostMethods = 16;
+constexpr std::size_t kMostSessions = 5;
+constexpr std::size_t kMostMoves = 60;  // of a confusion: its cells grow with the square
+
+using Verdicts = std::map<std::size_t, MethodVerdicts>;
+
+std::string Table(const std::string& caption, const std::string& head, const std::string& body) {
+  return fmt::format(
+      "<figure><figcaption>{}</figcaption><div class=\"scroll\" tabindex=\"0\"><table class=\"verdict-table\"><thead>"
+      "<tr>{}</tr></thead><tbody>{}</tbody></table></div></figure>",
+      EscapeMarkup(caption), head, body);
+}
+
+std::string Head(const std::string& text, bool is_number = true) {
+  return fmt::format("<th scope=\"col\"{}>{}</th>", is_number ? " class=\"n\"" : "", EscapeMarkup(text));
+}
+
+std::string ShareText(const FaultCount& count) {
+  return count.all == 0 ? std::string(kNoValue) : fmt::format("{:.0f}", 100.0 * count.found / count.all);
+}
+
+std::string Words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string FaultTable(const ScenarioSummary& scenario, const std::string& prefix, const Verdicts& verdicts) {
+  std::map<std::string, std::map<std::size_t, std::pair<FaultCount, FaultCount>>> by_fault;
+  std::string head = Head("fault", false) + Head("performances");
+  for (const auto& [method, of_method] : verdicts) {
+    for (const auto& [fault, counts] : FoundByFault(of_method.performances)) by_fault[fault][method] = counts;
+    head += Head(scenario.methods[method]);
+  }
+  if (by_fault.empty()) return "";
+  std::string body;
+  for (const auto& [fault, of_methods] : by_fault) {
+    const auto& [slight, bad] = of_methods.begin()->second;
+    body += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{} · {}</td>", EscapeMarkup(Words(fault)),
+                        slight.all, bad.all);
+    for (const auto& [method, of_method] : verdicts) {
+      const auto found = of_methods.find(method);
+      const auto [few, many] = found == of_methods.end() ? std::pair<FaultCount, FaultCount>{} : found->second;
+      body += fmt::format("<td class=\"n\">{} · {}</td>", ShareText(few), ShareText(many));
+    }
+    body += "</tr>";
+  }
+  return Table(
+      prefix + "faulty performances not called right, per cent, by their worst fault: slight (severity to 0.5) · bad",
+      head, body);
+}
+
+/// Who performed in a trial: a recorded person's name, else the trial's number.
+std::string SessionName(const RunData& run, const ScenarioSummary& scenario, int trial) {
+  for (const Row& row : run.rows) {
+    if (row.scenario == scenario.name && row.trial == trial && !row.clip.empty()) return row.clip;
+  }
+  return fmt::format("trial {}", trial);
+}
+
+std::string SessionTable(const RunData& run, const ScenarioSummary& scenario, const std::string& prefix,
+                         const Verdicts& verdicts) {
+  const std::string asked = MethodInQuestion(scenario);
+  const auto index = static_cast<std::size_t>(std::ranges::find(scenario.methods, asked) - scenario.methods.begin());
+  const auto method = verdicts.contains(index) ? verdicts.find(index) : verdicts.begin();
+  const std::vector<SessionMistakes> worst = WorstSessions(method->second.performances);
+  if (worst.empty()) return "";
+  std::string body;
+  for (const SessionMistakes& session : std::span(worst).first(std::min(worst.size(), kMostSessions))) {
+    body += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{} of {}</td><td class=\"n\">{} of {}</td></tr>",
+                        EscapeMarkup(SessionName(run, scenario, session.person)), session.missed, session.right,
+                        session.praised, session.wrong);
+  }
+  return Table(fmt::format("{}the sessions that {} judged worst", prefix, scenario.methods[method->first]),
+               Head("session", false) + Head("right ones missed") + Head("wrong ones praised"), body);
+}
+
+std::string ConfusionTable(const std::string& caption, const MoveConfusion& confusion) {
+  std::string head = Head("danced", false), body;
+  for (const std::string& move : confusion.moves) {
+    head += fmt::format("<th scope=\"col\" class=\"n upright\"><span>{}</span></th>", EscapeMarkup(Words(move)));
+  }
+  head += "<th scope=\"col\" class=\"n upright\"><span>nothing</span></th>";
+  std::vector<std::string> columns = confusion.moves;
+  columns.emplace_back();
+  for (const std::string& danced : confusion.moves) {
+    const int all = confusion.Danced(danced);
+    if (all == 0) continue;
+    body += fmt::format("<tr><th scope=\"row\">{} <small>{}</small></th>", EscapeMarkup(Words(danced)), all);
+    for (const std::string& named : columns) {
+      const auto found = confusion.counts.find({danced, named});
+      const double share = found == confusion.counts.end() ? 0 : 100.0 * found->second / all;
+      body +=
+          share == 0 ? "<td></td>" : fmt::format("<td class=\"n\" style=\"--share:{:.0f}%\">{:.0f}</td>", share, share);
+    }
+    body += "</tr>";
+  }
+  return Table(caption, head, body);
+}
+
+std::string Confusions(const ScenarioSummary& scenario, const std::string& prefix, const Verdicts& verdicts) {
+  std::string open, folded;
+  const std::string asked = MethodInQuestion(scenario);
+  for (const auto& [method, of_method] : verdicts) {
+    const MoveConfusion confusion = ConfusionOf(of_method.performances);
+    if (confusion.counts.empty() || confusion.moves.size() > kMostMoves || method >= kMostMethods) continue;
+    const std::string& name = scenario.methods[method];
+    std::string& html = name == asked || asked.empty() ? open : folded;
+    html += ConfusionTable(fmt::format("{}what {} takes moves for, per cent of those danced", prefix, name), confusion);
+  }
+  if (folded.empty()) return open;
+  return open + "<details><summary>What the other methods take moves for</summary>" + folded + "</details>";
+}
+
+}  // namespace
+
+int MoveConfusion::Danced(const std::string& move) const {
+  int all = 0;
+  for (const auto& [pair, count] : counts) all += pair.first == move ? count : 0;
+  return all;
+}
+
+MoveConfusion ConfusionOf(std::span<const JudgedPerformance> performances) {
+  MoveConfusion confusion;
+  std::set<std::string> moves;
+  for (const JudgedPerformance& one : performances) {
+    if (one.danced.empty() || !one.named) continue;
+    ++confusion.counts[{one.danced, *one.named}];
+    moves.insert(one.danced);
+    if (!one.named->empty()) moves.insert(*one.named);
+  }
+  confusion.moves.assign(moves.begin(), moves.end());
+  return confusion;
+}
+
+std::map<std::string, std::pair<FaultCount, FaultCount>> FoundByFault(std::span<const JudgedPerformance> performances) {
+  std::map<std::string, std::pair<FaultCount, FaultCount>> counts;
+  for (const JudgedPerformance& one : performances) {
+    if (one.fault.empty() || !(one.severity > 0)) continue;
+    auto& [slight, bad] = counts[one.fault];
+    FaultCount& count = one.severity <= 0.5 ? slight : bad;
+    ++count.all;
+    count.found += !one.is_called;
+  }
+  return counts;
+}
+
+std::vector<SessionMistakes> WorstSessions(std::span<const JudgedPerformance> performances) {
+  std::map<int, SessionMistakes> sessions;
+  for (const JudgedPerformance& one : performances) {
+    if (one.truth == 0.5) continue;
+    SessionMistakes& session = sessions[one.person];
+    session.person = one.person;
+    const bool is_right = one.truth > 0.5;
+    ++(is_right ? session.right : session.wrong);
+    if (is_right && !one.is_called) ++session.missed;
+    if (!is_right && one.is_called) ++session.praised;
+  }
+  std::vector<SessionMistakes> worst;
+  for (const auto& [person, session] : sessions) {
+    if (session.missed + session.praised > 0) worst.push_back(session);
+  }
+  std::ranges::stable_sort(worst, std::ranges::greater{}, &SessionMistakes::Share);
+  return worst;
+}
+
+std::string VerdictTablesHtml(const RunData& run, const ScenarioSummary& scenario) {
+  std::string html;
+  std::size_t count = 0;
+  for (const ConditionSummary& condition : scenario.conditions) {
+    const Verdicts verdicts = VerdictsUnder(run, scenario, condition);
+    if (verdicts.empty() || ++count > kMostTabled) continue;
+    const std::string label = ConditionLabel(condition.condition), prefix = label.empty() ? "" : label + ": ";
+    html += FaultTable(scenario, prefix, verdicts) + SessionTable(run, scenario, prefix, verdicts) +
+            Confusions(scenario, prefix, verdicts);
+  }
+  if (html.empty()) return "";
+  return "<details><summary>Which faults are found, the worst sessions, what moves are taken for</summary>" + html +
+         LeftOutHtml(count, kMostTabled, "conditions", "series/") + "</details>";
+}
+
+}  // namespace etude

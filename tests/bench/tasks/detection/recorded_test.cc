@@ -1,0 +1,173 @@
+#include "bench/tasks/detection/recorded.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "bench/streams/leave_one_out.h"
+#include "tests/bench/streams/record_people.h"
+#include "tests/bench/tasks/detection/detection_fixture.h"
+
+namespace etude {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kDanced = {"boxing", "clap", "robot", "side_kick", "stretch"};
+
+class RecordedPeopleTest : public DetectionFixture {
+ protected:
+  static LabelledStreams SetOf(const Recorded& recorded) {
+    LabelledStreams set = *LabelStreams(recorded.streams, {});
+    set.parts = recorded.parts;
+    set.moves = kDanced;
+    set.file = "labels.csv";
+    set.nobody = "";
+    return set;
+  }
+
+  static Result<std::unique_ptr<Task>> MakeTask(const std::string& yaml, const LabelledStreams& set,
+                                                const std::string& moves = "") {
+    ASSIGN_OR_RETURN(auto node, ParseYaml(yaml, "test.yaml"));
+    Fields condition(node, "a detection scenario");
+    const ClipLibrary none;
+    TaskInput input{.condition = condition, .methods = node.Find("methods")->items, .clips = none};
+    input.recordings = &set;
+    input.texts["moves"] = moves;
+    return MakeDetectionTaskKind().make(input);
+  }
+
+  static std::string ComplaintAbout(const std::string& yaml, const LabelledStreams& set) {
+    const auto task = MakeTask(yaml, set);
+    return task ? "no complaint" : ToString(task.error());
+  }
+};
+
+TEST_F(RecordedPeopleTest, OnePersonLeftOutIsNamedAsTheRecordingsOwnScoreHasIt) {
+  const Recorded recorded = Record(5, kDanced, 10);
+  const LabelledStreams set = SetOf(recorded);
+  for (const char* name : {"dtw", "key-pose"}) {
+    WatchOptions options;
+    options.recogniser.kind = FindRecogniser(name);
+    const auto out = LeaveOnePersonOut(recorded.streams, recorded.parts, "labels.csv", options);
+    const auto task = *MakeTask("methods: [{name: a, recogniser: " + std::string(name) + "}]\n", set);
+    double named = 0;
+    for (int trial = 0; trial < 5; ++trial) {
+      const CellResult cell = RunWorld(*task, World(trial), 1).front();
+      ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
+      named += *ValueOf(cell, "move_named") / 5;
+      EXPECT_EQ(task->ClipsOf(World(trial)).front(), "person-" + std::to_string(trial));
+    }
+    EXPECT_NEAR(named, *Accuracy(out->verdicts), 1e-12) << name;
+  }
+}
+
+TEST_F(RecordedPeopleTest, LabelsThatMeanNothingAreGuessed) {
+  Recorded recorded = Record(4, kDanced, 10);
+  for (LabelledPart& part : recorded.parts) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(kDanced, part.move) - kDanced.begin());
+    part.move = kDanced[(at + part.stream) % kDanced.size()];
+  }
+  const LabelledStreams set = SetOf(recorded);
+  const auto task = *MakeTask("methods: [{name: a, recogniser: dtw}]\n", set);
+  double named = 0;
+  for (int trial = 0; trial < 4; ++trial) {
+    named += *ValueOf(RunWorld(*task, World(trial), 1).front(), "move_named") / 4;
+  }
+  EXPECT_LT(named, 0.4);
+}
+
+TEST_F(RecordedPeopleTest, AWindowLastsHalfASecondMoreButNotIntoTheNextNorTheNextRecording) {
+  LabelledStreams set;
+  for (const char* name : {"first", "second"}) {
+    NamedStream& stream = set.streams.emplace_back();
+    stream.name = name;
+    stream.stream.frames.resize(100);
+  }
+  const auto part = [](std::size_t stream, const char* fault, int begin, int end) {
+    LabelledPart made;
+    made.stream = stream;
+    made.move = "clap";
+    made.fault = fault;
+    made.begin = begin;
+    made.end = end;
+    return made;
+  };
+  set.parts = {part(0, "", 10, 40), part(0, "half", 45, 70), part(0, "", 80, 95), part(1, "", 0, 30)};
+  set.parts.push_back(part(1, "", 50, 51));
+  set.parts.back().is_action_point = true;
+  set.people = {{"anna", {0, 1}}};
+  const DetectionWorld world = MakeRecordedWorld(set, 0, {}, World(0));
+  ASSERT_EQ(world.stream.frames.size(), 200u);
+  EXPECT_EQ(world.starts, std::vector{100});
+  ASSERT_EQ(world.events.size(), 4u);
+  const std::vector<std::pair<int, int>> windows = {{10, 45}, {45, 80}, {80, 100}, {100, 145}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(world.events[i].window.begin, windows[i].first);
+    EXPECT_EQ(world.events[i].window.end, windows[i].second);
+  }
+  EXPECT_FALSE(world.events[1].IsRight());
+  EXPECT_EQ(world.events[1].FaultText(), "half");
+  EXPECT_EQ(world.events[1].danced, "") << "what was done instead the label does not say";
+  ASSERT_EQ(world.points.size(), 1u);
+  EXPECT_EQ(world.points[0].frame, 150);
+  EXPECT_TRUE(IsPerformance("clap", 150, world));
+  EXPECT_FALSE(IsPerformance("clap", 180, world));
+}
+
+TEST_F(RecordedPeopleTest, ThresholdsAreSetOnTheOthers) {
+  const LabelledStreams set = SetOf(Record(4, kDanced, 6));
+  const auto alarms = [&](const char* point) {
+    const auto task = *MakeTask(std::string(point) + "methods: [{name: a, recogniser: dtw}]\n", set);
+    double sum = 0;
+    for (int trial = 0; trial < 4; ++trial) {
+      sum += *ValueOf(RunWorld(*task, World(trial), 1).front(), "false_alarms_per_min");
+    }
+    return sum / 4;
+  };
+  const double few = alarms("operating_point: {false_alarms_per_min: 1}\n"),
+               many = alarms("operating_point: {false_alarms_per_min: 12}\n");
+  EXPECT_LT(few, 3);
+  EXPECT_GT(many, few + 3);
+}
+
+TEST_F(RecordedPeopleTest, ClipsWithLabelsAreSensedUnderTheCondition) {
+  Recorded recorded = Record(3, kDanced, 4);
+  for (NamedStream& stream : recorded.streams) stream.motion = MotionOf(stream.stream);
+  const LabelledStreams set = SetOf(recorded);
+  const auto run = [&](const char* condition) {
+    return RunWorld(**MakeTask(std::string(condition) + "methods: [{name: a, recogniser: dtw}]\n", set), World(0), 1)
+        .front();
+  };
+  const CellResult calm = run("noise: 0\n"), noisy = run("noise: 4\n");
+  EXPECT_EQ(DigestOf(calm, "session"), DigestOf(noisy, "session"));
+  EXPECT_NE(DigestOf(calm, "stream"), DigestOf(noisy, "stream"));
+}
+
+TEST_F(RecordedPeopleTest, RefusesWhatHasNoUseOrCannotBeJudged) {
+  const std::string method = "methods: [{name: a}]\n";
+  LabelledStreams set = SetOf(Record(2, kDanced, 5));
+  EXPECT_EQ(ComplaintAbout(method, set), "no complaint");
+  EXPECT_THAT(ComplaintAbout("people: adult\n" + method, set), HasSubstr("nobody is simulated"));
+  EXPECT_THAT(ComplaintAbout("noise: 2\n" + method, set), HasSubstr("what its sensor saw"));
+  EXPECT_THAT(ComplaintAbout("methods: [{name: a, oracle: [stream]}]\n", set), HasSubstr("nobody knows"));
+  LabelledStreams alone = SetOf(Record(1, kDanced, 5));
+  EXPECT_THAT(ComplaintAbout(method, alone), HasSubstr("person-0 alone; leaving one person out needs two people"));
+  LabelledStreams unnamed = set;
+  unnamed.nobody = "take";
+  EXPECT_THAT(ComplaintAbout(method, unnamed), HasSubstr("nobody says who take is"));
+  set.parts[1].begin = set.parts[0].begin;
+  set.parts[1].line = 7;
+  EXPECT_THAT(ComplaintAbout(method, set), HasSubstr("labels.csv:7: two performances of person-0 begin at once"));
+}
+
+TEST_F(RecordedPeopleTest, APersonIsJudgedOnce) {
+  const LabelledStreams set = SetOf(Record(2, kDanced, 5));
+  const auto task = *MakeTask("methods: [{name: a}]\n", set);
+  const CellResult third = RunWorld(*task, World(2), 1).front();
+  EXPECT_EQ(third.status, Status::kSkipped);
+  EXPECT_EQ(third.reason, "2 people were recorded");
+}
+
+}  // namespace
+}  // namespace etude

@@ -1,0 +1,167 @@
+"""etude run on recordings of people, in place of simulated ones."""
+import json
+import unittest
+
+from etude_case import IK, SHARED, EtudeCase
+from kinect_rows import arms, kinect
+
+SCENARIO = """scenario: recorded
+question: Who is recognised by what the others did?
+task: detection
+trials: 40
+methods:
+  - {name: dtw, recogniser: dtw}
+  - {name: nearest, recogniser: nearest, against: dtw}
+metrics: [move_named, f1, recall]
+"""
+PEOPLE = ("anna", "bo", "cy", "di")
+
+
+class Streams(EtudeCase):
+    def record(self, change=lambda person, rows: rows):
+        """Four people, who raise both arms, the left one, and both half-way, which is wrong; and their labels."""
+        takes = self.folder / "takes"
+        takes.mkdir()
+        labels = "clip,from_s,to_s,move,truth,person\n"
+        for i, person in enumerate(PEOPLE):
+            high, low = 2 + .2 * i, 1.6 + .3 * i
+            poses = arms(92 + 4 * i, high) + arms(98 - 4 * i, low, both=False) + arms(35 + 3 * i, high)
+            (takes / f"{person}.txt").write_text("\n".join(change(person, kinect(poses).splitlines())) + "\n")
+            ends = [high + 1, high + low + 2, 2 * high + low + 3]
+            labels += f"{person},0,{ends[0]},raise,right,{person}\n{person},{ends[0]},{ends[1]},left,right,{person}\n"
+            labels += f"{person},{ends[1]},{ends[2]},raise,half,{person}\n"
+        return takes, self.write("labels.csv", labels)
+
+    def refusal(self, *arguments):
+        result = self.etude(*arguments)
+        self.assertEqual(result.returncode, 2, result.stdout)
+        complaint = [line for line in result.stderr.splitlines() if line.startswith("etude")]
+        self.assertEqual(len(complaint), 1, result.stderr)
+        self.assertFalse(self.out.exists())
+        return complaint[0]
+
+    def test_recorded_people_are_worlds_judged_as_recognise_judges_them(self):
+        takes, labels = self.record()
+        scenario = self.write("recorded.yaml", SCENARIO)
+        rows = self.run_suite(scenario, "--streams", takes, "--labels", labels)
+        self.assertEqual([row["clip"] for row in rows if row["method"] == "dtw"], list(PEOPLE))
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        for method in ("dtw", "nearest"):
+            own = [row["move_named"] for row in rows if row["method"] == method]
+            told = self.etude("recognise", takes, "--labels", labels, "--leave-one-person-out", "--recogniser", method,
+                              "--json")
+            scores = json.loads(told.stdout.splitlines()[-1])["scores"]
+            self.assertEqual(scores["performances"], 8, "two right ones each")
+            self.assertAlmostEqual(sum(own) / 4, scores["accuracy"], places=4)
+        self.assertEqual(json.loads((self.out / "summary.json").read_text())["scenarios"][0]["unit"], "person")
+        report = self.etude("report", self.out, "--no-video")
+        self.assertEqual(report.returncode, 0, report.stderr)
+        page = (self.out / "report" / "index.html").read_text()
+        self.assertIn("what nearest takes moves for", page)
+        # The manifest alone repeats the run, in shards too; a packed cell needs no recording.
+        again = self.folder / "again"
+        self.assertEqual(self.etude("run", "--from", self.out / "manifest.json", "-o", again).returncode, 0)
+        self.assert_same(again)
+        shards = [self.folder / f"shard-{i}" for i in (1, 2)]
+        for i, shard in enumerate(shards, 1):
+            self.etude("run", scenario, "--streams", takes, "--labels", labels, "--shard", f"{i}/2", "-o", shard)
+        merged = self.folder / "merged"
+        result = self.etude("merge", *shards, "-o", merged)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assert_same(merged)
+        pack = self.folder / "cell.pack"
+        result = self.etude("replay", self.out, "--cell", rows[0]["cell"], "--pack", pack)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for take in takes.iterdir():
+            take.unlink()
+        result = self.etude("replay", pack)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        gone = self.etude("run", "--from", self.out / "manifest.json", "-o", self.folder / "gone")
+        self.assertEqual(gone.returncode, 2)
+        self.assertIn("no recordings of skeletons", gone.stderr)
+
+    def assert_same(self, folder):
+        for name in SHARED:
+            one, other = self.out / name, folder / name
+            files = [one] if one.is_file() else sorted(p for p in one.rglob("*") if p.is_file()) if one.exists() else []
+            for file in files:
+                same = file.read_bytes() == (other if one.is_file() else other / file.relative_to(one)).read_bytes()
+                self.assertTrue(same, file)
+
+    def test_odd_recordings_give_a_result_or_one_line(self):
+        def mirrored(rows):
+            flip = lambda row: " ".join(str(-float(v)) if i % 3 == 0 else v for i, v in enumerate(row.split()))
+            return [flip(row) for row in rows]
+        odd = {"anna": lambda rows: rows, "bo": mirrored,
+               "cy": lambda rows: rows[:30] + rows[36:],  # lost frames
+               "di": lambda rows: [" ".join(["nan"] * 9 + row.split()[9:]) if t % 7 == 0 else row
+                                   for t, row in enumerate(rows)]}
+        takes, labels = self.record(lambda person, rows: odd[person](rows))
+        scenario = self.write("recorded.yaml", SCENARIO)
+        rows = self.run_suite(scenario, "--streams", takes, "--labels", labels)
+        self.assertEqual({row["status"] for row in rows}, {"ok"})
+        named = {row["clip"]: row["move_named"] for row in rows if row["method"] == "dtw"}
+        self.assertEqual(named["anna"], 1)
+        # At 15 Hz the file has no clock to say so: the scenario does.
+        for take in takes.iterdir():
+            lines = take.read_text().splitlines()
+            take.write_text("\n".join(lines[::2]) + "\n")
+        half = self.write("half.yaml", SCENARIO + f"streams: ['{takes}']\nlabels: {labels}\nreading: {{rate_hz: 15}}\n")
+        halved = self.run_suite(half, out=self.folder / "half")
+        self.assertEqual([row["status"] for row in halved], ["ok"] * 8)
+        # Cut off, with labels beyond its end.
+        (takes / "anna.txt").write_text("\n".join((takes / "anna.txt").read_text().splitlines()[:20]) + "\n")
+        self.out = self.folder / "none"
+        self.assertIn("allowed: its", self.refusal("run", half, "-o", self.out))
+
+    def test_what_cannot_be_is_refused_in_one_line(self):
+        takes, labels = self.record()
+        scenario = self.write("recorded.yaml", SCENARIO)
+
+        def refused(*arguments):
+            return self.refusal("run", *arguments, "-o", self.out)
+        self.assertIn("none: no such recording", refused(scenario, "--streams", "none"))
+        self.assertIn("no such file", refused(scenario, "--streams", takes, "--labels", "none.csv"))
+        self.assertIn("no task of its scenarios makes its worlds of recordings",
+                      refused(self.write("ik.yaml", IK), "--streams", takes))
+        noisy = self.write("noisy.yaml", SCENARIO + "noise: 2\n")
+        self.assertIn("'noise' has no use here", refused(noisy, "--streams", takes, "--labels", labels))
+        alone = self.write("alone.csv", "clip,from_s,to_s,move,truth,person\nanna,0,3,raise,right,anna\n")
+        self.assertIn("anna alone; leaving one person out needs two people",
+                      refused(scenario, "--streams", takes / "anna.txt", "--labels", alone))
+        both = self.write("both.yaml", SCENARIO + f"streams: ['{takes}']\nclips: ['builtin:*']\n")
+        self.assertIn("'streams' stands in the place of 'clips'", refused(both))
+        fewer = takes / "fewer.txt"
+        fewer.write_text("\n".join(" ".join(row.split()[:-3]) for row in (takes / "bo.txt").read_text().splitlines()))
+        self.assertIn("57 numbers in its first row", refused(scenario, "--streams", fewer, "--labels", labels))
+
+    def test_moves_taught_beforehand_judge_one_person(self):
+        takes, labels = self.record()
+        moves = self.folder / "moves.yaml"
+        taught = self.etude("teach", takes / "anna.txt", takes / "bo.txt", "--labels", labels, "-o", moves)
+        self.assertEqual(taught.returncode, 0, taught.stderr)
+        scenario = self.write("taught.yaml", SCENARIO + f"moves: {moves}\nlabels: {labels}\nstreams: ['{takes}/d*.txt']\n")
+        rows = self.run_suite(scenario)
+        self.assertEqual([(row["clip"], row["method"]) for row in rows], [("di", "dtw"), ("di", "nearest")])
+        self.assertEqual(rows[0]["move_named"], 1)
+
+    def test_clips_with_labels_are_danced_before_a_simulated_sensor(self):
+        clips = []
+        labels = "clip,from_s,to_s,move,truth,person\n"
+        for move in ("clap", "boxing", "robot"):
+            for person in ("anna", "bo"):
+                path = self.folder / f"{person}_{move}.bvh"
+                self.assertEqual(self.etude("clip", "convert", f"builtin:{move}", path).returncode, 0)
+                clips.append(path)
+                labels += f"{person}_{move},,,{move},right,{person}\n"
+        path = self.write("labels.csv", labels)
+        scenario = self.write("clips.yaml", SCENARIO + "noise: 0.5\nsensor: v1\n")
+        result = self.etude("run", scenario, "--clips", *clips, "--labels", path, "-o", self.out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        rows = [json.loads(line) for line in (self.out / "cells.jsonl").read_text().splitlines()]
+        self.assertEqual([row["clip"] for row in rows if row["method"] == "dtw"], ["anna", "bo"])
+        self.assertEqual([row["move_named"] for row in rows if row["method"] == "dtw"], [1, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()
