@@ -6,14 +6,12 @@
 namespace etude {
 namespace {
 
-constexpr double kFarthest = 1e6;  // metres: beyond this, squares of distances lose what goals are made of
-
 bool IsSane(double value) { return std::isfinite(value) && std::abs(value) <= kFarthest; }
 bool IsSane(const glm::dvec3& v) { return IsSane(v.x) && IsSane(v.y) && IsSane(v.z); }
 
 bool AreUnit(const glm::dmat3& axes) {
   for (int k = 0; k < 3; ++k) {
-    if (!IsSane(axes[k]) || std::abs(glm::dot(axes[k], axes[k]) - 1) > 2e-6) return false;
+    if (!IsSane(axes[k]) || std::abs(glm::dot(axes[k], axes[k]) - 1) > kUnitTolerance) return false;
   }
   return true;
 }
@@ -21,7 +19,7 @@ bool AreUnit(const glm::dmat3& axes) {
 bool IsWeight(double weight) { return std::isfinite(weight) && weight >= 0 && weight <= kFarthest; }
 
 // Right angles to each other, and no mirror image.
-bool AreAFrame(const glm::dmat3& axes) { return AreUnit(axes) && std::abs(glm::determinant(axes) - 1) < 1e-5; }
+bool AreAFrame(const glm::dmat3& axes) { return AreUnit(axes) && std::abs(glm::determinant(axes) - 1) < kFrameTolerance; }
 
 bool IsGood(const EffectorTarget& target) {
   return IsWeight(target.position_weight) && IsWeight(target.axis_weights.x) && IsWeight(target.axis_weights.y) &&
@@ -99,12 +97,8 @@ double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
   return count == 0 ? 0 : sum / count;
 }
 
-std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+std::string_view FindFault(const KinematicTree& tree, const IkOptions& options) {
   if (!IsATree(tree)) return "the joints are no tree with its root first";
-  const std::size_t dofs = tree.limits.size();
-  if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
-    return "angles or limits do not fit the tree";
-  if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
     // Where the root stands a joint may, too: so a tree turns as a whole.
@@ -113,6 +107,18 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
   for (const Effector& effector : tree.effectors) {
     if (!IsSane(effector.p_LE) || glm::length(effector.p_LE) <= 0) return "a limb has no length";
   }
+  const double change = options.angle_change_tolerance.value_or(0);
+  if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative";
+  if (options.max_iterations < 1) return "the iteration limit is below 1";
+  return {};
+}
+
+std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
+  if (const std::string_view fault = FindFault(tree, options); !fault.empty()) return fault;
+  const std::size_t dofs = tree.limits.size();
+  if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
+    return "angles or limits do not fit the tree";
+  if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
   if (!IsSane(problem.start.root_position) || !AreAFrame(problem.start.root_frame))
     return "the root is no finite frame";
   for (double angle : problem.start.angles) {
@@ -124,9 +130,6 @@ std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, 
   for (const EffectorTarget& target : problem.targets) {
     if (!IsGood(target)) return "a target is no finite frame with weights";
   }
-  const double change = options.angle_change_tolerance.value_or(0);
-  if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative";
-  if (options.max_iterations < 1) return "the iteration limit is below 1";
   return {};
 }
 
@@ -146,15 +149,19 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
   return false;
 }
 
+AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options) {
+  AngleRange range{-kFarthest, kFarthest};
+  if (options.limits) range = limits;
+  if (!options.angle_change_tolerance) return range;
+  const double start = std::clamp(start_angle, range.lower, range.upper);
+  return {std::max(range.lower, start - *options.angle_change_tolerance),
+          std::min(range.upper, start + *options.angle_change_tolerance)};
+}
+
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options) {
-  constexpr AngleRange kFree{-kFarthest, kFarthest};
-  std::vector<AngleRange> ranges(problem.limits.size(), kFree);
+  std::vector<AngleRange> ranges(problem.limits.size());
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    if (options.limits) ranges[i] = problem.limits[i];
-    if (!options.angle_change_tolerance) continue;
-    const double start = std::clamp(problem.start.angles[i], ranges[i].lower, ranges[i].upper);
-    ranges[i].lower = std::max(ranges[i].lower, start - *options.angle_change_tolerance);
-    ranges[i].upper = std::min(ranges[i].upper, start + *options.angle_change_tolerance);
+    ranges[i] = AllowedRange(problem.start.angles[i], problem.limits[i], options);
   }
   return ranges;
 }

@@ -90,10 +90,18 @@ struct IkSolution {
   std::vector<IkTraceEntry> trace;
 };
 
+/// No number of a problem may be larger: beyond this (metres: 1,000 km), squares of distances lose what goals are made
+/// of.
+inline constexpr double kFarthest = 1e6;
+/// How far squares of unit vectors, and the determinant of a frame, may be from 1.
+inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
+
 /// Why a problem cannot be worked on, or empty when it can: joints that are no tree, sizes that do not fit it, values
 /// that are not finite or absurdly far (> 1,000 km), limbs of no length (a joint may stand where the root does), limits
 /// whose lower end is above the upper, axes that are not unit vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
+/// The part of it that is no single problem's.
+std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
 
 /// Whether the limbs are too short for the targets whatever the angles: an effector's target is farther from the root,
 /// or two effectors' targets from each other, than all limbs between them together. `false` promises nothing.
@@ -102,6 +110,8 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem);
 /// The range every angle may take: limits (when on) and the box of the angle-change tolerance, intersected. The box is
 /// laid around the start angle after that was moved into its limits, so that the intersection is never empty.
 std::vector<AngleRange> AllowedRanges(const IkProblem& problem, const IkOptions& options);
+/// Of one angle.
+AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options);
 
 EffectorError ErrorOf(const LimbFrame& effector, const EffectorTarget& target);
 

@@ -13,85 +13,12 @@
 #include "hwy/foreach_target.h"  // before highway.h
 
 // In this order: per target.
+#include "engine/kinematics/solvers/lanes-inl.h"
 #include "engine/kinematics/solvers/sweep_kernel-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// A value of each of many problems: a float or a double in every lane.
-template <class T>
-struct Lanes {
-  using Tag = hn::ScalableTag<T>;
-  hn::Vec<Tag> v;
-
-  Lanes() = default;
-  HWY_INLINE explicit Lanes(double x) : v(hn::Set(Tag(), static_cast<T>(x))) {}
-  HWY_INLINE explicit Lanes(hn::Vec<Tag> from) : v(from) {}
-};
-
-template <class T>
-struct LaneMask {
-  hn::Mask<hn::ScalableTag<T>> m;
-};
-
-// Never MulAdd, which rounds once where CPUs without it round twice; root and quotient are exact everywhere.
-template <class T>
-HWY_INLINE Lanes<T> operator+(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Add(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Lanes<T> operator-(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Sub(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Lanes<T> operator*(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Mul(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Lanes<T> operator/(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Div(a.v, b.v));
-}
-template <class T>
-HWY_INLINE Lanes<T> Sqrt(const Lanes<T>& a) {
-  return Lanes<T>(hn::Sqrt(a.v));
-}
-template <class T>
-HWY_INLINE Lanes<T> Select(const LaneMask<T>& condition, const Lanes<T>& yes, const Lanes<T>& no) {
-  return Lanes<T>(hn::IfThenElse(condition.m, yes.v, no.v));
-}
-template <class T>
-HWY_INLINE LaneMask<T> AtLeast(const Lanes<T>& a, const Lanes<T>& b) {
-  return {hn::Ge(a.v, b.v)};
-}
-template <class T>
-HWY_INLINE LaneMask<T> operator!(const LaneMask<T>& a) {
-  return {hn::Not(a.m)};
-}
-template <class T>
-HWY_INLINE LaneMask<T> operator||(const LaneMask<T>& a, const LaneMask<T>& b) {
-  return {hn::Or(a.m, b.m)};
-}
-template <class T>
-HWY_INLINE bool Any(const LaneMask<T>& a) {
-  return !hn::AllFalse(hn::ScalableTag<T>(), a.m);
-}
-
-// A vector in memory is its lanes in a row.
-template <class T>
-HWY_INLINE void SetLane(Lanes<T>& a, int lane, double x) {
-  reinterpret_cast<T*>(&a)[lane] = static_cast<T>(x);
-}
-template <class T>
-HWY_INLINE double GetLane(const Lanes<T>& a, int lane) {
-  return static_cast<double>(reinterpret_cast<const T*>(&a)[lane]);
-}
-template <class T>
-HWY_INLINE bool GetLane(const LaneMask<T>& a, int lane) {
-  return GetLane(Select(a, Lanes<T>(1.0), Lanes<T>(0.0)), lane) > 0;
-}
 
 template <class T>
 class Batch {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "engine/kinematics/solvers/gauss_newton_course.h"
 #include "engine/kinematics/solvers/gauss_newton_step.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/linear_targets.h"
@@ -14,25 +14,6 @@
 
 namespace etude {
 namespace {
-
-// The damping is this share of the squared residual, times a factor that follows the steps' success.
-constexpr double kDamping = 0.1;
-constexpr double kLeastDamping = 1e-7, kMostDamping = 10;
-constexpr double kDampingUp = 10;       // times the factor after a step that has raised the residual,
-constexpr double kDampingDown = 3;      // divided by this after one that has not,
-constexpr double kDampingFloor = 1e-3;  // at least 1, or this where the residual, and the damping with it, stays large
-
-// Below this damping a step gets extra active-set passes.
-constexpr double kSmallDamping = 0.01;
-
-// Steps are stuck when this many of them have not brought the squared residual down to the share kProgress; when
-// iterations are few, a share of them counts, so that restarts get theirs.
-constexpr int kPatience = 6;
-constexpr int kShareOfPatience = 5;
-constexpr double kProgress = 0.7;
-constexpr double kSettled = 1 - 1e-5;  // instead, where targets cannot be met
-
-constexpr int kRestartSweeps = 2;
 
 class Solver {
  public:
@@ -45,34 +26,47 @@ class Solver {
         run_(run),
         state_(state),
         frames_(frames),
-        step_(tree, problem.targets) {
-    options_.weights = WeightRule::kAdaptivePower;
-    options_.refresh = WeightRefresh::kSweep;
-  }
+        step_(tree, problem.targets),
+        course_(options, own, {}) {}
 
   void Solve() {
-    Sweep(own_.first_sweeps);
-    const int patience = std::clamp(options_.max_iterations / kShareOfPatience, 1, kPatience);
-    Approach(Preferred::kStart, kProgress, patience);
-    Approach(Preferred::kHere, kProgress, patience);
-    const int restarts = run_.MustGoOn() && !IsOutOfReach(tree_, problem_) ? kRestarts : 0;
-    for (int restart = 1; restart <= restarts && run_.MustGoOn(); ++restart) {
-      ScatterAround(run_.start_angles(), run_.ranges(), restart, state_.angles);
-      Place();
-      Sweep(kRestartSweeps);
-      Approach(Preferred::kHere, kProgress, patience);
+    using enum GaussNewtonCourse::Act;
+    const auto is_out_of_reach = [&] { return IsOutOfReach(tree_, problem_); };
+    while (true) {
+      const bool is_met = run_.HasConverged();
+      const auto next = course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, is_out_of_reach);
+      if (next.is_best) best_angles_ = state_.angles;
+      switch (next.act) {
+        case kStep:
+          last_angles_ = state_.angles;
+          course_.Stepped(Step(next));
+          break;
+        case kGoBack:
+          state_.angles = last_angles_;
+          Place();
+          break;
+        case kSweep:
+          if (next.restart > 0) {
+            ScatterAround(run_.start_angles(), run_.ranges(), next.restart, state_.angles);
+            Place();
+          }
+          Sweep(next.sweeps);
+          break;
+        case kTakeBest:
+          state_.angles = best_angles_;
+          Place();
+          break;
+        case kEnd:
+          if (course_.has_converged()) return;
+          if (course_.HasStalled()) run_.Stall();
+          run_.DiscardErrors();
+          state_.angles = best_angles_;
+          return;
+      }
     }
-    Settle();
-    if (run_.HasConverged()) return;
-    if (run_.iterations() < options_.max_iterations) run_.Stall();
-    run_.DiscardErrors();
-    state_.angles = best_angles_;
   }
 
  private:
-  /// Which pose a step stays near to, where the targets leave a choice.
-  enum class Preferred { kStart, kHere };
-
   /// Forward kinematics of angles that are not the outcome of an iteration.
   void Place() {
     ComputeFrames(tree_, state_, frames_);
@@ -86,25 +80,23 @@ class Solver {
   }
 
   void Sweep(int count) {
-    if (count == 0 || !run_.MustGoOn()) return;
     const IkProblem from_here{state_, problem_.targets, run_.ranges()};
-    IkOptions within_ranges = options_;
-    within_ranges.limits = true;
-    within_ranges.angle_change_tolerance.reset();
-    MomentSweep sweep(tree_, from_here, within_ranges);
-    for (int i = 0; i < count && run_.MustGoOn(); ++i) {
+    MomentSweep sweep(tree_, from_here, GaussNewtonSweepOptions(options_));
+    for (int i = 0; i < count; ++i) {
       sweep.Sweep();
       state_.angles = sweep.Angles();
       Measure();
+      if (!course_.CountSweep() || run_.HasConverged()) break;
     }
   }
 
   /// One step from `frames_`, at which `step_` is built. Returns the largest change of an angle.
-  double Step(Preferred preferred, double damping) {
-    const std::vector<double>& posture = preferred == Preferred::kStart ? run_.start_angles() : state_.angles;
-    std::span<const double> change = step_.Solve(state_.angles, posture, run_.ranges(), damping);
-    for (int pass = 0; pass < own_.extra_passes && damping < kSmallDamping && !step_.is_exact(); ++pass) {
-      change = step_.Solve(state_.angles, posture, run_.ranges(), damping);
+  double Step(const GaussNewtonCourse::Next& next) {
+    const std::vector<double>& posture = next.to_start ? run_.start_angles() : state_.angles;
+    std::span<const double> change = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
+    const int extra_passes = GaussNewtonCourse::HasExtraPasses(next.damping) ? own_.extra_passes : 0;
+    for (int pass = 0; pass < extra_passes && !step_.is_exact(); ++pass) {
+      change = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
     }
     double largest = 0;
     for (const double c : change) largest = std::max(largest, std::abs(c));
@@ -119,63 +111,28 @@ class Solver {
     return largest;
   }
 
-  /// Steps until the targets are met or the residual falls no more. Steps that stay near where they begin never raise
-  /// it: one that does is undone and tried again with more damping (Levenberg–Marquardt).
-  void Approach(Preferred preferred, double progress, int patience, double damping_floor = 1) {
-    double fallen_to = std::numeric_limits<double>::infinity(), before = fallen_to, damping_factor = 1;
-    int left = patience;
-    while (run_.MustGoOn()) {
-      double squares = step_.Build(frames_);
-      if (preferred == Preferred::kHere && squares > before) {
-        state_.angles = last_angles_;
-        Place();
-        squares = step_.Build(frames_);
-        damping_factor *= kDampingUp;
-      } else {
-        damping_factor = std::max(damping_floor, damping_factor / kDampingDown);
-      }
-      if (squares < progress * fallen_to) {
-        fallen_to = squares;
-        left = patience;
-      } else if (--left == 0) {
-        break;
-      }
-      RecordBest(squares);
-      last_angles_ = state_.angles;
-      before = squares;
-      const double damping = damping_factor * std::clamp(kDamping * squares, kLeastDamping, kMostDamping);
-      if (Step(preferred, damping) < options_.stall_change) break;
-    }
-    if (!run_.HasConverged()) RecordBest(step_.Build(frames_));
-  }
-
-  /// Steps on from the best pose so far, for targets that cannot be met.
-  void Settle() {
-    if (!run_.MustGoOn()) return;
-    state_.angles = best_angles_;
-    Place();
-    Approach(Preferred::kHere, kSettled, kPatience, kDampingFloor);
-  }
-
-  void RecordBest(double squares) {
-    if (squares >= best_squares_) return;
-    best_squares_ = squares;
-    best_angles_ = state_.angles;
-  }
-
   const KinematicTree& tree_;
   const IkProblem& problem_;
-  IkOptions options_;
+  const IkOptions& options_;
   const GaussNewtonOptions& own_;
   IkRun& run_;
   TreeState& state_;
   TreeFrames& frames_;
   GaussNewtonStep step_;
-  double best_squares_ = std::numeric_limits<double>::infinity();
+  GaussNewtonCourse course_;
   std::vector<double> best_angles_, last_angles_;
 };
 
 }  // namespace
+
+IkOptions GaussNewtonSweepOptions(const IkOptions& options) {
+  IkOptions made = options;
+  made.weights = WeightRule::kAdaptivePower;
+  made.refresh = WeightRefresh::kSweep;
+  made.limits = true;
+  made.angle_change_tolerance.reset();
+  return made;
+}
 
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own) {

@@ -37,4 +37,7 @@ struct GaussNewtonOptions {
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own = {});
 
+/// `options` for the sweeps of `gauss-newton`, which begin and stay within ranges that have been found before.
+IkOptions GaussNewtonSweepOptions(const IkOptions& options);
+
 }  // namespace etude

@@ -26,13 +26,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 
+#include "engine/kinematics/solvers/lanes-inl.h"
 #include "engine/kinematics/solvers/quad-inl.h"
 #include "engine/kinematics/solvers/sweep_tree.h"
 #include "engine/kinematics/weights.h"
-#include "hwy/aligned_allocator.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -64,28 +63,6 @@ struct GoalOf {
   // Of the present angles, and the weights of a sweep.
   V squared_distance, squared_chords[3];
   V position_pull, axis_pulls[3];
-};
-
-/// A list in memory that is aligned for every vector and begins as zeros.
-template <class Item>
-class AlignedList {
- public:
-  explicit AlignedList(std::size_t size)
-      : items_(hwy::AllocateAligned<Item>(std::max<std::size_t>(size, 1))), size_(size) {
-    std::memset(static_cast<void*>(items_.get()), 0, size * sizeof(Item));
-  }
-
-  HWY_INLINE std::size_t size() const { return size_; }
-  HWY_INLINE Item& operator[](std::size_t n) { return items_[n]; }
-  HWY_INLINE const Item& operator[](std::size_t n) const { return items_[n]; }
-  HWY_INLINE Item* begin() { return items_.get(); }
-  HWY_INLINE Item* end() { return items_.get() + size_; }
-  HWY_INLINE const Item* begin() const { return items_.get(); }
-  HWY_INLINE const Item* end() const { return items_.get() + size_; }
-
- private:
-  hwy::AlignedFreeUniquePtr<Item[]> items_;
-  std::size_t size_;
 };
 
 /// All that sweeps of one problem, or of one lane each of many, work on.

@@ -1,0 +1,205 @@
+#include "engine/kinematics/solvers/gauss_newton_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/kinematics/solvers/gauss_newton_lanes.h"
+#include "engine/kinematics/solvers/ik_run.h"
+#include "engine/kinematics/solvers/moment_sweep.h"
+#include "engine/kinematics/solvers/restarts.h"
+
+namespace etude {
+namespace {
+
+// In float.
+constexpr double kGoalShare = 0.9;
+constexpr double kFloatStall = 2e-7;  // radians: what a step may still move when it has arrived
+constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
+
+// Where lanes judge by themselves: nearer to a goal than this share of it, and this far, rounding might decide.
+constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
+
+double SquareBelow(double goal) {
+  const double certain = std::max(0.0, goal * (1 - kDoubtfulShare) - kDoubtfulRounding);
+  return certain * certain;
+}
+
+LaneGoals GoalsFor(const IkOptions& options, Precision precision) {
+  const double position = options.position_goal, axis = options.axis_goal;
+  // The chord of an angle is shorter than its arc.
+  const double chord = 2 * std::sin(0.5 * std::min(axis, kPi));
+  LaneGoals goals{SquareBelow(position), position * position, SquareBelow(chord), axis * axis};
+  if (precision == Precision::kFloat) {
+    constexpr double kSquaredShare = kGoalShare * kGoalShare;
+    goals.squared_distance_met = goals.squared_distance_missed = kSquaredShare * position * position;
+    goals.squared_chord_met = goals.squared_chord_missed = kSquaredShare * chord * chord;
+  }
+  return goals;
+}
+
+class Queue final : public GaussNewtonQueue {
+ public:
+  Queue(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options, Precision precision,
+        const GaussNewtonOptions& own, std::vector<int> asked, IkBatchSolution& solution)
+      : tree_(tree),
+        problems_(problems),
+        options_(options),
+        course_(InPrecision(options, precision), own, precision == Precision::kFloat ? kFloatNumerics
+                                                                                     : GaussNewtonCourse::Numerics{}),
+        asked_(std::move(asked)),
+        solution_(solution),
+        start_(tree.limits.size()),
+        lower_(tree.limits.size()),
+        upper_(tree.limits.size()),
+        targets_(16 * tree.effectors.size()) {}
+
+  int Next() override {
+    if (next_ == asked_.size()) return -1;
+    const int n = asked_[next_++];
+    for (int d = 0; d < tree_.dof_count(); ++d) {
+      const AngleRange range = RangeOf(n, d);
+      lower_[d] = range.lower;
+      upper_[d] = range.upper;
+      start_[d] = std::clamp(problems_.start_angles(d)[n], range.lower, range.upper);
+    }
+    for (int k = 0; k < 12; ++k) root_[k] = problems_.root(k)[n];
+    double* to = targets_.data();
+    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
+      for (int k = 0; k < 16; ++k) *to++ = problems_.target(static_cast<int>(e), k)[n];
+    }
+    problem_ = {start_, lower_, upper_, root_, targets_.data()};
+    return n;
+  }
+
+  const LaneProblem& Problem() const override { return problem_; }
+  GaussNewtonCourse Course() const override { return course_; }
+
+  bool IsOutOfReach(int n) override { return etude::IsOutOfReach(tree_, problems_.Get(n)); }
+
+  bool MeetsGoals(int n, std::span<const double> angles) override {
+    return Measure(problems_.Get(n), angles).Within(options_);
+  }
+
+  void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
+             std::span<double> angles) override {
+    IkProblem problem = problems_.Get(n);
+    problem.limits = AllowedRanges(problem, options_);
+    std::vector<double> start = problem.start.angles;
+    for (std::size_t d = 0; d < start.size(); ++d) {
+      start[d] = std::clamp(start[d], problem.limits[d].lower, problem.limits[d].upper);
+    }
+    problem.start.angles.assign(angles.begin(), angles.end());
+    if (next.restart > 0) ScatterAround(start, problem.limits, next.restart, problem.start.angles);
+    MomentSweep sweep(tree_, problem, GaussNewtonSweepOptions(options_));
+    for (int i = 0; i < next.sweeps; ++i) {
+      sweep.Sweep();
+      std::ranges::copy(sweep.Angles(), angles.begin());
+      if (!course.CountSweep() || Measure(problem, angles).Within(options_)) break;
+    }
+  }
+
+  void Finish(int n, const GaussNewtonCourse& course, std::span<const double> angles) override {
+    for (int d = 0; d < tree_.dof_count(); ++d) {
+      // Rounded to float, an angle may be beyond its range.
+      const AngleRange range = RangeOf(n, d);
+      solution_.angles[static_cast<std::size_t>(d) * solution_.count + n] =
+          std::clamp(angles[d], range.lower, range.upper);
+    }
+    solution_.statuses[n] = course.has_converged()                         ? IkStatus::kConverged
+                            : etude::IsOutOfReach(tree_, problems_.Get(n)) ? IkStatus::kUnreachable
+                            : course.HasStalled()                          ? IkStatus::kStalled
+                                                                           : IkStatus::kIterationLimit;
+    solution_.iterations[n] += course.iterations();
+    solution_.fk_evaluations[n] += course.fk_evaluations();
+  }
+
+ private:
+  static IkOptions InPrecision(const IkOptions& options, Precision precision) {
+    IkOptions made = options;
+    if (precision == Precision::kFloat) made.stall_change = std::max(options.stall_change, kFloatStall);
+    return made;
+  }
+
+  AngleRange RangeOf(int n, int d) const {
+    return AllowedRange(problems_.start_angles(d)[n], {problems_.lower_limits(d)[n], problems_.upper_limits(d)[n]},
+                        options_);
+  }
+
+  WorstError Measure(const IkProblem& problem, std::span<const double> angles) {
+    TreeState state = problem.start;
+    state.angles.assign(angles.begin(), angles.end());
+    ComputeFrames(tree_, state, frames_);
+    MeasureErrors(frames_, problem.targets, errors_);
+    return FindWorst(errors_, problem.targets);
+  }
+
+  const KinematicTree& tree_;
+  const IkBatch& problems_;
+  const IkOptions& options_;
+  const GaussNewtonCourse course_;
+  const std::vector<int> asked_;
+  std::size_t next_ = 0;
+  IkBatchSolution& solution_;
+  std::vector<double> start_, lower_, upper_, targets_;
+  double root_[12];
+  LaneProblem problem_;
+  TreeFrames frames_;
+  std::vector<EffectorError> errors_;
+};
+
+}  // namespace
+
+IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,
+                                      Precision precision, const GaussNewtonOptions& own) {
+  const std::size_t count = problems.count();
+  IkBatchSolution solution;
+  solution.count = problems.count();
+  solution.angles.resize(tree.limits.size() * count);
+  solution.statuses.assign(count, IkStatus::kBadInput);
+  solution.iterations.resize(count);
+  solution.fk_evaluations.resize(count);
+  if (!FindFault(tree, options).empty()) return solution;
+
+  const std::vector<std::uint8_t> sound = problems.FindSound();
+  std::vector<int> asked;
+  for (int n = 0; n < problems.count(); ++n) {
+    if (sound[n]) asked.push_back(n);
+  }
+  const GaussNewtonTree steps_tree(tree);
+  const auto solve = [&](std::vector<int> places, Precision in) {
+    Queue queue(tree, problems, options, in, own, std::move(places), solution);
+    SolveInLanes(steps_tree, GoalsFor(options, in), own.extra_passes, in, queue);
+  };
+  solve(asked, precision);
+  if (precision == Precision::kFloat) {
+    std::erase_if(asked, [&](int n) { return solution.statuses[n] == IkStatus::kConverged; });
+    if (!asked.empty()) solve(asked, Precision::kDouble);
+  }
+  return solution;
+}
+
+std::vector<IkSolution> SolveGaussNewtonBatch(const KinematicTree& tree, std::span<const IkProblem> problems,
+                                              const IkOptions& options, Precision precision,
+                                              const GaussNewtonOptions& own) {
+  const IkBatchSolution batch = SolveGaussNewtonBatch(tree, IkBatch(tree, problems), options, precision, own);
+  std::vector<IkSolution> solutions(problems.size());
+  TreeFrames frames;
+  for (std::size_t n = 0; n < problems.size(); ++n) {
+    IkSolution& solution = solutions[n];
+    if (batch.statuses[n] == IkStatus::kBadInput) {
+      solution = BadInput(tree);
+      continue;
+    }
+    TreeState state = problems[n].start;
+    for (int d = 0; d < tree.dof_count(); ++d) state.angles[d] = batch.angles_of(d)[n];
+    ComputeFrames(tree, state, frames);
+    MeasureErrors(frames, problems[n].targets, solution.errors);
+    solution.status = batch.statuses[n];
+    solution.iterations = batch.iterations[n];
+    solution.fk_evaluations = batch.fk_evaluations[n];
+    solution.angles = std::move(state.angles);
+  }
+  return solutions;
+}
+
+}  // namespace etude

@@ -1,0 +1,301 @@
+// The parts of a Gauss–Newton step (gauss_newton_step.h), and of the forward kinematics before it, for a value V that
+// has + − * / and, found by its type, Select, Below, AtLeast, AreEqual, Larger: a double, or one lane each of many
+// problems on the same tree. Every operation is the one that `ComputeFrames` and `GaussNewtonStep` make, in their order,
+// so that a problem in double has their very bits, in every lane, on every CPU. Compiled once per target, hence this
+// kind of guard.
+#if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
+#undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
+#else
+#define ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
+#endif
+
+#include "engine/kinematics/solvers/gauss_newton_tree.h"
+#include "engine/kinematics/solvers/lanes-inl.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace etude::HWY_NAMESPACE {
+
+/// Metres that count as much as one radian: `kPositionScale` squared.
+inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
+
+// ---- Sine and cosine ------------------------------------------------------------------------------------------------
+
+/// `ComputeSineCosine` for lanes of doubles: the same operations.
+HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, Lanes<double>& cosine) {
+  using V = Lanes<double>;
+  using Bits = hn::RebindToUnsigned<V::Tag>;
+  const Bits bits;
+  const V shifted = angle * V(0.6366197723675814) + V(0x1.8p52), quarters = shifted - V(0x1.8p52);
+  const V r = ((angle - quarters * V(0x1.921fb544p+0)) - quarters * V(0x1.0b4611a6p-34)) -
+              quarters * V(0x1.3198a2e037073p-69);
+  const V z = r * r, z2 = z * z, z4 = z2 * z2;
+  const V sine_tail = (V(-1.0 / 6) + z * V(1.0 / 120)) + z2 * (V(-1.0 / 5040) + z * V(1.0 / 362880)) +
+                      z4 * ((V(-1.0 / 39916800) + z * V(1.0 / 6227020800)) +
+                            z2 * (V(-1.0 / 1307674368000) + z * V(1.0 / 355687428096000)));
+  const V cosine_tail =
+      (V(1.0 / 24) - z * V(1.0 / 720)) + z2 * (V(1.0 / 40320) - z * V(1.0 / 3628800)) +
+      z4 * ((V(1.0 / 479001600) - z * V(1.0 / 87178291200)) + z2 * V(1.0 / 20922789888000));
+  const V s = r + r * z * sine_tail;
+  const V half = V(0.5) * z, rounded = V(1.0) - half;
+  const V c = rounded + (((V(1.0) - rounded) - half) + z2 * cosine_tail);
+  const auto quarter = hn::BitCast(bits, shifted.v);
+  const auto one = hn::Set(bits, 1u), two = hn::Set(bits, 2u);
+  const auto s_bits = hn::BitCast(bits, s.v), c_bits = hn::BitCast(bits, c.v);
+  const auto swap = hn::And(hn::Xor(s_bits, c_bits), hn::Sub(hn::Zero(bits), hn::And(quarter, one)));
+  const auto s_sign = hn::ShiftLeft<62>(hn::And(quarter, two));
+  const auto c_sign = hn::ShiftLeft<62>(hn::And(hn::Add(quarter, one), two));
+  sine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(s_bits, swap), s_sign)));
+  cosine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
+}
+
+/// The same in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and r⁸ leave less
+/// than 10⁻⁸.
+HWY_INLINE void SineAndCosine(const Lanes<float>& angle, Lanes<float>& sine, Lanes<float>& cosine) {
+  using V = Lanes<float>;
+  using Bits = hn::RebindToUnsigned<V::Tag>;
+  const Bits bits;
+  const V shifted = angle * V(0.6366197723675814) + V(0x1.8p23), quarters = shifted - V(0x1.8p23);
+  const V r = ((angle - quarters * V(0x1.92p+0)) - quarters * V(0x1.fb4p-12)) - quarters * V(0x1.4442d2p-24);
+  const V z = r * r;
+  const V s = r + r * z * ((V(-1.0 / 6) + z * V(1.0 / 120)) + z * z * (V(-1.0 / 5040) + z * V(1.0 / 362880)));
+  const V c = V(1.0) - (V(0.5) * z - z * z * ((V(1.0 / 24) - z * V(1.0 / 720)) + z * z * V(1.0 / 40320)));
+  const auto quarter = hn::BitCast(bits, shifted.v);
+  const auto one = hn::Set(bits, 1u), two = hn::Set(bits, 2u);
+  const auto s_bits = hn::BitCast(bits, s.v), c_bits = hn::BitCast(bits, c.v);
+  const auto swap = hn::And(hn::Xor(s_bits, c_bits), hn::Sub(hn::Zero(bits), hn::And(quarter, one)));
+  const auto s_sign = hn::ShiftLeft<30>(hn::And(quarter, two));
+  const auto c_sign = hn::ShiftLeft<30>(hn::And(hn::Add(quarter, one), two));
+  sine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(s_bits, swap), s_sign)));
+  cosine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
+}
+
+// ---- Vectors of three -----------------------------------------------------------------------------------------------
+
+// One by one everywhere: GCC copies whole arrays of vectors in pieces that are too narrow to be read back at once.
+
+template <class V>
+HWY_INLINE V Dot3(const V (&a)[3], const V (&b)[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class V>
+HWY_INLINE void Cross(const V (&a)[3], const V (&b)[3], V (&out)[3]) {
+  out[0] = a[1] * b[2] - b[1] * a[2];
+  out[1] = a[2] * b[0] - b[2] * a[0];
+  out[2] = a[0] * b[1] - b[0] * a[1];
+}
+
+template <class V>
+HWY_INLINE void Copy3(const V (&from)[3], V (&to)[3]) {
+  for (int k = 0; k < 3; ++k) to[k] = from[k];
+}
+
+// ---- Forward kinematics ---------------------------------------------------------------------------------------------
+
+template <class V>
+struct FrameLanes {
+  V axes[3][3];  ///< columns
+  V position[3];
+};
+
+/// A frame's axes times a vector in it.
+template <class V>
+HWY_INLINE void Mix(const V (&axes)[3][3], const double (&by)[3], V (&out)[3]) {
+  for (int k = 0; k < 3; ++k) out[k] = axes[0][k] * V(by[0]) + axes[1][k] * V(by[1]) + axes[2][k] * V(by[2]);
+}
+
+/// A frame's axes times the rotation by an angle about its axis `kAxis`.
+template <int kAxis, class V>
+HWY_INLINE void TurnAxes(const V& s, const V& c, V (&axes)[3][3]) {
+  constexpr int i = (kAxis + 1) % 3, j = (kAxis + 2) % 3;
+  for (int k = 0; k < 3; ++k) {
+    const V x = axes[i][k], y = axes[j][k];
+    axes[i][k] = c * x + s * y;
+    axes[j][k] = c * y - s * x;
+  }
+}
+
+/// Sets `out` to `axis`, and what it moves of the limb's point at the root R by turning at J.
+template <class V>
+HWY_INLINE void SetScrew(const V (&axis)[3], const V (&p_RJ_W)[3], V (&screw)[6]) {
+  V shift[3];
+  Cross(p_RJ_W, axis, shift);
+  for (int k = 0; k < 3; ++k) {
+    screw[k] = axis[k];
+    screw[3 + k] = shift[k];
+  }
+}
+
+// ---- What targets ask -----------------------------------------------------------------------------------------------
+
+template <class V>
+struct TargetLanes {
+  V position[3];
+  V axes[3][3];       ///< columns
+  V position_weight;  ///< per square of `kPositionScale`
+  V axis_weights[3];
+};
+
+/// The quadratic ½VᵀΛV − ηᵀV that a target asks of its limb, as the numbers that it is made of.
+template <class V>
+struct AskedLanes {
+  V turn[6];  ///< the lower triangle of Λ's first three rows, row by row
+  V lever[3];
+  V weight;
+  V vector[6];  ///< η
+};
+
+/// The same, or a sum of such, in full.
+template <class V>
+struct QuadraticLanes {
+  V matrix[36];  ///< Λ
+  V vector[6];   ///< η
+};
+
+/// How far a pose is off.
+template <class V>
+struct MissLanes {
+  V squares;           ///< |e|²
+  V squared_distance;  ///< the largest of those that count
+  V squared_chord;
+};
+
+/// Linearises one target at an effector's frame, and adds to `miss` how far it is off.
+template <class V>
+HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], const V (&p_WE)[3], const V (&p_WR)[3],
+                          AskedLanes<V>& asked, MissLanes<V>& miss) {
+  const V w = target.position_weight;
+  V p_RE_W[3], p_ED_W[3], pull[3], twist[3];
+  for (int k = 0; k < 3; ++k) {
+    p_RE_W[k] = p_WE[k] - p_WR[k];
+    p_ED_W[k] = target.position[k] - p_WE[k];
+    pull[k] = w * p_ED_W[k];
+  }
+  Cross(p_RE_W, pull, twist);
+  V squares = Dot3(pull, p_ED_W);
+  const V nothing(0.0);
+  miss.squared_distance =
+      Larger(miss.squared_distance, Select(Below(nothing, w), Dot3(p_ED_W, p_ED_W), nothing));
+  for (int k = 0; k < 3; ++k) {
+    const V u = target.axis_weights[k];
+    V cross[3], chord[3];
+    Cross(R_WE[k], target.axes[k], cross);
+    for (int i = 0; i < 3; ++i) {
+      twist[i] = twist[i] + cross[i] * u;
+      chord[i] = target.axes[k][i] - R_WE[k][i];
+    }
+    squares = squares + V(2.0) * u * (V(1.0) - Dot3(R_WE[k], target.axes[k]));
+    miss.squared_chord = Larger(miss.squared_chord, Select(Below(nothing, u), Dot3(chord, chord), nothing));
+  }
+  const V ux = target.axis_weights[0], uy = target.axis_weights[1], uz = target.axis_weights[2];
+  const V straight = w * Dot3(p_RE_W, p_RE_W) + ux + uy + uz;
+  for (int k = 0; k < 3; ++k) asked.lever[k] = p_RE_W[k] * w;
+  int cell = 0;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      const V along = asked.lever[r] * p_RE_W[c] + ux * R_WE[0][r] * R_WE[0][c] + uy * R_WE[1][r] * R_WE[1][c] +
+                      uz * R_WE[2][r] * R_WE[2][c];
+      asked.turn[cell++] = (r == c ? straight : nothing) - along;
+    }
+    asked.vector[r] = twist[r];
+    asked.vector[3 + r] = pull[r];
+  }
+  asked.weight = w;
+  miss.squares = miss.squares + squares;
+}
+
+/// Sets `sum` to what a target asks, or adds it.
+template <bool kIsFirst, class V>
+HWY_INLINE void Gather(const AskedLanes<V>& asked, QuadraticLanes<V>& sum) {
+  const V nothing(0.0);
+  const auto put = [&](int row, int column, const V& x) HWY_ATTR {
+    V& cell = sum.matrix[6 * row + column];
+    cell = kIsFirst ? x : cell + x;
+  };
+  int cell = 0;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c <= r; ++c) {
+      put(r, c, asked.turn[cell]);
+      if (c < r) put(c, r, asked.turn[cell]);
+      ++cell;
+      put(3 + r, 3 + c, r == c ? asked.weight : nothing);
+      if (c < r) put(3 + c, 3 + r, nothing);
+    }
+    const int i = (r + 1) % 3, j = (r + 2) % 3;
+    const V back = nothing - asked.lever[r];
+    put(r, 3 + r, nothing);
+    put(3 + r, r, nothing);
+    put(i, 3 + j, back);
+    put(3 + j, i, back);
+    put(j, 3 + i, asked.lever[r]);
+    put(3 + i, j, asked.lever[r]);
+  }
+  for (int k = 0; k < 6; ++k) sum.vector[k] = kIsFirst ? asked.vector[k] : sum.vector[k] + asked.vector[k];
+}
+
+// ---- The step -------------------------------------------------------------------------------------------------------
+
+template <class V>
+struct HingeLanes {
+  V screw[6], matrix_s[6];
+  V scale, best;
+  V side;  ///< −1 at the lower end of its range, 1 at the upper one, 0 free
+  V change;
+};
+
+template <class V>
+HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
+  return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]) + (a[4] * b[4] + a[5] * b[5]);
+}
+
+/// Takes a hinge's part off what is asked of its limb.
+template <class V>
+HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper,
+                               QuadraticLanes<V>& limb, HingeLanes<V>& hinge) {
+  V* HWY_RESTRICT m = limb.matrix;
+  V s[6], y[6];
+  for (int k = 0; k < 6; ++k) s[k] = hinge.screw[k];
+  for (int i = 0; i < 6; ++i) {
+    y[i] = (m[i] * s[0] + m[6 + i] * s[1]) + (m[12 + i] * s[2] + m[18 + i] * s[3]) +
+           (m[24 + i] * s[4] + m[30 + i] * s[5]);
+  }
+  const V nothing(0.0);
+  const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
+  const V best = scale * (damping * pull + Dot6(limb.vector, s));
+  const auto is_free = AreEqual(hinge.side, nothing);
+  const V change = Select(is_free, best, Select(Below(hinge.side, nothing), lower, upper));
+  const V share = OrZero(is_free, scale);
+  for (int r = 0; r < 6; ++r) {
+    const V row_share = share * y[r];
+    for (int i = 0; i < 6; ++i) m[6 * r + i] = m[6 * r + i] - row_share * y[i];
+  }
+  const V back = nothing - change;
+  for (int k = 0; k < 6; ++k) {
+    limb.vector[k] = limb.vector[k] + back * y[k];
+    hinge.matrix_s[k] = y[k];
+  }
+  hinge.scale = scale;
+  hinge.best = best;
+}
+
+/// The hinge's change, as its limb moves now, and with it the movement of the limb beyond. Where `counts` does not hold,
+/// the hinge stays as it is. Returns where it has changed sides.
+template <class V, class M>
+HWY_INLINE M SubstituteHinge(const V& lower, const V& upper, const M& counts, HingeLanes<V>& hinge, V (&movement)[6]) {
+  const V best = hinge.best - hinge.scale * Dot6(hinge.matrix_s, movement);
+  const auto is_below = Below(best, lower);
+  const auto is_above = Below(upper, best);
+  const V side = Select(is_below, V(-1.0), OrZero(is_above, V(1.0)));
+  const V change = Select(is_below, lower, Select(is_above, upper, best));
+  const M has_changed = counts && !AreEqual(side, hinge.side);
+  hinge.side = Select(counts, side, hinge.side);
+  hinge.change = Select(counts, change, hinge.change);
+  for (int k = 0; k < 6; ++k) movement[k] = movement[k] + change * hinge.screw[k];
+  return has_changed;
+}
+
+}  // namespace etude::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif  // ETUDE_GAUSS_NEWTON_KERNEL_INL_H_

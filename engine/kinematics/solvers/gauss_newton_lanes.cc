@@ -1,0 +1,389 @@
+// Compiled once for every kind of vectors that x86-64 CPUs have, as batch_lanes.cc is and for its reasons.
+#include "engine/kinematics/solvers/gauss_newton_lanes.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "engine/kinematics/solvers/linear_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "engine/kinematics/solvers/gauss_newton_lanes.cc"
+#include "hwy/foreach_target.h"  // before highway.h
+
+// In this order: per target.
+#include "engine/kinematics/solvers/lanes-inl.h"
+#include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace etude::HWY_NAMESPACE {
+
+/// The angles of one degree of freedom.
+template <class V>
+struct AngleLanes {
+  V now, last, best, start, lower, upper;
+};
+
+/// Problems on their way, one in each lane: a round places all poses, tells their courses how far they are off, and
+/// steps. A lane whose pose is no outcome of a step, or whose step wants another pass of its active set while few others
+/// do, stays where it is for a round. What a lane does in a round depends on its own problem alone, but for when it
+/// comes.
+template <class T>
+class GaussNewtonLanes {
+ public:
+  GaussNewtonLanes(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, GaussNewtonQueue& queue)
+      : tree_(tree),
+        goals_(goals),
+        extra_passes_(extra_passes),
+        queue_(queue),
+        lanes_(hn::Lanes(hn::ScalableTag<T>())),
+        angles_(tree.dof_count),
+        hinges_(tree.dof_count),
+        frames_(tree.joints.size()),
+        movements_(tree.joints.size()),
+        targets_(tree.effectors.size()),
+        asked_(tree.effectors.size()),
+        quadratics_(tree.quadratic_count),
+        scratch_(tree.dof_count),
+        registers_(kRegisterCount) {}
+
+  void Run() {
+    while (FillLanes()) {
+      Place();
+      Linearise();
+      Steer();
+      Step();
+    }
+  }
+
+ private:
+  using V = Lanes<T>;
+  using M = LaneMask<T>;
+
+  struct Lane {
+    int problem = -1;
+    bool steps = false;  ///< in this round
+    int passes = 0;      ///< of the active set, which its step has had in former rounds
+    GaussNewtonCourse course;
+  };
+
+  /// Numbers of every lane.
+  enum Register {
+    kSquares,
+    kSquaredDistance,
+    kSquaredChord,
+    kDamping,
+    kToStart,    // 1 or 0, as what follows
+    kKeepsLast,  // the present pose becomes the last one
+    kKeepsBest,  // or the best one
+    kCounts,     // takes part in this pass of the active sets
+    kHasChanged,
+    kMoves,
+    kLargest,
+    kRegisterCount
+  };
+
+  T& At(Register which, std::size_t lane) { return reinterpret_cast<T*>(&registers_[which])[lane]; }
+  HWY_INLINE M Flag(Register which) { return Below(V(0.0), registers_[which]); }
+  HWY_INLINE void SetFlag(Register which, const M& flag) { registers_[which] = OrZero(flag, V(1.0)); }
+
+  bool FillLanes() {
+    bool has_problems = false;
+    for (std::size_t n = 0; n < lanes_.size(); ++n) {
+      Lane& lane = lanes_[n];
+      if (lane.problem < 0 && !is_empty_) {
+        lane.problem = queue_.Next();
+        is_empty_ = lane.problem < 0;
+        if (!is_empty_) Load(static_cast<int>(n));
+      }
+      has_problems |= lane.problem >= 0;
+    }
+    return has_problems;
+  }
+
+  void Load(int n) {
+    Lane& lane = lanes_[n];
+    lane.course = queue_.Course();
+    lane.passes = 0;
+    const LaneProblem& problem = queue_.Problem();
+    for (int d = 0; d < tree_.dof_count; ++d) {
+      SetLane(angles_[d].now, n, problem.start_angles[d]);
+      SetLane(angles_[d].start, n, problem.start_angles[d]);
+      SetLane(angles_[d].lower, n, problem.lower[d]);
+      SetLane(angles_[d].upper, n, problem.upper[d]);
+      SetLane(hinges_[d].side, n, 0);
+    }
+    // In float, places are counted from the root, where they have the most digits.
+    constexpr bool kFromRoot = sizeof(T) < sizeof(double);
+    for (int k = 0; k < 3; ++k) SetLane(frames_[0].position[k], n, kFromRoot ? 0 : problem.root[k]);
+    for (int k = 0; k < 9; ++k) SetLane(frames_[0].axes[k / 3][k % 3], n, problem.root[3 + k]);
+    const double* from = problem.targets;
+    for (TargetLanes<V>& target : targets_) {
+      for (int k = 0; k < 3; ++k) SetLane(target.position[k], n, kFromRoot ? from[k] - problem.root[k] : from[k]);
+      for (int k = 0; k < 9; ++k) SetLane(target.axes[k / 3][k % 3], n, from[3 + k]);
+      SetLane(target.position_weight, n, from[12] / kSquaredPositionScale);
+      for (int k = 0; k < 3; ++k) SetLane(target.axis_weights[k], n, from[13 + k]);
+      from += 16;
+    }
+  }
+
+  /// Forward kinematics, and the screws of hinges.
+  void Place() {
+    const FrameLanes<V>& root = frames_[0];
+    for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
+      const GaussNewtonTree::Joint& joint = tree_.joints[n];
+      const FrameLanes<V>& parent = frames_[joint.parent];
+      FrameLanes<V>& frame = frames_[n];
+      V p_RJ_W[3], axes[3][3];
+      V p_PJ_W[3];
+      Mix(parent.axes, joint.p_PJ, p_PJ_W);
+      for (int k = 0; k < 3; ++k) {
+        frame.position[k] = parent.position[k] + p_PJ_W[k];
+        p_RJ_W[k] = frame.position[k] - root.position[k];
+      }
+      if (joint.renames_axes) {
+        for (int c = 0; c < 3; ++c) {
+          for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
+        }
+      } else {
+        for (int c = 0; c < 3; ++c) Mix(parent.axes, joint.R_PJ[c], axes[c]);
+      }
+      if (joint.dof_count > 0) TurnHinge<0>(joint, p_RJ_W, axes);
+      if (joint.dof_count > 1) TurnHinge<1>(joint, p_RJ_W, axes);
+      if (joint.dof_count > 2) TurnHinge<2>(joint, p_RJ_W, axes);
+      for (int c = 0; c < 3; ++c) Copy3(axes[c], frame.axes[c]);
+    }
+  }
+
+  template <int kAxis>
+  HWY_INLINE void TurnHinge(const GaussNewtonTree::Joint& joint, const V (&p_RJ_W)[3], V (&axes)[3][3]) {
+    const int dof = joint.first_dof + kAxis;
+    V s, c;
+    SineAndCosine(angles_[dof].now, s, c);
+    TurnAxes<kAxis>(s, c, axes);
+    SetScrew(axes[kAxis], p_RJ_W, hinges_[dof].screw);
+  }
+
+  void Linearise() {
+    MissLanes<V> miss{V(0.0), V(0.0), V(0.0)};
+    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
+      const GaussNewtonTree::Effector& effector = tree_.effectors[e];
+      const FrameLanes<V>& limb = frames_[effector.joint];
+      V p_WE[3];
+      Mix(limb.axes, effector.p_LE, p_WE);
+      for (int k = 0; k < 3; ++k) p_WE[k] = limb.position[k] + p_WE[k];
+      HWY_NAMESPACE::Linearise(targets_[e], limb.axes, p_WE, frames_[0].position, asked_[e], miss);
+    }
+    registers_[kSquares] = miss.squares;
+    registers_[kSquaredDistance] = miss.squared_distance;
+    registers_[kSquaredChord] = miss.squared_chord;
+  }
+
+  /// Asks every lane's course what to do, and does all but the step.
+  void Steer() {
+    registers_[kKeepsLast] = registers_[kKeepsBest] = registers_[kCounts] = V(0.0);
+    for (std::size_t n = 0; n < lanes_.size(); ++n) {
+      Lane& lane = lanes_[n];
+      lane.steps = lane.problem >= 0 && (lane.passes > 0 || Ask(lane, static_cast<int>(n)));
+      if (lane.problem < 0) At(kDamping, n) = 1;  // a lane without a problem computes all the same
+      if (lane.steps) At(kCounts, n) = 1;
+    }
+    const M keeps_last = Flag(kKeepsLast), keeps_best = Flag(kKeepsBest);
+    for (AngleLanes<V>& angle : angles_) {
+      angle.last = Select(keeps_last, angle.now, angle.last);
+      angle.best = Select(keeps_best, angle.now, angle.best);
+    }
+  }
+
+  /// Whether the lane steps.
+  bool Ask(Lane& lane, int n) {
+    using enum GaussNewtonCourse::Act;
+    const auto is_out_of_reach = [&] { return queue_.IsOutOfReach(lane.problem); };
+    const GaussNewtonCourse::Next next = lane.course.Arrive(At(kSquares, n), IsMet(lane, n), is_out_of_reach);
+    if (next.act == kStep) {
+      At(kKeepsLast, n) = 1;
+      At(kKeepsBest, n) = next.is_best;
+      At(kDamping, n) = static_cast<T>(next.damping);
+      At(kToStart, n) = next.to_start;
+      return true;
+    }
+    if (next.is_best) {
+      for (AngleLanes<V>& angle : angles_) SetLane(angle.best, n, GetLane(angle.now, n));
+    }
+    if (next.act == kGoBack) {
+      for (AngleLanes<V>& angle : angles_) SetLane(angle.now, n, GetLane(angle.last, n));
+    } else if (next.act == kTakeBest || (next.act == kEnd && !lane.course.has_converged())) {
+      for (AngleLanes<V>& angle : angles_) SetLane(angle.now, n, GetLane(angle.best, n));
+    }
+    if (next.act == kSweep) {
+      queue_.Sweep(lane.problem, next, lane.course, Angles(n));
+      for (std::size_t d = 0; d < angles_.size(); ++d) {
+        // Rounded to float, an angle may be beyond its range.
+        const double lower = GetLane(angles_[d].lower, n), upper = GetLane(angles_[d].upper, n);
+        SetLane(angles_[d].now, n, std::clamp<double>(static_cast<T>(scratch_[d]), lower, upper));
+      }
+    } else if (next.act == kEnd) {
+      queue_.Finish(lane.problem, lane.course, Angles(n));
+      lane.problem = -1;
+    }
+    return false;
+  }
+
+  bool IsMet(const Lane& lane, int n) {
+    const double distance = At(kSquaredDistance, n), chord = At(kSquaredChord, n);
+    // So that what is no number meets nothing.
+    if (!(distance < goals_.squared_distance_missed && chord < goals_.squared_chord_missed)) return false;
+    if (distance < goals_.squared_distance_met && chord < goals_.squared_chord_met) return true;
+    return queue_.MeetsGoals(lane.problem, Angles(n));
+  }
+
+  std::span<double> Angles(int n) {
+    for (std::size_t d = 0; d < angles_.size(); ++d) scratch_[d] = GetLane(angles_[d].now, n);
+    return scratch_;
+  }
+
+  void Step() {
+    int counting = 0;
+    for (const Lane& lane : lanes_) counting += lane.steps;
+    if (counting == 0) return;
+    while (true) {
+      Eliminate();
+      const M has_changed = Substitute();
+      registers_[kHasChanged] = OrZero(has_changed, V(1.0));
+      int unfinished = 0;
+      for (std::size_t n = 0; n < lanes_.size(); ++n) {
+        Lane& lane = lanes_[n];
+        if (At(kCounts, n) == 0) continue;
+        const bool is_finished = At(kHasChanged, n) == 0 || lane.passes == extra_passes_ ||
+                                 !GaussNewtonCourse::HasExtraPasses(At(kDamping, n));
+        lane.passes = is_finished ? 0 : lane.passes + 1;
+        if (is_finished) At(kCounts, n) = 0;
+        unfinished += !is_finished;
+      }
+      if (2 * unfinished < counting) break;  // they may wait for the next round
+    }
+    for (std::size_t n = 0; n < lanes_.size(); ++n) At(kMoves, n) = lanes_[n].steps && lanes_[n].passes == 0;
+    Move();
+    for (std::size_t n = 0; n < lanes_.size(); ++n) {
+      if (At(kMoves, n) > 0) lanes_[n].course.Stepped(At(kLargest, n));
+    }
+  }
+
+  /// From the leaves to the root.
+  void Eliminate() {
+    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
+      const GaussNewtonTree::Effector& effector = tree_.effectors[e];
+      QuadraticLanes<V>& limb = quadratics_[tree_.joints[effector.joint].quadratic];
+      if (effector.is_first) {
+        Gather<true>(asked_[e], limb);
+      } else {
+        Gather<false>(asked_[e], limb);
+      }
+    }
+    const V damping = registers_[kDamping];
+    const M to_start = Flag(kToStart);
+    for (const int n : tree_.inwards) {
+      const GaussNewtonTree::Joint& joint = tree_.joints[n];
+      QuadraticLanes<V>& limb = quadratics_[joint.quadratic];
+      if (joint.is_empty) std::memset(static_cast<void*>(&limb), 0, sizeof(limb));
+      for (int d = joint.first_dof + joint.dof_count - 1; d >= joint.first_dof; --d) {
+        const AngleLanes<V>& angle = angles_[d];
+        EliminateHinge(damping, OrZero(to_start, angle.start - angle.now), angle.lower - angle.now,
+                       angle.upper - angle.now, limb, hinges_[d]);
+      }
+      if (joint.hands_over || joint.parent == 0) continue;
+      QuadraticLanes<V>& parent = quadratics_[tree_.joints[joint.parent].quadratic];
+      for (int i = 0; i < 36; ++i) parent.matrix[i] = parent.matrix[i] + limb.matrix[i];
+      for (int i = 0; i < 6; ++i) parent.vector[i] = parent.vector[i] + limb.vector[i];
+    }
+  }
+
+  /// From the root to the leaves. Returns which lanes have a hinge that has changed sides.
+  M Substitute() {
+    const M counts = Flag(kCounts);
+    M has_changed = Below(V(0.0), V(0.0));
+    for (int k = 0; k < 6; ++k) movements_[0].numbers[k] = V(0.0);
+    for (std::size_t i = tree_.inwards.size(); i-- > 0;) {
+      const GaussNewtonTree::Joint& joint = tree_.joints[tree_.inwards[i]];
+      V movement[6];
+      for (int k = 0; k < 6; ++k) movement[k] = movements_[joint.parent].numbers[k];
+      for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
+        const AngleLanes<V>& angle = angles_[d];
+        has_changed = has_changed || SubstituteHinge(angle.lower - angle.now, angle.upper - angle.now, counts,
+                                                     hinges_[d], movement);
+      }
+      for (int k = 0; k < 6; ++k) movements_[tree_.inwards[i]].numbers[k] = movement[k];
+    }
+    return has_changed;
+  }
+
+  /// By the changes of all hinges, shortened where they are too long.
+  void Move() {
+    V largest(0.0);
+    M is_finite = AtLeast(V(0.0), V(0.0));
+    for (const HingeLanes<V>& hinge : hinges_) {
+      const V size = Magnitude(hinge.change);
+      largest = Larger(largest, size);
+      is_finite = is_finite && AtLeast(V(static_cast<double>(std::numeric_limits<T>::max())), size);
+    }
+    largest = OrZero(is_finite, largest);
+    registers_[kLargest] = largest;
+    const V most(kLargestTurn);
+    const V share = Select(Below(most, largest), most / largest, V(1.0));
+    const M moves = Flag(kMoves) && Below(V(0.0), largest);
+    for (std::size_t d = 0; d < angles_.size(); ++d) {
+      AngleLanes<V>& angle = angles_[d];
+      const V moved = angle.now + share * hinges_[d].change;
+      const V clamped =
+          Select(Below(moved, angle.lower), angle.lower, Select(Below(angle.upper, moved), angle.upper, moved));
+      angle.now = Select(moves, clamped, angle.now);
+    }
+  }
+
+  struct Movement {
+    V numbers[6];
+  };
+
+  const GaussNewtonTree& tree_;
+  const LaneGoals& goals_;
+  const int extra_passes_;
+  GaussNewtonQueue& queue_;
+  bool is_empty_ = false;  // the queue
+  std::vector<Lane> lanes_;
+  AlignedList<AngleLanes<V>> angles_;
+  AlignedList<HingeLanes<V>> hinges_;
+  AlignedList<FrameLanes<V>> frames_;  // of each joint's limb
+  AlignedList<Movement> movements_;    // of each joint's limb
+  AlignedList<TargetLanes<V>> targets_;
+  AlignedList<AskedLanes<V>> asked_;
+  AlignedList<QuadraticLanes<V>> quadratics_;
+  std::vector<double> scratch_;  // angles of one lane
+  AlignedList<V> registers_;
+};
+
+void SolveFloats(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, GaussNewtonQueue& queue) {
+  GaussNewtonLanes<float>(tree, goals, extra_passes, queue).Run();
+}
+void SolveDoubles(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, GaussNewtonQueue& queue) {
+  GaussNewtonLanes<double>(tree, goals, extra_passes, queue).Run();
+}
+
+}  // namespace etude::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etude {
+
+HWY_EXPORT(SolveFloats);
+HWY_EXPORT(SolveDoubles);
+
+void SolveInLanes(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, Precision precision,
+                  GaussNewtonQueue& queue) {
+  const auto solve =
+      precision == Precision::kFloat ? HWY_DYNAMIC_DISPATCH(SolveFloats) : HWY_DYNAMIC_DISPATCH(SolveDoubles);
+  solve(tree, goals, extra_passes, queue);
+}
+
+}  // namespace etude
+#endif  // HWY_ONCE

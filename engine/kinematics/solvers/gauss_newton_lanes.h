@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+
+#include "engine/kinematics/solvers/batch_sweep.h"
+#include "engine/kinematics/solvers/gauss_newton_course.h"
+#include "engine/kinematics/solvers/gauss_newton_tree.h"
+
+namespace etude {
+
+/// A problem as lanes take it.
+struct LaneProblem {
+  std::span<const double> start_angles, lower, upper;  ///< the start within its ranges
+  const double* root = nullptr;                        ///< p_WL, then R_WL column by column
+  const double* targets = nullptr;  ///< of each effector: p_WD, R_WD column by column, weights of position and axes
+};
+
+/// When a lane's pose meets its goals. In between, the queue is asked.
+struct LaneGoals {
+  double squared_distance_met = 0, squared_distance_missed = 0;
+  double squared_chord_met = 0, squared_chord_missed = 0;
+};
+
+/// Where lanes get their problems from, and who does for them what is rare.
+class GaussNewtonQueue {
+ public:
+  virtual ~GaussNewtonQueue() = default;
+
+  /// The number of the next problem to take; −1 when there is none. `Problem` describes it until the next call.
+  virtual int Next() = 0;
+  virtual const LaneProblem& Problem() const = 0;
+  virtual GaussNewtonCourse Course() const = 0;
+
+  virtual bool IsOutOfReach(int problem) = 0;
+  /// Whether these angles, which nearly do, meet the goals.
+  virtual bool MeetsGoals(int problem, std::span<const double> angles) = 0;
+  /// Scatters and sweeps as `next` says, and counts the sweeps: `angles` are those before and after.
+  virtual void Sweep(int problem, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
+                     std::span<double> angles) = 0;
+  /// The problem is done, with these angles.
+  virtual void Finish(int problem, const GaussNewtonCourse& course, std::span<const double> angles) = 0;
+};
+
+/// Solves problems until the queue is empty, each in a lane of its own.
+void SolveInLanes(const GaussNewtonTree& tree, const LaneGoals& goals, int extra_passes, Precision precision,
+                  GaussNewtonQueue& queue);
+
+}  // namespace etude

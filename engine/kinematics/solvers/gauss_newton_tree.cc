@@ -1,0 +1,67 @@
+#include "engine/kinematics/solvers/gauss_newton_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace etude {
+namespace {
+
+void NameAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
+  joint.renames_axes = true;
+  for (int c = 0; c < 3; ++c) {
+    int ones = 0;
+    for (int r = 0; r < 3; ++r) {
+      joint.R_PJ[c][r] = R_PJ[c][r];
+      if (R_PJ[c][r] == 0) continue;
+      joint.from[c] = r;
+      joint.sign[c] = R_PJ[c][r];
+      ones += std::abs(R_PJ[c][r]) == 1 ? 1 : 2;
+    }
+    joint.renames_axes &= ones == 1;
+  }
+}
+
+}  // namespace
+
+std::vector<int> JointsInwards(const KinematicTree& tree) {
+  std::vector<int> height(tree.joints.size()), inwards;
+  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
+    int& above = height[tree.joints[n].parent];
+    above = std::max(above, height[n] + 1);
+  }
+  inwards.reserve(tree.joints.size());
+  for (int h = 0; h < height[0]; ++h) {
+    for (std::size_t n = 1; n < tree.joints.size(); ++n) {
+      if (height[n] == h) inwards.push_back(static_cast<int>(n));
+    }
+  }
+  return inwards;
+}
+
+GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
+    : joints(tree.joints.size()), inwards(JointsInwards(tree)), dof_count(tree.dof_count()) {
+  for (std::size_t n = 1; n < joints.size(); ++n) {
+    const TreeJoint& from = tree.joints[n];
+    joints[n].parent = from.parent;
+    joints[n].first_dof = from.first_dof;
+    joints[n].dof_count = from.dof_count;
+    for (int k = 0; k < 3; ++k) joints[n].p_PJ[k] = from.p_PJ[k];
+    NameAxes(from.R_PJ, joints[n]);
+  }
+  for (const etude::Effector& from : tree.effectors) {
+    Effector& made = effectors.emplace_back(Effector{from.joint, {from.p_LE.x, from.p_LE.y, from.p_LE.z}});
+    int& place = joints[from.joint].quadratic;
+    made.is_first = place < 0;
+    if (made.is_first) place = quadratic_count++;
+  }
+  for (const int n : inwards) {
+    Joint& joint = joints[n];
+    joint.is_empty = joint.quadratic < 0;
+    if (joint.is_empty) joint.quadratic = quadratic_count++;
+    int& place = joints[joint.parent].quadratic;
+    joint.hands_over = place < 0;
+    if (joint.hands_over) place = joint.quadratic;
+  }
+}
+
+}  // namespace etude
