@@ -9,6 +9,12 @@
 
 namespace etude {
 
+/// What a peer has found.
+struct IkPeerAnswer {
+  std::vector<double> angles;
+  int steps = -1;  ///< −1: it does not tell
+};
+
 /// An outside library's inverse kinematics, its model built once for a tree whose root stays where `StandingState` has
 /// it. Everything that can be made ahead of a problem is.
 class IkPeer {
@@ -18,8 +24,8 @@ class IkPeer {
   /// Where the library's own forward kinematics has the effectors: its model must be the tree.
   virtual std::vector<LimbFrame> Effectors(std::span<const double> angles) = 0;
 
-  /// The angles it finds from `problem.start`, to the goals of `options` as far as its own stop criteria can say so.
-  virtual std::vector<double> Solve(const IkProblem& problem, const IkOptions& options) = 0;
+  /// What it finds from `problem.start`, to the goals of `options` as far as its own stop criteria can say so.
+  virtual IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) = 0;
 };
 
 }  // namespace etude

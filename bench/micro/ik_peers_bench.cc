@@ -1,35 +1,39 @@
-// Our inverse kinematics and that of other libraries, side by side: the same problems, the same accuracy, one after the
-// other in one process. Every problem is timed by itself, the best of all rounds counts, and the median over the
-// problems is shown; whether a problem is solved is judged by our forward kinematics and the limits.
-#include <benchmark/benchmark.h>
+// Our inverse kinematics, its batches and that of other libraries, side by side in one process: the same problems, the
+// same accuracy. Every round lets every method solve every problem; of each problem the fastest round counts.
+// Whether a problem is solved is judged by our forward kinematics, by every axis of every effector, and the limits.
+//
+//     ik_peers_bench [--trials=50] [--rounds=3] [--only=part of a method's name]
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 #include <limits>
-#include <map>
+#include <memory>
+#include <string_view>
 
-#include "bench/micro/ik_trials.h"
+#include "bench/micro/dense_peer.h"
 #include "bench/micro/kdl_peer.h"
 #include "bench/micro/simbody_peer.h"
+#include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
+#include "engine/kinematics/solvers/gauss_newton_batch.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
 namespace etude {
 namespace {
 
-constexpr int kTrials = 200;
-constexpr double kJointNoiseDeg = 15;
-constexpr char kOurs[] = "gauss-newton";
-constexpr int kRounds = 5;  // as many for everyone: the best of more would look better
+constexpr int kSeeds = 4;
+constexpr char kCompared[] = "gauss-newton, scalar";  // what times are given in units of
 
-struct Method {
-  std::string name;
-  std::function<std::vector<double>(const IkProblem&)> solve;
-};
+const KinematicTree& Body() {
+  static const KinematicTree tree = MakeBodyTree({});
+  return tree;
+}
 
 // Solved tightly (algorithms, B6): 10⁻³ cm and 10⁻³°.
 IkOptions Tightly(int max_iterations) {
@@ -41,14 +45,128 @@ IkOptions Tightly(int max_iterations) {
   return options;
 }
 
-IkOptions Practically() { return IkOptions{}; }
-
-const KinematicTree& Body() {
-  static const KinematicTree tree = MakeBodyTree({});
-  return tree;
+// Processor time, so that a solution of many milliseconds does not pay for what else the machine does.
+double ThreadTimeUs() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-bool IsSolved(const IkProblem& problem, const std::vector<double>& angles, const IkOptions& goals) {
+/// What a method has made of one problem.
+struct Outcome {
+  IkPeerAnswer answer;
+  double us = std::numeric_limits<double>::infinity();
+};
+
+/// Solves all problems and takes down every time that is less than what stands there.
+struct Method {
+  std::string name;
+  std::function<void(std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes)> solve;
+};
+
+template <class Solve>
+Method OneByOne(std::string name, Solve solve) {
+  return {std::move(name), [solve](std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes) {
+            for (std::size_t i = 0; i < worlds.size(); ++i) {
+              const double begin = ThreadTimeUs();
+              IkPeerAnswer answer = solve(worlds[i].problem);
+              outcomes[i].us = std::min(outcomes[i].us, ThreadTimeUs() - begin);
+              outcomes[i].answer = std::move(answer);
+            }
+          }};
+}
+
+Method Ours(const std::string& solver, int max_iterations, std::vector<double> settings = {}, std::string name = {}) {
+  IkOptions options = Tightly(max_iterations);
+  options.solver_settings = std::move(settings);
+  return OneByOne(name.empty() ? solver : name, [options, found = FindIkSolver(solver)](const IkProblem& problem) {
+    IkSolution solution = found->solve(Body(), problem, options);
+    return IkPeerAnswer{std::move(solution.angles), solution.iterations};
+  });
+}
+
+Method Scalar() {
+  return OneByOne(kCompared, [options = Tightly(200)](const IkProblem& problem) {
+    IkSolution solution = SolveGaussNewton(Body(), problem, options);
+    return IkPeerAnswer{std::move(solution.angles), solution.iterations};
+  });
+}
+
+// Its time is the same for all problems: that of the batch over their number.
+Method Batch(const std::string& target, Precision precision) {
+  const std::string name =
+      fmt::format("gauss-newton, batch in {}, {}", precision == Precision::kFloat ? "float" : "double", target);
+  return {name, [=](std::span<const IkWorld> worlds, std::vector<Outcome>& outcomes) {
+            IkBatch problems(Body(), static_cast<int>(worlds.size()));
+            for (std::size_t i = 0; i < worlds.size(); ++i) problems.Set(static_cast<int>(i), worlds[i].problem);
+            SetBatchTarget(target);
+            const double begin = ThreadTimeUs();
+            const IkBatchSolution solution = SolveGaussNewtonBatch(Body(), problems, Tightly(200), precision);
+            const double us = (ThreadTimeUs() - begin) / static_cast<double>(worlds.size());
+            SetBatchTarget("");
+            for (std::size_t i = 0; i < worlds.size(); ++i) {
+              outcomes[i].us = std::min(outcomes[i].us, us);
+              outcomes[i].answer = {{}, solution.iterations[i]};
+              for (int d = 0; d < Body().dof_count(); ++d)
+                outcomes[i].answer.angles.push_back(solution.angles_of(d)[i]);
+            }
+          }};
+}
+
+// A model that is not our tree would be compared on other problems than ours: no numbers then.
+Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
+  constexpr double kRounding = 1e-9;
+  for (int trial = 0; trial < 20; ++trial) {
+    const IkWorld world = MakeIkWorld(Body(), {.pose_range = 1}, {.scenario = "ik-peers", .trial = trial});
+    const std::vector<LimbFrame> found = peer->Effectors(world.truth.angles);
+    for (std::size_t e = 0; e < found.size(); ++e) {
+      const EffectorTarget& expected = world.problem.targets[e];
+      double off = glm::distance(found[e].position, expected.position);
+      for (int k = 0; k < 3; ++k) off = std::max(off, glm::distance(found[e].axes[k], expected.axes[k]));
+      if (off > kRounding) {
+        fmt::print(stderr, "{}: its {} is {} away from ours; the models differ\n", name, Body().effectors[e].name, off);
+        std::exit(1);
+      }
+    }
+  }
+  return OneByOne(name, [peer, options = Tightly(max_iterations)](const IkProblem& problem) {
+    return peer->Solve(problem, options);
+  });
+}
+
+std::vector<Method> AllMethods() {
+  std::vector<Method> methods = {Scalar(), Ours("gauss-newton", 200)};
+  for (const std::string& target : BatchTargets()) {
+    for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
+      methods.push_back(Batch(target, precision));
+    }
+  }
+  methods.push_back(Peer(fmt::format("dense rival ({})", DensePeerFlags()), MakeDensePeer(Body()), 200));
+  methods.push_back(Ours("levenberg-marquardt", 200));
+  methods.push_back(Ours("damped-least-squares-active-set", 1000));
+  for (const double radius : {1.0, 10.0, 100.0}) {
+    methods.push_back(Ours("ceres-lm", 1000, {radius}, fmt::format("ceres-lm, radius {}", radius)));
+  }
+  methods.push_back(Peer("KDL online", MakeKdlOnline(Body(), {}), 1000));
+  methods.push_back(Peer("KDL Newton", MakeKdlNewton(Body(), {.damping = 0.03, .position_weight = 1}), 1000));
+  methods.push_back(Peer("Simbody", MakeSimbodyAssembler(Body(), {}), 1000));
+  return methods;
+}
+
+struct Condition {
+  std::string name;
+  IkTrialOptions options;
+};
+
+std::vector<Condition> AllConditions() {
+  return {{"f = 0.5", {.pose_range = 0.5}},
+          {"f = 1", {.pose_range = 1}},
+          {"cold, from the middle of every range", {.pose_range = 1, .start = IkStart::kMiddle}},
+          {"a stretched limb", {.start = IkStart::kStretched}},
+          {"targets off by 1 cm and 3°", {.pose_range = 1, .target_noise = {.position_cm = 1, .orientation_deg = 3}}}};
+}
+
+bool IsSolved(const IkProblem& problem, const std::vector<double>& angles) {
   constexpr double kRounding = 1e-9;  // of limits, radians
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const AngleRange& range = problem.limits[i];
@@ -58,105 +176,94 @@ bool IsSolved(const IkProblem& problem, const std::vector<double>& angles, const
   state.angles = angles;
   std::vector<EffectorError> errors;
   MeasureErrors(ComputeFrames(Body(), state), problem.targets, errors);
-  return FindWorst(errors, problem.targets).Within(goals);
+  return FindWorst(errors, problem.targets).Within(Tightly(1));
 }
 
-Method Ours(const std::string& solver, int max_iterations, std::vector<double> settings = {}, std::string name = {}) {
-  IkOptions options = Tightly(max_iterations);
-  options.solver_settings = std::move(settings);
-  return {name.empty() ? solver : name, [options, found = FindIkSolver(solver)](const IkProblem& problem) {
-            return found->solve(Body(), problem, options).angles;
-          }};
+double Median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
 }
 
-// A model that is not our tree would be compared on other problems than ours: no numbers then.
-Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer) {
-  constexpr double kRounding = 1e-9;
-  for (const IkTrial& trial : MakeIkTrials(Body(), 20, 1.0, kJointNoiseDeg)) {
-    const std::vector<LimbFrame> found = peer->Effectors(trial.truth.angles);
-    for (std::size_t e = 0; e < found.size(); ++e) {
-      const EffectorTarget& expected = trial.problem.targets[e];
-      double off = glm::distance(found[e].position, expected.position);
-      for (int k = 0; k < 3; ++k) off = std::max(off, glm::distance(found[e].axes[k], expected.axes[k]));
-      if (off > kRounding) {
-        fmt::print(stderr, "{}: its {} is {} away from ours; the models differ\n", name, Body().effectors[e].name, off);
-        std::exit(1);
-      }
+struct Times {
+  double median = 0, mean = 0;
+};
+
+void PrintRow(const Method& method, std::span<const IkWorld> worlds, const std::vector<Outcome>& outcomes,
+              Times& compared) {
+  std::vector<double> times, hidden, steps;
+  int solved = 0;
+  for (std::size_t i = 0; i < worlds.size(); ++i) {
+    const std::vector<double>& angles = outcomes[i].answer.angles;
+    solved += IsSolved(worlds[i].problem, angles);
+    times.push_back(outcomes[i].us);
+    double squares = 0;
+    for (std::size_t d = 0; d < angles.size(); ++d) {
+      squares += (angles[d] - worlds[i].truth.angles[d]) * (angles[d] - worlds[i].truth.angles[d]);
+    }
+    hidden.push_back(Degrees(std::sqrt(squares / static_cast<double>(angles.size()))));
+    steps.push_back(outcomes[i].answer.steps);
+  }
+  const Times own{Median(times), Mean(times)};
+  if (method.name == kCompared) compared = own;
+  const auto ratio = [](double time, double to) { return to > 0 ? fmt::format("{:.2f}", time / to) : "–"; };
+  fmt::print("| {} | {:.1f} % | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {} | {} |\n", method.name,
+             100.0 * solved / static_cast<double>(worlds.size()), Median(hidden), std::max(0.0, Median(steps)),
+             own.median, own.mean, ratio(own.median, compared.median), ratio(own.mean, compared.mean));
+  std::fflush(stdout);
+}
+
+void Compare(const Condition& condition, const std::vector<Method>& methods, int trials, int rounds) {
+  std::vector<IkWorld> worlds;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    for (int trial = 0; trial < trials; ++trial) {
+      worlds.push_back(
+          MakeIkWorld(Body(), condition.options, {.suite_seed = seed, .scenario = "ik-peers", .trial = trial}));
     }
   }
-  return {name, [peer, options = Tightly(1000)](const IkProblem& problem) { return peer->Solve(problem, options); }};
+  std::vector<std::vector<Outcome>> outcomes(methods.size(), std::vector<Outcome>(worlds.size()));
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t m = 0; m < methods.size(); ++m) methods[m].solve(worlds, outcomes[m]);
+  }
+  fmt::print("\n{} ({} problems, {} seeds)\n\n", condition.name, worlds.size(), kSeeds);
+  fmt::print("| | solved | hidden, ° | steps | median, µs | mean, µs | median / scalar | mean / scalar |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|\n");
+  Times compared;
+  for (std::size_t m = 0; m < methods.size(); ++m) PrintRow(methods[m], worlds, outcomes[m], compared);
 }
 
-// Processor time, so that a solution of many milliseconds does not pay for what else the machine does.
-double ThreadTimeUs() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+// The number after `key` in `argument`, if that is what it is.
+bool Read(std::string_view argument, std::string_view key, int& number) {
+  if (!argument.starts_with(key)) return false;
+  argument.remove_prefix(key.size());
+  const auto [end, error] = std::from_chars(argument.data(), argument.data() + argument.size(), number);
+  return error == std::errc() && end == argument.data() + argument.size() && number > 0;
 }
 
-// Of the method that the others are compared with, by pose range.
-std::map<double, double> our_medians;
-
-void Measure(benchmark::State& state, const Method& method, double pose_range) {
-  const std::vector<IkTrial> trials = MakeIkTrials(Body(), kTrials, pose_range, kJointNoiseDeg);
-  std::vector<double> fastest_us(trials.size(), std::numeric_limits<double>::infinity());
-  std::vector<std::vector<double>> angles(trials.size());
-  for (auto _ : state) {
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      const double begin = ThreadTimeUs();
-      angles[i] = method.solve(trials[i].problem);
-      fastest_us[i] = std::min(fastest_us[i], ThreadTimeUs() - begin);
+int Run(std::span<char* const> arguments) {
+  int trials = 50, rounds = 3;
+  std::string_view only;
+  for (const std::string_view argument : arguments) {
+    if (argument.starts_with("--only=")) {
+      only = argument.substr(7);
+    } else if (!Read(argument, "--trials=", trials) && !Read(argument, "--rounds=", rounds)) {
+      fmt::print(stderr, "ik_peers_bench: {}: only --trials=N, --rounds=N, --only=NAME\n", argument);
+      return 2;
     }
   }
-  int tightly = 0, practically = 0;
-  for (std::size_t i = 0; i < trials.size(); ++i) {
-    tightly += IsSolved(trials[i].problem, angles[i], Tightly(1));
-    practically += IsSolved(trials[i].problem, angles[i], Practically());
-  }
-  std::ranges::nth_element(fastest_us, fastest_us.begin() + kTrials / 2);
-  const double median = fastest_us[kTrials / 2];
-  if (method.name == kOurs) our_medians[pose_range] = median;
-  state.counters["solved_%"] = 100.0 * tightly / kTrials;
-  state.counters["practically_%"] = 100.0 * practically / kTrials;
-  state.counters["median_us"] = median;
-  if (our_medians.contains(pose_range)) state.counters["times_ours"] = median / our_medians[pose_range];
-}
-
-std::vector<Method> AllMethods() {
-  return {
-      Ours(kOurs, 200),
-      Ours("levenberg-marquardt", 200),
-      Ours("damped-least-squares-active-set", 1000),
-      Ours("damped-least-squares", 1000),
-      Ours("jacobian-pinv-active-set", 1000),
-      Ours("jacobian-pinv", 1000),
-      Ours("ccd-anderson", 1000),
-      Ours("ccd-hinges", 2000),
-      Ours("ceres-lm", 1000, {10}, "ceres-lm/radius 10"),
-      Ours("ceres-lm", 1000, {1}, "ceres-lm/radius 1"),
-      Peer("kdl-online", MakeKdlOnline(Body(), {})),
-      Peer("kdl-newton", MakeKdlNewton(Body(), {.damping = 0.03, .position_weight = 1})),
-      Peer("simbody-assembler", MakeSimbodyAssembler(Body(), {})),
-  };
+  std::vector<Method> methods = AllMethods();
+  std::erase_if(methods, [&](const Method& method) {
+    return method.name != kCompared && method.name.find(only) == std::string::npos;
+  });
+  for (const Condition& condition : AllConditions()) Compare(condition, methods, trials, rounds);
+  return 0;
 }
 
 }  // namespace
 }  // namespace etude
 
-int main(int argc, char** argv) {
-  const std::vector<etude::Method> methods = etude::AllMethods();
-  for (const double pose_range : {0.5, 1.0}) {
-    for (const etude::Method& method : methods) {
-      benchmark::RegisterBenchmark(
-          fmt::format("f={}/{}", pose_range, method.name).c_str(),
-          [&method, pose_range](benchmark::State& state) { etude::Measure(state, method, pose_range); })
-          ->Iterations(etude::kRounds)
-          ->Unit(benchmark::kMillisecond);
-    }
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
-}
+int main(int argc, char** argv) { return etude::Run({argv + 1, argv + argc}); }

@@ -123,7 +123,7 @@ class KdlNewton final : public KdlPeer {
  public:
   using KdlPeer::KdlPeer;
 
-  std::vector<double> Solve(const IkProblem& problem, const IkOptions& options) override {
+  IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) override {
     Take(problem);
     // KDL compares every number of a twist with one limit, metres and radians alike.
     const double goal = std::min(options.position_goal, options.axis_goal) / std::sqrt(3.0);
@@ -133,7 +133,7 @@ class KdlNewton final : public KdlPeer {
       goal_ = goal;
     }
     solver_->CartToJnt(q_, targets_, found_);
-    return ToAngles(found_);
+    return {ToAngles(found_)};
   }
 
  private:
@@ -150,10 +150,11 @@ class KdlOnline final : public KdlPeer {
                                                             kAnySpeed, kAnySpeed, fk_, velocity_);
   }
 
-  std::vector<double> Solve(const IkProblem& problem, const IkOptions& options) override {
+  IkPeerAnswer Solve(const IkProblem& problem, const IkOptions& options) override {
     Take(problem);
     TreeState state = problem.start;
-    for (int step = 0; step < options.max_iterations; ++step) {
+    int step = 0;
+    while (step++ < options.max_iterations) {
       solver_->CartToJnt(q_, targets_, found_);
       std::swap(q_.data, found_.data);
       state.angles = ToAngles(q_);
@@ -161,7 +162,7 @@ class KdlOnline final : public KdlPeer {
       MeasureErrors(frames_, problem.targets, errors_);
       if (FindWorst(errors_, problem.targets).Within(options)) break;
     }
-    return state.angles;
+    return {state.angles, std::min(step, options.max_iterations)};
   }
 
  private:

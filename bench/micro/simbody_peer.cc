@@ -39,10 +39,10 @@ class SimbodyPeer final : public IkPeer {
     return effectors;
   }
 
-  std::vector<double> Solve(const IkProblem& problem, const IkOptions&) override {
+  IkPeerAnswer Solve(const IkProblem& problem, const IkOptions&) override {
     std::vector<SimbodyModel::Frame> targets;
     for (const EffectorTarget& target : problem.targets) targets.push_back({target.position, target.axes});
-    return model_.Assemble(problem.start.angles.data(), targets);
+    return {model_.Assemble(problem.start.angles.data(), targets)};
   }
 
  private:

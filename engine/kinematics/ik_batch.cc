@@ -1,6 +1,7 @@
 #include "engine/kinematics/ik_batch.h"
 
 #include <cmath>
+#include <cstdint>
 
 namespace etude {
 namespace {
@@ -82,14 +83,14 @@ IkProblem IkBatch::Get(int place) const {
 }
 
 // Row by row, without branches, so that compilers make vector code of it. Comparisons are false for what is no number.
-std::vector<std::uint8_t> IkBatch::FindSound() const {
+std::vector<int> IkBatch::FindSound() const {
   const std::size_t count = count_;
-  std::vector<std::uint8_t> sound(count, 1);
+  std::vector<std::int64_t> faults(count);  // as wide as a double
   const auto demand = [&](const auto& holds) {
-    for (std::size_t n = 0; n < count; ++n) sound[n] &= static_cast<std::uint8_t>(holds(n));
+    for (std::size_t n = 0; n < count; ++n) faults[n] |= holds(n) ? 0 : 1;
   };
   const auto demand_sane = [&](std::span<const double> numbers) {
-    demand([=](std::size_t n) { return std::abs(numbers[n]) <= kFarthest; });
+    demand([=](std::size_t n) { return std::abs(numbers[n]) <= kIkFarthest; });
   };
   const auto demand_frame = [&](const auto& axis) {
     for (int k = 0; k < 9; ++k) demand_sane(axis(k));
@@ -100,8 +101,8 @@ std::vector<std::uint8_t> IkBatch::FindSound() const {
     }
     demand([a = axis(0), b = axis(1), c = axis(2), d = axis(3), e = axis(4), f = axis(5), g = axis(6), h = axis(7),
             i = axis(8)](std::size_t n) {
-      const double determinant = a[n] * (e[n] * i[n] - h[n] * f[n]) - d[n] * (b[n] * i[n] - h[n] * c[n]) +
-                                 g[n] * (b[n] * f[n] - e[n] * c[n]);
+      const double determinant =
+          a[n] * (e[n] * i[n] - h[n] * f[n]) - d[n] * (b[n] * i[n] - h[n] * c[n]) + g[n] * (b[n] * f[n] - e[n] * c[n]);
       return std::abs(determinant - 1) < kFrameTolerance;
     });
   };
@@ -117,8 +118,13 @@ std::vector<std::uint8_t> IkBatch::FindSound() const {
     for (int k = 0; k < 3; ++k) demand_sane(target(e, k));
     demand_frame([this, e](int k) { return target(e, 3 + k); });
     for (int k = 12; k < kTargetNumbers; ++k) {
-      demand([weight = target(e, k)](std::size_t n) { return weight[n] >= 0 && weight[n] <= kFarthest; });
+      demand([weight = target(e, k)](std::size_t n) { return weight[n] >= 0 && weight[n] <= kIkFarthest; });
     }
+  }
+  std::vector<int> sound;
+  sound.reserve(count);
+  for (int n = 0; n < count_; ++n) {
+    if (faults[n] == 0) sound.push_back(n);
   }
   return sound;
 }

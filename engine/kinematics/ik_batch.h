@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,16 +37,22 @@ class IkBatch {
     return row(3 * dofs_ + kRootNumbers + effector * kTargetNumbers + number);
   }
 
+  /// The numbers of one problem, `stride` after `stride`: start angles, lower and upper limits, root, targets.
+  struct Column {
+    const double* numbers = nullptr;
+    std::size_t stride = 1;
+  };
+  Column column(int place) const { return {numbers_.data() + place, stride_}; }
+  static constexpr int kRootNumbers = 12, kTargetNumbers = 16;
+
   /// `problem` fits the tree.
   void Set(int place, const IkProblem& problem);
   IkProblem Get(int place) const;
 
-  /// Whether `FindFault` has nothing to say of each problem itself: 1 or 0.
-  std::vector<std::uint8_t> FindSound() const;
+  /// The places of problems that `FindFault` has nothing to say of.
+  std::vector<int> FindSound() const;
 
  private:
-  static constexpr int kRootNumbers = 12, kTargetNumbers = 16;
-
   std::span<double> row(int n) { return {numbers_.data() + n * stride_, static_cast<std::size_t>(count_)}; }
   std::span<const double> row(int n) const { return {numbers_.data() + n * stride_, static_cast<std::size_t>(count_)}; }
 

@@ -6,7 +6,7 @@
 namespace etude {
 namespace {
 
-bool IsSane(double value) { return std::isfinite(value) && std::abs(value) <= kFarthest; }
+bool IsSane(double value) { return std::isfinite(value) && std::abs(value) <= kIkFarthest; }
 bool IsSane(const glm::dvec3& v) { return IsSane(v.x) && IsSane(v.y) && IsSane(v.z); }
 
 bool AreUnit(const glm::dmat3& axes) {
@@ -16,10 +16,12 @@ bool AreUnit(const glm::dmat3& axes) {
   return true;
 }
 
-bool IsWeight(double weight) { return std::isfinite(weight) && weight >= 0 && weight <= kFarthest; }
+bool IsWeight(double weight) { return std::isfinite(weight) && weight >= 0 && weight <= kIkFarthest; }
 
 // Right angles to each other, and no mirror image.
-bool AreAFrame(const glm::dmat3& axes) { return AreUnit(axes) && std::abs(glm::determinant(axes) - 1) < kFrameTolerance; }
+bool AreAFrame(const glm::dmat3& axes) {
+  return AreUnit(axes) && std::abs(glm::determinant(axes) - 1) < kFrameTolerance;
+}
 
 bool IsGood(const EffectorTarget& target) {
   return IsWeight(target.position_weight) && IsWeight(target.axis_weights.x) && IsWeight(target.axis_weights.y) &&
@@ -150,7 +152,7 @@ bool IsOutOfReach(const KinematicTree& tree, const IkProblem& problem) {
 }
 
 AngleRange AllowedRange(double start_angle, const AngleRange& limits, const IkOptions& options) {
-  AngleRange range{-kFarthest, kFarthest};
+  AngleRange range{-kIkFarthest, kIkFarthest};
   if (options.limits) range = limits;
   if (!options.angle_change_tolerance) return range;
   const double start = std::clamp(start_angle, range.lower, range.upper);

@@ -92,7 +92,7 @@ struct IkSolution {
 
 /// No number of a problem may be larger: beyond this (metres: 1,000 km), squares of distances lose what goals are made
 /// of.
-inline constexpr double kFarthest = 1e6;
+inline constexpr double kIkFarthest = 1e6;
 /// How far squares of unit vectors, and the determinant of a frame, may be from 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 

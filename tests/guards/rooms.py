@@ -84,8 +84,9 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/camera "
-        "sim/character sim/choreography sim/random sim/render sim/stage bench/clips bench/tasks/coach",
+        "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/body "
+        "sim/camera sim/character sim/choreography sim/random sim/render sim/sensors sim/stage bench/clips "
+        "bench/tasks/coach bench/tasks/ik bench/tasks/tracking",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
     "bench/process": "engine/base",

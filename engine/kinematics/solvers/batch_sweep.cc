@@ -11,9 +11,6 @@
 namespace etude {
 namespace {
 
-// What a sweep in floats may still move when it has arrived: the last bit of an angle.
-constexpr double kFloatStall = 2e-7;
-
 // A problem in a lane, with the records that `SolveCcdHinges` keeps.
 struct Seat {
   Seat(const KinematicTree& tree, const SweepTree& sweep_tree, const IkProblem& problem, const IkOptions& options)

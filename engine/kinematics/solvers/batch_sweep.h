@@ -12,6 +12,9 @@ namespace etude {
 
 enum class Precision { kFloat, kDouble };
 
+/// What an iteration in floats may still move when it has arrived, radians: the last bit of an angle.
+inline constexpr double kFloatStall = 2e-7;
+
 /// Solves many problems on the same tree at once, one in each lane of the CPU's vectors, by the sweeps of `ccd-hinges`.
 /// Lanes whose problem is done take the next one. What comes out does not depend on the width of the CPU's vectors, nor
 /// on the other problems (into lanes and out of them angles go through the C library, whose sines are the same on all

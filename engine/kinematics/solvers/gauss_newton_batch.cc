@@ -13,7 +13,6 @@ namespace {
 
 // In float.
 constexpr double kGoalShare = 0.9;
-constexpr double kFloatStall = 2e-7;  // radians: what a step may still move when it has arrived
 constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
 
 // Where lanes judge by themselves: nearer to a goal than this share of it, and this far, rounding might decide.
@@ -44,34 +43,29 @@ class Queue final : public GaussNewtonQueue {
       : tree_(tree),
         problems_(problems),
         options_(options),
-        course_(InPrecision(options, precision), own, precision == Precision::kFloat ? kFloatNumerics
-                                                                                     : GaussNewtonCourse::Numerics{}),
+        course_(InPrecision(options, precision), own,
+                precision == Precision::kFloat ? kFloatNumerics : GaussNewtonCourse::Numerics{}),
         asked_(std::move(asked)),
+        may_round_(precision == Precision::kFloat),
         solution_(solution),
-        start_(tree.limits.size()),
-        lower_(tree.limits.size()),
-        upper_(tree.limits.size()),
-        targets_(16 * tree.effectors.size()) {}
+        own_ranges_(options.limits && !options.angle_change_tolerance ? 0 : NumberCount(tree)) {}
 
   int Next() override {
     if (next_ == asked_.size()) return -1;
     const int n = asked_[next_++];
+    column_ = problems_.column(n);
+    if (own_ranges_.empty()) return n;
+    for (std::size_t k = 0; k < own_ranges_.size(); ++k) own_ranges_[k] = column_.numbers[k * column_.stride];
     for (int d = 0; d < tree_.dof_count(); ++d) {
       const AngleRange range = RangeOf(n, d);
-      lower_[d] = range.lower;
-      upper_[d] = range.upper;
-      start_[d] = std::clamp(problems_.start_angles(d)[n], range.lower, range.upper);
+      own_ranges_[tree_.dof_count() + d] = range.lower;
+      own_ranges_[2 * tree_.dof_count() + d] = range.upper;
     }
-    for (int k = 0; k < 12; ++k) root_[k] = problems_.root(k)[n];
-    double* to = targets_.data();
-    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
-      for (int k = 0; k < 16; ++k) *to++ = problems_.target(static_cast<int>(e), k)[n];
-    }
-    problem_ = {start_, lower_, upper_, root_, targets_.data()};
+    column_ = {own_ranges_.data(), 1};
     return n;
   }
 
-  const LaneProblem& Problem() const override { return problem_; }
+  IkBatch::Column Problem() const override { return column_; }
   GaussNewtonCourse Course() const override { return course_; }
 
   bool IsOutOfReach(int n) override { return etude::IsOutOfReach(tree_, problems_.Get(n)); }
@@ -80,8 +74,7 @@ class Queue final : public GaussNewtonQueue {
     return Measure(problems_.Get(n), angles).Within(options_);
   }
 
-  void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course,
-             std::span<double> angles) override {
+  void Sweep(int n, const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
     IkProblem problem = problems_.Get(n);
     problem.limits = AllowedRanges(problem, options_);
     std::vector<double> start = problem.start.angles;
@@ -94,23 +87,25 @@ class Queue final : public GaussNewtonQueue {
     for (int i = 0; i < next.sweeps; ++i) {
       sweep.Sweep();
       std::ranges::copy(sweep.Angles(), angles.begin());
-      if (!course.CountSweep() || Measure(problem, angles).Within(options_)) break;
+      const bool may_go_on = course.CountSweep();
+      if (!may_go_on || (!sweep.MissesGoals() && Measure(problem, angles).Within(options_))) break;
     }
   }
 
   void Finish(int n, const GaussNewtonCourse& course, std::span<const double> angles) override {
     for (int d = 0; d < tree_.dof_count(); ++d) {
-      // Rounded to float, an angle may be beyond its range.
-      const AngleRange range = RangeOf(n, d);
-      solution_.angles[static_cast<std::size_t>(d) * solution_.count + n] =
-          std::clamp(angles[d], range.lower, range.upper);
+      double& angle = solution_.angles[static_cast<std::size_t>(d) * solution_.count + n];
+      angle = angles[d];
+      if (!may_round_) continue;
+      const AngleRange range = own_ranges_.empty() ? LimitsOf(n, d) : RangeOf(n, d);
+      angle = std::clamp(angle, range.lower, range.upper);
     }
     solution_.statuses[n] = course.has_converged()                         ? IkStatus::kConverged
                             : etude::IsOutOfReach(tree_, problems_.Get(n)) ? IkStatus::kUnreachable
                             : course.HasStalled()                          ? IkStatus::kStalled
                                                                            : IkStatus::kIterationLimit;
-    solution_.iterations[n] += course.iterations();
-    solution_.fk_evaluations[n] += course.fk_evaluations();
+    solution_.iterations[n] = course.iterations();
+    solution_.fk_evaluations[n] = course.fk_evaluations();
   }
 
  private:
@@ -120,9 +115,13 @@ class Queue final : public GaussNewtonQueue {
     return made;
   }
 
+  static std::size_t NumberCount(const KinematicTree& tree) {
+    return 3 * tree.limits.size() + IkBatch::kRootNumbers + IkBatch::kTargetNumbers * tree.effectors.size();
+  }
+
+  AngleRange LimitsOf(int n, int d) const { return {problems_.lower_limits(d)[n], problems_.upper_limits(d)[n]}; }
   AngleRange RangeOf(int n, int d) const {
-    return AllowedRange(problems_.start_angles(d)[n], {problems_.lower_limits(d)[n], problems_.upper_limits(d)[n]},
-                        options_);
+    return AllowedRange(problems_.start_angles(d)[n], LimitsOf(n, d), options_);
   }
 
   WorstError Measure(const IkProblem& problem, std::span<const double> angles) {
@@ -138,11 +137,11 @@ class Queue final : public GaussNewtonQueue {
   const IkOptions& options_;
   const GaussNewtonCourse course_;
   const std::vector<int> asked_;
+  const bool may_round_;  // angles, to float and beyond their ranges
   std::size_t next_ = 0;
   IkBatchSolution& solution_;
-  std::vector<double> start_, lower_, upper_, targets_;
-  double root_[12];
-  LaneProblem problem_;
+  IkBatch::Column column_;
+  std::vector<double> own_ranges_;  // a column whose ranges are not the problem's limits
   TreeFrames frames_;
   std::vector<EffectorError> errors_;
 };
@@ -160,11 +159,7 @@ IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& 
   solution.fk_evaluations.resize(count);
   if (!FindFault(tree, options).empty()) return solution;
 
-  const std::vector<std::uint8_t> sound = problems.FindSound();
-  std::vector<int> asked;
-  for (int n = 0; n < problems.count(); ++n) {
-    if (sound[n]) asked.push_back(n);
-  }
+  std::vector<int> asked = problems.FindSound();
   const GaussNewtonTree steps_tree(tree);
   const auto solve = [&](std::vector<int> places, Precision in) {
     Queue queue(tree, problems, options, in, own, std::move(places), solution);

@@ -21,9 +21,9 @@ namespace etude {
 class GaussNewtonCourse {
  public:
   enum class Act {
-    kStep,      ///< keep the pose as the last one; step with `damping`, and tell of it by `Stepped`
-    kGoBack,    ///< to the last pose: the step from there has raised the residual
-    kSweep,     ///< scatter by number `restart`, if it is not 0, and sweep `sweeps` times, or until `CountSweep` says no
+    kStep,    ///< keep the pose as the last one; step with `damping`, and tell of it by `Stepped`
+    kGoBack,  ///< to the last pose: the step from there has raised the residual
+    kSweep,   ///< scatter by number `restart`, if it is not 0, and sweep `sweeps` times, or until `CountSweep` says no
     kTakeBest,  ///< go on from the best pose
     kEnd,       ///< at this pose if it `has_converged`, else with the best one
   };

@@ -1,8 +1,8 @@
 // The parts of a Gauss–Newton step (gauss_newton_step.h), and of the forward kinematics before it, for a value V that
 // has + − * / and, found by its type, Select, Below, AtLeast, AreEqual, Larger: a double, or one lane each of many
-// problems on the same tree. Every operation is the one that `ComputeFrames` and `GaussNewtonStep` make, in their order,
-// so that a problem in double has their very bits, in every lane, on every CPU. Compiled once per target, hence this
-// kind of guard.
+// problems on the same tree. Every operation is the one that `ComputeFrames` and `GaussNewtonStep` make, in their
+// order, so that a problem in double has their very bits, in every lane, on every CPU. Compiled once per target, hence
+// this kind of guard.
 #if defined(ETUDE_GAUSS_NEWTON_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #undef ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
@@ -28,15 +28,14 @@ HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, L
   using Bits = hn::RebindToUnsigned<V::Tag>;
   const Bits bits;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p52), quarters = shifted - V(0x1.8p52);
-  const V r = ((angle - quarters * V(0x1.921fb544p+0)) - quarters * V(0x1.0b4611a6p-34)) -
-              quarters * V(0x1.3198a2e037073p-69);
+  const V r =
+      ((angle - quarters * V(0x1.921fb544p+0)) - quarters * V(0x1.0b4611a6p-34)) - quarters * V(0x1.3198a2e037073p-69);
   const V z = r * r, z2 = z * z, z4 = z2 * z2;
   const V sine_tail = (V(-1.0 / 6) + z * V(1.0 / 120)) + z2 * (V(-1.0 / 5040) + z * V(1.0 / 362880)) +
                       z4 * ((V(-1.0 / 39916800) + z * V(1.0 / 6227020800)) +
                             z2 * (V(-1.0 / 1307674368000) + z * V(1.0 / 355687428096000)));
-  const V cosine_tail =
-      (V(1.0 / 24) - z * V(1.0 / 720)) + z2 * (V(1.0 / 40320) - z * V(1.0 / 3628800)) +
-      z4 * ((V(1.0 / 479001600) - z * V(1.0 / 87178291200)) + z2 * V(1.0 / 20922789888000));
+  const V cosine_tail = (V(1.0 / 24) - z * V(1.0 / 720)) + z2 * (V(1.0 / 40320) - z * V(1.0 / 3628800)) +
+                        z4 * ((V(1.0 / 479001600) - z * V(1.0 / 87178291200)) + z2 * V(1.0 / 20922789888000));
   const V s = r + r * z * sine_tail;
   const V half = V(0.5) * z, rounded = V(1.0) - half;
   const V c = rounded + (((V(1.0) - rounded) - half) + z2 * cosine_tail);
@@ -176,8 +175,7 @@ HWY_INLINE void Linearise(const TargetLanes<V>& target, const V (&R_WE)[3][3], c
   Cross(p_RE_W, pull, twist);
   V squares = Dot3(pull, p_ED_W);
   const V nothing(0.0);
-  miss.squared_distance =
-      Larger(miss.squared_distance, Select(Below(nothing, w), Dot3(p_ED_W, p_ED_W), nothing));
+  miss.squared_distance = Larger(miss.squared_distance, Select(Below(nothing, w), Dot3(p_ED_W, p_ED_W), nothing));
   for (int k = 0; k < 3; ++k) {
     const V u = target.axis_weights[k];
     V cross[3], chord[3];
@@ -252,14 +250,14 @@ HWY_INLINE V Dot6(const V (&a)[6], const V (&b)[6]) {
 
 /// Takes a hinge's part off what is asked of its limb.
 template <class V>
-HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper,
-                               QuadraticLanes<V>& limb, HingeLanes<V>& hinge) {
+HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, const V& upper, QuadraticLanes<V>& limb,
+                               HingeLanes<V>& hinge) {
   V* HWY_RESTRICT m = limb.matrix;
   V s[6], y[6];
   for (int k = 0; k < 6; ++k) s[k] = hinge.screw[k];
   for (int i = 0; i < 6; ++i) {
-    y[i] = (m[i] * s[0] + m[6 + i] * s[1]) + (m[12 + i] * s[2] + m[18 + i] * s[3]) +
-           (m[24 + i] * s[4] + m[30 + i] * s[5]);
+    y[i] =
+        (m[i] * s[0] + m[6 + i] * s[1]) + (m[12 + i] * s[2] + m[18 + i] * s[3]) + (m[24 + i] * s[4] + m[30 + i] * s[5]);
   }
   const V nothing(0.0);
   const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
@@ -280,8 +278,8 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   hinge.best = best;
 }
 
-/// The hinge's change, as its limb moves now, and with it the movement of the limb beyond. Where `counts` does not hold,
-/// the hinge stays as it is. Returns where it has changed sides.
+/// The hinge's change, as its limb moves now, and with it the movement of the limb beyond. Where `counts` does not
+/// hold, the hinge stays as it is. Returns where it has changed sides.
 template <class V, class M>
 HWY_INLINE M SubstituteHinge(const V& lower, const V& upper, const M& counts, HingeLanes<V>& hinge, V (&movement)[6]) {
   const V best = hinge.best - hinge.scale * Dot6(hinge.matrix_s, movement);

@@ -12,8 +12,8 @@
 #include "hwy/foreach_target.h"  // before highway.h
 
 // In this order: per target.
-#include "engine/kinematics/solvers/lanes-inl.h"
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
+#include "engine/kinematics/solvers/lanes-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,9 +26,9 @@ struct AngleLanes {
 };
 
 /// Problems on their way, one in each lane: a round places all poses, tells their courses how far they are off, and
-/// steps. A lane whose pose is no outcome of a step, or whose step wants another pass of its active set while few others
-/// do, stays where it is for a round. What a lane does in a round depends on its own problem alone, but for when it
-/// comes.
+/// steps. A lane whose pose is no outcome of a step, or whose step wants another pass of its active set while few
+/// others do, stays where it is for a round. What a lane does in a round depends on its own problem alone, but for when
+/// it comes.
 template <class T>
 class GaussNewtonLanes {
  public:
@@ -106,25 +106,37 @@ class GaussNewtonLanes {
     Lane& lane = lanes_[n];
     lane.course = queue_.Course();
     lane.passes = 0;
-    const LaneProblem& problem = queue_.Problem();
-    for (int d = 0; d < tree_.dof_count; ++d) {
-      SetLane(angles_[d].now, n, problem.start_angles[d]);
-      SetLane(angles_[d].start, n, problem.start_angles[d]);
-      SetLane(angles_[d].lower, n, problem.lower[d]);
-      SetLane(angles_[d].upper, n, problem.upper[d]);
+    const auto [numbers, stride] = queue_.Problem();
+    const double* from = numbers;
+    const auto take = [&from, stride = stride] {
+      const double number = *from;
+      from += stride;
+      return number;
+    };
+    const std::size_t dofs = angles_.size() * stride;
+    for (std::size_t d = 0; d < angles_.size(); ++d) {
+      const double lower = from[dofs], upper = from[2 * dofs], start = std::clamp(take(), lower, upper);
+      SetLane(angles_[d].now, n, start);
+      SetLane(angles_[d].start, n, start);
+      SetLane(angles_[d].lower, n, lower);
+      SetLane(angles_[d].upper, n, upper);
       SetLane(hinges_[d].side, n, 0);
     }
+    from += 2 * dofs;
     // In float, places are counted from the root, where they have the most digits.
     constexpr bool kFromRoot = sizeof(T) < sizeof(double);
-    for (int k = 0; k < 3; ++k) SetLane(frames_[0].position[k], n, kFromRoot ? 0 : problem.root[k]);
-    for (int k = 0; k < 9; ++k) SetLane(frames_[0].axes[k / 3][k % 3], n, problem.root[3 + k]);
-    const double* from = problem.targets;
+    double origin[3] = {};
+    for (int k = 0; k < 3; ++k) {
+      const double place = take();
+      if (kFromRoot) origin[k] = place;
+      SetLane(frames_[0].position[k], n, place - origin[k]);
+    }
+    for (int k = 0; k < 9; ++k) SetLane(frames_[0].axes[k / 3][k % 3], n, take());
     for (TargetLanes<V>& target : targets_) {
-      for (int k = 0; k < 3; ++k) SetLane(target.position[k], n, kFromRoot ? from[k] - problem.root[k] : from[k]);
-      for (int k = 0; k < 9; ++k) SetLane(target.axes[k / 3][k % 3], n, from[3 + k]);
-      SetLane(target.position_weight, n, from[12] / kSquaredPositionScale);
-      for (int k = 0; k < 3; ++k) SetLane(target.axis_weights[k], n, from[13 + k]);
-      from += 16;
+      for (int k = 0; k < 3; ++k) SetLane(target.position[k], n, take() - origin[k]);
+      for (int k = 0; k < 9; ++k) SetLane(target.axes[k / 3][k % 3], n, take());
+      SetLane(target.position_weight, n, take() / kSquaredPositionScale);
+      for (int k = 0; k < 3; ++k) SetLane(target.axis_weights[k], n, take());
     }
   }
 
@@ -281,18 +293,20 @@ class GaussNewtonLanes {
         Gather<false>(asked_[e], limb);
       }
     }
+    for (const int n : tree_.unasked) {
+      std::memset(static_cast<void*>(&quadratics_[tree_.joints[n].quadratic]), 0, sizeof(QuadraticLanes<V>));
+    }
     const V damping = registers_[kDamping];
     const M to_start = Flag(kToStart);
-    for (const int n : tree_.inwards) {
-      const GaussNewtonTree::Joint& joint = tree_.joints[n];
+    for (const GaussNewtonTree::Step& step : tree_.steps) {
+      const GaussNewtonTree::Joint& joint = tree_.joints[step.joint];
       QuadraticLanes<V>& limb = quadratics_[joint.quadratic];
-      if (joint.is_empty) std::memset(static_cast<void*>(&limb), 0, sizeof(limb));
-      for (int d = joint.first_dof + joint.dof_count - 1; d >= joint.first_dof; --d) {
-        const AngleLanes<V>& angle = angles_[d];
+      if (step.dof >= 0) {
+        const AngleLanes<V>& angle = angles_[step.dof];
         EliminateHinge(damping, OrZero(to_start, angle.start - angle.now), angle.lower - angle.now,
-                       angle.upper - angle.now, limb, hinges_[d]);
+                       angle.upper - angle.now, limb, hinges_[step.dof]);
+        continue;
       }
-      if (joint.hands_over || joint.parent == 0) continue;
       QuadraticLanes<V>& parent = quadratics_[tree_.joints[joint.parent].quadratic];
       for (int i = 0; i < 36; ++i) parent.matrix[i] = parent.matrix[i] + limb.matrix[i];
       for (int i = 0; i < 6; ++i) parent.vector[i] = parent.vector[i] + limb.vector[i];
@@ -310,8 +324,8 @@ class GaussNewtonLanes {
       for (int k = 0; k < 6; ++k) movement[k] = movements_[joint.parent].numbers[k];
       for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
         const AngleLanes<V>& angle = angles_[d];
-        has_changed = has_changed || SubstituteHinge(angle.lower - angle.now, angle.upper - angle.now, counts,
-                                                     hinges_[d], movement);
+        has_changed = has_changed ||
+                      SubstituteHinge(angle.lower - angle.now, angle.upper - angle.now, counts, hinges_[d], movement);
       }
       for (int k = 0; k < 6; ++k) movements_[tree_.inwards[i]].numbers[k] = movement[k];
     }

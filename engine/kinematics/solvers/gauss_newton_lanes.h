@@ -2,18 +2,12 @@
 
 #include <span>
 
+#include "engine/kinematics/ik_batch.h"
 #include "engine/kinematics/solvers/batch_sweep.h"
 #include "engine/kinematics/solvers/gauss_newton_course.h"
 #include "engine/kinematics/solvers/gauss_newton_tree.h"
 
 namespace etude {
-
-/// A problem as lanes take it.
-struct LaneProblem {
-  std::span<const double> start_angles, lower, upper;  ///< the start within its ranges
-  const double* root = nullptr;                        ///< p_WL, then R_WL column by column
-  const double* targets = nullptr;  ///< of each effector: p_WD, R_WD column by column, weights of position and axes
-};
 
 /// When a lane's pose meets its goals. In between, the queue is asked.
 struct LaneGoals {
@@ -26,9 +20,10 @@ class GaussNewtonQueue {
  public:
   virtual ~GaussNewtonQueue() = default;
 
-  /// The number of the next problem to take; −1 when there is none. `Problem` describes it until the next call.
+  /// The number of the next problem to take; −1 when there is none. `Problem` is it, with the ranges that it may use,
+  /// until the next call.
   virtual int Next() = 0;
-  virtual const LaneProblem& Problem() const = 0;
+  virtual IkBatch::Column Problem() const = 0;
   virtual GaussNewtonCourse Course() const = 0;
 
   virtual bool IsOutOfReach(int problem) = 0;

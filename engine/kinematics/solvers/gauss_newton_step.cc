@@ -4,6 +4,7 @@
 #include <cstring>
 #include <ranges>
 
+#include "engine/kinematics/solvers/gauss_newton_tree.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 
 namespace etude {
@@ -47,23 +48,12 @@ void AddScaled(const double* __restrict from, double scale, double* __restrict t
 GaussNewtonStep::GaussNewtonStep(const KinematicTree& tree, std::span<const EffectorTarget> targets)
     : tree_(tree),
       targets_(targets),
+      inwards_(JointsInwards(tree)),
       hinges_(std::make_unique_for_overwrite<Hinge[]>(tree.limits.size())),
       effectors_(std::make_unique_for_overwrite<Quadratic[]>(tree.effectors.size())),
       limbs_(std::make_unique_for_overwrite<Quadratic[]>(tree.joints.size())),
       movements_(tree.joints.size()),
-      change_(tree.limits.size()) {
-  std::vector<int> height(tree.joints.size());
-  for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
-    int& above = height[tree.joints[n].parent];
-    above = std::max(above, height[n] + 1);
-  }
-  inwards_.reserve(tree.joints.size());
-  for (int h = 0; h < height[0]; ++h) {
-    for (std::size_t n = 1; n < tree.joints.size(); ++n) {
-      if (height[n] == h) inwards_.push_back(static_cast<int>(n));
-    }
-  }
-}
+      change_(tree.limits.size()) {}
 
 double GaussNewtonStep::Build(const TreeFrames& frames) {
   const glm::dvec3 p_WR = frames.joints[0].position;

@@ -6,6 +6,8 @@
 namespace etude {
 namespace {
 
+constexpr int kMostDofs = 3;  // of a joint
+
 void NameAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   joint.renames_axes = true;
   for (int c = 0; c < 3; ++c) {
@@ -21,14 +23,21 @@ void NameAxes(const glm::dmat3& R_PJ, GaussNewtonTree::Joint& joint) {
   }
 }
 
-}  // namespace
-
-std::vector<int> JointsInwards(const KinematicTree& tree) {
-  std::vector<int> height(tree.joints.size()), inwards;
+// How many joints are above each other from a joint to the farthest leaf.
+std::vector<int> JointHeights(const KinematicTree& tree) {
+  std::vector<int> height(tree.joints.size());
   for (std::size_t n = tree.joints.size() - 1; n > 0; --n) {
     int& above = height[tree.joints[n].parent];
     above = std::max(above, height[n] + 1);
   }
+  return height;
+}
+
+}  // namespace
+
+std::vector<int> JointsInwards(const KinematicTree& tree) {
+  const std::vector<int> height = JointHeights(tree);
+  std::vector<int> inwards;
   inwards.reserve(tree.joints.size());
   for (int h = 0; h < height[0]; ++h) {
     for (std::size_t n = 1; n < tree.joints.size(); ++n) {
@@ -56,11 +65,27 @@ GaussNewtonTree::GaussNewtonTree(const KinematicTree& tree)
   }
   for (const int n : inwards) {
     Joint& joint = joints[n];
-    joint.is_empty = joint.quadratic < 0;
-    if (joint.is_empty) joint.quadratic = quadratic_count++;
+    if (joint.quadratic < 0) {
+      joint.quadratic = quadratic_count++;
+      unasked.push_back(n);
+    }
     int& place = joints[joint.parent].quadratic;
-    joint.hands_over = place < 0;
-    if (joint.hands_over) place = joint.quadratic;
+    if (place < 0) place = joint.quadratic;
+  }
+  const std::vector<int> heights = JointHeights(tree);
+  for (auto first = inwards.begin(); first != inwards.end();) {
+    const auto is_higher = [&](int n) { return heights[n] > heights[*first]; };
+    const auto last = std::find_if(first, inwards.end(), is_higher);
+    for (int turn = 1; turn <= kMostDofs; ++turn) {
+      for (auto n = first; n != last; ++n) {
+        if (turn <= joints[*n].dof_count) steps.push_back({*n, joints[*n].first_dof + joints[*n].dof_count - turn});
+      }
+    }
+    for (auto n = first; n != last; ++n) {
+      const int parent = joints[*n].parent;
+      if (parent != 0 && joints[parent].quadratic != joints[*n].quadratic) steps.push_back({*n, -1});
+    }
+    first = last;
   }
 }
 

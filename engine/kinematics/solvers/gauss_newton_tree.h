@@ -16,9 +16,7 @@ struct GaussNewtonTree {
     double sign[3] = {};        ///< and whether it points the same way, ±1
     double R_PJ[3][3] = {};     ///< columns
     double p_PJ[3] = {};
-    int quadratic = -1;         ///< where what is asked of its limb is gathered
-    bool hands_over = false;    ///< its parent goes on gathering there; else the limb's is added to the parent's
-    bool is_empty = false;      ///< nothing is asked of it
+    int quadratic = -1;  ///< where what is asked of its limb is gathered; its parent may go on there
   };
   struct Effector {
     int joint = 0;
@@ -26,9 +24,17 @@ struct GaussNewtonTree {
     bool is_first = false;  ///< of its limb
   };
 
+  /// A hinge is eliminated, or, after all of a joint, what is asked of its limb is added to its parent's.
+  struct Step {
+    int joint = 0;
+    int dof = -1;  ///< −1: the addition
+  };
+
   std::vector<Joint> joints;
   std::vector<Effector> effectors;
   std::vector<int> inwards;  ///< joints, each after all beyond it; by height, so that neighbours are independent
+  std::vector<Step> steps;   ///< in that order; joints of one height take turns, for processors to overlap them
+  std::vector<int> unasked;  ///< joints with nothing beyond that has a target
   int quadratic_count = 0;
   int dof_count = 0;
 

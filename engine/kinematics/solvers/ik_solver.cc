@@ -9,6 +9,7 @@
 #include "engine/kinematics/solvers/damped_least_squares.h"
 #include "engine/kinematics/solvers/fabrik.h"
 #include "engine/kinematics/solvers/gauss_newton.h"
+#include "engine/kinematics/solvers/gauss_newton_batch.h"
 #include "engine/kinematics/solvers/jacobian_pinv.h"
 #include "engine/kinematics/solvers/jacobian_transpose.h"
 #include "engine/kinematics/solvers/levenberg_marquardt.h"
@@ -29,6 +30,21 @@ IkSolver WithSettings(IkSolver solver, SolveWithOwn<Own> solve, const SettingTab
   solver.settings = table.Describe();
   solver.solve = [solve, table](const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
     return solve(tree, problem, options, table.Apply(options.solver_settings));
+  };
+  return solver;
+}
+
+IkSolver GaussNewtonSolver() {
+  const SettingTable<GaussNewtonOptions> table = {
+      {{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100, "Sweeps before the first Gauss-Newton step."}}};
+  IkSolver solver = WithSettings<GaussNewtonOptions>(
+      {.name = "gauss-newton",
+       .description = "Gauss-Newton steps that stay near the start, sweeps where they get stuck (the default)",
+       .step = "steps"},
+      SolveGaussNewton, table);
+  solver.solve_batch = [table](const KinematicTree& tree, std::span<const IkProblem> problems,
+                               const IkOptions& options) {
+    return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, table.Apply(options.solver_settings));
   };
   return solver;
 }
@@ -69,13 +85,7 @@ std::span<const IkSolver> AllIkSolvers() {
            .step = "sweeps"},
           SolveCcdAnderson,
           {{{"memory", &CcdAndersonOptions::memory, 1, 20, "How many former sweeps the extrapolation uses."}}}),
-      WithSettings<GaussNewtonOptions>(
-          {.name = "gauss-newton",
-           .description = "Gauss-Newton steps that stay near the start, sweeps where they get stuck (the default)",
-           .step = "steps"},
-          SolveGaussNewton,
-          {{{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100,
-             "Sweeps before the first Gauss-Newton step."}}}),
+      GaussNewtonSolver(),
       WithSettings<LevenbergMarquardtOptions>(
           {.name = "levenberg-marquardt",
            .description =
@@ -128,6 +138,14 @@ std::span<const IkSolver> AllIkSolvers() {
           {{{"gain", &JacobianTransposeOptions::gain, 0.01, 2, "Multiplies the length of every step."}}}),
   };
   return solvers;
+}
+
+std::vector<IkSolution> SolveAll(const IkSolver& solver, const KinematicTree& tree, std::span<const IkProblem> problems,
+                                 const IkOptions& options) {
+  if (solver.solve_batch && !options.trace) return solver.solve_batch(tree, problems, options);
+  std::vector<IkSolution> solutions;
+  for (const IkProblem& problem : problems) solutions.push_back(solver.solve(tree, problem, options));
+  return solutions;
 }
 
 std::vector<std::string> IkSolverNames() {

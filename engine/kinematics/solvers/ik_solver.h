@@ -22,7 +22,16 @@ struct IkSolver {
   /// What `IkOptions::solver_settings` holds values for, in this order.
   std::vector<NumberSetting> settings = {};
   std::function<IkSolution(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options)> solve = {};
+  /// Many problems of one tree, sooner than `solve` one by one and with its very answers, but for traces; empty when
+  /// there is no such way. `SolveAll` chooses.
+  std::function<std::vector<IkSolution>(const KinematicTree& tree, std::span<const IkProblem> problems,
+                                        const IkOptions& options)>
+      solve_batch = {};
 };
+
+/// What `solver.solve` answers to each of many problems of one tree.
+std::vector<IkSolution> SolveAll(const IkSolver& solver, const KinematicTree& tree, std::span<const IkProblem> problems,
+                                 const IkOptions& options);
 
 std::span<const IkSolver> AllIkSolvers();
 std::vector<std::string> IkSolverNames();

@@ -68,6 +68,25 @@ TEST_P(EverySolver, HasNothingToDoAtTheTarget) {
   EXPECT_EQ(solution.angles, problem.start.angles);
 }
 
+TEST_P(EverySolver, AnswersManyAsItAnswersEach) {
+  for (const bool traces : {false, true}) {
+    IkOptions options;
+    options.max_iterations = 30;
+    options.trace = traces;
+    std::vector<IkProblem> problems;
+    for (int trial = 0; trial < 5; ++trial) problems.push_back(FarProblem(trial));
+    const std::vector<IkSolution> all = SolveAll(*FindIkSolver(GetParam()), Body(), problems, options);
+    ASSERT_EQ(all.size(), problems.size());
+    for (std::size_t i = 0; i < problems.size(); ++i) {
+      const IkSolution each = Solve(problems[i], options);
+      EXPECT_EQ(all[i].angles, each.angles);
+      EXPECT_EQ(all[i].status, each.status);
+      EXPECT_EQ(all[i].iterations, each.iterations);
+      EXPECT_EQ(all[i].trace.size(), each.trace.size());
+    }
+  }
+}
+
 TEST_P(EverySolver, NeverLeavesTheLimits) {
   IkOptions options;
   options.max_iterations = 60;
