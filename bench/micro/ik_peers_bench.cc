@@ -117,7 +117,7 @@ Method Batch(const std::string& target, Precision precision) {
 Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_iterations) {
   constexpr double kRounding = 1e-9;
   for (int trial = 0; trial < 20; ++trial) {
-    const IkWorld world = MakeIkWorld(Body(), {.pose_range = 1}, {.scenario = "ik-peers", .trial = trial});
+    const IkWorld world = MakeIkWorld(Body(), IkTrialOptions{}, {.scenario = "ik-peers", .trial = trial});
     const std::vector<LimbFrame> found = peer->Effectors(world.truth.angles);
     for (std::size_t e = 0; e < found.size(); ++e) {
       const EffectorTarget& expected = world.problem.targets[e];
@@ -159,11 +159,17 @@ struct Condition {
 };
 
 std::vector<Condition> AllConditions() {
-  return {{"f = 0.5", {.pose_range = 0.5}},
-          {"f = 1", {.pose_range = 1}},
-          {"cold, from the middle of every range", {.pose_range = 1, .start = IkStart::kMiddle}},
-          {"a stretched limb", {.start = IkStart::kStretched}},
-          {"targets off by 1 cm and 3°", {.pose_range = 1, .target_noise = {.position_cm = 1, .orientation_deg = 3}}}};
+  IkTrialOptions whole;
+  whole.pose_range = 1;
+  IkTrialOptions cold = whole, stretched, noisy = whole;
+  cold.start = IkStart::kMiddle;
+  stretched.start = IkStart::kStretched;
+  noisy.target_noise = {.position_cm = 1, .orientation_deg = 3};
+  return {{"f = 0.5", IkTrialOptions{}},
+          {"f = 1", whole},
+          {"cold, from the middle of every range", cold},
+          {"a stretched limb", stretched},
+          {"targets off by 1 cm and 3°", noisy}};
 }
 
 bool IsSolved(const IkProblem& problem, const std::vector<double>& angles) {
