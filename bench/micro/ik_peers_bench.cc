@@ -217,9 +217,11 @@ void PrintRow(const Method& method, std::span<const IkWorld> worlds, const std::
   const Times own{Median(times), Mean(times)};
   if (method.name == kCompared) compared = own;
   const auto ratio = [](double time, double to) { return to > 0 ? fmt::format("{:.2f}", time / to) : "–"; };
-  fmt::print("| {} | {:.1f} % | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {} | {} |\n", method.name,
-             100.0 * solved / static_cast<double>(worlds.size()), Median(hidden), std::max(0.0, Median(steps)),
-             own.median, own.mean, ratio(own.median, compared.median), ratio(own.mean, compared.mean));
+  const double median_steps = Median(steps);
+  fmt::print("| {} | {:.1f} % | {:.1f} | {} | {:.2f} | {:.2f} | {} | {} |\n", method.name,
+             100.0 * solved / static_cast<double>(worlds.size()), Median(hidden),
+             median_steps < 0 ? "–" : fmt::format("{:g}", median_steps), own.median, own.mean,
+             ratio(own.median, compared.median), ratio(own.mean, compared.mean));
   std::fflush(stdout);
 }
 
