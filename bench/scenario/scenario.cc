@@ -63,17 +63,25 @@ std::vector<NamedClips> ReadLibraries(Fields& fields, const TaskKind& kind) {
   return read;
 }
 
+/// What stands at `key`; none if that is nothing, as by default: `streams: []`.
+const Node* FindFilled(Fields& fields, const char* key) {
+  const Node* node = fields.Raw(key);
+  const bool is_empty =
+      node != nullptr && node->kind != Node::Kind::kScalar && node->items.empty() && node->entries.empty();
+  return is_empty ? nullptr : node;
+}
+
 /// What people did is read off recordings, or off clips that have labels.
 void CheckStreams(Fields& fields, const Scenario& scenario, const TaskKind& kind) {
   for (const char* key : {"streams", "labels", "reading"}) {
-    const Node* named = fields.Raw(key);
+    const Node* named = FindFilled(fields, key);
     if (named == nullptr) continue;
     if (!kind.uses_recordings) fields.Complain(named->place, fmt::format("'{}' has no use in task {}", key, kind.name));
     if (!scenario.libraries.empty())
       fields.Complain(named->place, fmt::format("'{}' has no use with 'libraries'", key));
   }
-  const Node* streams = fields.Raw("streams");
-  if (streams != nullptr && fields.Raw("clips") != nullptr) {
+  const Node* streams = FindFilled(fields, "streams");
+  if (streams != nullptr && FindFilled(fields, "clips") != nullptr) {
     fields.Complain(streams->place, "'streams' stands in the place of 'clips'");
   }
 }
