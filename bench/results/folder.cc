@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bench/files/files.h"
+#include "bench/results/column_reader.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
 #include "bench/results/summary_json.h"

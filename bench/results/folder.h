@@ -12,7 +12,7 @@
 #include "bench/files/json.h"
 #include "bench/model/run_data.h"
 #include "bench/model/study.h"
-#include "bench/results/columns.h"
+#include "bench/results/column_writer.h"
 
 namespace etude {
 

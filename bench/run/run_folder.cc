@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/files/files.h"
+#include "bench/results/column_index.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 

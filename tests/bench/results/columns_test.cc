@@ -1,5 +1,3 @@
-#include "bench/results/columns.h"
-
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -7,6 +5,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/temporary_folder.h"
+#include "bench/results/column_writer.h"
 #include "bench/results/folder.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
@@ -189,6 +188,24 @@ TEST_F(ColumnsTest, ThatAreNotAsTheyWereWrittenAreRefused) {
   EXPECT_THAT(with(own / "series" / "position_error_cm.ends.npy", [](std::string& text) { text.back() = 1; }),
               HasSubstr("do not follow each other"));
   EXPECT_THAT(with(own / "index.json", [](std::string& text) { text = "{}"; }), HasSubstr("not an index of columns"));
+  const auto with_index = [&](const char* key, const nlohmann::json& value, const char* scenario = "poses") {
+    return with(folder() / "columns" / scenario / "index.json", [&](std::string& text) {
+      nlohmann::json index = nlohmann::json::parse(text);
+      index[nlohmann::json::json_pointer(key)] = value;
+      text = index.dump();
+    });
+  };
+  EXPECT_THAT(with_index("/trials", -1), HasSubstr("tells of no cells"));
+  EXPECT_THAT(with_index("/methods", nlohmann::json::array()), HasSubstr("tells of no cells"));
+  EXPECT_THAT(with_index("/texts", nlohmann::json::array()), HasSubstr("names a text that is not there"));
+  EXPECT_THAT(with_index("/kinds/0/why/0", -2), HasSubstr("names a text that is not there"));
+  const auto texts = nlohmann::json::parse(*ReadWholeFile(folder() / "columns" / "clips" / "index.json")).at("texts");
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (!texts[i].get<std::string>().starts_with('[')) continue;
+    const std::string key = fmt::format("/texts/{}", i);
+    EXPECT_THAT(with_index(key.c_str(), "[1]", "clips"), HasSubstr("'[1]' is no list of units"));
+    EXPECT_THAT(with_index(key.c_str(), "[", "clips"), HasSubstr("clips"));
+  }
   fs::remove(own / "digest_world.npy");
   EXPECT_THAT(Complaint(), HasSubstr("digest_world.npy: cannot read this file"));
 }

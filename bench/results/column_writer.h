@@ -3,43 +3,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/model/cell_usage.h"
-#include "bench/model/row_source.h"
+#include "bench/model/row.h"
 #include "bench/model/study.h"
+#include "bench/results/column_index.h"
 #include "bench/results/npy.h"
 
 namespace etude {
-
-/// Where a run of many cells keeps its rows, a folder per scenario.
-constexpr const char* kColumnsFolder = "columns";
-/// Where the times of its cells stand, alike.
-constexpr const char* kTimesFolder = "timings";
-
-/// What the rows of one scenario are made of beside their numbers: columns/SCENARIO/index.json.
-struct ColumnIndex {
-  /// What some rows have in common: which metrics, stages and curves, in which order, and why values are missing.
-  struct Kind {
-    std::vector<std::string> metrics;
-    std::vector<std::optional<int>> why;  ///< of each metric without a value: its text, −1 = the cell's own reason
-    std::vector<std::string> stages;
-    std::vector<std::pair<std::string, std::string>> series;  ///< name and axis
-    bool operator==(const Kind&) const = default;
-  };
-
-  std::string scenario, task;
-  std::vector<std::vector<SweptValue>> conditions;
-  int trials = 0;
-  std::vector<std::string> methods;
-  std::vector<std::string> texts = {""};  ///< reasons, clips and units, which columns name by their place
-  std::vector<Kind> kinds;
-
-  std::size_t row_count() const { return conditions.size() * static_cast<std::size_t>(trials) * methods.size(); }
-};
 
 /// Columns of one kind of number. Rows of which nothing is put into one hold `fill` there.
 template <typename Number>
@@ -91,9 +64,5 @@ class ColumnWriter {
   NpyColumns<float> times_;
   std::map<std::string, Curve> curves_;
 };
-
-/// Opens the columns of a run; rows, in canonical order, are made of them one at a time.
-Result<std::shared_ptr<const RowSource>> OpenColumns(const std::filesystem::path& folder,
-                                                     const std::vector<std::string>& scenarios);
 
 }  // namespace etude

@@ -1,0 +1,259 @@
+#include "bench/results/column_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "bench/files/json.h"
+#include "bench/results/column_index.h"
+#include "bench/results/npy.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The columns of one scenario.
+class ScenarioColumns {
+ public:
+  static Result<ScenarioColumns> Open(const fs::path& folder, const std::string& scenario) {
+    const fs::path own = folder / kColumnsFolder / scenario;
+    ScenarioColumns columns;
+    ASSIGN_OR_RETURN(columns.index_, ReadColumnIndex(own));
+    const ColumnIndex& index = columns.index_;
+    ASSIGN_OR_RETURN(columns.status_, columns.OpenColumn<std::uint8_t>(own, "status"));
+    ASSIGN_OR_RETURN(columns.kind_, columns.OpenColumn<std::uint32_t>(own, "kind"));
+    for (std::size_t i = 0; i < columns.texts_.size(); ++i) {
+      if (std::error_code none; !fs::exists(ColumnFile(own, kTextColumns[i]), none)) continue;
+      ASSIGN_OR_RETURN(columns.texts_[i], columns.OpenColumn<std::uint32_t>(own, kTextColumns[i]));
+    }
+    for (const ColumnIndex::Kind& kind : index.kinds) {
+      KindColumns& of_kind = columns.kinds_.emplace_back();
+      for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
+        if (!kind.why[i]) RETURN_IF_ERROR(columns.OpenOnce<double>(own, kind.metrics[i], columns.values_));
+        of_kind.values.push_back(kind.why[i] ? nullptr : &columns.values_->at(kind.metrics[i]));
+      }
+      for (const std::string& stage : kind.stages) {
+        RETURN_IF_ERROR(columns.OpenOnce<std::uint64_t>(own, DigestColumn(stage), columns.digests_));
+        of_kind.digests.push_back(&columns.digests_->at(DigestColumn(stage)));
+      }
+      for (const auto& [name, axis] : kind.series) {
+        RETURN_IF_ERROR(columns.OpenOnce<std::uint64_t>(own / kSeriesFolder, name + kEnds, columns.ends_));
+        of_kind.ends.push_back(&columns.ends_->at(name + kEnds));
+        if (!columns.curves_->contains(name)) {
+          ASSIGN_OR_RETURN(auto curve, NpyFile::Open(ColumnFile(own / kSeriesFolder, name), kNpyType<double>));
+          columns.curves_->emplace(name, std::move(curve));
+        }
+        of_kind.curves.push_back(&columns.curves_->at(name));
+      }
+    }
+    const fs::path times = folder / kTimesFolder / scenario;
+    if (std::error_code none; fs::exists(ColumnFile(times, "cpu_s"), none)) {
+      ASSIGN_OR_RETURN(columns.cpu_s_, columns.OpenColumn<float>(times, "cpu_s"));
+    }
+    RETURN_IF_ERROR(columns.CheckNumbers(own));
+    RETURN_IF_ERROR(columns.ReadUnits(own));
+    return columns;
+  }
+
+  const ColumnIndex& index() const { return index_; }
+
+  void Read(std::size_t at, Row& row) const {
+    const std::size_t methods = index_.methods.size(), trials = static_cast<std::size_t>(index_.trials);
+    row.scenario = index_.scenario;
+    row.task = index_.task;
+    row.condition = index_.conditions[at / (methods * trials)];
+    row.trial = static_cast<int>(at / methods % trials);
+    row.method = index_.methods[at % methods];
+    row.clip = TextAt(kClip, at);
+    row.units = units_[TextNumber(kUnits, at)];
+    CellResult& result = row.result;
+    result.status = static_cast<Status>(status_->Numbers<std::uint8_t>()[at]);
+    result.reason = TextAt(kReason, at);
+    const std::uint32_t number = kind_->Numbers<std::uint32_t>()[at];
+    const ColumnIndex::Kind& kind = index_.kinds[number];
+    const KindColumns& columns = kinds_[number];
+    result.metrics.resize(kind.metrics.size());
+    for (std::size_t i = 0; i < kind.metrics.size(); ++i) {
+      MetricValue& metric = result.metrics[i];
+      metric.id = kind.metrics[i];
+      metric.value.reset();
+      metric.null_reason.clear();
+      if (!kind.why[i]) {
+        metric.value = columns.values[i]->Numbers<double>()[at];
+      } else {
+        metric.null_reason = *kind.why[i] == ColumnIndex::kOwnReason
+                                 ? result.reason
+                                 : index_.texts[static_cast<std::size_t>(*kind.why[i])];
+      }
+    }
+    result.digests.resize(kind.stages.size());
+    for (std::size_t i = 0; i < kind.stages.size(); ++i) {
+      auto& [stage, digest] = result.digests[i];
+      stage = kind.stages[i];
+      digest.clear();
+      fmt::format_to(std::back_inserter(digest), "{:016x}", columns.digests[i]->Numbers<std::uint64_t>()[at]);
+    }
+    result.series.clear();
+    result.recording.reset();
+  }
+
+  std::vector<Series> SeriesOf(std::size_t at) const {
+    const std::uint32_t number = kind_->Numbers<std::uint32_t>()[at];
+    const KindColumns& columns = kinds_[number];
+    std::vector<Series> series;
+    for (std::size_t i = 0; i < columns.curves.size(); ++i) {
+      const auto& [name, axis] = index_.kinds[number].series[i];
+      const auto ends = columns.ends[i]->Numbers<std::uint64_t>();
+      const auto values = columns.curves[i]->Numbers<double>();
+      const std::size_t begin = at == 0 ? 0 : ends[at - 1];
+      series.push_back({name,
+                        axis,
+                        {values.begin() + static_cast<std::ptrdiff_t>(begin),
+                         values.begin() + static_cast<std::ptrdiff_t>(ends[at])}});
+    }
+    return series;
+  }
+
+  std::optional<double> CpuSecondsOf(std::size_t at) const {
+    return cpu_s_ ? std::optional<double>(cpu_s_->Numbers<float>()[at]) : std::nullopt;
+  }
+
+ private:
+  /// Columns that name texts by their places.
+  enum TextColumn { kReason, kClip, kUnits };
+  static constexpr std::array<const char*, 3> kTextColumns = {"reason", "clip", "units"};
+  /// In the order of a kind's metrics, stages and series; null where a kind has no value.
+  struct KindColumns {
+    std::vector<const NpyFile*> values, digests, curves, ends;
+  };
+  using Files = std::map<std::string, NpyFile>;
+
+  template <typename Number>
+  Result<NpyFile> OpenColumn(const fs::path& folder, const std::string& name) const {
+    ASSIGN_OR_RETURN(auto file, NpyFile::Open(ColumnFile(folder, name), kNpyType<Number>));
+    const std::size_t found = file.template Numbers<Number>().size();
+    if (found == index_.row_count()) return file;
+    return Fail({ColumnFile(folder, name).string()}, "holds {} numbers; its run has {} rows", found,
+                index_.row_count());
+  }
+
+  template <typename Number>
+  Result<void> OpenOnce(const fs::path& folder, const std::string& name, const std::unique_ptr<Files>& files) const {
+    if (files->contains(name)) return {};
+    ASSIGN_OR_RETURN(auto file, OpenColumn<Number>(folder, name));
+    files->emplace(name, std::move(file));
+    return {};
+  }
+
+  /// No number of any column leads out of what is there.
+  Result<void> CheckNumbers(const fs::path& folder) const {
+    const Place place{folder.string()};
+    for (const std::uint32_t kind : kind_->Numbers<std::uint32_t>()) {
+      if (kind >= kinds_.size()) return Fail(place, "kind.npy holds {}; there are {} kinds", kind, kinds_.size());
+    }
+    for (const std::uint8_t status : status_->Numbers<std::uint8_t>()) {
+      if (status > static_cast<std::uint8_t>(Status::kSkipped)) return Fail(place, "status.npy holds {}", status);
+    }
+    for (const auto& column : texts_) {
+      if (!column) continue;
+      for (const std::uint32_t text : column->Numbers<std::uint32_t>()) {
+        if (text >= index_.texts.size()) return Fail(place, "names text {} of {}", text, index_.texts.size());
+      }
+    }
+    for (const auto& [name, ends] : *ends_) {
+      std::uint64_t last = 0;
+      const std::size_t values =
+          curves_->at(name.substr(0, name.size() - std::string_view(kEnds).size())).Numbers<double>().size();
+      for (const std::uint64_t end : ends.Numbers<std::uint64_t>()) {
+        if (end < last || end > values) return Fail(place, "the curves of {} do not follow each other", name);
+        last = end;
+      }
+    }
+    return {};
+  }
+
+  /// The lists of units among the texts.
+  Result<void> ReadUnits(const fs::path& folder) {
+    units_.resize(index_.texts.size());
+    if (!texts_[kUnits]) return {};
+    for (const std::uint32_t text : texts_[kUnits]->Numbers<std::uint32_t>()) {
+      if (text == 0 || !units_[text].empty()) continue;
+      ASSIGN_OR_RETURN(const auto list, ReadJson(index_.texts[text], folder.string()));
+      const auto is_text = [](const Json& unit) { return unit.is_string(); };
+      if (!list.is_array() || list.empty() || !std::ranges::all_of(list, is_text)) {
+        return Fail({folder.string()}, "'{}' is no list of units", index_.texts[text]);
+      }
+      units_[text] = list.template get<std::vector<std::string>>();
+    }
+    return {};
+  }
+
+  std::size_t TextNumber(TextColumn column, std::size_t at) const {
+    return texts_[column] ? texts_[column]->Numbers<std::uint32_t>()[at] : 0;
+  }
+  const std::string& TextAt(TextColumn column, std::size_t at) const { return index_.texts[TextNumber(column, at)]; }
+
+  ColumnIndex index_;
+  std::optional<NpyFile> status_, kind_, cpu_s_;
+  std::array<std::optional<NpyFile>, kTextColumns.size()> texts_;
+  std::vector<std::vector<std::string>> units_;  ///< of the texts that name units
+  // Pointers into these stay when the object is moved.
+  std::unique_ptr<Files> values_ = std::make_unique<Files>(), digests_ = std::make_unique<Files>(),
+                         curves_ = std::make_unique<Files>(), ends_ = std::make_unique<Files>();
+  std::vector<KindColumns> kinds_;
+};
+
+class ColumnRows : public RowSource {
+ public:
+  explicit ColumnRows(std::vector<ScenarioColumns> scenarios) : scenarios_(std::move(scenarios)) {
+    for (const ScenarioColumns& scenario : scenarios_) firsts_.push_back(firsts_.back() + scenario.index().row_count());
+  }
+
+  std::size_t size() const override { return firsts_.back(); }
+  std::vector<std::size_t> PlacesAtEqualSteps(std::size_t rows) const override {
+    std::vector<std::size_t> places;
+    const std::size_t step = (size() + rows - 1) / rows;
+    for (std::size_t scenario = 0; scenario < scenarios_.size(); ++scenario) {
+      const std::size_t methods = scenarios_[scenario].index().methods.size();
+      const std::size_t worlds = scenarios_[scenario].index().row_count() / methods;
+      for (std::size_t world = 0; world < worlds; world += step) {
+        for (std::size_t m = 0; m < methods; ++m) places.push_back(firsts_[scenario] + methods * world + m);
+      }
+    }
+    return places;
+  }
+  void Read(std::size_t place, Row& row) const override { Of(place).Read(Within(place), row); }
+  std::vector<Series> SeriesOf(std::size_t place) const override { return Of(place).SeriesOf(Within(place)); }
+  std::optional<double> CpuSecondsOf(std::size_t place) const override { return Of(place).CpuSecondsOf(Within(place)); }
+
+ private:
+  std::size_t ScenarioAt(std::size_t place) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(firsts_, place) - firsts_.begin()) - 1;
+  }
+  const ScenarioColumns& Of(std::size_t place) const { return scenarios_[ScenarioAt(place)]; }
+  std::size_t Within(std::size_t place) const { return place - firsts_[ScenarioAt(place)]; }
+
+  std::vector<ScenarioColumns> scenarios_;
+  std::vector<std::size_t> firsts_ = {0};  ///< of each scenario, and the count of all rows at the end
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const RowSource>> OpenColumns(const fs::path& folder,
+                                                     const std::vector<std::string>& scenarios) {
+  std::vector<ScenarioColumns> opened;
+  for (const std::string& scenario : scenarios) {
+    ASSIGN_OR_RETURN(auto columns, ScenarioColumns::Open(folder, scenario));
+    opened.push_back(std::move(columns));
+  }
+  return std::make_shared<const ColumnRows>(std::move(opened));
+}
+
+}  // namespace etude

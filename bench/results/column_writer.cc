@@ -1,0 +1,178 @@
+#include "bench/results/column_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+
+#include "bench/files/json.h"
+
+namespace etude {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// The times of a cell, by the names of their columns.
+constexpr std::array<std::pair<const char*, double CellUsage::*>, 5> kTimes = {
+    {{"wall_s", &CellUsage::wall_s},
+     {"cpu_s", &CellUsage::cpu_s},
+     {"peak_mb", &CellUsage::peak_mb},
+     {"world_wall_s", &CellUsage::world_wall_s},
+     {"world_cpu_s", &CellUsage::world_cpu_s}}};
+
+/// "00c0ffee00c0ffee" as a number.
+Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& hex) {
+  std::uint64_t number = 0;
+  const auto [stop, status] = std::from_chars(hex.data(), hex.data() + hex.size(), number, 16);
+  if (status == std::errc() && stop == hex.data() + hex.size() && hex.size() == 16) return number;
+  return Fail({}, "the digest of {} is '{}', not 16 hexadecimal digits", stage, hex);
+}
+
+/// How the text of a missing value is named, given the row's own reason.
+bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, const std::vector<std::string>& texts) {
+  if (!why || metric.value) return !why && metric.value;
+  return metric.null_reason ==
+         (*why == ColumnIndex::kOwnReason ? row.result.reason : texts[static_cast<std::size_t>(*why)]);
+}
+
+}  // namespace
+
+template <typename Number>
+Result<void> NpyColumns<Number>::Put(std::size_t row, const std::string& name, Number number) {
+  auto column = columns_.find(name);
+  if (column == columns_.end()) {
+    ASSIGN_OR_RETURN(auto writer, NpyWriter::Begin(ColumnFile(folder_, name), kNpyType<Number>));
+    column = columns_.emplace(name, std::move(writer)).first;
+  }
+  RETURN_IF_ERROR(FillUp(row, column->second));
+  return column->second.Add(number);
+}
+
+template <typename Number>
+Result<void> NpyColumns<Number>::FillUp(std::size_t rows, NpyWriter& writer) const {
+  while (writer.count() < rows) RETURN_IF_ERROR(writer.Add(fill_));
+  return {};
+}
+
+template <typename Number>
+Result<void> NpyColumns<Number>::Finish(const std::vector<std::size_t>& shape) {
+  const std::size_t rows = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  for (auto& [name, writer] : columns_) {
+    RETURN_IF_ERROR(FillUp(rows, writer));
+    RETURN_IF_ERROR(writer.Finish(shape));
+  }
+  return {};
+}
+
+ColumnWriter::ColumnWriter(const fs::path& folder, const Study& study)
+    : folder_(folder / kColumnsFolder / study.scenario),
+      values_(folder_, kNone),
+      digests_(folder_, 0),
+      places_(folder_, 0),
+      statuses_(folder_, 0),
+      times_(folder / kTimesFolder / study.scenario, 0) {
+  index_.scenario = study.scenario;
+  index_.task = study.task;
+  index_.conditions = study.conditions;
+  index_.trials = study.trials;
+  for (const ComparedMethod& method : study.methods) index_.methods.push_back(method.name);
+  text_places_[""] = 0;
+}
+
+std::uint32_t ColumnWriter::TextOf(const std::string& text) {
+  if (text.empty()) return 0;
+  const auto [place, is_new] = text_places_.emplace(text, static_cast<std::uint32_t>(index_.texts.size()));
+  if (is_new) index_.texts.push_back(text);
+  return place->second;
+}
+
+std::uint32_t ColumnWriter::KindOf(const Row& row) {
+  const CellResult& result = row.result;
+  const auto is_like = [&](const ColumnIndex::Kind& kind) {
+    return std::ranges::equal(kind.metrics, result.metrics, {}, {}, &MetricValue::id) &&
+           std::ranges::equal(
+               kind.why, result.metrics,
+               [&](const auto& why, const MetricValue& metric) { return IsWhy(why, metric, row, index_.texts); }) &&
+           std::ranges::equal(kind.stages, result.digests, {}, {}, [](const auto& digest) { return digest.first; }) &&
+           std::ranges::equal(kind.series, result.series, [](const auto& known, const Series& series) {
+             return known.first == series.name && known.second == series.axis;
+           });
+  };
+  // Most rows are of the kind of the one before them.
+  if (!index_.kinds.empty() && is_like(index_.kinds[last_kind_])) return last_kind_;
+  const auto found = std::ranges::find_if(index_.kinds, is_like);
+  last_kind_ = static_cast<std::uint32_t>(found - index_.kinds.begin());
+  if (found != index_.kinds.end()) return last_kind_;
+  ColumnIndex::Kind& kind = index_.kinds.emplace_back();
+  for (const MetricValue& metric : result.metrics) {
+    kind.metrics.push_back(metric.id);
+    const bool is_own = !metric.value && metric.null_reason == result.reason;
+    kind.why.push_back(metric.value ? std::nullopt
+                       : is_own     ? std::optional(ColumnIndex::kOwnReason)
+                                    : std::optional(static_cast<int>(TextOf(metric.null_reason))));
+  }
+  for (const auto& [stage, digest] : result.digests) kind.stages.push_back(stage);
+  for (const Series& series : result.series) kind.series.emplace_back(series.name, series.axis);
+  return last_kind_;
+}
+
+Result<void> ColumnWriter::Add(const Row& row, const CellUsage& usage) {
+  const CellResult& result = row.result;
+  RETURN_IF_ERROR(statuses_.Put(rows_, "status", static_cast<std::uint8_t>(result.status)));
+  RETURN_IF_ERROR(places_.Put(rows_, "kind", KindOf(row)));
+  if (!result.reason.empty()) RETURN_IF_ERROR(places_.Put(rows_, "reason", TextOf(result.reason)));
+  if (!row.clip.empty()) RETURN_IF_ERROR(places_.Put(rows_, "clip", TextOf(row.clip)));
+  if (!row.units.empty()) RETURN_IF_ERROR(places_.Put(rows_, "units", TextOf(Json(row.units).dump())));
+  for (const MetricValue& metric : result.metrics) {
+    if (metric.value) RETURN_IF_ERROR(values_.Put(rows_, metric.id, *metric.value));
+  }
+  for (const auto& [stage, digest] : result.digests) {
+    ASSIGN_OR_RETURN(const auto number, DigestNumber(stage, digest));
+    RETURN_IF_ERROR(digests_.Put(rows_, DigestColumn(stage), number));
+  }
+  for (const Series& series : result.series) RETURN_IF_ERROR(AddSeries(series));
+  for (const auto& [name, time] : kTimes) RETURN_IF_ERROR(times_.Put(rows_, name, static_cast<float>(usage.*time)));
+  ++rows_;
+  return {};
+}
+
+Result<void> ColumnWriter::AddSeries(const Series& series) {
+  auto curve = curves_.find(series.name);
+  if (curve == curves_.end()) {
+    ASSIGN_OR_RETURN(auto values, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name), kNpyType<double>));
+    ASSIGN_OR_RETURN(
+        auto ends, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name + kEnds), kNpyType<std::uint64_t>));
+    curve = curves_.emplace(series.name, Curve{std::move(values), std::move(ends)}).first;
+  }
+  RETURN_IF_ERROR(curve->second.FillUp(rows_));
+  for (double value : series.values) RETURN_IF_ERROR(curve->second.values.Add(value));
+  return curve->second.ends.Add(curve->second.values.count());
+}
+
+Result<void> ColumnWriter::Curve::FillUp(std::size_t rows) {
+  while (ends.count() < rows) RETURN_IF_ERROR(ends.Add(values.count()));
+  return {};
+}
+
+Result<void> ColumnWriter::Finish() {
+  const std::vector<std::size_t> shape = {index_.conditions.size(), static_cast<std::size_t>(index_.trials),
+                                          index_.methods.size()};
+  RETURN_IF_ERROR(values_.Finish(shape));
+  RETURN_IF_ERROR(digests_.Finish(shape));
+  RETURN_IF_ERROR(places_.Finish(shape));
+  RETURN_IF_ERROR(statuses_.Finish(shape));
+  RETURN_IF_ERROR(times_.Finish(shape));
+  for (auto& [name, curve] : curves_) {
+    RETURN_IF_ERROR(curve.FillUp(rows_));
+    RETURN_IF_ERROR(curve.values.Finish({curve.values.count()}));
+    RETURN_IF_ERROR(curve.ends.Finish(shape));
+  }
+  return WriteColumnIndex(folder_, index_);
+}
+
+}  // namespace etude
