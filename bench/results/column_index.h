@@ -18,7 +18,7 @@ constexpr const char* kTimesFolder = "timings";
 /// Within a scenario's folder, the columns of curves: their values one behind the other, and of each row where they
 /// end.
 constexpr const char* kSeriesFolder = "series";
-constexpr const char* kEnds = ".ends";
+constexpr const char* kCurveEnds = ".ends";
 
 /// What the rows of one scenario are made of beside their numbers: columns/SCENARIO/index.json.
 struct ColumnIndex {

@@ -44,8 +44,8 @@ class ScenarioColumns {
         of_kind.digests.push_back(&columns.digests_->at(DigestColumn(stage)));
       }
       for (const auto& [name, axis] : kind.series) {
-        RETURN_IF_ERROR(columns.OpenOnce<std::uint64_t>(own / kSeriesFolder, name + kEnds, columns.ends_));
-        of_kind.ends.push_back(&columns.ends_->at(name + kEnds));
+        RETURN_IF_ERROR(columns.OpenOnce<std::uint64_t>(own / kSeriesFolder, name + kCurveEnds, columns.ends_));
+        of_kind.ends.push_back(&columns.ends_->at(name + kCurveEnds));
         if (!columns.curves_->contains(name)) {
           ASSIGN_OR_RETURN(auto curve, NpyFile::Open(ColumnFile(own / kSeriesFolder, name), kNpyType<double>));
           columns.curves_->emplace(name, std::move(curve));
@@ -170,7 +170,7 @@ class ScenarioColumns {
     for (const auto& [name, ends] : *ends_) {
       std::uint64_t last = 0;
       const std::size_t values =
-          curves_->at(name.substr(0, name.size() - std::string_view(kEnds).size())).Numbers<double>().size();
+          curves_->at(name.substr(0, name.size() - std::string_view(kCurveEnds).size())).Numbers<double>().size();
       for (const std::uint64_t end : ends.Numbers<std::uint64_t>()) {
         if (end < last || end > values) return Fail(place, "the curves of {} do not follow each other", name);
         last = end;

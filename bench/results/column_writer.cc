@@ -145,8 +145,8 @@ Result<void> ColumnWriter::AddSeries(const Series& series) {
   auto curve = curves_.find(series.name);
   if (curve == curves_.end()) {
     ASSIGN_OR_RETURN(auto values, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name), kNpyType<double>));
-    ASSIGN_OR_RETURN(
-        auto ends, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name + kEnds), kNpyType<std::uint64_t>));
+    ASSIGN_OR_RETURN(auto ends, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name + kCurveEnds),
+                                                 kNpyType<std::uint64_t>));
     curve = curves_.emplace(series.name, Curve{std::move(values), std::move(ends)}).first;
   }
   RETURN_IF_ERROR(curve->second.FillUp(rows_));
