@@ -7,10 +7,18 @@ namespace {
 
 using enum Role;
 
-// Which way each limb leads from its parent at rest, by its lower joint; hips and shoulders to the person's left are
-// +X.
-glm::dvec3 DirectionAtRest(Role role) {
-  switch (role) {
+// A limb's name is that of the joint that it turns about, where it is the only one.
+std::string NameOfLimbTo(const Bone& bone) {
+  if (bone.child == kSpine) return "lower_back";
+  if (bone.child == kLeftShoulder) return "left_collar";
+  if (bone.child == kRightShoulder) return "right_collar";
+  return std::string(RoleName(bone.parent));
+}
+
+}  // namespace
+
+glm::dvec3 DirectionAtRest(Role child) {
+  switch (child) {
     case kSpine:
     case kShoulderCentre:
     case kHead:
@@ -28,16 +36,6 @@ glm::dvec3 DirectionAtRest(Role role) {
       return {0, -1, 0};
   }
 }
-
-// A limb's name is that of the joint that it turns about, where it is the only one.
-std::string NameOfLimbTo(const Bone& bone) {
-  if (bone.child == kSpine) return "lower_back";
-  if (bone.child == kLeftShoulder) return "left_collar";
-  if (bone.child == kRightShoulder) return "right_collar";
-  return std::string(RoleName(bone.parent));
-}
-
-}  // namespace
 
 BodyPose RestBody::Pose() const {
   BodyPose pose;

@@ -10,6 +10,10 @@
 
 namespace etude {
 
+/// Which way the limb that ends in a joint leads at rest: a person who stands with hanging arms, facing +Z; hips and
+/// shoulders to the person's left are +X.
+glm::dvec3 DirectionAtRest(Role child);
+
 /// One person's body as it can be measured before a take: its joints in some pose at rest, metres, Y up, facing +Z. It
 /// says how far joints are from each other, and nothing of how they turn.
 struct RestBody {

@@ -5,39 +5,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/motion/rest_body.h"
 #include "engine/transitions/in_betweens/tween.h"
 
 namespace etude {
-namespace {
-
-using enum Role;
-
-/// Where a limb of a standing body points to, but for the feet, which fall to the floor.
-glm::dvec3 StandingDirection(Role child) {
-  switch (child) {
-    case kLeftShoulder:
-    case kLeftHip:
-      return {1, 0, 0};
-    case kRightShoulder:
-    case kRightHip:
-      return {-1, 0, 0};
-    case kSpine:
-    case kShoulderCentre:
-    case kHead:
-      return {0, 1, 0};
-    default:
-      return {0, -1, 0};
-  }
-}
-
-}  // namespace
 
 BodyPose StandingPose(const BodyProportions& proportions) {
+  using enum Role;
   BodyPose pose;
   pose[kHipCentre] = {0, proportions.standing_hip_height, 0};
   for (const Bone& bone : AllBones()) {
     const double length = proportions.limb_lengths[Index(bone.child)];
-    glm::dvec3 limb = length * StandingDirection(bone.child);
+    glm::dvec3 limb = length * DirectionAtRest(bone.child);
+    // Feet fall to the floor.
     if (bone.child == kLeftFoot || bone.child == kRightFoot) {
       const double drop = std::clamp(pose[bone.parent].y, 0.0, length);
       limb = {0, -drop, std::sqrt(length * length - drop * drop)};
