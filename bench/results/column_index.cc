@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kColumnsVersion = 1;
+constexpr int kColumnsVersion = 2;
 constexpr const char* kIndexFile = "index.json";
 
 Json Encode(const ColumnIndex& index) {
@@ -23,7 +23,12 @@ Json Encode(const ColumnIndex& index) {
   for (const ColumnIndex::Kind& kind : index.kinds) {
     Json why = Json::array();
     for (const auto& text : kind.why) why.push_back(text ? Json(*text) : Json(nullptr));
-    kinds.push_back({{"metrics", kind.metrics}, {"why", why}, {"stages", kind.stages}, {"series", kind.series}});
+    Json curves = Json::array();
+    for (const Series& series : kind.series) {
+      curves.push_back({{"name", series.name}, {"axis", series.axis}});
+      if (!series.names.empty()) curves.back()["names"] = series.names;
+    }
+    kinds.push_back({{"metrics", kind.metrics}, {"why", why}, {"stages", kind.stages}, {"series", curves}});
   }
   for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
   return {{"format", "etude-columns"},
@@ -66,7 +71,10 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
       }
       if (kind.why.size() != kind.metrics.size()) return Fail(place, "does not tell of every metric why it is missing");
       kind.stages = entry.at("stages").get<std::vector<std::string>>();
-      kind.series = entry.at("series").get<std::vector<std::pair<std::string, std::string>>>();
+      for (const Json& curve : entry.at("series")) {
+        kind.series.push_back({curve.at("name").get<std::string>(), curve.at("axis").get<std::string>(), {}, {}});
+        if (curve.contains("names")) kind.series.back().names = curve.at("names").get<std::vector<std::string>>();
+      }
     }
   } catch (const Json::exception& error) {
     return Fail(place, "not an index of columns: {}", error.what());

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "bench/model/cell_result.h"
 #include "bench/model/study.h"
 #include "engine/base/result.h"
 
@@ -28,8 +28,7 @@ struct ColumnIndex {
     std::vector<std::string> metrics;
     std::vector<std::optional<int>> why;  ///< of each metric without a value: its text, or kOwnReason
     std::vector<std::string> stages;
-    std::vector<std::pair<std::string, std::string>> series;  ///< name and axis
-    bool operator==(const Kind&) const = default;
+    std::vector<Series> series;  ///< without values
   };
 
   std::string scenario, task;

@@ -43,7 +43,8 @@ class ScenarioColumns {
         RETURN_IF_ERROR(columns.OpenOnce<std::uint64_t>(own, DigestColumn(stage), columns.digests_));
         of_kind.digests.push_back(&columns.digests_->at(DigestColumn(stage)));
       }
-      for (const auto& [name, axis] : kind.series) {
+      for (const Series& series : kind.series) {
+        const std::string& name = series.name;
         RETURN_IF_ERROR(columns.OpenOnce<std::uint64_t>(own / kSeriesFolder, name + kCurveEnds, columns.ends_));
         of_kind.ends.push_back(&columns.ends_->at(name + kCurveEnds));
         if (!columns.curves_->contains(name)) {
@@ -109,14 +110,12 @@ class ScenarioColumns {
     const KindColumns& columns = kinds_[number];
     std::vector<Series> series;
     for (std::size_t i = 0; i < columns.curves.size(); ++i) {
-      const auto& [name, axis] = index_.kinds[number].series[i];
       const auto ends = columns.ends[i]->Numbers<std::uint64_t>();
       const auto values = columns.curves[i]->Numbers<double>();
       const std::size_t begin = at == 0 ? 0 : ends[at - 1];
-      series.push_back({name,
-                        axis,
-                        {values.begin() + static_cast<std::ptrdiff_t>(begin),
-                         values.begin() + static_cast<std::ptrdiff_t>(ends[at])}});
+      series.push_back(index_.kinds[number].series[i]);
+      series.back().values.assign(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  values.begin() + static_cast<std::ptrdiff_t>(ends[at]));
     }
     return series;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "bench/files/json.h"
@@ -32,6 +33,9 @@ Result<std::uint64_t> DigestNumber(const std::string& stage, const std::string& 
   if (status == std::errc() && stop == hex.data() + hex.size() && hex.size() == 16) return number;
   return Fail({}, "the digest of {} is '{}', not 16 hexadecimal digits", stage, hex);
 }
+
+/// All of a curve but its values.
+auto IdentityOf(const Series& series) { return std::tie(series.name, series.axis, series.names); }
 
 /// How the text of a missing value is named, given the row's own reason.
 bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, const std::vector<std::string>& texts) {
@@ -99,9 +103,7 @@ std::uint32_t ColumnWriter::KindOf(const Row& row) {
                kind.why, result.metrics,
                [&](const auto& why, const MetricValue& metric) { return IsWhy(why, metric, row, index_.texts); }) &&
            std::ranges::equal(kind.stages, result.digests, {}, {}, [](const auto& digest) { return digest.first; }) &&
-           std::ranges::equal(kind.series, result.series, [](const auto& known, const Series& series) {
-             return known.first == series.name && known.second == series.axis;
-           });
+           std::ranges::equal(kind.series, result.series, {}, IdentityOf, IdentityOf);
   };
   // Most rows are of the kind of the one before them.
   if (!index_.kinds.empty() && is_like(index_.kinds[last_kind_])) return last_kind_;
@@ -117,7 +119,7 @@ std::uint32_t ColumnWriter::KindOf(const Row& row) {
                                     : std::optional(static_cast<int>(TextOf(metric.null_reason))));
   }
   for (const auto& [stage, digest] : result.digests) kind.stages.push_back(stage);
-  for (const Series& series : result.series) kind.series.emplace_back(series.name, series.axis);
+  for (const Series& series : result.series) kind.series.push_back({series.name, series.axis, {}, series.names});
   return last_kind_;
 }
 

@@ -49,6 +49,7 @@ CellResult ResultOf(std::size_t place) {
   if (place % 3 == 0) result.digests.emplace_back("solution", "00000000000000ff");
   if (place != 1) {
     result.series.push_back({"position_error_cm", "iteration", std::vector<double>(place % 4, 0.25 * place)});
+    if (place % 2 == 0) result.series.back().names = {"clap", "sway, \"slow\""};
   }
   return result;
 }
@@ -136,6 +137,7 @@ TEST_F(ColumnsTest, GiveBackCurvesAndTimes) {
     for (std::size_t i = 0; i < series.size(); ++i) {
       EXPECT_EQ(series[i].values, rows_[place].result.series[i].values) << place;
       EXPECT_EQ(series[i].axis, "iteration");
+      EXPECT_EQ(series[i].names, rows_[place].result.series[i].names);
     }
     EXPECT_EQ(run->source->CpuSecondsOf(place), 0.5 * rows_[place].trial);
     EXPECT_EQ(RowAt(*run, place).Id(), rows_[place].Id());
