@@ -45,9 +45,4 @@ void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, co
   canvas.DrawText({panel.x + kMargin, bottom - 15}, soft, kSoftSize, kSoftInk, room);
 }
 
-void DrawEmptyPanel(Canvas& canvas, const Box& panel, const std::string& why) {
-  canvas.FillBox(panel, {0.13, 0.15, 0.17, 1}, kPanelRadius);
-  canvas.DrawText({panel.x + kMargin, panel.y + panel.height / 2}, why, kSoftSize, kSoftInk, panel.width - 2 * kMargin);
-}
-
 }  // namespace etude

@@ -26,7 +26,4 @@ void DrawMark(Canvas& canvas, const Box& panel, const std::string& text);
 /// One or two lines in the lower left corner over a soft shade; `strong` may be empty.
 void DrawCaption(Canvas& canvas, const Box& panel, const std::string& strong, const std::string& soft, double lift = 0);
 
-/// A panel that has nothing to show, and why.
-void DrawEmptyPanel(Canvas& canvas, const Box& panel, const std::string& why);
-
 }  // namespace etude

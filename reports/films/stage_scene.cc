@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 
 #include "reports/films/look.h"
 
@@ -15,8 +15,11 @@ constexpr int kShortestScene = 5 * kFilmRate;
 // A motion that is shown again rests on its last frame before it starts anew.
 constexpr int kRest = kFilmRate / 2;
 
-constexpr Box kCoachBox{12, 52, 812, 656};
-constexpr Box kViewBoxes[] = {{836, 52, 432, 324}, {836, 384, 432, 324}};
+// The frame belongs to what there is: both together, or one of them alone.
+constexpr Box kCoachBesideViews{12, 52, 812, 656}, kCoachAlone{12, 52, 1256, 656};
+using ViewBoxes = std::array<Box, 2>;
+constexpr ViewBoxes kViewsBesideCoach{{{836, 52, 432, 324}, {836, 384, 432, 324}}};
+constexpr ViewBoxes kViewsAlone{{{12, 146, 623, 467}, {645, 146, 623, 467}}};
 
 // Which frame of a motion is seen at a frame of the film.
 struct Shown {
@@ -44,45 +47,40 @@ int StageScene::PosterFrame() const {
 
 std::string StageScene::Words() const {
   std::string words;
-  if (coach_) words += fmt::format("Left: the coach changes moves ({}). ", coach_->Title());
+  if (coach_) words += fmt::format("{} coach changes moves ({}). ", capture_ ? "Left: the" : "The", coach_->Title());
   if (capture_) {
     words += fmt::format(
-        "{}: a performer seen by two cameras (cut to the middle); tinted, the person as found in the pictures; over "
+        "{} performer seen by two cameras (cut to the middle); tinted, the person as found in the pictures; over "
         "it, the skeleton recovered from them ({}).",
-        coach_ ? "Right" : "Right side", capture_->Title());
+        coach_ ? "Right: a" : "A", capture_->Title());
   }
   return words;
 }
 
 Canvas StageScene::Draw(int frame) {
-  Canvas canvas = BeginFrame("one coach, two cameras, every error measured");
+  Canvas canvas = BeginFrame(!capture_ ? "one coach, every distance measured"
+                             : coach_  ? "one coach, two cameras, every error measured"
+                                       : "two cameras, every error measured");
   if (coach_) {
     const Shown shown = ShownAt(frame, coach_->Frames());
-    coach_->Draw(canvas, kCoachBox, renderer_, shown.frame, shown.before);
-  } else {
-    DrawEmptyPanel(canvas, kCoachBox, "This run kept no recording of a change of moves.");
+    coach_->Draw(canvas, capture_ ? kCoachBesideViews : kCoachAlone, renderer_, shown.frame, shown.before);
   }
-  for (std::size_t camera = 0; camera < std::size(kViewBoxes); ++camera) DrawView(canvas, camera, frame);
+  if (!capture_) return canvas;
+  const ViewBoxes& boxes = coach_ ? kViewsBesideCoach : kViewsAlone;
+  const Shown shown = ShownAt(frame, capture_->Frames());
+  for (std::size_t camera = 0; camera < std::min(boxes.size(), capture_->Cameras()); ++camera) {
+    const Box& box = boxes[camera];
+    canvas.DrawImage(ViewPicture(camera, shown.frame, box), box, kPanelRadius);
+    DrawTag(canvas, box, capture_->CameraName(camera) + (shown.before ? " · shown again" : ""));
+    DrawCaption(canvas, box, "", capture_->ErrorWords(shown.frame));
+  }
   return canvas;
 }
 
-void StageScene::DrawView(Canvas& canvas, std::size_t camera, int film_frame) {
-  const Box& box = kViewBoxes[camera];
-  if (!capture_ || camera >= capture_->Cameras()) {
-    DrawEmptyPanel(canvas, box, "This run kept no recording of a capture.");
-    return;
-  }
-  const Shown shown = ShownAt(film_frame, capture_->Frames());
-  canvas.DrawImage(ViewPicture(camera, shown.frame), box, kPanelRadius);
-  DrawTag(canvas, box, capture_->CameraName(camera) + (shown.before ? " · shown again" : ""));
-  DrawCaption(canvas, box, "", capture_->ErrorWords(shown.frame));
-}
-
 // Captures are often shorter than the film and then seen again: each picture is drawn once.
-const ColourImage& StageScene::ViewPicture(std::size_t camera, int frame) {
+const ColourImage& StageScene::ViewPicture(std::size_t camera, int frame, const Box& box) {
   const auto [kept, is_new] = views_.try_emplace({camera, frame});
   if (is_new) {
-    const Box& box = kViewBoxes[camera];
     Canvas canvas(static_cast<int>(box.width), static_cast<int>(box.height));
     capture_->Draw(canvas, renderer_, camera, frame);
     kept->second = canvas.Pixels();

@@ -10,7 +10,8 @@
 
 namespace etude {
 
-/// The run's film: the coach changes moves; beside it a performer, as two cameras saw and recovered the body.
+/// The run's film: the coach changes moves; beside it a performer, as two cameras saw and recovered the body. Of which
+/// there is one alone, it has the frame.
 class StageScene : public Scene {
  public:
   /// The longest coach's motion that is shown, frames.
@@ -25,8 +26,7 @@ class StageScene : public Scene {
   Canvas Draw(int frame) override;
 
  private:
-  void DrawView(Canvas& canvas, std::size_t camera, int film_frame);
-  const ColourImage& ViewPicture(std::size_t camera, int frame);
+  const ColourImage& ViewPicture(std::size_t camera, int frame, const Box& box);
 
   Renderer& renderer_;
   std::optional<CoachPanel> coach_;

@@ -13,6 +13,8 @@
 #include "reports/films/cast.h"
 #include "reports/films/coach_panel.h"
 #include "reports/films/encoder.h"
+#include "reports/films/look.h"
+#include "reports/films/stage_scene.h"
 #include "tests/reports/support/example_run.h"
 #include "tests/support/gtest_printers.h"
 
@@ -175,6 +177,42 @@ TEST(CapturePlate, ShowsEveryStageOfTheMomentsThatAreKeptAndTheSequence) {
   EXPECT_NE(one->png, PlateOf({unmarked}, **renderer)->png) << "marks are drawn";
   EXPECT_NE(one->png, PlateOf({late}, **renderer)->png);
   EXPECT_THAT(one->caption, HasSubstr("figures 5.3 to 5.15"));
+}
+
+// The share of pixels beneath the heading, from column to column, that show nothing.
+double EmptyShare(const ColourImage& picture, int from, int to) {
+  static const Rgb8 nothing = BeginFrame("").Pixels().At(2, 400);
+  int empty = 0, all = 0;
+  for (int y = 60; y < 700; ++y) {
+    for (int x = from; x < to; ++x, ++all) empty += picture.At(x, y) == nothing;
+  }
+  return static_cast<double>(empty) / all;
+}
+
+TEST(StageScene, GivesTheFrameToWhatThereIs) {
+  RunData run = ExampleRun();
+  AddRecordings(run);
+  const auto coach = CoachPanel::Make(*ChooseCell(run, "transition", "coach"), StageScene::kLongest);
+  const auto capture = CapturePanel::Make(run, *ChooseCell(run, "capture", "recovered"));
+  ASSERT_TRUE(coach && capture);
+  auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer.has_value()) << ToString(renderer.error());
+  EXPECT_EQ(EmptyShare(BeginFrame("nothing").Pixels(), 20, 1260), 1);
+  const struct {
+    std::optional<CoachPanel> coach;
+    std::optional<CapturePanel> capture;
+    double most_empty;
+    const char* words;
+  } cases[] = {{*coach, *capture, 0.05, "Left: the coach"},
+               {*coach, {}, 0.05, "The coach"},
+               {{}, *capture, 0.35, "A performer"}};
+  for (const auto& shown : cases) {
+    StageScene scene(**renderer, shown.coach, shown.capture);
+    EXPECT_THAT(scene.Words(), HasSubstr(shown.words));
+    const ColourImage picture = scene.Draw(scene.PosterFrame()).Pixels();
+    EXPECT_LT(EmptyShare(picture, 20, 640), shown.most_empty) << shown.words;
+    EXPECT_LT(EmptyShare(picture, 640, 1260), shown.most_empty) << shown.words;
+  }
 }
 
 TEST(Encoder, GivesTheSameBytesForTheSamePictures) {
