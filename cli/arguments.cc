@@ -222,6 +222,7 @@ void DefineExport(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("export", "Write the problems of scenarios as files, the truth apart");
   command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them")->required();
   command->add_option("-o,--output", options->output, "Folder of the data set")->required();
+  command->add_flag("--films", options->films, "Each camera's take as an MP4, too, beside its pictures");
   AddWorldOptions(*command, *options);
   command->callback([=, &action] { action = [=] { return ExportCommand(*options); }; });
 }

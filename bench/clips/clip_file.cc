@@ -9,6 +9,8 @@
 #include "engine/formats/deepmimic/deepmimic.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/text_scanner.h"
+#include "sim/camera/jpeg.h"
+#include "sim/sensors/image_files.h"
 
 namespace etude {
 namespace {
@@ -35,7 +37,7 @@ class CappedReader {
 };
 
 Result<std::string> ReadBeside(const std::string& path, const std::string& uri, CappedReader& reader) {
-  const auto fail = [&](const std::string& why) { return Fail({path, 0, 0}, "its buffer {}: {}", Quote(uri), why); };
+  const auto fail = [&](const std::string& why) { return Fail({path, 0, 0}, "its file {}: {}", Quote(uri), why); };
   std::error_code error;
   const fs::path folder = fs::canonical(fs::path(path), error).parent_path();
   const fs::path file = fs::canonical(folder / uri, error);
@@ -46,6 +48,10 @@ Result<std::string> ReadBeside(const std::string& path, const std::string& uri, 
   auto bytes = reader.Read(file);
   if (!bytes) return fail(bytes.error().message);
   return bytes;
+}
+
+Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixels) {
+  return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, most_pixels) : ReadJpeg(bytes, most_pixels);
 }
 
 /// What the first bytes say of a file that is neither: some formats are often met, and easily made into one of ours.
@@ -96,8 +102,10 @@ Result<ClipFile> ReadClipFile(const std::string& path) {
   }
   if (bytes.starts_with("glTF") || first.text == "{") {
     file.format = first.text == "{" ? ClipFormat::kGltf : ClipFormat::kGlb;
-    ASSIGN_OR_RETURN(auto content,
-                     ReadGltf(bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); }));
+    ASSIGN_OR_RETURN(
+        auto content,
+        ReadGltf(
+            bytes, path, [&](const std::string& uri) { return ReadBeside(path, uri, reader); }, DecodeTexture));
     file.figure = std::move(content.character);
     file.clips = std::move(content.clips);
     return file;

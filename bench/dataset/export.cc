@@ -1,9 +1,11 @@
 #include "bench/dataset/export.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
+#include "bench/films/take_films.h"
 #include "bench/run/finish.h"
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
@@ -88,7 +90,8 @@ std::string Quoted(const std::string& text) {
 
 class Exporter {
  public:
-  Exporter(const PreparedScenario& scenario, fs::path folder) : scenario_(scenario), folder_(std::move(folder)) {}
+  Exporter(const PreparedScenario& scenario, fs::path folder, bool films)
+      : scenario_(scenario), folder_(std::move(folder)), films_(films) {}
 
   Result<void> SaveSetting(int condition, const std::string& place) {
     const auto setting = scenario_.task(condition).Setting();
@@ -116,6 +119,7 @@ class Exporter {
       const auto problem = world->MakeProblem();
       if (!problem) return About(path, problem.error());
       RETURN_IF_ERROR(SavePayload(*problem, folder_ / "inputs" / path, "problem.json"));
+      if (films_) RETURN_IF_ERROR(SaveFilms(*problem, condition, path));
     }
     const auto truth = world->MakeTruth();
     if (!truth) return About(path, truth.error());
@@ -123,12 +127,22 @@ class Exporter {
   }
 
  private:
+  /// At the rate that the setting tells; a task without one has no pictures.
+  Result<void> SaveFilms(const Payload& problem, int condition, const std::string& path) const {
+    const auto setting = scenario_.task(condition).Setting();
+    if (!setting) return About(path, setting.error());
+    const double rate_hz = setting->json->value("rate_hz", 30.0);
+    const auto saved = SaveTakeFilms(problem.files, static_cast<int>(std::lround(rate_hz)), folder_ / "inputs" / path);
+    return saved ? saved : About(path, saved.error());
+  }
+
   Result<void> About(const std::string& place, const Error& error) const {
     return Fail({scenario_.setup().file, 0, 0}, "{}: {}", place, ToString(error));
   }
 
   const PreparedScenario& scenario_;
   const fs::path folder_;
+  const bool films_;
 };
 
 }  // namespace
@@ -157,7 +171,7 @@ Result<ExportOutcome> ExportSuite(const ExportOptions& options,
     const World& world = plan.world(w);
     const PreparedScenario& scenario = plan.scenario_of(w);
     const std::string place = scenario.scenario().name + "/" + ConditionFolders(scenario.scenario())[world.condition];
-    Exporter exporter(scenario, folder.partial());
+    Exporter exporter(scenario, folder.partial(), options.films);
     if (world.trial == 0) {
       RETURN_IF_ERROR(exporter.SaveSetting(world.condition, place));
     }

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/texture.h"
 #include "engine/motion/clip.h"
 
 namespace etude {
 
-/// What a surface is painted with. Textures are not read: characters are plain colours.
+/// What a surface is painted with.
 struct Material {
   std::string name;
-  glm::dvec3 colour{0.8};  ///< linear RGB, 0…1 (glTF's base colour)
+  glm::dvec3 colour{0.8};   ///< linear RGB, 0…1 (glTF's base colour factor)
+  SharedTexture texture{};  ///< in its place where there is one: it has been multiplied by the colour
 };
 
 /// A surface that follows a skeleton by linear blend skinning (glTF's skin). A rigid mesh has one binding.
@@ -28,6 +30,7 @@ struct SkinnedMesh {
     glm::dvec3 normal{0};                       ///< unit
     std::array<int, 4> bindings{};              ///< indices into the mesh's bindings
     std::array<double, 4> weights{1, 0, 0, 0};  ///< sum to 1
+    glm::dvec2 on_texture{0};                   ///< where on its material's texture
   };
 
   std::string name;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "bench/films/encoder.h"
 #include "reports/films/canvas.h"
-#include "reports/films/encoder.h"
 
 namespace etude {
 namespace {

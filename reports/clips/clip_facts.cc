@@ -1,16 +1,25 @@
 #include "reports/clips/clip_facts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace etude {
 namespace {
+
+/// "Fur", or "Fur (texture of 1024 x 1024)".
+std::string NameOf(const Material& material) {
+  if (!material.texture) return material.name;
+  const ColourImage& picture = material.texture->picture;
+  return fmt::format("{} (texture of {} x {})", material.name, picture.width, picture.height);
+}
 
 FigureFacts FactsOfFigure(const Character& figure) {
   FigureFacts facts;
   facts.meshes = figure.meshes.size();
   if (figure.meshes.empty()) return facts;
   for (const SkinnedMesh& mesh : figure.meshes) facts.triangles += mesh.triangles.size();
-  for (const Material& material : figure.materials) facts.materials.push_back(material.name);
+  for (const Material& material : figure.materials) facts.materials.push_back(NameOf(material));
   return facts;
 }
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "bench/films/encoder.h"
 #include "reports/clips/clip_facts.h"
-#include "reports/films/encoder.h"
 #include "reports/films/look.h"
 
 namespace etude {

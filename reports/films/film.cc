@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "bench/files/files.h"
+#include "bench/films/encoder.h"
 #include "engine/formats/wav.h"
-#include "reports/films/encoder.h"
 #include "reports/films/look.h"
 #include "sim/music/click_track.h"
 

@@ -3,6 +3,9 @@
 // jpeglib.h wants these before it.
 #include <jpeglib.h>
 
+#include <algorithm>
+#include <array>
+#include <csetjmp>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -17,7 +20,69 @@ JSAMPROW RowOf(const ColourImage& picture, JDIMENSION y) {
   return const_cast<JSAMPROW>(reinterpret_cast<const JSAMPLE*>(row));  // libjpeg does not write what it encodes
 }
 
+// libjpeg knows no other way out of a damaged file.
+struct Complaint {
+  jpeg_error_mgr errors;  // first: libjpeg knows this part only
+  std::jmp_buf way_out;
+  std::array<char, JMSG_LENGTH_MAX> words;
+};
+
+void LeaveWith(j_common_ptr job) {
+  auto* complaint = reinterpret_cast<Complaint*>(job->err);
+  job->err->format_message(job, complaint->words.data());
+  std::longjmp(complaint->way_out, 1);
+}
+
+// Warnings tell of damage, too; traces (levels from 0) do not.
+void LeaveWithWarning(j_common_ptr job, int level) {
+  if (level < 0) LeaveWith(job);
+}
+
+// The size, or with `picture` its pixels, too: false when the file is damaged, as `complaint` says. No object here has
+// a destructor, so that a jump leaves nothing behind.
+bool DecodeAnybodys(std::string_view jpeg, Complaint& complaint, jpeg_decompress_struct& job, ColourImage* picture) {
+  job.err = jpeg_std_error(&complaint.errors);
+  complaint.errors.error_exit = LeaveWith;
+  complaint.errors.emit_message = LeaveWithWarning;
+  jpeg_create_decompress(&job);
+  if (setjmp(complaint.way_out) != 0) return false;
+  jpeg_mem_src(&job, reinterpret_cast<const unsigned char*>(jpeg.data()), jpeg.size());
+  jpeg_read_header(&job, TRUE);
+  if (picture == nullptr) return true;
+  job.out_color_space = JCS_RGB;
+  job.dct_method = JDCT_ISLOW;
+  jpeg_start_decompress(&job);
+  while (job.output_scanline < job.output_height) {
+    JSAMPROW row = RowOf(*picture, job.output_scanline);
+    jpeg_read_scanlines(&job, &row, 1);
+  }
+  jpeg_finish_decompress(&job);
+  return true;
+}
+
 }  // namespace
+
+Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t most_pixels) {
+  Complaint complaint{};
+  jpeg_decompress_struct job{};
+  bool is_read = DecodeAnybodys(jpeg, complaint, job, nullptr);
+  const std::size_t width = job.image_width, height = job.image_height;
+  jpeg_destroy_decompress(&job);
+  constexpr std::size_t kLargestSide = 16'384;  // what GL can hold
+  if (is_read && (width * height > most_pixels || std::max(width, height) > kLargestSide)) {
+    return Fail({}, "a JPEG picture of {} x {} pixels; allowed: at most {} in all, {} a side", width, height,
+                most_pixels, kLargestSide);
+  }
+  ColourImage picture;
+  if (is_read) {
+    picture = ColourImage(static_cast<int>(width), static_cast<int>(height));
+    job = {};
+    is_read = DecodeAnybodys(jpeg, complaint, job, &picture);
+    jpeg_destroy_decompress(&job);
+  }
+  if (!is_read) return Fail({}, "a damaged JPEG picture: {}", complaint.words.data());
+  return picture;
+}
 
 std::string EncodeJpeg(const ColourImage& picture, int quality) {
   jpeg_compress_struct job;

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 #include "engine/base/image.h"
+#include "engine/base/result.h"
 
 namespace etude {
 
@@ -13,7 +16,10 @@ namespace etude {
 /// @param quality 1…100
 std::string EncodeJpeg(const ColourImage& picture, int quality);
 
-/// What is left of the picture afterwards. `jpeg` comes from EncodeJpeg.
+/// What is left of the picture afterwards, into memory that is used again. `jpeg` comes from EncodeJpeg.
 void DecodeJpeg(const std::string& jpeg, ColourImage& picture);
+
+/// Anybody's JPEG file. Refused before memory is taken: more than `most_pixels`. A picture that breaks off is damaged.
+Result<ColourImage> ReadJpeg(std::string_view jpeg, std::size_t most_pixels);
 
 }  // namespace etude

@@ -32,12 +32,18 @@ Figure FigureAt(const Character& character, const std::vector<GlobalTransform>& 
   figure.surfaces.reserve(character.meshes.size());
   for (const SkinnedMesh& mesh : character.meshes) {
     DeformedMesh deformed = Deform(mesh, globals);
-    const glm::dvec3& colour = character.materials[mesh.material].colour;
+    const Material& material = character.materials[mesh.material];
+    const glm::dvec3& colour = material.colour;
     figure.surfaces.push_back({.positions = std::move(deformed.positions),
                                .normals = std::move(deformed.normals),
                                .triangles = mesh.triangles,
                                .parts = PartsOfTriangles(character.skeleton, mesh),
                                .colour = {SrgbOfLinear(colour.r), SrgbOfLinear(colour.g), SrgbOfLinear(colour.b)}});
+    if (!material.texture) continue;
+    figure.surfaces.back().texture = material.texture;
+    for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
+      figure.surfaces.back().on_texture.emplace_back(vertex.on_texture);
+    }
   }
   return figure;
 }

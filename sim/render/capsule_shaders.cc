@@ -4,7 +4,6 @@
 namespace etude {
 namespace {
 
-
 constexpr const char* kBodyPlace = R"glsl(
 void main() { Place(BoxCorner()); }
 )glsl";
@@ -98,7 +97,8 @@ void main() {
 
 std::string CapsuleVertexShader() { return AssembleShader({kCapsuleBox, kBodyPlace}); }
 std::string CapsuleFragmentShader(bool with_face) {
-  return AssembleShader({kRoomGeometry, kBodyLight, kRoomInFront, kBody, with_face ? kFaceSkin : kPlainSkin, kBodyMain});
+  return AssembleShader(
+      {kRoomGeometry, kBodyLight, kRoomInFront, kBody, with_face ? kFaceSkin : kPlainSkin, kBodyMain});
 }
 
 }  // namespace etude

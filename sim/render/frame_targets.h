@@ -10,8 +10,8 @@ namespace etude {
 
 /// The framebuffer that pictures are drawn into: colour, labels, linear depth, and a depth buffer for
 /// hidden surfaces. It grows to the largest picture asked for; smaller ones use its corner. Only what is drawn on top
-/// of the empty room is here: bodies are drawn with an alpha of 0; shadows with 0.5, and the darkest counts; pixels that
-/// nobody drew are not read.
+/// of the empty room is here: bodies are drawn with an alpha of 0; shadows with 0.5, and the darkest counts; pixels
+/// that nobody drew are not read.
 class FrameTargets {
  public:
   explicit FrameTargets(const GlFunctions& gl) : gl_(gl) {}

@@ -8,8 +8,8 @@
 
 namespace etude {
 
-/// A box that stands in the room all the time, turned about the vertical; its pixels are kFurniture. As sim/body/cuboid.h
-/// has it.
+/// A box that stands in the room all the time, turned about the vertical; its pixels are kFurniture. As
+/// sim/body/cuboid.h has it.
 struct FurnitureBox {
   glm::dvec3 centre{0};     ///< metres
   glm::dvec3 half_size{0};  ///< along its own axes

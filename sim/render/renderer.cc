@@ -13,6 +13,7 @@
 #include "sim/render/pixel_geometry.h"
 #include "sim/render/shaders.h"
 #include "sim/render/surface_batch.h"
+#include "sim/render/texture_store.h"
 #include "sim/render/touched_pixels.h"
 #include "sim/render/vertex_stream.h"
 
@@ -32,6 +33,7 @@ struct Programs {
   GLuint face = 0;     // capsules with one
   GLuint surface = 0;  // in plain colours
   GLuint painted = 0;
+  GLuint textured = 0;
   GLuint surface_shadow = 0;
 };
 
@@ -48,8 +50,9 @@ Result<Programs> LinkAll(const GlContext& context) {
       {programs.interior, FullScreenVertexShader(), InteriorFragmentShader(), {}},
       {programs.capsule, CapsuleVertexShader(), CapsuleFragmentShader(false), capsule},
       {programs.face, CapsuleVertexShader(), CapsuleFragmentShader(true), capsule},
-      {programs.surface, SurfaceVertexShader(), SurfaceFragmentShader(false), corner},
-      {programs.painted, SurfaceVertexShader(), SurfaceFragmentShader(true), corner},
+      {programs.surface, SurfaceVertexShader(), SurfaceFragmentShader(Skin::kColour), corner},
+      {programs.painted, SurfaceVertexShader(), SurfaceFragmentShader(Skin::kPaint), corner},
+      {programs.textured, SurfaceVertexShader(), SurfaceFragmentShader(Skin::kTexture), corner},
       {programs.surface_shadow, SurfaceShadowVertexShader(), SurfaceShadowFragmentShader(), corner},
   };
   for (const auto& want : wanted) {
@@ -112,6 +115,8 @@ struct Renderer::State {
         faces(CapsuleStream(gl)),
         surfaces(CornerStream(gl)),
         painted(CornerStream(gl)),
+        textured(CornerStream(gl)),
+        textures(gl),
         targets(gl),
         rooms(gl, linked.studio, linked.interior, empty_vertices) {
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -152,7 +157,7 @@ struct Renderer::State {
     for (const GLenum plane : {GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE1}) gl.Enable(plane);
     for (const int onto_wall : {0, 1}) {
       gl.Uniform1i(gl.GetUniformLocation(program, "onto_wall"), onto_wall);
-      for (const VertexStream* stream : {&surfaces, &painted}) {
+      for (const VertexStream* stream : {&surfaces, &painted, &textured}) {
         if (!stream->IsEmpty()) stream->Draw();
       }
     }
@@ -160,11 +165,24 @@ struct Renderer::State {
     gl.Disablei(GL_BLEND, 0);
   }
 
-  void DrawBodies(GLuint program, const VertexStream& stream, const Shot& shot,
-                  const std::vector<SurfacePaint>& paints) {
+  void UseOnBodies(GLuint program, const Shot& shot) {
     Use(program, shot);
     SetPixelGeometry(gl, program, shot.camera, shot.room);
     SetLights(gl, program, LightsOf(shot.room));
+  }
+
+  void DrawTexturedBodies(const Shot& shot) {
+    UseOnBodies(programs.textured, shot);
+    gl.Uniform1i(gl.GetUniformLocation(programs.textured, "skin"), TextureStore::kUnit);
+    for (const TexturedCorners& some : corners.textures) {
+      textures.Bind(some.texture);
+      textured.DrawSome(some.first, some.count);
+    }
+  }
+
+  void DrawBodies(GLuint program, const VertexStream& stream, const Shot& shot,
+                  const std::vector<SurfacePaint>& paints) {
+    UseOnBodies(program, shot);
     SetNumber(program, "pixel_angle", 1.0 / shot.camera.intrinsics.fx);
     SetPaints(gl, program, paints);
     stream.Draw();
@@ -186,6 +204,7 @@ struct Renderer::State {
     if (all_closed) gl.Enable(GL_CULL_FACE);
     if (!surfaces.IsEmpty()) DrawBodies(programs.surface, surfaces, shot, {});
     if (!painted.IsEmpty()) DrawBodies(programs.painted, painted, shot, paints);
+    if (!textured.IsEmpty()) DrawTexturedBodies(shot);
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_DEPTH_TEST);
   }
@@ -202,6 +221,7 @@ struct Renderer::State {
     MakeCorners(figures, eye, corners);
     surfaces.Upload(corners.plain);
     painted.Upload(corners.painted);
+    textured.Upload(corners.textured);
   }
 
   // Bodies, and what shadows they throw in the studio: `rects` of the picture, on top of `view`, which begins with
@@ -223,7 +243,8 @@ struct Renderer::State {
   const GlFunctions& gl;
   Programs programs;
   GLuint empty_vertices;
-  VertexStream capsules, faces, surfaces, painted;
+  VertexStream capsules, faces, surfaces, painted, textured;
+  TextureStore textures;
   bool all_closed = false;  // of surfaces: no backs are in sight
   SurfaceCorners corners;   // reused
   FrameTargets targets;

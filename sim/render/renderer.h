@@ -10,6 +10,7 @@
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
+#include "engine/base/texture.h"
 #include "engine/cameras/camera.h"
 #include "sim/body/shape.h"
 #include "sim/render/interior.h"
@@ -20,8 +21,9 @@ namespace etude {
 /// One colour for every Part of a body, by its number.
 using PartColours = std::array<Rgb8, 16>;
 
-/// Triangles in the world, of one colour. Both sides are drawn. Triangles with a corner or normal that is not finite,
-/// or a corner 1000 km away, are left out; what is nearer to the camera than 1 cm is cut off.
+/// Triangles in the world, of one colour, or with a paint, or with a texture. Both sides are drawn. Triangles with a
+/// corner or normal that is not finite, or a corner 1000 km away, are left out; what is nearer to the camera than 1 cm
+/// is cut off.
 struct Surface {
   std::vector<glm::dvec3> positions;                    ///< metres
   std::vector<glm::dvec3> normals;                      ///< unit, one per position
@@ -31,6 +33,8 @@ struct Surface {
   std::optional<SurfacePaint> paint{};  ///< in place of `colour`
   bool is_closed = false;               ///< no back of it is ever in sight: drawn faster
   std::vector<glm::vec3> rest{};        ///< with `paint`, one per position: where it is on the body at rest, metres
+  SharedTexture texture{};              ///< in place of `colour`, where there is no paint
+  std::vector<glm::vec2> on_texture{};  ///< with `texture`, one per position
 };
 
 /// A person or a moving thing in the scene: capsules and the colour of each part, or surfaces, or both.

@@ -21,9 +21,12 @@ std::string CapsuleVertexShader();
 /// With hair, eyes and a smile, or without, which is faster.
 std::string CapsuleFragmentShader(bool with_face);
 
-/// The triangles of surfaces: in paints, or in plain colours, which is faster.
+/// What covers a surface: the simpler, the faster.
+enum class Skin { kColour, kPaint, kTexture };
+
+/// The triangles of surfaces.
 std::string SurfaceVertexShader();
-std::string SurfaceFragmentShader(bool is_painted);
+std::string SurfaceFragmentShader(Skin skin);
 /// The same triangles, thrown from the lamp onto the floor or the wall.
 std::string SurfaceShadowVertexShader();
 std::string SurfaceShadowFragmentShader();

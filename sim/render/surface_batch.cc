@@ -23,12 +23,15 @@ void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, 
                 std::vector<SurfaceCorner>& corners) {
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
+  assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
   const glm::vec3 colour = glm::vec3(surface.colour.r, surface.colour.g, surface.colour.b) / 255.0f;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     const glm::vec4 paint_and_label(colour, static_cast<std::uint32_t>(seen_as.value_or(surface.parts[i])));
     std::array<SurfaceCorner, 3> triangle{};
     std::ranges::transform(surface.triangles[i], triangle.begin(), [&](std::uint32_t vertex) {
-      const glm::vec3 rest = surface.paint ? surface.rest[vertex] : glm::vec3(0);
+      const glm::vec3 rest = surface.paint     ? surface.rest[vertex]
+                             : surface.texture ? glm::vec3(surface.on_texture[vertex], 0)
+                                               : glm::vec3(0);
       return SurfaceCorner{glm::vec3(surface.positions[vertex] - eye), glm::vec3(surface.normals[vertex]),
                            paint_and_label, glm::vec4(rest, paint)};
     });
@@ -41,11 +44,17 @@ void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, 
 void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceCorners& corners) {
   corners.plain.clear();
   corners.painted.clear();
+  corners.textured.clear();
+  corners.textures.clear();
   int paints = 0;
   for (const Figure& figure : figures) {
     for (const Surface& surface : figure.surfaces) {
       if (surface.paint) {
         AddCorners(surface, figure.seen_as, paints++, eye, corners.painted);
+      } else if (surface.texture) {
+        const std::size_t first = corners.textured.size();
+        AddCorners(surface, figure.seen_as, -1, eye, corners.textured);
+        corners.textures.push_back({surface.texture, first, corners.textured.size() - first});
       } else {
         AddCorners(surface, figure.seen_as, -1, eye, corners.plain);
       }

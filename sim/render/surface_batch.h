@@ -13,13 +13,22 @@ struct SurfaceCorner {
   glm::vec3 place;  ///< in E
   glm::vec3 normal;
   glm::vec4 paint_and_label;  ///< RGB 0…1; A = the triangle's label
-  glm::vec4 rest_and_paint;   ///< the place on the body at rest; A = the paint's number, or −1
+  glm::vec4
+      rest_and_paint;  ///< the place on the body at rest, or RG = that on the texture; A = the paint's number, or −1
+};
+
+/// Corners next to each other that have one texture.
+struct TexturedCorners {
+  SharedTexture texture;
+  std::size_t first = 0, count = 0;
 };
 
 /// Three corners for each triangle.
 struct SurfaceCorners {
   std::vector<SurfaceCorner> plain;    ///< of surfaces in one colour
   std::vector<SurfaceCorner> painted;  ///< of those with a paint
+  std::vector<SurfaceCorner> textured;
+  std::vector<TexturedCorners> textures;  ///< whose `textured` are
 };
 
 /// All triangles of all figures. Triangles with a corner or normal that is not finite, or that lies beyond any scene,

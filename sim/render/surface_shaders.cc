@@ -80,6 +80,11 @@ uniform float pixel_angle;
 vec3 SkinPaint() { return Painted(pattern, rest, depth * pixel_angle); }
 )glsl";
 
+constexpr const char* kTexturedSkin = R"glsl(
+uniform sampler2D skin;
+vec3 SkinPaint() { return texture(skin, rest.xy).rgb; }
+)glsl";
+
 constexpr const char* kSurfaceMain = R"glsl(
 void main() {
   vec3 ray = PixelRay();
@@ -119,8 +124,11 @@ void main() {
 }  // namespace
 
 std::string SurfaceVertexShader() { return AssembleShader({kCorner, kPlace}); }
-std::string SurfaceFragmentShader(bool is_painted) {
-  if (!is_painted) return AssembleShader({kRoomGeometry, kBodyLight, kRoomInFront, kSurface, kPlainSkin, kSurfaceMain});
+std::string SurfaceFragmentShader(Skin skin) {
+  if (skin != Skin::kPaint) {
+    const char* const paint = skin == Skin::kColour ? kPlainSkin : kTexturedSkin;
+    return AssembleShader({kRoomGeometry, kBodyLight, kRoomInFront, kSurface, paint, kSurfaceMain});
+  }
   return AssembleShader({kRoomGeometry, kBodyLight, kRoomInFront, kPaintPatterns, kNoRoomPatterns, kPainted, kSurface,
                          kPaintedSkin, kSurfaceMain});
 }

@@ -1,5 +1,7 @@
 #include "sim/render/vertex_stream.h"
 
+#include <cassert>
+
 namespace etude {
 
 VertexStream::VertexStream(const GlFunctions& gl, std::size_t element_bytes, GLsizei strip_length,
@@ -34,6 +36,12 @@ void VertexStream::Draw() const {
   } else {
     gl_.DrawArrays(GL_TRIANGLES, 0, count_);
   }
+}
+
+void VertexStream::DrawSome(std::size_t first, std::size_t count) const {
+  assert(strip_length_ == 0 && first + count <= static_cast<std::size_t>(count_));
+  gl_.BindVertexArray(vertices_);
+  gl_.DrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(count));
 }
 
 }  // namespace etude

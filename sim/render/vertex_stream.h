@@ -26,6 +26,8 @@ class VertexStream {
   }
   bool IsEmpty() const { return count_ == 0; }
   void Draw() const;
+  /// Only `count` corners from `first` on; of streams of corners.
+  void DrawSome(std::size_t first, std::size_t count) const;
 
  private:
   void Upload(const void* data, std::size_t count, std::size_t element_bytes);

@@ -9,6 +9,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cmath>
@@ -23,6 +24,8 @@ namespace {
 
 // A picture of the largest size that does not compress at all, with room to spare.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 28;
+// Of pictures that are no camera's: what GL and JPEG can hold.
+constexpr std::uint32_t kLargestSide = 16'384;
 
 Result<std::string> ReadBytes(const std::string& path) {
   std::error_code error;
@@ -238,6 +241,28 @@ Result<void> SavePng(const ColourImage& image, const std::string& path) { return
 Result<void> SavePng(const Mask& mask, const std::string& path) { return WriteBytes(EncodePng(mask), path); }
 
 Result<ColourImage> LoadColourPng(const std::string& path) { return LoadPixels<Rgb8>(path, PNG_FORMAT_RGB); }
+
+Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) {
+    return Fail({}, "not a PNG picture: {}", png.message);
+  }
+  const std::size_t pixels = std::size_t{png.width} * png.height;
+  if (png.width > kLargestSide || png.height > kLargestSide || pixels > most_pixels) {
+    png_image_free(&png);
+    return Fail({}, "a PNG picture of {} x {} pixels; allowed: at most {} in all, {} a side", png.width, png.height,
+                most_pixels, kLargestSide);
+  }
+  png.format = PNG_FORMAT_RGBA;
+  std::vector<std::array<std::uint8_t, 4>> with_alpha(pixels);
+  if (!png_image_finish_read(&png, nullptr, with_alpha.data(), 0, nullptr)) {
+    return Fail({}, "a damaged PNG picture: {}", png.message);
+  }
+  ColourImage image(static_cast<int>(png.width), static_cast<int>(png.height));
+  std::ranges::transform(with_alpha, image.pixels.begin(), [](const auto& p) { return Rgb8{p[0], p[1], p[2]}; });
+  return image;
+}
 
 Result<Mask> LoadMaskPng(const std::string& path) {
   auto mask = LoadPixels<std::uint8_t>(path, PNG_FORMAT_GRAY);

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
@@ -24,6 +25,8 @@ Result<void> SavePng(const Mask& mask, const std::string& path);
 
 /// Reads any PNG as 8-bit RGB; transparent parts lie on black.
 Result<ColourImage> LoadColourPng(const std::string& path);
+/// The same of a file's bytes, transparent parts in their own colours; at most so many pixels. The error names no file.
+Result<ColourImage> DecodeColourPng(std::string_view bytes, std::size_t most_pixels);
 /// Reads any PNG as a mask: 1 where the grey value is at least 128.
 Result<Mask> LoadMaskPng(const std::string& path);
 

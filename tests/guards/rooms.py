@@ -74,9 +74,10 @@ MAY_INCLUDE = {
     "bench/calibration": "sim/random bench/statistics",
     "bench/clips":
         "engine/base engine/formats engine/formats/deepmimic engine/formats/gltf engine/motion engine/retargeting "
-        "sim/character sim/choreography bench/files",
-    "bench/dataset": "engine/base bench/files bench/run bench/scenario",
+        "sim/camera sim/character sim/choreography sim/sensors bench/files",
+    "bench/dataset": "engine/base bench/files bench/films bench/run bench/scenario",
     "bench/files": "engine/base",
+    "bench/films": "engine/base sim/render sim/sensors bench/files bench/model",
     "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",
     "bench/gate": "engine/base sim/random bench/files bench/metrics bench/model bench/statistics",
     "bench/keys": "engine/base engine/document bench/files",
@@ -151,14 +152,14 @@ MAY_INCLUDE = {
     "reports/assets": "",
     "reports/bridges":
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
-    "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion reports/films",
+    "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion bench/films reports/films",
     "reports/clips":
         "engine/base engine/motion engine/retargeting engine/transitions/joins sim/body sim/character sim/choreography "
-        "sim/render bench/clips bench/files reports/films reports/words",
+        "sim/render bench/clips bench/files bench/films reports/films reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/formats engine/kinematics engine/motion sim/body sim/camera sim/character sim/music "
-        "sim/render sim/sensors sim/stage bench/files bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
+        "sim/render sim/sensors sim/stage bench/files bench/films bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",
     "reports/plots": "bench/model bench/statistics reports/words",

@@ -108,11 +108,9 @@ double Component(const unsigned char* bytes, int type, bool normalized) {
   }
 }
 
-/// `count` elements of `size` bytes each, at `offset` of a buffer view. `stride` 0 means: the view's own.
-Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset, std::size_t count, std::size_t size,
-                        const std::string& where) {
+Result<std::span<const unsigned char>> ViewBytes(const GltfFile& file, int view_index, const std::string& where) {
   const tinygltf::Model& model = file.model();
-  RETURN_IF_ERROR(file.CheckIndex(view_index, model.bufferViews.size(), where + ".bufferView"));
+  RETURN_IF_ERROR(file.CheckIndex(view_index, model.bufferViews.size(), where));
   const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_index)];
   const std::string view_name = fmt::format("bufferViews[{}]", view_index);
   RETURN_IF_ERROR(file.CheckIndex(view.buffer, model.buffers.size(), view_name + ".buffer"));
@@ -121,6 +119,15 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
     return file.Refuse(view_name, "found {} bytes at byte {}; buffer {} holds {}", view.byteLength, view.byteOffset,
                        view.buffer, data.size());
   }
+  return std::span(data).subspan(view.byteOffset, view.byteLength);
+}
+
+/// `count` elements of `size` bytes each, at `offset` of a buffer view. `stride` 0 means: the view's own.
+Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset, std::size_t count, std::size_t size,
+                        const std::string& where) {
+  ASSIGN_OR_RETURN(const auto bytes, ViewBytes(file, view_index, where + ".bufferView"));
+  const tinygltf::BufferView& view = file.model().bufferViews[static_cast<std::size_t>(view_index)];
+  const std::string view_name = fmt::format("bufferViews[{}]", view_index);
   const std::size_t stride = view.byteStride == 0 ? size : view.byteStride;
   if (stride < size) {
     return file.Refuse(view_name + ".byteStride", "found {}; allowed here: at least {}", stride, size);
@@ -132,7 +139,7 @@ Result<Elements> Locate(const GltfFile& file, int view_index, std::size_t offset
     return file.Refuse(where, "found {} elements of {} bytes every {} bytes at byte {}; {} holds {}", count, size,
                        stride, offset, view_name, view.byteLength);
   }
-  return Elements{std::span(data).subspan(view.byteOffset + offset), stride};
+  return Elements{bytes.subspan(offset), stride};
 }
 
 Result<void> ReadSparse(const GltfFile& file, const tinygltf::Accessor& accessor, GltfNumbers& numbers,
@@ -171,6 +178,11 @@ Result<void> ReadSparse(const GltfFile& file, const tinygltf::Accessor& accessor
 }
 
 }  // namespace
+
+Result<std::string_view> GltfFile::ReadView(int view, const std::string& where) const {
+  ASSIGN_OR_RETURN(const auto bytes, ViewBytes(*this, view, where));
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
 
 Result<void> GltfFile::CheckIndex(int index, std::size_t count, const std::string& where) const {
   if (index >= 0 && static_cast<std::size_t>(index) < count) return {};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,9 @@ class GltfFile {
 
   /// Refuses an index that names none of `count` things.
   Result<void> CheckIndex(int index, std::size_t count, const std::string& where) const;
+
+  /// The bytes of a buffer view, which may not reach beyond its buffer.
+  Result<std::string_view> ReadView(int view, const std::string& where) const;
 
   /// Reads an accessor of elements of `width` numbers (1 to 4, or 16 for a matrix) into doubles: normalised integers
   /// become −1…1 or 0…1, sparse elements replace others, no buffer view means zeros. Refused: another shape or

@@ -20,8 +20,12 @@ struct GltfContent {
 };
 
 /// Gives the bytes of a file that a .gltf names, relative to the .gltf's own folder. `uri` has been checked: relative,
-/// percent-decoded, without "..", scheme or absolute path. Textures are not asked for.
+/// percent-decoded, without "..", scheme or absolute path. A picture that it cannot give leaves its material plain.
 using FetchFile = std::function<Result<std::string>(const std::string& uri)>;
+
+/// Makes a picture of the bytes of a PNG or JPEG file, of at most so many pixels; an error says what is wrong with it,
+/// and nothing of where it stands.
+using DecodePicture = std::function<Result<ColourImage>(std::string_view bytes, std::size_t most_pixels)>;
 
 /// Reads glTF 2.0, text (.gltf) or binary (.glb). Metres, Y up, as the format says. Without `fetch` a file must hold
 /// all its data itself.
@@ -36,16 +40,19 @@ using FetchFile = std::function<Result<std::string>(const std::string& uri)>;
 /// morph targets alone are left out, as are morph targets.
 ///
 /// Surfaces are triangle lists, strips and fans; lines and points are passed over. Of several sets of joints the four
-/// greatest weights of a vertex count. Surfaces without normals get flat ones. Colours are base colour factors.
+/// greatest weights of a vertex count. Surfaces without normals get flat ones. Colours are base colour factors, times
+/// base colour textures where `decode` is given (PNG, JPEG; others leave the plain colour); transparency is not read.
 ///
 /// Refused with one complaint that names the place in the JSON: what is not glTF 2.x, required extensions but those of
 /// looks and quantised meshes, indices out of range, accessors outside their buffers, cycles or nodes with two parents,
-/// huge counts (caps as for BVH: 1,024 joints, 128 levels, 200 MB of frames; 2 million triangles; 256 MB of files; 500
-/// bytes a name),
+/// huge counts (caps as for BVH: 1,024 joints, 128 levels, 200 MB of frames; 2 million triangles; 256 MB of files; 64
+/// million pixels of textures; 500 bytes a name), pictures that are damaged,
 /// times that do not ascend, numbers that are not finite or beyond ±10⁹, URIs that leave the file's folder.
-Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch);
+Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch,
+                             const DecodePicture& decode = {});
 
-/// Writes a figure with its clips as one GLB: nodes, skins, materials, and LINEAR animations at the clips' rates.
+/// Writes a figure with its clips as one GLB: nodes, skins, materials without textures, and LINEAR animations at the
+/// clips' rates.
 /// Numbers of surfaces and clips are rounded to floats; reading gives the same skeleton, surfaces and clips, and
 /// writing those the same bytes. Properties that stay at rest are not written, still ones as one key. Neighbouring
 /// meshes of one name on the same joints become one mesh of several primitives. Bytes of names that are no UTF-8 and

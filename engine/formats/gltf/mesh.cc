@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/formats/gltf/skin.h"
+#include "engine/formats/gltf/textures.h"
 
 namespace etude {
 namespace {
@@ -74,11 +75,17 @@ void FinishNormals(SkinnedMesh& mesh) {
 
 class MeshReader {
  public:
-  MeshReader(GltfFile& file, const GltfNodes& nodes, Character& character)
-      : file_(file), model_(file.model()), nodes_(nodes), character_(character) {}
+  MeshReader(GltfFile& file, const GltfNodes& nodes, const DecodePicture& decode, Character& character)
+      : file_(file), model_(file.model()), nodes_(nodes), decode_(decode), character_(character) {}
 
   Result<void> Read() {
-    for (const tinygltf::Material& material : model_.materials) character_.materials.push_back(ReadMaterial(material));
+    GltfTextures textures(file_, decode_);
+    for (std::size_t i = 0; i < model_.materials.size(); ++i) {
+      Material material = ReadMaterial(model_.materials[i]);
+      ASSIGN_OR_RETURN(material.texture,
+                       textures.Read(model_.materials[i], material.colour, fmt::format("materials[{}]", i)));
+      character_.materials.push_back(std::move(material));
+    }
     // In the order of the file's meshes, not of the nodes that they happen to hang on.
     std::vector<int> nodes = nodes_.mesh_nodes;
     std::ranges::stable_sort(nodes, {}, [&](int node) { return Node(node).mesh; });
@@ -130,6 +137,7 @@ class MeshReader {
     }
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES || !primitive.attributes.contains("POSITION")) return {};
     RETURN_IF_ERROR(ReadVertices(primitive, where, mesh));
+    RETURN_IF_ERROR(ReadPlacesOnTexture(primitive, where, mesh));
     RETURN_IF_ERROR(ReadTriangles(primitive, where, mesh));
     if (has_skin) {
       RETURN_IF_ERROR(ReadGltfWeights(file_, primitive, where, mesh));
@@ -181,6 +189,22 @@ class MeshReader {
     return {};
   }
 
+  /// Of the set of coordinates that the material asks for; without it all places are the picture's corner.
+  Result<void> ReadPlacesOnTexture(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
+    const auto material = static_cast<std::size_t>(primitive.material);
+    if (primitive.material < 0 || material >= model_.materials.size() || !character_.materials[material].texture) {
+      return {};
+    }
+    const int set = model_.materials[material].pbrMetallicRoughness.baseColorTexture.texCoord;
+    const std::string name = fmt::format("TEXCOORD_{}", set);
+    const auto found = primitive.attributes.find(name);
+    if (found == primitive.attributes.end()) return {};
+    ASSIGN_OR_RETURN(const auto places,
+                     ReadGltfAttribute(file_, found->second, 2, GltfComponents::kAny, where + "." + name, mesh));
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i].on_texture = {places[i][0], places[i][1]};
+    return {};
+  }
+
   Result<void> ReadTriangles(const tinygltf::Primitive& primitive, const std::string& where, SkinnedMesh& mesh) {
     std::vector<std::uint32_t> corners;
     if (primitive.indices == kNoIndex) {
@@ -209,6 +233,7 @@ class MeshReader {
   GltfFile& file_;
   const tinygltf::Model& model_;
   const GltfNodes& nodes_;
+  const DecodePicture& decode_;
   Character& character_;
   std::size_t bindings_ = 0;
   std::size_t vertices_ = 0;
@@ -217,8 +242,8 @@ class MeshReader {
 
 }  // namespace
 
-Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, Character& character) {
-  return MeshReader(file, nodes, character).Read();
+Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const DecodePicture& decode, Character& character) {
+  return MeshReader(file, nodes, decode, character).Read();
 }
 
 bool IsMirrored(const Skeleton& skeleton, int joint) {

@@ -2,6 +2,7 @@
 
 #include "engine/base/result.h"
 #include "engine/formats/gltf/file.h"
+#include "engine/formats/gltf/gltf.h"
 #include "engine/formats/gltf/nodes.h"
 #include "engine/motion/character.h"
 
@@ -14,8 +15,9 @@ namespace etude {
 ///   kept and made to sum to 1; a vertex without weight hangs on the skin's first joint;
 /// - without, one binding to its node;
 /// - without normals, faces get their own, as the specification demands.
-/// Colours are the materials' base colour factors; textures, vertex colours and morph targets are not read.
-Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, Character& character);
+/// Colours are the materials' base colour factors and textures; KHR_texture_transform, vertex colours and morph targets
+/// are not read.
+Result<void> ReadGltfMeshes(GltfFile& file, const GltfNodes& nodes, const DecodePicture& decode, Character& character);
 
 /// Whether a joint's axes at rest are a mirror image, under which triangles turn over.
 bool IsMirrored(const Skeleton& skeleton, int joint);

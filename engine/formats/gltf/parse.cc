@@ -11,6 +11,7 @@
 
 #include "engine/base/names.h"
 #include "engine/formats/gltf/container.h"
+#include "engine/formats/gltf/file.h"
 #include "engine/formats/gltf/text.h"
 
 namespace etude {
@@ -29,14 +30,6 @@ struct Fetcher {
   }
 };
 
-/// Pictures are asked for in the same way as buffers, and not wanted.
-bool IsPicture(const std::string& uri) {
-  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
-  std::string lower = uri;
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return std::ranges::any_of(kEndings, [&](std::string_view ending) { return lower.ends_with(ending); });
-}
-
 /// Whether a percent-decoded URI names something in the file's folder or below it.
 bool StaysInFolder(std::string_view uri) {
   const auto is_bad = [](char c) { return c == ':' || c == '\\' || (c >= 0 && c < ' ') || c == 0x7f; };
@@ -49,7 +42,7 @@ bool StaysInFolder(std::string_view uri) {
   return true;
 }
 
-bool FileExists(const std::string& path, void*) { return !IsPicture(path); }
+bool FileExists(const std::string&, void*) { return true; }
 
 std::string ExpandFilePath(const std::string& path, void*) { return path; }
 
@@ -75,7 +68,10 @@ bool ReadWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
 
 bool WriteWholeFile(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-bool LeaveImage(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+/// Keeps a picture as it stands in its own file or URI. Of those within a buffer tinygltf has not checked the place.
+bool KeepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                 int size, void*) {
+  if (image->bufferView == kNoIndex && size > 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
@@ -177,7 +173,7 @@ Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const
 
   Fetcher fetcher{.fetch = &fetch, .file = file, .complaint = {}};
   tinygltf::TinyGLTF parser;
-  parser.SetImageLoader(LeaveImage, nullptr);
+  parser.SetImageLoader(KeepEncoded, nullptr);
   parser.SetFsCallbacks({FileExists, ExpandFilePath, ReadWholeFile, WriteWholeFile, &fetcher});
   auto model = std::make_unique<tinygltf::Model>();
   std::string errors, warnings;

@@ -18,14 +18,15 @@ std::string Stem(const std::string& file) {
 
 }  // namespace
 
-Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch) {
+Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch,
+                             const DecodePicture& decode) {
   ASSIGN_OR_RETURN(const auto model, ParseGltf(bytes, file, fetch));
   GltfFile parsed(*model, file);
   ASSIGN_OR_RETURN(auto nodes, ReadGltfNodes(parsed));
   GltfContent content;
   content.character.name = Stem(file);
   content.character.skeleton = nodes.skeleton;
-  RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, content.character));
+  RETURN_IF_ERROR(ReadGltfMeshes(parsed, nodes, decode, content.character));
   ASSIGN_OR_RETURN(auto clips, ReadGltfClips(parsed, nodes));
   content.clips = std::move(clips);
   return content;

@@ -73,5 +73,21 @@ TEST_F(ClipFileTest, BuffersCountTogetherWithTheFile) {
   EXPECT_NE(Complaint(Write("a.gltf", GltfWithAnimations("numbers.bin"))).find("at most 500 MB"), std::string::npos);
 }
 
+// Debian's assimp-testmodels: one box, its picture beside it, within a URI and within the GLB.
+TEST_F(ClipFileTest, TexturesAreTheSameWhereverTheyStand) {
+  const std::string models = "/usr/share/assimp/models/glTF2/BoxTextured-glTF";
+  std::vector<SharedTexture> textures;
+  for (const std::string name : {"/BoxTextured.gltf", "-Embedded/BoxTextured.gltf", "-Binary/BoxTextured.glb"}) {
+    if (!std::filesystem::exists(models + name)) GTEST_SKIP() << "no " << models << name;
+    const auto file = ReadClipFile(models + name);
+    ASSERT_TRUE(file) << ToString(file.error());
+    ASSERT_EQ(file->figure.materials.size(), 1u);
+    textures.push_back(file->figure.materials[0].texture);
+    ASSERT_TRUE(textures.back()) << name;
+    EXPECT_GT(textures.back()->picture.width, 100);
+    EXPECT_TRUE(textures.back()->picture.pixels == textures.front()->picture.pixels) << name;
+  }
+}
+
 }  // namespace
 }  // namespace etude

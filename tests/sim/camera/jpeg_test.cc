@@ -100,6 +100,36 @@ std::string DigestOfJpegs() {
   return digest.Hex();
 }
 
+TEST(Jpeg, ReadsAnybodysFileLikeOurOwn) {
+  const std::string jpeg = EncodeJpeg(Smooth(), 90);
+  ColourImage own;
+  DecodeJpeg(jpeg, own);
+  const auto read = ReadJpeg(jpeg, 160 * 120);
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->pixels, own.pixels);
+}
+
+TEST(Jpeg, RefusesWhatIsDamagedOrTooLarge) {
+  const std::string jpeg = EncodeJpeg(Smooth(), 90);
+  EXPECT_NE(ToString(ReadJpeg(jpeg, 160 * 120 - 1).error()).find("160 x 120 pixels; allowed: at most 19199"),
+            std::string::npos);
+  // Wherever it breaks off.
+  for (std::size_t size = 0; size < jpeg.size(); size += 1 + size / 40) {
+    const auto read = ReadJpeg(std::string_view(jpeg).substr(0, size), 160 * 120);
+    ASSERT_FALSE(read) << size;
+    EXPECT_NE(ToString(read.error()).find("a damaged JPEG picture: "), std::string::npos);
+  }
+  // Any byte of its head, and many others, changed: a picture or a complaint, never an end.
+  for (std::size_t at = 0; at < jpeg.size(); at += at < 700 ? 1 : 7) {
+    for (const char other : {'\0', '\x7f', '\xff'}) {
+      std::string changed = jpeg;
+      changed[at] = other;
+      const auto read = ReadJpeg(changed, 1'000'000);
+      if (read) EXPECT_LE(read->pixels.size(), 1'000'000u);
+    }
+  }
+}
+
 // A processor without vector instructions: libjpeg-turbo asks once in a process, so another process must be told.
 TEST(Jpeg, GivesTheSameBytesWithoutVectorInstructions) {
   int ends[2];

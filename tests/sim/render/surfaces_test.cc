@@ -235,5 +235,64 @@ TEST_F(RenderedSurfaces, ObeyTheRoomsBrightnessAndItsShadows) {
   EXPECT_EQ(std::ranges::count(Draw(figures, {.casts_shadows = false}).labels.pixels, kShadow), 0);
 }
 
+// Four fields: red, green over blue, white.
+SharedTexture FourFields(int side = 64) {
+  auto texture = std::make_shared<Texture>();
+  texture->picture = ColourImage(side, side);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const bool right = x >= side / 2, low = y >= side / 2;
+      texture->picture.At(x, y) =
+          low ? (right ? Rgb8{240, 240, 240} : Rgb8{0, 0, 240}) : (right ? Rgb8{0, 240, 0} : Rgb8{240, 0, 0});
+    }
+  }
+  return texture;
+}
+
+// u to the right, v down, as often as said.
+Surface TexturedSheet(SharedTexture texture, float times = 1) {
+  Surface sheet = FacingSheet(Part::kTrunk);
+  sheet.texture = std::move(texture);
+  sheet.on_texture = {{0, times}, {times, times}, {times, 0}, {0, 0}};
+  return sheet;
+}
+
+Rgb8 ColourAt(const View& view, const Camera& camera, const glm::dvec3& place) {
+  const auto pixel = Project(camera, place);
+  return view.colour.At(static_cast<int>(pixel->x), static_cast<int>(pixel->y));
+}
+
+TEST_F(RenderedSurfaces, ShowEachPartOfATextureAtItsPlace) {
+  const View view = Draw({OfSurfaces({TexturedSheet(FourFields())})});
+  const Rgb8 red = ColourAt(view, camera_, {-0.25, 1.25, 0}), green = ColourAt(view, camera_, {0.25, 1.25, 0});
+  const Rgb8 blue = ColourAt(view, camera_, {-0.25, 0.75, 0}), white = ColourAt(view, camera_, {0.25, 0.75, 0});
+  EXPECT_GT(red.r, 4 * (red.g + red.b) + 40);
+  EXPECT_GT(green.g, 4 * (green.r + green.b) + 40);
+  EXPECT_GT(blue.b, 4 * (blue.r + blue.g) + 40);
+  EXPECT_LT(LargestGap(white, {white.g, white.g, white.g}), 3);
+  EXPECT_GT(white.g, 80);
+  // In the same light as a plain sheet.
+  const Rgb8 plain = ColourAt(Draw({OfSurfaces({Sheet({{{-0.5, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1.5, 0}, {-0.5, 1.5, 0}}},
+                                                      Part::kTrunk, {240, 240, 240})})}),
+                              camera_, {0.25, 0.75, 0});
+  EXPECT_LE(LargestGap(white, plain), 1);
+}
+
+TEST_F(RenderedSurfaces, HaveAsManyCopiesOfATextureAsTheyAskFor) {
+  const View view = Draw({OfSurfaces({TexturedSheet(FourFields(), 2)})});
+  EXPECT_GT(ColourAt(view, camera_, {0.125, 1.375, 0}).r, 100);  // the upper left field of the second copy
+  auto stays = std::make_shared<Texture>(*FourFields());
+  stays->beyond_u = stays->beyond_v = Texture::Beyond::kStays;
+  const View once = Draw({OfSurfaces({TexturedSheet(stays, 2)})});
+  EXPECT_LT(ColourAt(once, camera_, {0.125, 1.375, 0}).r, 20);  // beyond the upper right field: green
+}
+
+TEST_F(RenderedSurfaces, AreDrawnTheSameWhateverTexturesWereDrawnBefore) {
+  const View first = Draw({OfSurfaces({TexturedSheet(FourFields())})});
+  for (int i = 0; i < 70; ++i) Draw({OfSurfaces({TexturedSheet(FourFields(2 * (i + 1)))})});
+  EXPECT_TRUE(SameView(first, Draw({OfSurfaces({TexturedSheet(FourFields())})})));
+  EXPECT_FALSE(SameView(first, Draw({OfSurfaces({FacingSheet(Part::kTrunk)})})));
+}
+
 }  // namespace
 }  // namespace etude

@@ -209,5 +209,17 @@ TEST_F(ImageFiles, HugePicturesAreRefusedBeforeMemoryIsTaken) {
   EXPECT_FALSE(LoadExr(At("huge.exr")));
 }
 
+TEST_F(ImageFiles, PngsOfTexturesAreReadFromMemoryWithinTheirBounds) {
+  const ColourImage picture = SomeView().colour;
+  const std::string png = EncodePng(picture);
+  const auto read = DecodeColourPng(png, picture.pixels.size());
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_EQ(read->pixels, picture.pixels);
+  EXPECT_THAT(ToString(DecodeColourPng(png, picture.pixels.size() - 1).error()), HasSubstr("61 x 37 pixels; allowed"));
+  for (std::size_t size = 0; size + 12 < png.size(); size += 97) {  // the last chunk, IEND, holds nothing
+    ASSERT_FALSE(DecodeColourPng(std::string_view(png).substr(0, size), picture.pixels.size())) << size;
+  }
+}
+
 }  // namespace
 }  // namespace etude

@@ -1,4 +1,4 @@
-#include "reports/films/encoder.h"
+#include "bench/films/encoder.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
