@@ -15,7 +15,7 @@ constexpr Paint kGrid{0.24, 0.27, 0.29, 1};
 constexpr Paint kGoal{0.55, 0.82, 0.50, 1};
 constexpr Paint kTime{0.95, 0.955, 0.96, 0.35};
 constexpr double kTitleSize = 18, kTickSize = 17;
-constexpr double kPlotLeft = 64, kRight = 28, kPlotTop = 44, kPlotBottom = 54;
+constexpr double kPlotLeft = 64, kPlotRight = 28, kPlotTop = 44, kPlotBottom = 54;
 // What the axis can label: digits of a larger decade would not fit into an int.
 constexpr int kMostIterations = 100'000'000;
 // Below the goal nothing matters, and rounding would stretch the axis without end.
@@ -55,7 +55,7 @@ void ErrorPlot::Draw(Canvas& canvas, const Box& panel, double iteration) const {
   canvas.FillBox(panel, {0.13, 0.15, 0.17, 1}, kPanelRadius);
   canvas.DrawText({panel.x + 16, panel.y + 28}, title_, kTitleSize, kInk, panel.width - 32, true);
   if (curves_.empty()) return;
-  const Frame frame{{panel.x + kPlotLeft, panel.y + kPlotTop, panel.width - kPlotLeft - kRight,
+  const Frame frame{{panel.x + kPlotLeft, panel.y + kPlotTop, panel.width - kPlotLeft - kPlotRight,
                      panel.height - kPlotTop - kPlotBottom},
                     *this};
   DrawValueAxis(canvas, frame);

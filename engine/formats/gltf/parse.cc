@@ -21,6 +21,7 @@ namespace {
 struct Fetcher {
   const FetchFile* fetch = nullptr;
   std::string file;
+  bool wants_pictures = false;
   double bytes_left = kMostGltfBytes;
   std::optional<Error> complaint;  ///< the first
 
@@ -29,6 +30,14 @@ struct Fetcher {
     return false;
   }
 };
+
+/// Pictures are asked for in the same way as buffers.
+bool IsPicture(const std::string& uri) {
+  constexpr std::array<std::string_view, 7> kEndings = {".png", ".jpg", ".jpeg", ".webp", ".ktx2", ".dds", ".gif"};
+  std::string lower = uri;
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::ranges::any_of(kEndings, [&](std::string_view ending) { return lower.ends_with(ending); });
+}
 
 /// Whether a percent-decoded URI names something in the file's folder or below it.
 bool StaysInFolder(std::string_view uri) {
@@ -42,7 +51,9 @@ bool StaysInFolder(std::string_view uri) {
   return true;
 }
 
-bool FileExists(const std::string&, void*) { return true; }
+bool FileExists(const std::string& path, void* user_data) {
+  return static_cast<const Fetcher*>(user_data)->wants_pictures || !IsPicture(path);
+}
 
 std::string ExpandFilePath(const std::string& path, void*) { return path; }
 
@@ -168,10 +179,10 @@ Result<void> TidyAllNames(tinygltf::Model& model, const std::string& file) {
 }  // namespace
 
 Result<std::unique_ptr<tinygltf::Model>> ParseGltf(std::string_view bytes, const std::string& file,
-                                                   const FetchFile& fetch) {
+                                                   const FetchFile& fetch, bool wants_pictures) {
   ASSIGN_OR_RETURN(auto container, OpenGltfContainer(bytes, file));
 
-  Fetcher fetcher{.fetch = &fetch, .file = file, .complaint = {}};
+  Fetcher fetcher{.fetch = &fetch, .file = file, .wants_pictures = wants_pictures, .complaint = {}};
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(KeepEncoded, nullptr);
   parser.SetFsCallbacks({FileExists, ExpandFilePath, ReadWholeFile, WriteWholeFile, &fetcher});

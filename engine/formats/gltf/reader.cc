@@ -20,7 +20,7 @@ std::string Stem(const std::string& file) {
 
 Result<GltfContent> ReadGltf(std::string_view bytes, const std::string& file, const FetchFile& fetch,
                              const DecodePicture& decode) {
-  ASSIGN_OR_RETURN(const auto model, ParseGltf(bytes, file, fetch));
+  ASSIGN_OR_RETURN(const auto model, ParseGltf(bytes, file, fetch, decode != nullptr));
   GltfFile parsed(*model, file);
   ASSIGN_OR_RETURN(auto nodes, ReadGltfNodes(parsed));
   GltfContent content;

@@ -125,7 +125,9 @@ TEST(Jpeg, RefusesWhatIsDamagedOrTooLarge) {
       std::string changed = jpeg;
       changed[at] = other;
       const auto read = ReadJpeg(changed, 1'000'000);
-      if (read) EXPECT_LE(read->pixels.size(), 1'000'000u);
+      if (read) {
+        EXPECT_LE(read->pixels.size(), 1'000'000u);
+      }
     }
   }
 }
