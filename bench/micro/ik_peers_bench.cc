@@ -21,6 +21,7 @@
 #include "bench/tasks/ik/world.h"
 #include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton_batch.h"
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 
@@ -28,7 +29,7 @@ namespace etude {
 namespace {
 
 constexpr int kSeeds = 4;
-constexpr char kCompared[] = "gauss-newton, scalar";  // what times are given in units of
+constexpr char kCompared[] = "gauss-newton, plain";  // what times are given in units of
 
 const KinematicTree& Body() {
   static const KinematicTree tree = MakeBodyTree({});
@@ -85,9 +86,21 @@ Method Ours(const std::string& solver, int max_iterations, std::vector<double> s
   });
 }
 
-Method Scalar() {
+// As it was before limbs went into lanes, one number at a time.
+Method Plain() {
   return OneByOne(kCompared, [options = Tightly(200)](const IkProblem& problem) {
-    IkSolution solution = SolveGaussNewton(Body(), problem, options);
+    IkSolution solution = SolveGaussNewtonPlainly(Body(), problem, options);
+    return IkPeerAnswer{std::move(solution.angles), solution.iterations};
+  });
+}
+
+// One problem after the other, the tree prepared once, as the rivals' models are.
+Method Single(const std::string& target) {
+  SetBatchTarget(target);
+  const auto solver = std::make_shared<GaussNewtonSolver>(Body());
+  SetBatchTarget("");
+  return OneByOne(fmt::format("gauss-newton, {}", target), [solver, options = Tightly(200)](const IkProblem& problem) {
+    IkSolution solution = solver->Solve(problem, options);
     return IkPeerAnswer{std::move(solution.angles), solution.iterations};
   });
 }
@@ -135,8 +148,9 @@ Method Peer(const std::string& name, std::shared_ptr<IkPeer> peer, int max_itera
 }
 
 std::vector<Method> AllMethods() {
-  std::vector<Method> methods = {Scalar(), Ours("gauss-newton", 200)};
+  std::vector<Method> methods = {Plain(), Ours("gauss-newton", 200, {}, "gauss-newton, tree prepared each time")};
   for (const std::string& target : BatchTargets()) {
+    methods.push_back(Single(target));
     for (const Precision precision : {Precision::kDouble, Precision::kFloat}) {
       methods.push_back(Batch(target, precision));
     }
@@ -238,7 +252,7 @@ void Compare(const Condition& condition, const std::vector<Method>& methods, int
     for (std::size_t m = 0; m < methods.size(); ++m) methods[m].solve(worlds, outcomes[m]);
   }
   fmt::print("\n{} ({} problems, {} seeds)\n\n", condition.name, worlds.size(), kSeeds);
-  fmt::print("| | solved | hidden, ° | steps | median, µs | mean, µs | median / scalar | mean / scalar |\n");
+  fmt::print("| | solved | hidden, ° | steps | median, µs | mean, µs | median / plain | mean / plain |\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   Times compared;
   for (std::size_t m = 0; m < methods.size(); ++m) PrintRow(methods[m], worlds, outcomes[m], compared);

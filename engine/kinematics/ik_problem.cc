@@ -31,13 +31,16 @@ bool IsGood(const EffectorTarget& target) {
 // One root, which stands first and does not turn; parents before children; every index in its list.
 bool IsATree(const KinematicTree& tree) {
   const int joints = static_cast<int>(tree.joints.size());
+  int dofs = 0;
   if (joints == 0 || tree.joints[0].parent >= 0 || tree.joints[0].dof_count != 0) return false;
   for (int n = 1; n < joints; ++n) {
     const TreeJoint& joint = tree.joints[n];
     if (joint.parent < 0 || joint.parent >= n || !AreAFrame(joint.R_PJ)) return false;
-    if (joint.dof_count < 0 || joint.dof_count > 3 || joint.first_dof < 0) return false;
-    if (joint.first_dof + joint.dof_count > tree.dof_count()) return false;
+    if (joint.dof_count < 0 || joint.dof_count > 3) return false;
+    if (joint.dof_count > 0 && joint.first_dof != dofs) return false;
+    dofs += joint.dof_count;
   }
+  if (dofs != tree.dof_count()) return false;
   return std::ranges::all_of(tree.effectors, [&](const Effector& e) { return e.joint >= 0 && e.joint < joints; });
 }
 
@@ -99,7 +102,7 @@ double EffectorError::MeanAxisAngle(const glm::dvec3& axis_weights) const {
   return count == 0 ? 0 : sum / count;
 }
 
-std::string_view FindFault(const KinematicTree& tree, const IkOptions& options) {
+std::string_view FindTreeFault(const KinematicTree& tree) {
   if (!IsATree(tree)) return "the joints are no tree with its root first";
   for (const TreeJoint& joint : tree.joints) {
     if (joint.parent < 0) continue;
@@ -109,14 +112,27 @@ std::string_view FindFault(const KinematicTree& tree, const IkOptions& options) 
   for (const Effector& effector : tree.effectors) {
     if (!IsSane(effector.p_LE) || glm::length(effector.p_LE) <= 0) return "a limb has no length";
   }
+  return {};
+}
+
+std::string_view FindFault(const IkOptions& options) {
   const double change = options.angle_change_tolerance.value_or(0);
   if (!std::isfinite(change) || change < 0) return "the angle-change tolerance is negative";
   if (options.max_iterations < 1) return "the iteration limit is below 1";
   return {};
 }
 
+std::string_view FindFault(const KinematicTree& tree, const IkOptions& options) {
+  const std::string_view fault = FindTreeFault(tree);
+  return fault.empty() ? FindFault(options) : fault;
+}
+
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options) {
-  if (const std::string_view fault = FindFault(tree, options); !fault.empty()) return fault;
+  const std::string_view fault = FindFault(tree, options);
+  return fault.empty() ? FindProblemFault(tree, problem) : fault;
+}
+
+std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& problem) {
   const std::size_t dofs = tree.limits.size();
   if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
     return "angles or limits do not fit the tree";

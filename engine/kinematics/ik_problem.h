@@ -96,12 +96,16 @@ inline constexpr double kIkFarthest = 1e6;
 /// How far squares of unit vectors, and the determinant of a frame, may be from 1.
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
-/// Why a problem cannot be worked on, or empty when it can: joints that are no tree, sizes that do not fit it, values
+/// Why a problem cannot be worked on, or empty when it can: joints that are no tree, angles that are not theirs one
+/// after the other, sizes that do not fit it, values
 /// that are not finite or absurdly far (> 1,000 km), limbs of no length (a joint may stand where the root does), limits
 /// whose lower end is above the upper, axes that are not unit vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
-/// The part of it that is no single problem's.
+/// The parts of it that are no single problem's, and the one that is: of a tree without faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);
+std::string_view FindTreeFault(const KinematicTree& tree);
+std::string_view FindFault(const IkOptions& options);
+std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& problem);
 
 /// Whether the limbs are too short for the targets whatever the angles: an effector's target is farther from the root,
 /// or two effectors' targets from each other, than all limbs between them together. `false` promises nothing.

@@ -1,129 +1,149 @@
 #include "engine/kinematics/solvers/gauss_newton.h"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
-#include <vector>
+#include <utility>
 
-#include "engine/kinematics/solvers/gauss_newton_course.h"
-#include "engine/kinematics/solvers/gauss_newton_step.h"
+#include "engine/kinematics/solvers/gauss_newton_limbs.h"
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/ik_run.h"
+#include "engine/kinematics/solvers/limb_packs.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/moment_sweep.h"
 #include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
-namespace {
 
-class Solver {
+class GaussNewtonSolver::Solver final : public GaussNewtonHelp {
  public:
-  Solver(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own,
-         IkRun& run, TreeState& state, TreeFrames& frames)
-      : tree_(tree),
-        problem_(problem),
-        options_(options),
-        own_(own),
-        run_(run),
-        state_(state),
-        frames_(frames),
-        step_(tree, problem.targets),
-        course_(options, own, {}) {}
+  explicit Solver(const KinematicTree& tree) : tree_(tree), packs_(tree), limbs_(GaussNewtonLimbs::Make(packs_)) {}
 
-  void Solve() {
-    using enum GaussNewtonCourse::Act;
-    const auto is_out_of_reach = [&] { return IsOutOfReach(tree_, problem_); };
-    while (true) {
-      const bool is_met = run_.HasConverged();
-      const auto next = course_.Arrive(is_met ? 0 : step_.Build(frames_), is_met, is_out_of_reach);
-      if (next.is_best) best_angles_ = state_.angles;
-      switch (next.act) {
-        case kStep:
-          last_angles_ = state_.angles;
-          course_.Stepped(Step(next));
-          break;
-        case kGoBack:
-          state_.angles = last_angles_;
-          Place();
-          break;
-        case kSweep:
-          if (next.restart > 0) {
-            ScatterAround(run_.start_angles(), run_.ranges(), next.restart, state_.angles);
-            Place();
-          }
-          Sweep(next.sweeps);
-          break;
-        case kTakeBest:
-          state_.angles = best_angles_;
-          Place();
-          break;
-        case kEnd:
-          if (course_.has_converged()) return;
-          if (course_.HasStalled()) run_.Stall();
-          run_.DiscardErrors();
-          state_.angles = best_angles_;
-          return;
-      }
+  IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own) {
+    problem_ = &problem;
+    options_ = &options;
+    Take();
+    GaussNewtonCourse course(options, own, {});
+    limbs_->Solve(GoalsFor(options, Precision::kDouble), own.extra_passes, course, *this);
+    IkSolution solution;
+    solution.angles = ToAngles(limbs_->angles);
+    if (course.has_converged()) {
+      MeasureEnds(solution.errors);
+    } else {
+      MeasurePose(solution.angles, solution.errors);
     }
+    solution.status = course.has_converged()  ? IkStatus::kConverged
+                      : IsOutOfReach()        ? IkStatus::kUnreachable
+                      : course.HasStalled()   ? IkStatus::kStalled
+                                              : IkStatus::kIterationLimit;
+    solution.iterations = course.iterations();
+    solution.fk_evaluations = course.fk_evaluations();
+    return solution;
   }
 
  private:
-  /// Forward kinematics of angles that are not the outcome of an iteration.
-  void Place() {
-    ComputeFrames(tree_, state_, frames_);
-    run_.CountPass();
+  bool IsOutOfReach() override { return etude::IsOutOfReach(tree_, *problem_); }
+
+  bool MeetsGoals(std::span<const double> angles) override {
+    std::vector<EffectorError> errors;
+    MeasurePose(ToAngles(angles.data()), errors);
+    return FindWorst(errors, problem_->targets).Within(*options_);
   }
 
-  /// Forward kinematics after an iteration, and how far it is off.
-  void Measure() {
-    ComputeFrames(tree_, state_, frames_);
-    run_.RecordFrames(frames_, state_.angles);
-  }
-
-  void Sweep(int count) {
-    const IkProblem from_here{state_, problem_.targets, run_.ranges()};
-    MomentSweep sweep(tree_, from_here, GaussNewtonSweepOptions(options_));
-    for (int i = 0; i < count; ++i) {
+  void Sweep(const GaussNewtonCourse::Next& next, GaussNewtonCourse& course, std::span<double> angles) override {
+    IkProblem problem = *problem_;
+    problem.limits = AllowedRanges(*problem_, *options_);
+    for (std::size_t d = 0; d < problem.limits.size(); ++d) {
+      double& start = problem.start.angles[d];
+      start = std::clamp(start, problem.limits[d].lower, problem.limits[d].upper);
+    }
+    if (next.restart > 0) {
+      ScatterAround(std::vector<double>(problem.start.angles), problem.limits, next.restart, problem.start.angles);
+    } else {
+      problem.start.angles = ToAngles(angles.data());
+    }
+    MomentSweep sweep(tree_, problem, GaussNewtonSweepOptions(*options_));
+    for (int i = 0; i < next.sweeps; ++i) {
       sweep.Sweep();
-      state_.angles = sweep.Angles();
-      Measure();
-      if (!course_.CountSweep() || run_.HasConverged()) break;
+      Put(sweep.Angles(), angles.data());
+      if (!course.CountSweep() || (!sweep.MissesGoals() && MeetsGoals(angles))) break;
     }
   }
 
-  /// One step from `frames_`, at which `step_` is built. Returns the largest change of an angle.
-  double Step(const GaussNewtonCourse::Next& next) {
-    const std::vector<double>& posture = next.to_start ? run_.start_angles() : state_.angles;
-    std::span<const double> change = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
-    const int extra_passes = GaussNewtonCourse::HasExtraPasses(next.damping) ? own_.extra_passes : 0;
-    for (int pass = 0; pass < extra_passes && !step_.is_exact(); ++pass) {
-      change = step_.Solve(state_.angles, posture, run_.ranges(), next.damping);
+  void Take() {
+    for (std::size_t d = 0; d < packs_.places.size(); ++d) {
+      const double start = problem_->start.angles[d];
+      const AngleRange range = AllowedRange(start, problem_->limits[d], *options_);
+      const int place = packs_.places[d];
+      limbs_->angles[place] = std::clamp(start, range.lower, range.upper);
+      limbs_->lower[place] = range.lower;
+      limbs_->upper[place] = range.upper;
     }
-    double largest = 0;
-    for (const double c : change) largest = std::max(largest, std::abs(c));
-    // Overflow, from weights and limbs of absurd sizes: no step.
-    if (!std::ranges::all_of(change, [](double c) { return std::isfinite(c); })) largest = 0;
-    const double share = largest > kLargestTurn ? kLargestTurn / largest : 1;
-    for (std::size_t d = 0; d < state_.angles.size() && largest > 0; ++d) {
-      const AngleRange& range = run_.ranges()[d];
-      state_.angles[d] = std::clamp(state_.angles[d] + share * change[d], range.lower, range.upper);
+    for (int k = 0; k < 3; ++k) {
+      limbs_->root[k] = problem_->start.root_position[k];
+      for (int c = 0; c < 3; ++c) limbs_->root[3 + 3 * c + k] = problem_->start.root_frame[c][k];
     }
-    Measure();
-    return largest;
+    double* to = limbs_->targets;
+    for (const LimbPacks::Ends& ends : packs_.ends) {
+      for (int lane = 0; lane < LimbPacks::kWidth; ++lane) {
+        if (ends.effectors[lane] < 0) continue;
+        const EffectorTarget& target = problem_->targets[ends.effectors[lane]];
+        auto put = [at = to + lane](double x) mutable {
+          *at = x;
+          at += LimbPacks::kWidth;
+        };
+        for (int k = 0; k < 3; ++k) put(target.position[k]);
+        for (int c = 0; c < 3; ++c) {
+          for (int k = 0; k < 3; ++k) put(target.axes[c][k]);
+        }
+        put(target.position_weight / (kPositionScale * kPositionScale));
+        for (int k = 0; k < 3; ++k) put(target.axis_weights[k]);
+      }
+      to += LimbPacks::kWidth * GaussNewtonLimbs::kTargetNumbers;
+    }
+  }
+
+  std::vector<double> ToAngles(const double* at_places) const {
+    std::vector<double> angles(packs_.places.size());
+    for (std::size_t d = 0; d < angles.size(); ++d) angles[d] = at_places[packs_.places[d]];
+    return angles;
+  }
+  void Put(std::span<const double> angles, double* at_places) const {
+    for (std::size_t d = 0; d < angles.size(); ++d) at_places[packs_.places[d]] = angles[d];
+  }
+
+  void MeasureEnds(std::vector<EffectorError>& errors) const {
+    errors.resize(problem_->targets.size());
+    for (std::size_t e = 0; e < errors.size(); ++e) {
+      const auto [p, axes] = limbs_->EndOf(static_cast<int>(e));
+      LimbFrame X_WE;
+      X_WE.position = {p[0], p[1], p[2]};
+      for (int c = 0; c < 3; ++c) X_WE.axes[c] = {axes[c][0], axes[c][1], axes[c][2]};
+      errors[e] = ErrorOf(X_WE, problem_->targets[e]);
+    }
+  }
+  void MeasurePose(const std::vector<double>& angles, std::vector<EffectorError>& errors) {
+    TreeState state = problem_->start;
+    state.angles = angles;
+    ComputeFrames(tree_, state, frames_);
+    MeasureErrors(frames_, problem_->targets, errors);
   }
 
   const KinematicTree& tree_;
-  const IkProblem& problem_;
-  const IkOptions& options_;
-  const GaussNewtonOptions& own_;
-  IkRun& run_;
-  TreeState& state_;
-  TreeFrames& frames_;
-  GaussNewtonStep step_;
-  GaussNewtonCourse course_;
-  std::vector<double> best_angles_, last_angles_;
+  const LimbPacks packs_;
+  const std::unique_ptr<GaussNewtonLimbs> limbs_;
+  const IkProblem* problem_ = nullptr;
+  const IkOptions* options_ = nullptr;
+  TreeFrames frames_;
 };
 
-}  // namespace
+GaussNewtonSolver::GaussNewtonSolver(const KinematicTree& tree) : tree_(tree) {
+  if (FindTreeFault(tree).empty()) solver_ = std::make_unique<Solver>(tree);
+}
+GaussNewtonSolver::~GaussNewtonSolver() = default;
+
+IkSolution GaussNewtonSolver::Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own) {
+  if (!solver_ || !FindFault(options).empty() || !FindProblemFault(tree_, problem).empty()) return BadInput(tree_);
+  return options.trace ? SolveGaussNewtonPlainly(tree_, problem, options, own) : solver_->Solve(problem, options, own);
+}
 
 IkOptions GaussNewtonSweepOptions(const IkOptions& options) {
   IkOptions made = options;
@@ -136,9 +156,7 @@ IkOptions GaussNewtonSweepOptions(const IkOptions& options) {
 
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own) {
-  return RunFromStart(tree, problem, options, [&](IkRun& run, TreeState& state, TreeFrames& frames) {
-    Solver(tree, problem, options, own, run, state, frames).Solve();
-  });
+  return GaussNewtonSolver(tree).Solve(problem, options, own);
 }
 
 }  // namespace etude

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "engine/kinematics/ik_problem.h"
 #include "engine/kinematics/tree.h"
 
@@ -36,6 +38,23 @@ struct GaussNewtonOptions {
 /// the trace. The sweeps' weights are `adaptive-power`.
 IkSolution SolveGaussNewton(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options,
                             const GaussNewtonOptions& own = {});
+
+/// The same for many problems of one tree, one after the other: what is the tree's own, its validity and the order of
+/// its joints, is looked at once, and memory is taken once. `tree` must outlive this. Along a motion, or where problems
+/// come one by one; many at once are faster together (gauss_newton_batch.h).
+class GaussNewtonSolver {
+ public:
+  explicit GaussNewtonSolver(const KinematicTree& tree);
+  ~GaussNewtonSolver();
+
+  IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own = {});
+
+ private:
+  class Solver;
+
+  const KinematicTree& tree_;
+  std::unique_ptr<Solver> solver_;  // none where the tree is faulty
+};
 
 /// `options` for the sweeps of `gauss-newton`, which begin and stay within ranges that have been found before.
 IkOptions GaussNewtonSweepOptions(const IkOptions& options);

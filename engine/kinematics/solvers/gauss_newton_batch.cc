@@ -1,7 +1,6 @@
 #include "engine/kinematics/solvers/gauss_newton_batch.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/kinematics/solvers/gauss_newton_lanes.h"
 #include "engine/kinematics/solvers/ik_run.h"
@@ -11,30 +10,7 @@
 namespace etude {
 namespace {
 
-// In float.
-constexpr double kGoalShare = 0.9;
 constexpr GaussNewtonCourse::Numerics kFloatNumerics{.least_damping = 1e-5, .pulled_above = 1e-6};
-
-// Where lanes judge by themselves: nearer to a goal than this share of it, and this far, rounding might decide.
-constexpr double kDoubtfulShare = 1e-9, kDoubtfulRounding = 1e-14;
-
-double SquareBelow(double goal) {
-  const double certain = std::max(0.0, goal * (1 - kDoubtfulShare) - kDoubtfulRounding);
-  return certain * certain;
-}
-
-LaneGoals GoalsFor(const IkOptions& options, Precision precision) {
-  const double position = options.position_goal, axis = options.axis_goal;
-  // The chord of an angle is shorter than its arc.
-  const double chord = 2 * std::sin(0.5 * std::min(axis, kPi));
-  LaneGoals goals{SquareBelow(position), position * position, SquareBelow(chord), axis * axis};
-  if (precision == Precision::kFloat) {
-    constexpr double kSquaredShare = kGoalShare * kGoalShare;
-    goals.squared_distance_met = goals.squared_distance_missed = kSquaredShare * position * position;
-    goals.squared_chord_met = goals.squared_chord_missed = kSquaredShare * chord * chord;
-  }
-  return goals;
-}
 
 class Queue final : public GaussNewtonQueue {
  public:

@@ -22,11 +22,26 @@ inline constexpr double kSquaredPositionScale = 0.30 * 0.30;
 
 // ---- Sine and cosine ------------------------------------------------------------------------------------------------
 
+/// Those of an angle whose nearest quarter turns are counted by the last bits of `shifted` and whose rest has `s` and
+/// `c`: an odd number swaps the two, every second one turns a sign.
+template <class T>
+HWY_INLINE void AddQuarters(const Lanes<T>& shifted, const Lanes<T>& s, const Lanes<T>& c, Lanes<T>& sine,
+                            Lanes<T>& cosine) {
+  using Tag = typename Lanes<T>::Tag;
+  const hn::RebindToUnsigned<Tag> bits;
+  constexpr int kToSign = 8 * sizeof(T) - 2;  // from the second lowest bit
+  const auto quarter = hn::BitCast(bits, shifted.v), one = hn::Set(bits, 1u), two = hn::Set(bits, 2u);
+  const auto s_bits = hn::BitCast(bits, s.v), c_bits = hn::BitCast(bits, c.v);
+  const auto swap = hn::And(hn::Xor(s_bits, c_bits), hn::Sub(hn::Zero(bits), hn::And(quarter, one)));
+  const auto s_sign = hn::ShiftLeft<kToSign>(hn::And(quarter, two));
+  const auto c_sign = hn::ShiftLeft<kToSign>(hn::And(hn::Add(quarter, one), two));
+  sine = Lanes<T>(hn::BitCast(Tag(), hn::Xor(hn::Xor(s_bits, swap), s_sign)));
+  cosine = Lanes<T>(hn::BitCast(Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
+}
+
 /// `ComputeSineCosine` for lanes of doubles: the same operations.
 HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, Lanes<double>& cosine) {
   using V = Lanes<double>;
-  using Bits = hn::RebindToUnsigned<V::Tag>;
-  const Bits bits;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p52), quarters = shifted - V(0x1.8p52);
   const V r =
       ((angle - quarters * V(0x1.921fb544p+0)) - quarters * V(0x1.0b4611a6p-34)) - quarters * V(0x1.3198a2e037073p-69);
@@ -39,35 +54,19 @@ HWY_INLINE void SineAndCosine(const Lanes<double>& angle, Lanes<double>& sine, L
   const V s = r + r * z * sine_tail;
   const V half = V(0.5) * z, rounded = V(1.0) - half;
   const V c = rounded + (((V(1.0) - rounded) - half) + z2 * cosine_tail);
-  const auto quarter = hn::BitCast(bits, shifted.v);
-  const auto one = hn::Set(bits, 1u), two = hn::Set(bits, 2u);
-  const auto s_bits = hn::BitCast(bits, s.v), c_bits = hn::BitCast(bits, c.v);
-  const auto swap = hn::And(hn::Xor(s_bits, c_bits), hn::Sub(hn::Zero(bits), hn::And(quarter, one)));
-  const auto s_sign = hn::ShiftLeft<62>(hn::And(quarter, two));
-  const auto c_sign = hn::ShiftLeft<62>(hn::And(hn::Add(quarter, one), two));
-  sine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(s_bits, swap), s_sign)));
-  cosine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
+  AddQuarters(shifted, s, c, sine, cosine);
 }
 
 /// The same in float, for |angle| ≤ 1000, within 2 units in their last place: Taylor's series to r⁹ and r⁸ leave less
 /// than 10⁻⁸.
 HWY_INLINE void SineAndCosine(const Lanes<float>& angle, Lanes<float>& sine, Lanes<float>& cosine) {
   using V = Lanes<float>;
-  using Bits = hn::RebindToUnsigned<V::Tag>;
-  const Bits bits;
   const V shifted = angle * V(0.6366197723675814) + V(0x1.8p23), quarters = shifted - V(0x1.8p23);
   const V r = ((angle - quarters * V(0x1.92p+0)) - quarters * V(0x1.fb4p-12)) - quarters * V(0x1.4442d2p-24);
   const V z = r * r;
   const V s = r + r * z * ((V(-1.0 / 6) + z * V(1.0 / 120)) + z * z * (V(-1.0 / 5040) + z * V(1.0 / 362880)));
   const V c = V(1.0) - (V(0.5) * z - z * z * ((V(1.0 / 24) - z * V(1.0 / 720)) + z * z * V(1.0 / 40320)));
-  const auto quarter = hn::BitCast(bits, shifted.v);
-  const auto one = hn::Set(bits, 1u), two = hn::Set(bits, 2u);
-  const auto s_bits = hn::BitCast(bits, s.v), c_bits = hn::BitCast(bits, c.v);
-  const auto swap = hn::And(hn::Xor(s_bits, c_bits), hn::Sub(hn::Zero(bits), hn::And(quarter, one)));
-  const auto s_sign = hn::ShiftLeft<30>(hn::And(quarter, two));
-  const auto c_sign = hn::ShiftLeft<30>(hn::And(hn::Add(quarter, one), two));
-  sine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(s_bits, swap), s_sign)));
-  cosine = V(hn::BitCast(V::Tag(), hn::Xor(hn::Xor(c_bits, swap), c_sign)));
+  AddQuarters(shifted, s, c, sine, cosine);
 }
 
 // ---- Vectors of three -----------------------------------------------------------------------------------------------
@@ -278,20 +277,16 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   hinge.best = best;
 }
 
-/// The hinge's change, as its limb moves now, and with it the movement of the limb beyond. Where `counts` does not
-/// hold, the hinge stays as it is. Returns where it has changed sides.
-template <class V, class M>
-HWY_INLINE M SubstituteHinge(const V& lower, const V& upper, const M& counts, HingeLanes<V>& hinge, V (&movement)[6]) {
+/// The hinge's change and side, as its limb moves now, and with it the movement of the limb beyond.
+template <class V>
+HWY_INLINE void SubstituteHinge(const V& lower, const V& upper, const HingeLanes<V>& hinge, V& change, V& side,
+                                V (&movement)[6]) {
   const V best = hinge.best - hinge.scale * Dot6(hinge.matrix_s, movement);
   const auto is_below = Below(best, lower);
   const auto is_above = Below(upper, best);
-  const V side = Select(is_below, V(-1.0), OrZero(is_above, V(1.0)));
-  const V change = Select(is_below, lower, Select(is_above, upper, best));
-  const M has_changed = counts && !AreEqual(side, hinge.side);
-  hinge.side = Select(counts, side, hinge.side);
-  hinge.change = Select(counts, change, hinge.change);
+  side = Select(is_below, V(-1.0), OrZero(is_above, V(1.0)));
+  change = Select(is_below, lower, Select(is_above, upper, best));
   for (int k = 0; k < 6; ++k) movement[k] = movement[k] + change * hinge.screw[k];
-  return has_changed;
 }
 
 }  // namespace etude::HWY_NAMESPACE

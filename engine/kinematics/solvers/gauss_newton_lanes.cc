@@ -324,8 +324,12 @@ class GaussNewtonLanes {
       for (int k = 0; k < 6; ++k) movement[k] = movements_[joint.parent].numbers[k];
       for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
         const AngleLanes<V>& angle = angles_[d];
-        has_changed = has_changed ||
-                      SubstituteHinge(angle.lower - angle.now, angle.upper - angle.now, counts, hinges_[d], movement);
+        HingeLanes<V>& hinge = hinges_[d];
+        V change, side;
+        SubstituteHinge(angle.lower - angle.now, angle.upper - angle.now, hinge, change, side, movement);
+        has_changed = has_changed || (counts && !AreEqual(side, hinge.side));
+        hinge.side = Select(counts, side, hinge.side);
+        hinge.change = Select(counts, change, hinge.change);
       }
       for (int k = 0; k < 6; ++k) movements_[tree_.inwards[i]].numbers[k] = movement[k];
     }

@@ -6,14 +6,9 @@
 #include "engine/kinematics/solvers/batch_sweep.h"
 #include "engine/kinematics/solvers/gauss_newton_course.h"
 #include "engine/kinematics/solvers/gauss_newton_tree.h"
+#include "engine/kinematics/solvers/lane_goals.h"
 
 namespace etude {
-
-/// When a lane's pose meets its goals. In between, the queue is asked.
-struct LaneGoals {
-  double squared_distance_met = 0, squared_distance_missed = 0;
-  double squared_chord_met = 0, squared_chord_missed = 0;
-};
 
 /// Where lanes get their problems from, and who does for them what is rare.
 class GaussNewtonQueue {

@@ -34,7 +34,7 @@ IkSolver WithSettings(IkSolver solver, SolveWithOwn<Own> solve, const SettingTab
   return solver;
 }
 
-IkSolver GaussNewtonSolver() {
+IkSolver GaussNewton() {
   const SettingTable<GaussNewtonOptions> table = {
       {{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100, "Sweeps before the first Gauss-Newton step."}}};
   IkSolver solver = WithSettings<GaussNewtonOptions>(
@@ -85,7 +85,7 @@ std::span<const IkSolver> AllIkSolvers() {
            .step = "sweeps"},
           SolveCcdAnderson,
           {{{"memory", &CcdAndersonOptions::memory, 1, 20, "How many former sweeps the extrapolation uses."}}}),
-      GaussNewtonSolver(),
+      GaussNewton(),
       WithSettings<LevenbergMarquardtOptions>(
           {.name = "levenberg-marquardt",
            .description =

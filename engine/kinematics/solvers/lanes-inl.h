@@ -20,10 +20,10 @@ namespace etude::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// A float or a double in every lane.
-template <class T>
+template <class T, class D = hn::ScalableTag<T>>
 struct Lanes {
   using Number = T;
-  using Tag = hn::ScalableTag<T>;
+  using Tag = D;
   hn::Vec<Tag> v;
 
   Lanes() = default;
@@ -31,71 +31,71 @@ struct Lanes {
   HWY_INLINE explicit Lanes(hn::Vec<Tag> from) : v(from) {}
 };
 
-template <class T>
+template <class T, class D = hn::ScalableTag<T>>
 struct LaneMask {
-  hn::Mask<hn::ScalableTag<T>> m;
+  hn::Mask<D> m;
 };
 
-template <class T>
-HWY_INLINE Lanes<T> operator+(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Add(a.v, b.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> operator+(const Lanes<T, D>& a, const Lanes<T, D>& b) {
+  return Lanes<T, D>(hn::Add(a.v, b.v));
 }
-template <class T>
-HWY_INLINE Lanes<T> operator-(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Sub(a.v, b.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> operator-(const Lanes<T, D>& a, const Lanes<T, D>& b) {
+  return Lanes<T, D>(hn::Sub(a.v, b.v));
 }
-template <class T>
-HWY_INLINE Lanes<T> operator*(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Mul(a.v, b.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> operator*(const Lanes<T, D>& a, const Lanes<T, D>& b) {
+  return Lanes<T, D>(hn::Mul(a.v, b.v));
 }
-template <class T>
-HWY_INLINE Lanes<T> operator/(const Lanes<T>& a, const Lanes<T>& b) {
-  return Lanes<T>(hn::Div(a.v, b.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> operator/(const Lanes<T, D>& a, const Lanes<T, D>& b) {
+  return Lanes<T, D>(hn::Div(a.v, b.v));
 }
-template <class T>
-HWY_INLINE Lanes<T> Sqrt(const Lanes<T>& a) {
-  return Lanes<T>(hn::Sqrt(a.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> Sqrt(const Lanes<T, D>& a) {
+  return Lanes<T, D>(hn::Sqrt(a.v));
 }
-template <class T>
-HWY_INLINE Lanes<T> Magnitude(const Lanes<T>& a) {
-  return Lanes<T>(hn::Abs(a.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> Magnitude(const Lanes<T, D>& a) {
+  return Lanes<T, D>(hn::Abs(a.v));
 }
-template <class T>
-HWY_INLINE Lanes<T> Select(const LaneMask<T>& condition, const Lanes<T>& yes, const Lanes<T>& no) {
-  return Lanes<T>(hn::IfThenElse(condition.m, yes.v, no.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> Select(const LaneMask<T, D>& condition, const Lanes<T, D>& yes, const Lanes<T, D>& no) {
+  return Lanes<T, D>(hn::IfThenElse(condition.m, yes.v, no.v));
 }
 /// Zero where the condition does not hold.
-template <class T>
-HWY_INLINE Lanes<T> OrZero(const LaneMask<T>& condition, const Lanes<T>& yes) {
-  return Lanes<T>(hn::IfThenElseZero(condition.m, yes.v));
+template <class T, class D>
+HWY_INLINE Lanes<T, D> OrZero(const LaneMask<T, D>& condition, const Lanes<T, D>& yes) {
+  return Lanes<T, D>(hn::IfThenElseZero(condition.m, yes.v));
 }
-template <class T>
-HWY_INLINE LaneMask<T> AtLeast(const Lanes<T>& a, const Lanes<T>& b) {
+template <class T, class D>
+HWY_INLINE LaneMask<T, D> AtLeast(const Lanes<T, D>& a, const Lanes<T, D>& b) {
   return {hn::Ge(a.v, b.v)};
 }
-template <class T>
-HWY_INLINE LaneMask<T> Below(const Lanes<T>& a, const Lanes<T>& b) {
+template <class T, class D>
+HWY_INLINE LaneMask<T, D> Below(const Lanes<T, D>& a, const Lanes<T, D>& b) {
   return {hn::Lt(a.v, b.v)};
 }
-template <class T>
-HWY_INLINE LaneMask<T> AreEqual(const Lanes<T>& a, const Lanes<T>& b) {
+template <class T, class D>
+HWY_INLINE LaneMask<T, D> AreEqual(const Lanes<T, D>& a, const Lanes<T, D>& b) {
   return {hn::Eq(a.v, b.v)};
 }
-template <class T>
-HWY_INLINE LaneMask<T> operator!(const LaneMask<T>& a) {
+template <class T, class D>
+HWY_INLINE LaneMask<T, D> operator!(const LaneMask<T, D>& a) {
   return {hn::Not(a.m)};
 }
-template <class T>
-HWY_INLINE LaneMask<T> operator||(const LaneMask<T>& a, const LaneMask<T>& b) {
+template <class T, class D>
+HWY_INLINE LaneMask<T, D> operator||(const LaneMask<T, D>& a, const LaneMask<T, D>& b) {
   return {hn::Or(a.m, b.m)};
 }
-template <class T>
-HWY_INLINE LaneMask<T> operator&&(const LaneMask<T>& a, const LaneMask<T>& b) {
+template <class T, class D>
+HWY_INLINE LaneMask<T, D> operator&&(const LaneMask<T, D>& a, const LaneMask<T, D>& b) {
   return {hn::And(a.m, b.m)};
 }
-template <class T>
-HWY_INLINE bool Any(const LaneMask<T>& a) {
-  return !hn::AllFalse(hn::ScalableTag<T>(), a.m);
+template <class T, class D>
+HWY_INLINE bool Any(const LaneMask<T, D>& a) {
+  return !hn::AllFalse(D(), a.m);
 }
 
 /// As std::max(a, b) and std::min(a, b): the first, unless the second is really larger or smaller.
@@ -109,17 +109,17 @@ HWY_INLINE V Smaller(const V& a, const V& b) {
 }
 
 // A vector in memory is its lanes in a row.
-template <class T>
-HWY_INLINE void SetLane(Lanes<T>& a, int lane, double x) {
+template <class T, class D>
+HWY_INLINE void SetLane(Lanes<T, D>& a, int lane, double x) {
   reinterpret_cast<T*>(&a)[lane] = static_cast<T>(x);
 }
-template <class T>
-HWY_INLINE double GetLane(const Lanes<T>& a, int lane) {
+template <class T, class D>
+HWY_INLINE double GetLane(const Lanes<T, D>& a, int lane) {
   return static_cast<double>(reinterpret_cast<const T*>(&a)[lane]);
 }
-template <class T>
-HWY_INLINE bool GetLane(const LaneMask<T>& a, int lane) {
-  return GetLane(Select(a, Lanes<T>(1.0), Lanes<T>(0.0)), lane) > 0;
+template <class T, class D>
+HWY_INLINE bool GetLane(const LaneMask<T, D>& a, int lane) {
+  return GetLane(Select(a, Lanes<T, D>(1.0), Lanes<T, D>(0.0)), lane) > 0;
 }
 
 /// A list in memory that is aligned for every vector and begins as zeros.

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "tests/engine/kinematics/posed_tree.h"
 #include "tests/engine/kinematics/solvers/any_problem.h"
 
@@ -75,6 +76,50 @@ TEST(GaussNewtonBatch, InDoubleIsTheSolverOfOneProblemToTheLastBit) {
   }
   EXPECT_GT(with_restarts, 100);
   EXPECT_GT(out_of_reach, 10);
+}
+
+// Limbs in lanes, the trunk by rows, and one number after the other, by every kind of vectors.
+TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
+  const std::vector<IkProblem> problems = HardProblems(61);
+  IkOptions bound = Tightly();
+  bound.angle_change_tolerance = 0.5;
+  IkOptions free = Tightly();
+  free.limits = false;
+  std::vector<std::string> targets = BatchTargets();
+  targets.push_back("");
+  for (const std::string& target : targets) {
+    SCOPED_TRACE(target);
+    SetBatchTarget(target);
+    GaussNewtonSolver solver(Body());
+    SetBatchTarget("");
+    for (const IkOptions& options : {Tightly(), Tightly(7), bound, free}) {
+      for (const GaussNewtonOptions& own :
+           {GaussNewtonOptions{}, GaussNewtonOptions{.first_sweeps = 2}, GaussNewtonOptions{.extra_passes = 0}}) {
+        for (const IkProblem& problem : problems) {
+          ExpectSameBits(solver.Solve(problem, options, own),
+                         SolveGaussNewtonPlainly(Body(), problem, options, own));
+        }
+      }
+    }
+  }
+}
+
+TEST(GaussNewton, IsThatSolverOnAnyTree) {
+  int compared = 0;
+  for (const std::string& target : BatchTargets()) {
+    SCOPED_TRACE(target);
+    for (int trial = 0; trial < 300; ++trial) {
+      const auto made = MakeRandomProblem(trial);
+      if (!made) continue;
+      SCOPED_TRACE(trial);
+      const auto& [tree, problem, options] = *made;
+      SetBatchTarget(target);
+      ExpectSameBits(SolveGaussNewton(tree, problem, options), SolveGaussNewtonPlainly(tree, problem, options));
+      ++compared;
+    }
+  }
+  SetBatchTarget("");
+  EXPECT_GT(compared, 100);
 }
 
 // Trees of any shape: joints that turn no axes into others, several effectors on a limb, limbs without any.

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "engine/kinematics/tree.h"
+
+namespace etude {
+
+/// A tree taken apart for vectors of four numbers: *limbs*, chains of joints from a leaf inwards that nothing branches
+/// off, four side by side in a *pack*, and the *trunk*, the joints between them, one by one. Of paper B's body the arms,
+/// the right leg and the neck are one pack. What a pack's limb lacks, a joint, an axis or an effector, it has as one
+/// that changes nothing. Plain numbers in the order of use.
+struct LimbPacks {
+  static constexpr int kWidth = 4;
+  static constexpr std::size_t kAlignment = kWidth * sizeof(double);
+
+  /// One joint of each limb of a pack.
+  struct Level {
+    alignas(kAlignment) double R_PJ[3][3][kWidth] = {};  ///< columns
+    alignas(kAlignment) double p_PJ[3][kWidth] = {};
+    alignas(kAlignment) double has_hinge[3][kWidth] = {};  ///< 1, or 0 where the limb lacks it
+    int hinge_count = 0;                                   ///< of the joint that has the most
+    int first_slot = 0;  ///< of its hinges: slot s has the places 4 s … 4 s + 3
+    int ends = -1;       ///< its effectors in `ends`, if it has any
+  };
+  /// One effector each of four limbs: those without one have a target without weight.
+  struct Ends {
+    alignas(kAlignment) double p_LE[3][kWidth] = {};
+    int effectors[kWidth] = {-1, -1, -1, -1};
+  };
+  struct Pack {
+    int parents[kWidth] = {};  ///< joints of the trunk
+    std::vector<Level> levels;
+  };
+  /// What joins the trunk at a joint: a limb, or another joint of the trunk (`pack` −1).
+  struct Branch {
+    int pack = -1;
+    int number = 0;  ///< lane, or joint
+  };
+  struct TrunkJoint {
+    int parent = -1;
+    double R_PJ[3][3] = {};  ///< columns
+    double p_PJ[3] = {};
+    int first_hinge = 0, hinge_count = 0;  ///< hinge h has the place 4 slot_count + h
+    std::vector<Branch> branches;          ///< in the order in which `GaussNewtonStep` adds them up
+  };
+
+  std::vector<Pack> packs;
+  std::vector<Ends> ends;
+  std::vector<TrunkJoint> trunk;  ///< parents before children, the root first
+  std::vector<int> inwards;       ///< of the trunk without the root, each joint after all beyond it
+  std::vector<int> places;        ///< of each degree of freedom
+  std::vector<int> end_places;    ///< of each effector: 4 times its place in `ends`, plus its lane
+  int slot_count = 0;
+  int trunk_hinge_count = 0;
+  int place_count = 0;  ///< whole vectors of any width
+
+  /// `tree` must be free of faults (`FindFault`).
+  explicit LimbPacks(const KinematicTree& tree);
+};
+
+}  // namespace etude
