@@ -6,26 +6,22 @@
 namespace etude {
 namespace {
 
-bool IsSane(double value) { return std::isfinite(value) && std::abs(value) <= kIkFarthest; }
-bool IsSane(const glm::dvec3& v) { return IsSane(v.x) && IsSane(v.y) && IsSane(v.z); }
+// Without branches: `&` where all is as good as always true. What is no number is below nothing.
+inline bool IsSane(double value) { return std::abs(value) <= kIkFarthest; }
+inline bool IsSane(const glm::dvec3& v) { return IsSane(v.x) & IsSane(v.y) & IsSane(v.z); }
 
-bool AreUnit(const glm::dmat3& axes) {
-  for (int k = 0; k < 3; ++k) {
-    if (!IsSane(axes[k]) || std::abs(glm::dot(axes[k], axes[k]) - 1) > kUnitTolerance) return false;
-  }
-  return true;
+inline bool IsUnit(const glm::dvec3& axis) { return std::abs(glm::dot(axis, axis) - 1) <= kUnitTolerance; }
+
+inline bool IsWeight(double weight) { return (weight >= 0) & (weight <= kIkFarthest); }
+
+// Unit axes at right angles to each other, and no mirror image.
+inline bool IsAFrame(const glm::dmat3& axes) {
+  return IsUnit(axes[0]) & IsUnit(axes[1]) & IsUnit(axes[2]) & (std::abs(glm::determinant(axes) - 1) < kFrameTolerance);
 }
 
-bool IsWeight(double weight) { return std::isfinite(weight) && weight >= 0 && weight <= kIkFarthest; }
-
-// Right angles to each other, and no mirror image.
-bool AreAFrame(const glm::dmat3& axes) {
-  return AreUnit(axes) && std::abs(glm::determinant(axes) - 1) < kFrameTolerance;
-}
-
-bool IsGood(const EffectorTarget& target) {
-  return IsWeight(target.position_weight) && IsWeight(target.axis_weights.x) && IsWeight(target.axis_weights.y) &&
-         IsWeight(target.axis_weights.z) && IsSane(target.position) && AreAFrame(target.axes);
+inline bool IsGood(const EffectorTarget& target) {
+  return IsWeight(target.position_weight) & IsWeight(target.axis_weights.x) & IsWeight(target.axis_weights.y) &
+         IsWeight(target.axis_weights.z) & IsSane(target.position) & IsAFrame(target.axes);
 }
 
 // One root, which stands first and does not turn; parents before children; every index in its list.
@@ -35,7 +31,7 @@ bool IsATree(const KinematicTree& tree) {
   if (joints == 0 || tree.joints[0].parent >= 0 || tree.joints[0].dof_count != 0) return false;
   for (int n = 1; n < joints; ++n) {
     const TreeJoint& joint = tree.joints[n];
-    if (joint.parent < 0 || joint.parent >= n || !AreAFrame(joint.R_PJ)) return false;
+    if (joint.parent < 0 || joint.parent >= n || !IsAFrame(joint.R_PJ)) return false;
     if (joint.dof_count < 0 || joint.dof_count > 3) return false;
     if (joint.dof_count > 0 && joint.first_dof != dofs) return false;
     dofs += joint.dof_count;
@@ -137,17 +133,16 @@ std::string_view FindProblemFault(const KinematicTree& tree, const IkProblem& pr
   if (problem.start.angles.size() != dofs || problem.limits.size() != dofs)
     return "angles or limits do not fit the tree";
   if (problem.targets.size() != tree.effectors.size()) return "targets do not fit the tree";
-  if (!IsSane(problem.start.root_position) || !AreAFrame(problem.start.root_frame))
-    return "the root is no finite frame";
-  for (double angle : problem.start.angles) {
-    if (!IsSane(angle)) return "a start angle is not finite";
-  }
+  if (!IsSane(problem.start.root_position) || !IsAFrame(problem.start.root_frame)) return "the root is no finite frame";
+  bool are_angles_sane = true, are_limits_good = true, are_targets_good = true;
+  for (const double angle : problem.start.angles) are_angles_sane &= IsSane(angle);
+  if (!are_angles_sane) return "a start angle is not finite";
   for (const AngleRange& range : problem.limits) {
-    if (!IsSane(range.lower) || !IsSane(range.upper) || range.lower > range.upper) return "a limit is inverted";
+    are_limits_good &= IsSane(range.lower) & IsSane(range.upper) & (range.lower <= range.upper);
   }
-  for (const EffectorTarget& target : problem.targets) {
-    if (!IsGood(target)) return "a target is no finite frame with weights";
-  }
+  if (!are_limits_good) return "a limit is inverted";
+  for (const EffectorTarget& target : problem.targets) are_targets_good &= IsGood(target);
+  if (!are_targets_good) return "a target is no finite frame with weights";
   return {};
 }
 

@@ -51,6 +51,17 @@ HWY_INLINE void Transpose(Four& a, Four& b, Four& c, Four& d) {
   d.v = hn::ConcatUpperUpper(kTag, cd_odd, ab_odd);
 }
 
+/// The same with zeros for `c` and `d` as they come.
+HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
+  constexpr Four::Tag kTag;
+  constexpr hn::Half<Four::Tag> kHalf;
+  const auto even = hn::InterleaveLower(kTag, a.v, b.v), odd = hn::InterleaveUpper(kTag, a.v, b.v);
+  a.v = hn::ZeroExtendVector(kTag, hn::LowerHalf(kHalf, even));
+  b.v = hn::ZeroExtendVector(kTag, hn::LowerHalf(kHalf, odd));
+  c.v = hn::ZeroExtendVector(kTag, hn::UpperHalf(kHalf, even));
+  d.v = hn::ZeroExtendVector(kTag, hn::UpperHalf(kHalf, odd));
+}
+
 #else
 
 struct Four {
@@ -73,7 +84,9 @@ HWY_INLINE Four operator/(const Four& a, const Four& b) { return {a.low / b.low,
 HWY_INLINE Four Select(const FourMask& m, const Four& yes, const Four& no) {
   return {Select(m.low, yes.low, no.low), Select(m.high, yes.high, no.high)};
 }
-HWY_INLINE Four OrZero(const FourMask& m, const Four& yes) { return {OrZero(m.low, yes.low), OrZero(m.high, yes.high)}; }
+HWY_INLINE Four OrZero(const FourMask& m, const Four& yes) {
+  return {OrZero(m.low, yes.low), OrZero(m.high, yes.high)};
+}
 HWY_INLINE FourMask Below(const Four& a, const Four& b) { return {Below(a.low, b.low), Below(a.high, b.high)}; }
 HWY_INLINE FourMask AreEqual(const Four& a, const Four& b) {
   return {AreEqual(a.low, b.low), AreEqual(a.high, b.high)};
@@ -120,6 +133,11 @@ HWY_INLINE void Transpose(Four& a, Four& b, Four& c, Four& d) {
   b = second;
   c = third;
   d = last;
+}
+
+HWY_INLINE void TransposeTwo(Four& a, Four& b, Four& c, Four& d) {
+  c = d = Four(0.0);
+  Transpose(a, b, c, d);
 }
 
 #endif

@@ -30,10 +30,10 @@ class GaussNewtonSolver::Solver final : public GaussNewtonHelp {
     } else {
       MeasurePose(solution.angles, solution.errors);
     }
-    solution.status = course.has_converged()  ? IkStatus::kConverged
-                      : IsOutOfReach()        ? IkStatus::kUnreachable
-                      : course.HasStalled()   ? IkStatus::kStalled
-                                              : IkStatus::kIterationLimit;
+    solution.status = course.has_converged() ? IkStatus::kConverged
+                      : IsOutOfReach()       ? IkStatus::kUnreachable
+                      : course.HasStalled()  ? IkStatus::kStalled
+                                             : IkStatus::kIterationLimit;
     solution.iterations = course.iterations();
     solution.fk_evaluations = course.fk_evaluations();
     return solution;
@@ -81,23 +81,19 @@ class GaussNewtonSolver::Solver final : public GaussNewtonHelp {
       limbs_->root[k] = problem_->start.root_position[k];
       for (int c = 0; c < 3; ++c) limbs_->root[3 + 3 * c + k] = problem_->start.root_frame[c][k];
     }
-    double* to = limbs_->targets;
-    for (const LimbPacks::Ends& ends : packs_.ends) {
-      for (int lane = 0; lane < LimbPacks::kWidth; ++lane) {
-        if (ends.effectors[lane] < 0) continue;
-        const EffectorTarget& target = problem_->targets[ends.effectors[lane]];
-        auto put = [at = to + lane](double x) mutable {
-          *at = x;
-          at += LimbPacks::kWidth;
-        };
-        for (int k = 0; k < 3; ++k) put(target.position[k]);
-        for (int c = 0; c < 3; ++c) {
-          for (int k = 0; k < 3; ++k) put(target.axes[c][k]);
-        }
-        put(target.position_weight / (kPositionScale * kPositionScale));
-        for (int k = 0; k < 3; ++k) put(target.axis_weights[k]);
+    for (std::size_t e = 0; e < problem_->targets.size(); ++e) {
+      const EffectorTarget& target = problem_->targets[e];
+      double* to = limbs_->TargetOf(static_cast<int>(e));
+      const auto put = [&to](double x) {
+        *to = x;
+        to += LimbPacks::kWidth;
+      };
+      for (int k = 0; k < 3; ++k) put(target.position[k]);
+      for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < 3; ++k) put(target.axes[c][k]);
       }
-      to += LimbPacks::kWidth * GaussNewtonLimbs::kTargetNumbers;
+      put(target.position_weight / (kPositionScale * kPositionScale));
+      for (int k = 0; k < 3; ++k) put(target.axis_weights[k]);
     }
   }
 

@@ -263,10 +263,11 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
   const auto is_free = AreEqual(hinge.side, nothing);
   const V change = Select(is_free, best, Select(Below(hinge.side, nothing), lower, upper));
-  const V share = OrZero(is_free, scale);
+  // Adding less costs an instruction less than taking off: what is in memory may be the second operand of either.
+  const V share = OrZero(is_free, nothing - scale);
   for (int r = 0; r < 6; ++r) {
     const V row_share = share * y[r];
-    for (int i = 0; i < 6; ++i) m[6 * r + i] = m[6 * r + i] - row_share * y[i];
+    for (int i = 0; i < 6; ++i) m[6 * r + i] = m[6 * r + i] + row_share * y[i];
   }
   const V back = nothing - change;
   for (int k = 0; k < 6; ++k) {

@@ -15,94 +15,49 @@
 #include "engine/kinematics/solvers/four-inl.h"
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
 #include "engine/kinematics/solvers/lanes-inl.h"
+#include "engine/kinematics/solvers/rows-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
 
-/// Six numbers in a row, and two zeros.
-struct Row {
-  Four low, high;
-};
-
-HWY_INLINE Row LoadRow(const double* from) { return {LoadFour(from), LoadFour(from + 4)}; }
-HWY_INLINE void StoreRow(const Row& a, double* to) {
-  StoreFour(a.low, to);
-  StoreFour(a.high, to + 4);
-}
-HWY_INLINE Row operator+(const Row& a, const Row& b) { return {a.low + b.low, a.high + b.high}; }
-HWY_INLINE Row operator-(const Row& a, const Row& b) { return {a.low - b.low, a.high - b.high}; }
-HWY_INLINE Row operator*(const Four& a, const Row& b) { return {a * b.low, a * b.high}; }
-
-/// `Dot6` of two rows, in every lane.
-HWY_INLINE Four DotRows(const Row& a, const Row& b) {
-  const Four low = a.low * b.low, high = a.high * b.high;
-  const Four pairs = low + SwapNeighbours(low), last = high + SwapNeighbours(high);
-  return (pairs + SwapHalves(pairs)) + LowerTwice(last);
-}
-
-/// What is asked of a limb of the trunk.
-struct QuadraticRows {
-  Row matrix[6];
-  Row vector;
-};
-
-struct TrunkFrame {
-  Four axes[3];  ///< x, y, z, 0
-  Four position;
-};
-
-struct alignas(64) TrunkHinge {
-  double screw[8], matrix_s[8];
-  double scale, best, side;  ///< as in `HingeLanes`
-};
-
-HWY_INLINE Four CrossAxes(const Four& a, const Four& b) {
-  return NextAxes(a) * NextAxes(NextAxes(b)) - NextAxes(b) * NextAxes(NextAxes(a));
-}
-
 class LimbLanes final : public GaussNewtonLimbs {
  public:
   explicit LimbLanes(const LimbPacks& packs)
       : packs_(packs),
+        places_(static_cast<std::size_t>(packs.place_count)),
         trunk_angles_(static_cast<std::size_t>(LimbPacks::kWidth) * packs.slot_count),
-        now_(packs.place_count),
-        last_(packs.place_count),
-        best_(packs.place_count),
-        start_(packs.place_count),
-        lower_(packs.place_count),
-        upper_(packs.place_count),
-        to_start_(packs.place_count),
-        to_lower_(packs.place_count),
-        to_upper_(packs.place_count),
-        change_(packs.place_count),
-        sines_(packs.place_count),
-        cosines_(packs.place_count),
-        trunk_frames_(packs.trunk.size()),
+        numbers_(12 * places_),
+        trunk_(packs.trunk.size()),
         trunk_hinges_(packs.trunk_hinge_count),
-        trunk_quadratics_(packs.trunk.size()),
-        trunk_movements_(packs.trunk.size()),
         hinges_(packs.slot_count),
-        targets_(packs.ends.size()),
-        asked_(packs.ends.size()),
-        end_frames_(packs.ends.size()),
+        ends_(packs.ends.size()),
+        sum_(1),
         limb_rows_(packs.packs.size() * LimbPacks::kWidth),
         squares_of_(packs.end_places.size()) {
+    double* next = numbers_.begin();
+    for (double** const row : {&now_, &last_, &best_, &start_, &lower_, &upper_, &to_start_, &to_lower_, &to_upper_,
+                               &change_, &sines_, &cosines_}) {
+      *row = next;
+      next += places_;
+    }
     // Places without a hinge stay at zero, and free.
-    for (double& x : lower_) x = -1;
-    for (double& x : upper_) x = 1;
-    angles = start_.begin();
-    lower = lower_.begin();
-    upper = upper_.begin();
-    targets = reinterpret_cast<double*>(targets_.begin());
+    std::fill_n(lower_, places_, -1.0);
+    std::fill_n(upper_, places_, 1.0);
+    angles = start_;
+    lower = lower_;
+    upper = upper_;
   }
 
-  End EndOf(int effector) const override {
-    const auto number = static_cast<std::size_t>(packs_.end_places[effector]);
-    const double* from = reinterpret_cast<const double*>(&end_frames_[number / 4]) + number % 4;
+  double* TargetOf(int effector) override {
+    return reinterpret_cast<double*>(&EndsOf(effector).target) + Lane(effector);
+  }
+
+  End EndOf(int effector) override {
+    const double* from = reinterpret_cast<const double*>(&EndsOf(effector).frame) + Lane(effector);
     End end;
-    for (int i = 0; i < 9; ++i) end.axes[i / 3][i % 3] = from[4 * i];
-    for (int k = 0; k < 3; ++k) end.position[k] = from[4 * (9 + k)];
+    for (int i = 0; i < 9; ++i) end.axes[i / 3][i % 3] = from[LimbPacks::kWidth * i];
+    for (int k = 0; k < 3; ++k) end.position[k] = from[LimbPacks::kWidth * (9 + k)];
     return end;
   }
 
@@ -128,7 +83,7 @@ class LimbLanes final : public GaussNewtonLimbs {
           Copy(best_, now_);
           break;
         case kSweep:
-          help.Sweep(next, course, {now_.begin(), now_.size()});
+          help.Sweep(next, course, {now_, places_});
           break;
         case kEnd:
           Copy(course.has_converged() ? now_ : best_, start_);
@@ -139,18 +94,35 @@ class LimbLanes final : public GaussNewtonLimbs {
 
  private:
   using V = Lanes<double>;
-  using Numbers = AlignedList<double>;
+
+  /// Of the trunk's joints and of limbs' ends.
+  struct TrunkState {
+    TrunkFrame frame;
+    QuadraticRows quadratic;
+    SixRow movement;
+  };
+  struct EndsState {
+    TargetLanes<Four> target;
+    AskedLanes<Four> asked;
+    FrameLanes<Four> frame;
+  };
+  struct Three {
+    Four v[3];
+  };
+
+  EndsState& EndsOf(int effector) { return ends_[packs_.end_places[effector] / LimbPacks::kWidth]; }
+  int Lane(int effector) const { return packs_.end_places[effector] % LimbPacks::kWidth; }
 
   template <class Put>
   HWY_INLINE void ForPlaces(const Put& put) {
     constexpr std::size_t kLanes = sizeof(V) / sizeof(double);
-    for (std::size_t i = 0; i < now_.size(); i += kLanes) put(i);
+    for (std::size_t i = 0; i < places_; i += kLanes) put(i);
   }
-  static HWY_INLINE V Load(const Numbers& from, std::size_t i) { return V(hn::Load(V::Tag(), from.begin() + i)); }
-  static HWY_INLINE void Store(const V& a, Numbers& to, std::size_t i) { hn::Store(a.v, V::Tag(), to.begin() + i); }
+  static HWY_INLINE V Load(const double* from) { return V(hn::Load(V::Tag(), from)); }
+  static HWY_INLINE void Store(const V& a, double* to) { hn::Store(a.v, V::Tag(), to); }
 
-  void Copy(const Numbers& from, Numbers& to) {
-    ForPlaces([&](std::size_t i) HWY_ATTR { Store(Load(from, i), to, i); });
+  HWY_INLINE void Copy(const double* from, double* to) {
+    ForPlaces([&](std::size_t i) HWY_ATTR { Store(Load(from + i), to + i); });
   }
 
   // ---- Forward kinematics, and what targets ask ----
@@ -158,9 +130,9 @@ class LimbLanes final : public GaussNewtonLimbs {
   void Place() {
     ForPlaces([&](std::size_t i) HWY_ATTR {
       V sine, cosine;
-      SineAndCosine(Load(now_, i), sine, cosine);
-      Store(sine, sines_, i);
-      Store(cosine, cosines_, i);
+      SineAndCosine(Load(now_ + i), sine, cosine);
+      Store(sine, sines_ + i);
+      Store(cosine, cosines_ + i);
     });
     PlaceTrunk();
     squared_distance_ = squared_chord_ = 0;
@@ -170,14 +142,14 @@ class LimbLanes final : public GaussNewtonLimbs {
   }
 
   void PlaceTrunk() {
-    TrunkFrame& at_root = trunk_frames_[0];
+    TrunkFrame& at_root = trunk_[0].frame;
     alignas(64) double numbers[16] = {};
     for (int i = 0; i < 12; ++i) numbers[4 * (i / 3) + i % 3] = root[i];
     at_root.position = LoadFour(numbers);
     for (int c = 0; c < 3; ++c) at_root.axes[c] = LoadFour(numbers + 4 * (c + 1));
     for (std::size_t n = 1; n < packs_.trunk.size(); ++n) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
-      const TrunkFrame& parent = trunk_frames_[joint.parent];
+      const TrunkFrame& parent = trunk_[joint.parent].frame;
       Four axes[3];
       for (int c = 0; c < 3; ++c) axes[c] = Mix(parent.axes, joint.R_PJ[c]);
       const Four position = parent.position + Mix(parent.axes, joint.p_PJ);
@@ -185,7 +157,7 @@ class LimbLanes final : public GaussNewtonLimbs {
       if (joint.hinge_count > 0) TurnTrunk<0>(joint, p_RJ_W, axes);
       if (joint.hinge_count > 1) TurnTrunk<1>(joint, p_RJ_W, axes);
       if (joint.hinge_count > 2) TurnTrunk<2>(joint, p_RJ_W, axes);
-      TrunkFrame& frame = trunk_frames_[n];
+      TrunkFrame& frame = trunk_[n].frame;
       for (int c = 0; c < 3; ++c) frame.axes[c] = axes[c];
       frame.position = position;
     }
@@ -209,17 +181,19 @@ class LimbLanes final : public GaussNewtonLimbs {
   }
 
   void PlaceLimbs(const LimbPacks::Pack& pack) {
-    V4 root_position, position, axes[3];
+    Three root_position, position, axes[3];
     TakeFrames(pack, position, axes);
     for (int k = 0; k < 3; ++k) root_position.v[k] = Four(root[k]);
-    for (const LimbPacks::Level& level : pack.levels) {
+    for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       Four turned[3][3];
       for (int k = 0; k < 3; ++k) {
-        position.v[k] = position.v[k] + (axes[0].v[k] * LoadFour(level.p_PJ[0]) + axes[1].v[k] * LoadFour(level.p_PJ[1]) +
-                                         axes[2].v[k] * LoadFour(level.p_PJ[2]));
+        position.v[k] =
+            position.v[k] + (axes[0].v[k] * LoadFour(level.p_PJ[0]) + axes[1].v[k] * LoadFour(level.p_PJ[1]) +
+                             axes[2].v[k] * LoadFour(level.p_PJ[2]));
       }
       for (int c = 0; c < 3; ++c) {
-        for (int k = 0; k < 3; ++k) {
+        if (!level.turns_axes) Copy3(axes[c].v, turned[c]);
+        for (int k = 0; k < 3 && level.turns_axes; ++k) {
           turned[c][k] = axes[0].v[k] * LoadFour(level.R_PJ[c][0]) + axes[1].v[k] * LoadFour(level.R_PJ[c][1]) +
                          axes[2].v[k] * LoadFour(level.R_PJ[c][2]);
         }
@@ -234,14 +208,10 @@ class LimbLanes final : public GaussNewtonLimbs {
     }
   }
 
-  struct V4 {
-    Four v[3];
-  };
-
   /// The frames of the joints that limbs hang on, one in each lane.
-  HWY_INLINE void TakeFrames(const LimbPacks::Pack& pack, V4& position, V4 (&axes)[3]) {
+  HWY_INLINE void TakeFrames(const LimbPacks::Pack& pack, Three& position, Three (&axes)[3]) {
     const TrunkFrame* from[LimbPacks::kWidth];
-    for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_frames_[pack.parents[lane]];
+    for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]].frame;
     for (int c = 0; c < 3; ++c) {
       Four x = from[0]->axes[c], y = from[1]->axes[c], z = from[2]->axes[c], none = from[3]->axes[c];
       Transpose(x, y, z, none);
@@ -259,7 +229,7 @@ class LimbLanes final : public GaussNewtonLimbs {
   template <int kAxis>
   HWY_INLINE void TurnLimbs(const LimbPacks::Level& level, const Four (&p_RJ_W)[3], Four (&axes)[3][3]) {
     const int slot = level.first_slot + kAxis;
-    const Four s = LoadFour(sines_.begin() + 4 * slot), c = LoadFour(cosines_.begin() + 4 * slot);
+    const Four s = LoadFour(sines_ + 4 * slot), c = LoadFour(cosines_ + 4 * slot);
     TurnAxes<kAxis>(s, c, axes);
     Four(&screw)[6] = hinges_[slot].screw;
     SetScrew(axes[kAxis], p_RJ_W, screw);
@@ -274,11 +244,11 @@ class LimbLanes final : public GaussNewtonLimbs {
       p_WE[k] = p_WL[k] + (R_WE[0][k] * LoadFour(ends.p_LE[0]) + R_WE[1][k] * LoadFour(ends.p_LE[1]) +
                            R_WE[2][k] * LoadFour(ends.p_LE[2]));
     }
-    FrameLanes<Four>& frame = end_frames_[number];
+    FrameLanes<Four>& frame = ends_[number].frame;
     for (int c = 0; c < 3; ++c) Copy3(R_WE[c], frame.axes[c]);
     Copy3(p_WE, frame.position);
     MissLanes<Four> miss{Four(0.0), Four(0.0), Four(0.0)};
-    Linearise(targets_[number], R_WE, p_WE, p_WR, asked_[number], miss);
+    Linearise(ends_[number].target, R_WE, p_WE, p_WR, ends_[number].asked, miss);
     alignas(64) double squares[4], distances[4], chords[4];
     StoreFour(miss.squares, squares);
     StoreFour(miss.squared_distance, distances);
@@ -292,9 +262,10 @@ class LimbLanes final : public GaussNewtonLimbs {
 
   bool IsMet(const LaneGoals& goals, GaussNewtonHelp& help) {
     // So that what is no number meets nothing.
-    if (!(squared_distance_ < goals.squared_distance_missed && squared_chord_ < goals.squared_chord_missed)) return false;
+    if (!(squared_distance_ < goals.squared_distance_missed && squared_chord_ < goals.squared_chord_missed))
+      return false;
     if (squared_distance_ < goals.squared_distance_met && squared_chord_ < goals.squared_chord_met) return true;
-    return help.MeetsGoals({now_.begin(), now_.size()});
+    return help.MeetsGoals({now_, places_});
   }
 
   // ---- The step ----
@@ -302,10 +273,10 @@ class LimbLanes final : public GaussNewtonLimbs {
   /// Returns the largest change of an angle.
   double Step(const GaussNewtonCourse::Next& next, int extra_passes) {
     ForPlaces([&](std::size_t i) HWY_ATTR {
-      const V now = Load(now_, i);
-      Store(next.to_start ? Load(start_, i) - now : V(0.0), to_start_, i);
-      Store(Load(lower_, i) - now, to_lower_, i);
-      Store(Load(upper_, i) - now, to_upper_, i);
+      const V now = Load(now_ + i);
+      Store(next.to_start ? Load(start_ + i) - now : V(0.0), to_start_ + i);
+      Store(Load(lower_ + i) - now, to_lower_ + i);
+      Store(Load(upper_ + i) - now, to_upper_ + i);
     });
     const Four damping(next.damping);
     bool limbs_have_changed = true;
@@ -325,28 +296,28 @@ class LimbLanes final : public GaussNewtonLimbs {
 
   void EliminateLimbs(std::size_t number, const Four& damping) {
     const LimbPacks::Pack& pack = packs_.packs[number];
-    QuadraticLanes<Four> sum;
+    QuadraticLanes<Four>& sum = sum_[0];  // in memory: what GCC knows to be local it keeps twice
     bool is_empty = true;
-    for (std::size_t l = pack.levels.size(); l-- > 0;) {
-      const LimbPacks::Level& level = pack.levels[l];
+    for (int l = pack.first_level + pack.level_count; l-- > pack.first_level;) {
+      const LimbPacks::Level& level = packs_.levels[l];
       if (level.ends >= 0 && is_empty) {
-        Gather<true>(asked_[level.ends], sum);
+        Gather<true>(ends_[level.ends].asked, sum);
         is_empty = false;
       } else if (level.ends >= 0) {
-        Gather<false>(asked_[level.ends], sum);
+        Gather<false>(ends_[level.ends].asked, sum);
       } else if (is_empty) {
         std::memset(static_cast<void*>(&sum), 0, sizeof(sum));
         is_empty = false;
       }
       for (int slot = level.first_slot + level.hinge_count; slot-- > level.first_slot;) {
         const int place = LimbPacks::kWidth * slot;
-        EliminateHinge(damping, LoadFour(&to_start_[place]), LoadFour(&to_lower_[place]), LoadFour(&to_upper_[place]),
+        EliminateHinge(damping, LoadFour(to_start_ + place), LoadFour(to_lower_ + place), LoadFour(to_upper_ + place),
                        sum, hinges_[slot]);
       }
     }
     QuadraticRows* rows = &limb_rows_[number * LimbPacks::kWidth];
-    for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> Row& { return rows[lane].matrix[r]; });
-    PutRows(sum.vector, [&](int lane) -> Row& { return rows[lane].vector; });
+    for (int r = 0; r < 6; ++r) PutRows(sum.matrix + 6 * r, [&](int lane) -> SixRow& { return rows[lane].matrix[r]; });
+    PutRows(sum.vector, [&](int lane) -> SixRow& { return rows[lane].vector; });
   }
 
   /// Six numbers of every limb as a row for each.
@@ -354,8 +325,8 @@ class LimbLanes final : public GaussNewtonLimbs {
   static HWY_INLINE void PutRows(const Four* numbers, const RowOf& row_of) {
     Four a = numbers[0], b = numbers[1], c = numbers[2], d = numbers[3];
     Transpose(a, b, c, d);
-    Four e = numbers[4], f = numbers[5], g(0.0), h(0.0);
-    Transpose(e, f, g, h);
+    Four e = numbers[4], f = numbers[5], g, h;
+    TransposeTwo(e, f, g, h);
     row_of(0) = {a, e};
     row_of(1) = {b, f};
     row_of(2) = {c, g};
@@ -365,77 +336,47 @@ class LimbLanes final : public GaussNewtonLimbs {
   void EliminateTrunk(const Four& damping) {
     for (const int n : packs_.inwards) {
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
-      Row m[6], v{Four(0.0), Four(0.0)};
-      for (Row& row : m) row = v;
+      SixRow m[6], v{Four(0.0), Four(0.0)};
+      for (SixRow& row : m) row = v;
       bool is_first = true;
-      for (const LimbPacks::Branch& branch : joint.branches) {
-        const QuadraticRows& from =
-            branch.pack < 0 ? trunk_quadratics_[branch.number] : limb_rows_[branch.pack * LimbPacks::kWidth + branch.number];
+      for (const LimbPacks::Branch& branch : packs_.BranchesOf(joint)) {
+        const QuadraticRows& from = branch.pack < 0 ? trunk_[branch.number].quadratic
+                                                    : limb_rows_[branch.pack * LimbPacks::kWidth + branch.number];
         for (int r = 0; r < 6; ++r) m[r] = is_first ? from.matrix[r] : m[r] + from.matrix[r];
         v = is_first ? from.vector : v + from.vector;
         is_first = false;
       }
-      for (int h = joint.first_hinge + joint.hinge_count; h-- > joint.first_hinge;) EliminateTrunkHinge(damping, h, m, v);
-      QuadraticRows& to = trunk_quadratics_[n];
+      for (int h = joint.first_hinge + joint.hinge_count; h-- > joint.first_hinge;) {
+        const std::size_t place = trunk_angles_ + h;
+        EliminateHinge(damping, to_start_[place], to_lower_[place], to_upper_[place], m, v, trunk_hinges_[h]);
+      }
+      QuadraticRows& to = trunk_[n].quadratic;
       for (int r = 0; r < 6; ++r) to.matrix[r] = m[r];
       to.vector = v;
     }
   }
 
-  /// `EliminateHinge` by rows.
-  HWY_INLINE void EliminateTrunkHinge(const Four& damping, int number, Row (&m)[6], Row& v) {
-    TrunkHinge& hinge = trunk_hinges_[number];
-    const std::size_t place = trunk_angles_ + number;
-    const double* s = hinge.screw;
-    const Row screw = LoadRow(s);
-    const Row y = (Four(s[0]) * m[0] + Four(s[1]) * m[1]) + (Four(s[2]) * m[2] + Four(s[3]) * m[3]) +
-                  (Four(s[4]) * m[4] + Four(s[5]) * m[5]);
-    StoreRow(y, hinge.matrix_s);
-    const Four nothing(0.0);
-    const Four scale = Four(1.0) / (damping + Larger(nothing, DotRows(y, screw)));
-    const Four best = scale * (damping * Four(to_start_[place]) + DotRows(v, screw));
-    const Four side(hinge.side);
-    const auto is_free = AreEqual(side, nothing);
-    const Four change =
-        Select(is_free, best, Select(Below(side, nothing), Four(to_lower_[place]), Four(to_upper_[place])));
-    const Four share = OrZero(is_free, scale);
-    for (int r = 0; r < 6; ++r) m[r] = m[r] - (share * Four(hinge.matrix_s[r])) * y;
-    v = v + (nothing - change) * y;
-    hinge.scale = FirstOf(scale);
-    hinge.best = FirstOf(best);
-  }
-
   /// From the root on. Returns whether a hinge has changed sides.
   bool SubstituteTrunk() {
-    Row& at_rest = trunk_movements_[0];
+    SixRow& at_rest = trunk_[0].movement;
     at_rest = {Four(0.0), Four(0.0)};
     bool has_changed = false;
     for (std::size_t i = packs_.inwards.size(); i-- > 0;) {
       const int n = packs_.inwards[i];
       const LimbPacks::TrunkJoint& joint = packs_.trunk[n];
-      Row movement = trunk_movements_[joint.parent];
+      SixRow movement = trunk_[joint.parent].movement;
       for (int h = joint.first_hinge; h < joint.first_hinge + joint.hinge_count; ++h) {
-        TrunkHinge& hinge = trunk_hinges_[h];
         const std::size_t place = trunk_angles_ + h;
-        const Four best = Four(hinge.best) - Four(hinge.scale) * DotRows(LoadRow(hinge.matrix_s), movement);
-        const Four to_lower(to_lower_[place]), to_upper(to_upper_[place]);
-        const auto is_below = Below(best, to_lower), is_above = Below(to_upper, best);
-        const Four change = Select(is_below, to_lower, Select(is_above, to_upper, best));
-        const Row moved = change * LoadRow(hinge.screw);
-        movement = movement + moved;
-        const double side = FirstOf(Select(is_below, Four(-1.0), OrZero(is_above, Four(1.0))));
-        has_changed |= side != hinge.side;
-        hinge.side = side;
-        change_[place] = FirstOf(change);
+        has_changed |= SubstituteHinge(to_lower_[place], to_upper_[place], trunk_hinges_[h], change_[place], movement);
       }
-      trunk_movements_[n] = movement;
+      trunk_[n].movement = movement;
     }
     return has_changed;
   }
 
   bool SubstituteLimbs(const LimbPacks::Pack& pack) {
-    const Row* from[LimbPacks::kWidth];
-    for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_movements_[pack.parents[lane]];
+    const SixRow* from[LimbPacks::kWidth];
+    for (int lane = 0; lane < LimbPacks::kWidth; ++lane) from[lane] = &trunk_[pack.parents[lane]].movement;
     Four movement[6], none;
     for (int k = 0; k < 4; ++k) movement[k] = from[k]->low;
     Transpose(movement[0], movement[1], movement[2], movement[3]);
@@ -445,15 +386,15 @@ class LimbLanes final : public GaussNewtonLimbs {
     none = from[3]->high;
     Transpose(movement[4], movement[5], last, none);
     FourMask has_changed = Below(Four(0.0), Four(0.0));
-    for (const LimbPacks::Level& level : pack.levels) {
+    for (const LimbPacks::Level& level : packs_.LevelsOf(pack)) {
       for (int slot = level.first_slot; slot < level.first_slot + level.hinge_count; ++slot) {
         const int place = LimbPacks::kWidth * slot;
         HingeLanes<Four>& hinge = hinges_[slot];
         Four change, side;
-        SubstituteHinge(LoadFour(&to_lower_[place]), LoadFour(&to_upper_[place]), hinge, change, side, movement);
+        SubstituteHinge(LoadFour(to_lower_ + place), LoadFour(to_upper_ + place), hinge, change, side, movement);
         has_changed = has_changed || !AreEqual(side, hinge.side);
         hinge.side = side;
-        StoreFour(change, &change_[place]);
+        StoreFour(change, change_ + place);
       }
     }
     return Any(has_changed);
@@ -464,7 +405,7 @@ class LimbLanes final : public GaussNewtonLimbs {
     V largest(0.0);
     auto is_finite = AtLeast(V(0.0), V(0.0));
     ForPlaces([&](std::size_t i) HWY_ATTR {
-      const V size = Magnitude(Load(change_, i));
+      const V size = Magnitude(Load(change_ + i));
       largest = Larger(largest, size);
       is_finite = is_finite && AtLeast(V(std::numeric_limits<double>::max()), size);
     });
@@ -472,28 +413,27 @@ class LimbLanes final : public GaussNewtonLimbs {
     if (Any(!is_finite) || !(most > 0)) return 0;
     const V share(most > kLargestTurn ? kLargestTurn / most : 1);
     ForPlaces([&](std::size_t i) HWY_ATTR {
-      const V least = Load(lower_, i), most_allowed = Load(upper_, i);
-      const V moved = Load(now_, i) + share * Load(change_, i);
-      Store(Select(Below(moved, least), least, Select(Below(most_allowed, moved), most_allowed, moved)), now_, i);
+      const V least = Load(lower_ + i), most_allowed = Load(upper_ + i);
+      const V moved = Load(now_ + i) + share * Load(change_ + i);
+      Store(Select(Below(moved, least), least, Select(Below(most_allowed, moved), most_allowed, moved)), now_ + i);
     });
     return most;
   }
 
   const LimbPacks& packs_;
+  const std::size_t places_;
   const std::size_t trunk_angles_;  // the place of the trunk's first angle
-  Numbers now_, last_, best_, start_, lower_, upper_;
-  Numbers to_start_, to_lower_, to_upper_, change_;
-  Numbers sines_, cosines_;
-  AlignedList<TrunkFrame> trunk_frames_;
+  AlignedList<double> numbers_;     // these rows, of all places
+  double *now_, *last_, *best_, *start_, *lower_, *upper_;
+  double *to_start_, *to_lower_, *to_upper_, *change_;  // in a step
+  double *sines_, *cosines_;
+  AlignedList<TrunkState> trunk_;
   AlignedList<TrunkHinge> trunk_hinges_;
-  AlignedList<QuadraticRows> trunk_quadratics_;
-  AlignedList<Row> trunk_movements_;
-  AlignedList<HingeLanes<Four>> hinges_;
-  AlignedList<TargetLanes<Four>> targets_;
-  AlignedList<AskedLanes<Four>> asked_;
-  AlignedList<FrameLanes<Four>> end_frames_;
-  AlignedList<QuadraticRows> limb_rows_;
-  Numbers squares_of_;  // of each effector
+  AlignedList<HingeLanes<Four>> hinges_;  // of each slot
+  AlignedList<EndsState> ends_;
+  AlignedList<QuadraticLanes<Four>> sum_;  // of a pack on its way inwards
+  AlignedList<QuadraticRows> limb_rows_;   // of each limb, when its hinges are eliminated
+  AlignedList<double> squares_of_;         // of each effector
   double squares_ = 0, squared_distance_ = 0, squared_chord_ = 0;
 };
 

@@ -29,19 +29,19 @@ class GaussNewtonLimbs {
   static std::unique_ptr<GaussNewtonLimbs> Make(const LimbPacks& packs);
   virtual ~GaussNewtonLimbs() = default;
 
-  static constexpr int kTargetNumbers = 16;
-
   /// A problem, and in the end its answer. Angles at their places; other places stay as they are made.
   double *angles = nullptr, *lower = nullptr, *upper = nullptr;
-  double root[12] = {};       ///< p_WL, and R_WL column by column
-  double* targets = nullptr;  ///< of each of `LimbPacks::ends` `kTargetNumbers` for four limbs, as in `IkBatch`,
-                              ///< weights of positions per square of `kPositionScale`
+  double root[12] = {};  ///< p_WL, and R_WL column by column
 
-  /// X_WE of an effector at the last pose that was placed: the answer's, if `course` has converged.
+  /// The target of an effector: numbers as `IkBatch::target` has them, four places apart; the position's weight per
+  /// square of `kPositionScale`.
+  virtual double* TargetOf(int effector) = 0;
+
+  /// X_WE at the last pose that was placed: the answer's, if `course` has converged.
   struct End {
     double position[3], axes[3][3];
   };
-  virtual End EndOf(int effector) const = 0;
+  virtual End EndOf(int effector) = 0;
 
   /// Goes `course` to its end.
   virtual void Solve(const LaneGoals& goals, int extra_passes, GaussNewtonCourse& course, GaussNewtonHelp& help) = 0;

@@ -1,7 +1,6 @@
 #include "engine/kinematics/solvers/limb_packs.h"
 
 #include <algorithm>
-#include <span>
 
 #include "engine/kinematics/solvers/gauss_newton_tree.h"
 
@@ -10,20 +9,17 @@ namespace {
 
 constexpr int kMostLanes = 8;  // of doubles, in any CPU's vectors
 
-// Joints from the trunk outwards, or none, and the effector at the end.
+// From its first joint, or of none, at the joint `parent` of the tree.
 struct Limb {
-  int parent = 0;  // joint of the tree
-  std::vector<int> joints;
-  int effector = -1;
+  int parent = 0, first_joint = -1, joint_count = 0;
+  int effector = -1;  // at its end
+  LimbPacks::Branch branch = {};
 };
 
 class Maker {
  public:
-  Maker(const KinematicTree& tree, LimbPacks& made) : tree_(tree), made_(made), effectors_(tree.joints.size()) {
-    for (std::size_t e = 0; e < tree.effectors.size(); ++e) {
-      effectors_[tree.effectors[e].joint].push_back(static_cast<int>(e));
-    }
-    inwards_ = JointsInwards(tree);
+  Maker(const KinematicTree& tree, LimbPacks& made)
+      : tree_(tree), made_(made), inwards_(JointsInwards(tree)), joints_(tree.joints.size()) {
     made.places.resize(tree.limits.size());
     made.end_places.resize(tree.effectors.size());
   }
@@ -31,102 +27,115 @@ class Maker {
   void Make() {
     FindTrunk();
     FindLimbs();
+    made_.levels.reserve(joints_.size());
+    made_.ends.reserve(joints_.size());
     for (std::size_t first = 0; first < limbs_.size(); first += LimbPacks::kWidth) {
-      const std::size_t count = std::min<std::size_t>(LimbPacks::kWidth, limbs_.size() - first);
-      AddPack({limbs_.data() + first, count});
+      AddPack(std::span(limbs_).subspan(first, std::min<std::size_t>(LimbPacks::kWidth, limbs_.size() - first)));
     }
     AddTrunkHinges();
     AddBranches();
   }
 
  private:
+  struct Joint {
+    int child_count = 0, effector_count = 0;
+    int next = -1;      // the joint beyond, of a limb
+    int effector = -1;  // the last one
+    int trunk = -1;     // which joint of the trunk it is
+    bool is_trunk = false;
+  };
+
   // Joints with more than one branch or more than one effector, and all before them.
   void FindTrunk() {
-    const int joints = static_cast<int>(tree_.joints.size());
-    std::vector<int> branches(tree_.joints.size());
-    for (int n = 1; n < joints; ++n) ++branches[tree_.joints[n].parent];
-    std::vector<bool> is_trunk(tree_.joints.size());
-    is_trunk[0] = true;
-    for (int n = joints - 1; n > 0; --n) {
-      if (branches[n] > 1 || effectors_[n].size() > 1) is_trunk[n] = true;
-      if (is_trunk[n]) is_trunk[tree_.joints[n].parent] = true;
+    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
+      Joint& joint = joints_[tree_.effectors[e].joint];
+      ++joint.effector_count;
+      joint.effector = static_cast<int>(e);
     }
-    trunk_.assign(tree_.joints.size(), -1);
-    for (int n = 0; n < joints; ++n) {
-      if (!is_trunk[n]) continue;
-      const TreeJoint& joint = tree_.joints[n];
-      trunk_[n] = static_cast<int>(made_.trunk.size());
+    for (std::size_t n = joints_.size() - 1; n > 0; --n) {
+      Joint &joint = joints_[n], &parent = joints_[tree_.joints[n].parent];
+      joint.is_trunk |= joint.child_count > 1 || joint.effector_count > 1;
+      parent.is_trunk |= joint.is_trunk;
+      ++parent.child_count;
+    }
+    joints_[0].is_trunk = true;
+    made_.trunk.reserve(joints_.size());
+    made_.inwards.reserve(joints_.size());
+    for (std::size_t n = 0; n < joints_.size(); ++n) {
+      if (!joints_[n].is_trunk) continue;
+      const TreeJoint& from = tree_.joints[n];
+      joints_[n].trunk = static_cast<int>(made_.trunk.size());
       LimbPacks::TrunkJoint& made = made_.trunk.emplace_back();
-      made.parent = n == 0 ? -1 : trunk_[joint.parent];
-      made.hinge_count = joint.dof_count;
+      made.parent = n == 0 ? -1 : joints_[from.parent].trunk;
+      made.hinge_count = from.dof_count;
       for (int k = 0; k < 3; ++k) {
-        made.p_PJ[k] = joint.p_PJ[k];
-        for (int c = 0; c < 3; ++c) made.R_PJ[c][k] = joint.R_PJ[c][k];
+        made.p_PJ[k] = from.p_PJ[k];
+        for (int c = 0; c < 3; ++c) made.R_PJ[c][k] = from.R_PJ[c][k];
       }
     }
     for (const int n : inwards_) {
-      if (is_trunk[n]) made_.inwards.push_back(trunk_[n]);
+      if (joints_[n].is_trunk) made_.inwards.push_back(joints_[n].trunk);
     }
   }
 
-  // An effector on the trunk is the end of a limb without joints.
+  // An effector on the trunk is the end of a limb without joints. The longest limbs come first.
   void FindLimbs() {
-    for (std::size_t n = 0; n < tree_.joints.size(); ++n) {
-      if (trunk_[n] < 0) continue;
-      for (const int e : effectors_[n]) limbs_.push_back({static_cast<int>(n), {}, e});
+    limbs_.reserve(tree_.effectors.size() + joints_.size());
+    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
+      const int joint = tree_.effectors[e].joint;
+      if (joints_[joint].is_trunk) limbs_.push_back({.parent = joint, .effector = static_cast<int>(e)});
     }
-    std::vector<int> next(tree_.joints.size(), -1);
     for (const int n : inwards_) {
-      if (trunk_[n] >= 0) continue;
       const int parent = tree_.joints[n].parent;
-      if (trunk_[parent] < 0) {
-        next[parent] = n;
-        continue;
+      if (joints_[n].is_trunk) continue;
+      joints_[parent].next = n;
+      if (!joints_[parent].is_trunk) continue;
+      Limb& limb = limbs_.emplace_back(Limb{.parent = parent, .first_joint = n});
+      for (int joint = n; joint >= 0; joint = joints_[joint].next) {
+        ++limb.joint_count;
+        limb.effector = joints_[joint].effector;
       }
-      Limb& limb = limbs_.emplace_back(Limb{parent, {}, -1});
-      for (int joint = n; joint >= 0; joint = next[joint]) limb.joints.push_back(joint);
-      const std::vector<int>& ends = effectors_[limb.joints.back()];
-      if (!ends.empty()) limb.effector = ends[0];
     }
-    std::ranges::stable_sort(limbs_, [](const Limb& a, const Limb& b) { return a.joints.size() > b.joints.size(); });
+    std::ranges::stable_sort(limbs_, [](const Limb& a, const Limb& b) { return a.joint_count > b.joint_count; });
   }
 
-  void AddPack(std::span<const Limb> limbs) {
+  void AddPack(std::span<Limb> limbs) {
+    const int number = static_cast<int>(made_.packs.size());
     LimbPacks::Pack& pack = made_.packs.emplace_back();
-    const int number = static_cast<int>(made_.packs.size()) - 1;
-    pack.levels.resize(std::max<std::size_t>(1, limbs[0].joints.size()));
-    for (std::size_t lane = 0; lane < limbs.size(); ++lane) {
-      pack.parents[lane] = trunk_[limbs[lane].parent];
-      found_.push_back({&limbs[lane], {number, static_cast<int>(lane)}});
+    pack.first_level = static_cast<int>(made_.levels.size());
+    pack.level_count = std::max(1, limbs[0].joint_count);
+    int joints[LimbPacks::kWidth] = {-1, -1, -1, -1};
+    for (int lane = 0; lane < static_cast<int>(limbs.size()); ++lane) {
+      Limb& limb = limbs[lane];
+      limb.branch = {number, lane};
+      pack.parents[lane] = joints_[limb.parent].trunk;
+      joints[lane] = limb.first_joint;
     }
-    for (std::size_t l = 0; l < pack.levels.size(); ++l) {
-      LimbPacks::Level& level = pack.levels[l];
-      for (const Limb& limb : limbs) {
-        if (l < limb.joints.size()) level.hinge_count = std::max(level.hinge_count, tree_.joints[limb.joints[l]].dof_count);
-      }
+    for (int l = 0; l < pack.level_count; ++l) {
+      LimbPacks::Level& level = made_.levels.emplace_back();
       level.first_slot = made_.slot_count;
-      made_.slot_count += level.hinge_count;
       for (int lane = 0; lane < LimbPacks::kWidth; ++lane) {
         for (int k = 0; k < 3; ++k) level.R_PJ[k][k][lane] = 1;
-        if (lane >= static_cast<int>(limbs.size())) continue;
-        const Limb& limb = limbs[lane];
-        if (l < limb.joints.size()) SetJoint(limb.joints[l], lane, level);
-        const bool is_last = l + 1 == pack.levels.size();
-        if (is_last) {
-          SetEnd(limb.effector, lane, level);
-        } else if (l + 1 < limb.joints.size()) {
-          for (const int e : effectors_[limb.joints[l]]) SetEnd(e, lane, level);
-        }
+        int& joint = joints[lane];
+        const bool is_last = l + 1 == pack.level_count;
+        if (is_last && lane < static_cast<int>(limbs.size())) SetEnd(limbs[lane].effector, lane, level);
+        if (joint < 0) continue;
+        SetJoint(tree_.joints[joint], lane, level);
+        const bool has_more = joints_[joint].next >= 0;
+        if (has_more) SetEnd(joints_[joint].effector, lane, level);
+        joint = joints_[joint].next;
       }
+      made_.slot_count += level.hinge_count;
     }
   }
 
-  void SetJoint(int n, int lane, LimbPacks::Level& level) {
-    const TreeJoint& joint = tree_.joints[n];
+  void SetJoint(const TreeJoint& joint, int lane, LimbPacks::Level& level) {
     for (int k = 0; k < 3; ++k) {
       level.p_PJ[k][lane] = joint.p_PJ[k];
       for (int c = 0; c < 3; ++c) level.R_PJ[c][k][lane] = joint.R_PJ[c][k];
     }
+    level.turns_axes |= joint.R_PJ != glm::dmat3(1);
+    level.hinge_count = std::max(level.hinge_count, joint.dof_count);
     for (int h = 0; h < joint.dof_count; ++h) {
       level.has_hinge[h][lane] = 1;
       made_.places[joint.first_dof + h] = LimbPacks::kWidth * (level.first_slot + h) + lane;
@@ -146,9 +155,9 @@ class Maker {
   }
 
   void AddTrunkHinges() {
-    for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
-      if (trunk_[n] < 0) continue;
-      LimbPacks::TrunkJoint& made = made_.trunk[trunk_[n]];
+    for (std::size_t n = 1; n < joints_.size(); ++n) {
+      if (!joints_[n].is_trunk) continue;
+      LimbPacks::TrunkJoint& made = made_.trunk[joints_[n].trunk];
       made.first_hinge = made_.trunk_hinge_count;
       for (int h = 0; h < made.hinge_count; ++h) {
         made_.places[tree_.joints[n].first_dof + h] = LimbPacks::kWidth * made_.slot_count + made_.trunk_hinge_count++;
@@ -160,34 +169,31 @@ class Maker {
 
   // First a joint's own effectors, then what is beyond it.
   void AddBranches() {
-    for (const auto& [limb, branch] : found_) {
-      if (limb->joints.empty()) made_.trunk[trunk_[limb->parent]].branches.push_back(branch);
-    }
-    for (const int n : inwards_) {
-      const int parent = trunk_[tree_.joints[n].parent];
-      if (parent < 0) continue;
-      if (trunk_[n] >= 0) {
-        made_.trunk[parent].branches.push_back({-1, trunk_[n]});
-        continue;
+    for (std::size_t n = 0; n < joints_.size(); ++n) {
+      if (!joints_[n].is_trunk) continue;
+      LimbPacks::TrunkJoint& made = made_.trunk[joints_[n].trunk];
+      made.first_branch = static_cast<int>(made_.branches.size());
+      for (const Limb& limb : limbs_) {
+        if (limb.parent == static_cast<int>(n) && limb.joint_count == 0) made_.branches.push_back(limb.branch);
       }
-      for (const auto& [limb, branch] : found_) {
-        if (!limb->joints.empty() && limb->joints[0] == n) made_.trunk[parent].branches.push_back(branch);
+      for (const int child : inwards_) {
+        if (tree_.joints[child].parent != static_cast<int>(n)) continue;
+        if (joints_[child].is_trunk) {
+          made_.branches.push_back({-1, joints_[child].trunk});
+        } else {
+          const auto begins_there = [child](const Limb& limb) { return limb.first_joint == child; };
+          made_.branches.push_back(std::ranges::find_if(limbs_, begins_there)->branch);
+        }
       }
+      made.branch_count = static_cast<int>(made_.branches.size()) - made.first_branch;
     }
   }
 
-  struct Found {
-    const Limb* limb;
-    LimbPacks::Branch branch;
-  };
-
   const KinematicTree& tree_;
   LimbPacks& made_;
-  std::vector<std::vector<int>> effectors_;  // of each joint
-  std::vector<int> inwards_;
-  std::vector<int> trunk_;  // of each joint: which one of the trunk it is, or −1
+  const std::vector<int> inwards_;
+  std::vector<Joint> joints_;
   std::vector<Limb> limbs_;
-  std::vector<Found> found_;
 };
 
 }  // namespace

@@ -96,8 +96,7 @@ TEST(GaussNewton, IsTheSolverOneWouldWriteDownToTheLastBit) {
       for (const GaussNewtonOptions& own :
            {GaussNewtonOptions{}, GaussNewtonOptions{.first_sweeps = 2}, GaussNewtonOptions{.extra_passes = 0}}) {
         for (const IkProblem& problem : problems) {
-          ExpectSameBits(solver.Solve(problem, options, own),
-                         SolveGaussNewtonPlainly(Body(), problem, options, own));
+          ExpectSameBits(solver.Solve(problem, options, own), SolveGaussNewtonPlainly(Body(), problem, options, own));
         }
       }
     }

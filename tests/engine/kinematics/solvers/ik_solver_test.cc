@@ -201,6 +201,7 @@ TEST_P(EverySolver, AnswersBadInputWithAStatusAndFiniteAngles) {
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeLeftKnee].parent = kTreeLeftHip; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNavel].parent = -1; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeRightAnkle].first_dof = 28; },
+      [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].first_dof = t.joints[kTreeNavel].first_dof; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.joints[kTreeNeck].R_PJ[1].y = kNaN; },
       [](KinematicTree& t, IkProblem&, IkOptions&) { t.effectors[2].joint = kBodyTreeJointCount; },
       [](KinematicTree&, IkProblem& p, IkOptions&) { p.start.angles[5] = kNaN; },
