@@ -21,7 +21,8 @@ constexpr const char* kCaptureExamples =
     "weighed by confidence; gaps up to --longest-gap are bridged; bones are as long as in the median of what was\n"
     "seen; inverse kinematics brings all joints as near to their points as the bones allow, and a table tells how "
     "near.\n"
-    "--person 2 asks for the one seen second most.\n\n"
+    "--person 2 asks for the one seen second most. Films that did not begin at the same moment are set in time by how\n"
+    "their keypoints move: --sync 1 looks up to a second either way, to fractions of a frame.\n\n"
     "The rig is what `etude calibrate` wrote, or a calibration of OpenCV, Pose2Sim, Anipose or Qualisys. Films are\n"
     "matched to its cameras by name (cam01.mp4 is cam_01), or in the order of --cameras. Films of other sizes than "
     "the\n"
@@ -40,7 +41,8 @@ constexpr const char* kCaptureExamples =
 void DefineCapture(CLI::App& app, Action& action) {
   auto options = std::make_shared<CaptureCommandOptions>();
   CLI::App* command = app.add_subcommand("capture", "The motion of a person out of films by several cameras");
-  command->add_option("films", options->films, "A film of each camera, all begun at the same moment")->required();
+  command->add_option("films", options->films, "A film of each camera, all begun at the same moment (else: --sync)")
+      ->required();
   command->add_option("--rig", options->rig, "The calibrated cameras")->required();
   command->add_option("--cameras", options->cameras, "The rig's cameras in the order of the films: left,right")
       ->delimiter(',')
@@ -83,6 +85,12 @@ void DefineCapture(CLI::App& app, Action& action) {
       ->add_option("--outlier", options->outlier_px,
                    "A keypoint further than this from where the others say is left out, px (0: 3 % of the picture)")
       ->check(NumberWithin(0, 10000, "distance in px"))
+      ->capture_default_str();
+  command
+      ->add_option("--sync", options->sync_s,
+                   "The films' clocks may differ by this much, s: how much is found from the keypoints (0: they agree)")
+      ->excludes(silhouettes)
+      ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
   command->add_flag("--overwrite", options->overwrite, "Replace files that are there");
   command->footer(kCaptureExamples);

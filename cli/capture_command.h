@@ -26,6 +26,7 @@ struct CaptureCommandOptions {
   double smooth_hz = 0;
   double longest_gap_s = 0.5;
   double outlier_px = 0;  ///< 0: 3 % of the picture's longer side
+  double sync_s = 0;      ///< the films' clocks may differ by this; 0: they agree
   bool overwrite = false;
 };
 

@@ -12,6 +12,7 @@
 #include "engine/formats/trc.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/recover_person.h"
+#include "engine/keypoints/synchronise_people.h"
 #include "reports/captures/overlay_film.h"
 
 namespace etude {
@@ -42,26 +43,48 @@ Result<SeenPeople> ReadPeople(const CaptureCommandOptions& options, const Filmed
 }
 
 RecoverPersonOptions RecoverOptionsOf(const CaptureCommandOptions& options, const std::vector<FilmedView>& views) {
-  RecoverPersonOptions recover{.rate_hz = views.front().facts.rate_hz, .match = {}, .triangulate = {}};
+  double longer_side = 0;
+  for (const FilmedView& view : views) {
+    const Intrinsics& in = view.camera.camera.intrinsics;
+    longer_side = std::max<double>({longer_side, static_cast<double>(in.width), static_cast<double>(in.height)});
+  }
+  RecoverPersonOptions recover = UsualRecovery(views.front().facts.rate_hz, longer_side);
   recover.person = static_cast<std::size_t>(options.person - 1);
   recover.cutoff_hz = options.smooth_hz;
   recover.longest_gap_s = options.longest_gap_s;
-  recover.match.longest_absence = std::max(1, static_cast<int>(std::lround(0.5 * recover.rate_hz)));
-  constexpr double kOutlierShare = 0.03;
-  double longest_side = 0;
-  for (const FilmedView& view : views) {
-    const Intrinsics& in = view.camera.camera.intrinsics;
-    longest_side = std::max<double>({longest_side, static_cast<double>(in.width), static_cast<double>(in.height)});
-  }
-  recover.triangulate.robust.outlier_px = options.outlier_px > 0 ? options.outlier_px : kOutlierShare * longest_side;
+  if (options.outlier_px > 0) recover.triangulate.robust.outlier_px = options.outlier_px;
   return recover;
 }
 
 /// What of the session a person is recovered from.
 struct SeenFilms {
-  std::vector<Camera> cameras;
-  std::vector<SeenPeople> people;
+  std::vector<ProjectionMatrix> cameras;  ///< without their lenses, as are the people
+  std::vector<SeenPeople> people;         ///< at the first film's times
+  std::vector<double> offsets;            ///< of each film, frames (`EstimateOffsets`)
 };
+
+/// Finds the films' clocks, says them, and brings everybody to the first one's time.
+void Synchronise(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+                 const RecoverPersonOptions& recover, SeenFilms& films) {
+  const double rate = recover.rate_hz;
+  const std::size_t frames = films.people.front().size();
+  std::size_t shortest = frames;
+  for (const SeenPeople& people : films.people) shortest = std::min(shortest, people.size());
+  // Beyond half of a film there is too little in common to judge by.
+  const int most =
+      std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
+  const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
+  films.offsets = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
+  fmt::print("clocks, after {}'s:", views.front().camera.name);
+  constexpr double kMsPerSecond = 1000;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    films.people[i] = PeopleInTime(films.people[i], films.offsets[i], frames, recover.match.follow);
+    if (i == 0) continue;
+    fmt::print("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name, films.offsets[i],
+               kMsPerSecond * films.offsets[i] / rate);
+  }
+  fmt::print("\n");
+}
 
 void PrintPeople(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
   int number = 0, alone = 0;
@@ -81,7 +104,7 @@ void PrintPeople(const RecoveredPerson& person, const std::vector<FilmedView>& v
 }
 
 void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& views) {
-  const LimbLengths& l = person.lengths;
+  const LimbLengths& l = person.body.lengths;
   constexpr double kCmPerMetre = 100;
   fmt::print("points: {:.1f} % found, {:.1f} px off the keypoints (median)", 100 * person.report.found,
              person.report.residual_px);
@@ -93,7 +116,8 @@ void PrintReport(const RecoveredPerson& person, const std::vector<FilmedView>& v
       "shoulders {:.1f}\n",
       kCmPerMetre * l.shank, kCmPerMetre * l.thigh, kCmPerMetre * l.trunk, kCmPerMetre * l.upper_arm,
       kCmPerMetre * l.forearm, kCmPerMetre * l.hip_width, kCmPerMetre * l.shoulder_width);
-  if (person.held > 0) fmt::print("{} frames show too little and hold the last pose\n", person.held);
+  const auto held = std::ranges::count(person.is_held, true);
+  if (held > 0) fmt::print("{} frames show too little and hold the last pose\n", held);
 }
 
 /// How far the joints of what is written are from the points that they were fitted to.
@@ -126,11 +150,11 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
 }
 
 Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
-                       const RecoveredPerson& person, std::size_t chosen) {
+                       const RecoveredPerson& person, std::size_t chosen, const std::vector<double>& offsets) {
   std::vector<OverlayView> overlays;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const FilmedView& view = views[i];
-    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, {}});
+    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, offsets[i], {}});
     for (auto seen : person.people[chosen].seen[i]) {
       // Matched persons are told without the lens.
       for (Keypoint& keypoint : seen ? std::span<Keypoint>(seen->keypoints) : std::span<Keypoint>()) {
@@ -161,10 +185,12 @@ Result<void> CaptureKeypoints(const CaptureCommandOptions& options, const std::v
   SeenFilms films;
   for (const FilmedView& view : views) {
     ASSIGN_OR_RETURN(SeenPeople people, ReadPeople(options, view));
-    films.people.push_back(std::move(people));
-    films.cameras.push_back(view.camera.camera);
+    films.people.push_back(UndistortPeople(view.camera.camera, std::move(people)));
+    films.cameras.push_back(MatrixOf(view.camera.camera));
   }
   const RecoverPersonOptions recover = RecoverOptionsOf(options, views);
+  films.offsets.resize(views.size());
+  if (options.sync_s > 0) Synchronise(options, views, recover, films);
   ASSIGN_OR_RETURN(const RecoveredPerson person, RecoverPerson(films.cameras, films.people, recover));
   PrintPeople(person, views);
   PrintReport(person, views);
@@ -181,7 +207,8 @@ Result<void> CaptureKeypoints(const CaptureCommandOptions& options, const std::v
                              options.reference),
                  CompareWithReference(*reference, person, films, recover), views);
   }
-  if (!options.film.empty()) RETURN_IF_ERROR(WriteFilm(options, views, person, ChosenOf(person, recover.person)));
+  if (!options.film.empty())
+    RETURN_IF_ERROR(WriteFilm(options, views, person, ChosenOf(person, recover.person), films.offsets));
   return {};
 }
 

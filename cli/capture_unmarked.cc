@@ -119,7 +119,7 @@ Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
                        const BodyMotion& motion) {
   std::vector<OverlayView> overlays;
   for (const FilmedView& view : views) {
-    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, {}});
+    overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, 0, {}});
     overlays.back().keypoints.resize(motion.poses.size());
   }
   RETURN_IF_ERROR(WriteOverlayFilm(options.film, overlays, motion, [](double share) { ShowProgress("film", share); }));

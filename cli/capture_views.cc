@@ -46,7 +46,7 @@ Result<NamedCamera> CameraOfFilm(const CaptureCommandOptions& options, const std
               NamesOf(rig));
 }
 
-Result<void> CheckTogether(const std::vector<FilmedView>& views) {
+Result<void> CheckTogether(const std::vector<FilmedView>& views, bool may_differ_in_time) {
   const FilmedView& first = views.front();
   constexpr double kSameRate = 1e-3;
   for (const FilmedView& view : views) {
@@ -54,9 +54,9 @@ Result<void> CheckTogether(const std::vector<FilmedView>& views) {
       return Fail({view.path.string()}, "{:g} frames a second, {} {:g}; films must run alike", view.facts.rate_hz,
                   first.path.string(), first.facts.rate_hz);
     }
-    if (view.facts.frames != first.facts.frames) {
-      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike", view.facts.frames, first.path.string(),
-                  first.facts.frames);
+    if (!may_differ_in_time && view.facts.frames != first.facts.frames) {
+      return Fail({view.path.string()}, "{} frames, {} {}; cut them alike, or let keypoints tell the time (--sync)",
+                  view.facts.frames, first.path.string(), first.facts.frames);
     }
   }
   if (!(first.facts.rate_hz > 0))
@@ -108,7 +108,7 @@ Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) 
     view.fit = *fit;
     views.push_back(std::move(view));
   }
-  RETURN_IF_ERROR(CheckTogether(views));
+  RETURN_IF_ERROR(CheckTogether(views, options.sync_s > 0));
   return views;
 }
 

@@ -26,7 +26,7 @@ struct FilmedView {
 };
 
 /// The films with their cameras of the rig. Fails for fewer than two, for cameras that are missing or named twice,
-/// sizes that `--fit` does not explain, and films of different rates or lengths.
+/// sizes that `--fit` does not explain, and films of different rates, or of different lengths without `--sync`.
 Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options);
 
 /// Writes a clip, and the same as twenty joints, in the format that the file's name tells.

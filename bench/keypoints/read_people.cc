@@ -80,7 +80,24 @@ Result<const KeypointLayout*> LayoutOf(std::size_t count, const std::string& nam
               fitting[1]->name);
 }
 
-/// The triples x, y, confidence of a list.
+/// Python writes a number that is none as a bare NaN, which JSON does not know: estimators say so of what they did not
+/// see. As null, which it does.
+std::string WithNullForNan(std::string text) {
+  constexpr std::string_view kNan = "NaN";
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (in_string && text[i] == '\\') {
+      ++i;
+    } else if (text[i] == '"') {
+      in_string = !in_string;
+    } else if (!in_string && std::string_view(text).substr(i).starts_with(kNan)) {
+      text.replace(i, kNan.size(), "null");
+    }
+  }
+  return text;
+}
+
+/// The triples x, y, confidence of a list; one with a null was not seen.
 Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   if (list == nullptr || !list->is_array() || list->size() % 3 != 0) {
     return Fail(place, "no list of keypoints; allowed: x, y, confidence of each");
@@ -88,6 +105,10 @@ Result<std::vector<Keypoint>> Triples(const Json* list, const Place& place) {
   std::vector<Keypoint> points;
   for (std::size_t i = 0; i < list->size(); i += 3) {
     double v[3];
+    if ((*list)[i].is_null() || (*list)[i + 1].is_null() || (*list)[i + 2].is_null()) {
+      points.emplace_back();
+      continue;
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       const Json& number = (*list)[i + k];
       v[k] = number.is_number() ? number.get<double>() : std::nan("");
@@ -112,7 +133,7 @@ Result<SeenPerson> ToPerson(const std::vector<Keypoint>& points, const std::stri
 Result<std::vector<SeenPerson>> ReadOpenPoseFrame(const fs::path& file, const std::string& layout) {
   const Place place{file.string()};
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
-  ASSIGN_OR_RETURN(const Json json, ReadJson(text, file.string()));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   const Json* people = Member(json, "people");
   if (people == nullptr || !people->is_array())
     return Fail(place, "no list 'people'; allowed: JSON as OpenPose writes it");
@@ -166,7 +187,7 @@ Result<std::map<double, std::size_t>> FramesOf(const Json& images, PeopleOfFilm&
 Result<PeopleOfFilm> ReadCoco(const fs::path& file, const std::string& layout) {
   const Place place{file.string()};
   ASSIGN_OR_RETURN(const std::string text, ReadWholeFile(file));
-  ASSIGN_OR_RETURN(const Json json, ReadJson(text, file.string()));
+  ASSIGN_OR_RETURN(const Json json, ReadJson(WithNullForNan(text), file.string()));
   const Json *images = Member(json, "images"), *annotations = Member(json, "annotations");
   if (images == nullptr || !images->is_array() || annotations == nullptr || !annotations->is_array()) {
     return Fail(place,

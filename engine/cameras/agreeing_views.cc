@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -14,29 +15,32 @@ using DistanceOfView = std::vector<double>;
 
 struct Consensus {
   std::vector<std::size_t> views;
+  double weight = 0;
   double squares = std::numeric_limits<double>::infinity();  // their mean squared distance
 
   bool IsBetterThan(const Consensus& other) const {
-    if (views.size() != other.views.size()) return views.size() > other.views.size();
-    return squares < other.squares;
+    return weight != other.weight ? weight > other.weight : squares < other.squares;
   }
 };
 
-Consensus ConsensusOf(const DistanceOfView& distances, double tolerance_px) {
+Consensus ConsensusOf(const DistanceOfView& distances, double tolerance_px, std::span<const double> weights) {
   Consensus consensus;
   double sum = 0;
   for (std::size_t i = 0; i < distances.size(); ++i) {
     if (!(distances[i] <= tolerance_px)) continue;
+    const double weight = weights.empty() ? 1 : weights[i];
     consensus.views.push_back(i);
-    sum += distances[i] * distances[i];
+    consensus.weight += weight;
+    sum += weight * distances[i] * distances[i];
   }
-  if (!consensus.views.empty()) consensus.squares = sum / static_cast<double>(consensus.views.size());
+  if (!consensus.views.empty()) consensus.squares = sum / consensus.weight;
   return consensus;
 }
 
 // `distances_by(i, j)`: of all views from what the views i and j say, or nothing.
 template <typename DistancesBy>
-std::vector<std::size_t> LargestConsensus(std::size_t count, double tolerance_px, const DistancesBy& distances_by) {
+std::vector<std::size_t> LargestConsensus(std::size_t count, double tolerance_px, std::span<const double> weights,
+                                          const DistancesBy& distances_by) {
   std::vector<std::size_t> all(count);
   std::iota(all.begin(), all.end(), std::size_t{0});
   if (count < 3) return all;
@@ -45,7 +49,7 @@ std::vector<std::size_t> LargestConsensus(std::size_t count, double tolerance_px
     for (std::size_t j = i + 1; j < count; ++j) {
       const std::optional<DistanceOfView> distances = distances_by(i, j);
       if (!distances) continue;
-      const Consensus consensus = ConsensusOf(*distances, tolerance_px);
+      const Consensus consensus = ConsensusOf(*distances, tolerance_px, weights);
       if (consensus.views.size() >= 2 && consensus.IsBetterThan(best)) best = consensus;
     }
   }
@@ -66,8 +70,10 @@ std::optional<DistanceOfView> DistancesFrom(std::span<const Sighting> sightings,
 
 }  // namespace
 
-std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px) {
-  return LargestConsensus(sightings.size(), tolerance_px,
+std::vector<std::size_t> AgreeingViews(std::span<const Sighting> sightings, double tolerance_px,
+                                       std::span<const double> weights) {
+  assert(weights.empty() || weights.size() == sightings.size());
+  return LargestConsensus(sightings.size(), tolerance_px, weights,
                           [&](std::size_t i, std::size_t j) { return DistancesFrom(sightings, i, j); });
 }
 
@@ -77,7 +83,7 @@ std::vector<std::size_t> AgreeingViews(std::span<const LimbSighting> sightings, 
     begins.push_back({sighting.matrix, sighting.stroke.a});
     ends.push_back({sighting.matrix, sighting.stroke.b});
   }
-  return LargestConsensus(sightings.size(), tolerance_px,
+  return LargestConsensus(sightings.size(), tolerance_px, {},
                           [&](std::size_t i, std::size_t j) -> std::optional<DistanceOfView> {
                             auto distances = DistancesFrom(begins, i, j);
                             const auto others = DistancesFrom(ends, i, j);

@@ -26,10 +26,10 @@ struct RobustPoint {
   double residual_px = 0;      ///< weighted root mean square over those that agree
 };
 
-/// The point that sightings agree on, where some of them may show something else (ours). Every pair of them proposes
-/// a point; the one for which Σ w · max(0, 1 − d²/τ²) is largest wins, d being the distance in the picture and τ
-/// `outlier_px` (MSAC with all pairs: no dice). From those within τ of it the point follows by least squares of
-/// √w · d, by Gauss–Newton. Nothing when no two agree. Of two sightings, both must.
+/// The point that sightings agree on, where some of them may show something else *(ours)*: that of the views which
+/// agree with each other (`AgreeingViews`, the surer ones counting more), of least Σ w · d², d being the distance in
+/// the picture (`TriangulateLikeliest`); views that come within `outlier_px` of it, or leave that, are taken in or left
+/// out, three times at most. Nothing when no two agree. Of two sightings, both must.
 std::optional<RobustPoint> TriangulateRobustly(std::span<const WeightedSighting> sightings,
                                                const RobustOptions& options = {});
 

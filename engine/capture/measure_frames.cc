@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "engine/cameras/agreeing_views.h"
-
 namespace etude {
 namespace {
 
@@ -42,15 +40,7 @@ class FrameMeter {
       const auto& pixel = MarksOf(camera).effectors[effector];
       if (pixel) sightings.push_back({inputs_.cameras[camera], *pixel});
     }
-    return Agreeing(sightings);
-  }
-
-  template <typename View>
-  std::vector<View> Agreeing(const std::vector<View>& views) const {
-    if (!options_.rejects_outliers) return views;
-    std::vector<View> kept;
-    for (const std::size_t index : AgreeingViews(views, options_.outlier_px)) kept.push_back(views[index]);
-    return kept;
+    return sightings;
   }
 
   std::optional<glm::dvec3> Direction(std::size_t stroke_mark) const {
@@ -59,7 +49,7 @@ class FrameMeter {
       const auto& stroke = MarksOf(camera).strokes[stroke_mark];
       if (stroke && IsLongEnough(*stroke)) sightings.push_back({inputs_.cameras[camera], *stroke});
     }
-    const LimbDirection limb = ComputeLimbDirection(Agreeing(sightings), options_.smallest_plane_angle);
+    const LimbDirection limb = ComputeLimbDirection(sightings, options_.smallest_plane_angle);
     return limb.status == DirectionStatus::kOk ? std::optional(limb.direction) : std::nullopt;
   }
 

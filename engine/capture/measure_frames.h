@@ -54,19 +54,13 @@ struct MeasureOptions {
   /// Likewise for strokes (pixels): when a limb is seen almost end on, the error of the marks hides its direction. 6 is
   /// three times the usual error of marks in pictures of 640 × 480, 2 pixels; scale it with that error.
   double shortest_stroke_px = 6;
-  /// With three or more pictures of a point or limb, leave out those that disagree with the rest (`AgreeingViews`).
-  /// Helps where a camera is knocked, or its marks are of another limb; costs a little where all err alike.
-  bool rejects_outliers = false;
-  /// How far from the others' point a picture may be and agree with them, pixels. Marks that err by 2 pixels, and by
-  /// more at joints that clothes hide, agree within 12.
-  double outlier_px = 12;
 };
 
 /// Triangulates the end effectors and computes the limb directions of every frame (paper B, sections 2.3 and 2.4).
 /// Each mark is measured from all pictures that show it, if these are two or more; of others, what they tell is kept
 /// (`planes`, `sight_lines`). With two cameras these are the paper's formulas; with more, both are least squares in
 /// which views weigh as exactly as they show (`TriangulateByPixels`, `ComputeLimbDirection`). No view is rejected for
-/// disagreeing with the others, unless asked to (`rejects_outliers`).
+/// disagreeing with the others: `AgreeingMarks` does that beforehand.
 std::vector<FrameMeasurement> MeasureFrames(const MeasureInputs& inputs, const MeasureOptions& options = {});
 
 }  // namespace etude

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/cameras/likeliest_point.h"
 #include "engine/kinematics/limb_lengths.h"
 
 namespace etude {
@@ -11,14 +12,8 @@ namespace {
 
 using enum Role;
 
-/// What one picture says of one joint, all its marks together.
-struct JointSighting {
-  Sighting sighting;
-  glm::dmat2 information{0};
-};
-
-// Of each role: one sighting per picture that shows it.
-using FrameSightings = std::array<std::vector<JointSighting>, kRoleCount>;
+// Of each role: one sighting per picture that shows it, all its marks together.
+using FrameSightings = std::array<std::vector<InformedSighting>, kRoleCount>;
 
 FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const MarkErrors& errors) {
   FrameSightings sightings;
@@ -36,47 +31,6 @@ FrameSightings SightingsOf(const MeasureInputs& inputs, std::size_t frame, const
     }
   }
   return sightings;
-}
-
-/// The sum of squares Σ rᵀ Λ r about one place: its normal matrix and the step to its minimum.
-struct NormalEquations {
-  glm::dmat3 information{0};
-  glm::dvec3 right{0};
-};
-
-std::optional<NormalEquations> NormalEquationsAt(std::span<const JointSighting> sightings, const glm::dvec3& p_WQ) {
-  NormalEquations sum;
-  for (const JointSighting& seen : sightings) {
-    const auto pixel = Project(seen.sighting.matrix, p_WQ);
-    if (!pixel) return std::nullopt;
-    const auto& h = seen.sighting.matrix.h;
-    const double depth = h[2][0] * p_WQ.x + h[2][1] * p_WQ.y + h[2][2] * p_WQ.z + h[2][3];
-    glm::dmat3x2 gains;  // of u and v, column by column for x, y, z
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < 2; ++k) gains[axis][k] = (h[k][axis] - (*pixel)[k] * h[2][axis]) / depth;
-    }
-    const glm::dmat2x3 transposed = glm::transpose(gains);
-    sum.information += transposed * seen.information * gains;
-    sum.right += transposed * (seen.information * (seen.sighting.pixel - *pixel));
-  }
-  return sum;
-}
-
-std::optional<PointMeasurement> TriangulateJoint(std::span<const JointSighting> sightings) {
-  std::vector<Sighting> plain;
-  for (const JointSighting& seen : sightings) plain.push_back(seen.sighting);
-  const TriangulatedPoint linear = Triangulate(plain);
-  if (linear.status != PointStatus::kOk) return std::nullopt;
-  glm::dvec3 place = linear.position;
-  constexpr int kSteps = 5;
-  for (int i = 0; i < kSteps; ++i) {
-    const auto sum = NormalEquationsAt(sightings, place);
-    if (!sum) return std::nullopt;
-    place += glm::inverse(sum->information) * sum->right;
-  }
-  const auto sum = NormalEquationsAt(sightings, place);
-  if (!sum || !std::isfinite(glm::length(place)) || !(glm::determinant(sum->information) > 0)) return std::nullopt;
-  return PointMeasurement{place, sum->information};
 }
 
 bool IsMeasured(const PointMeasurement& measurement) { return measurement.information != glm::dmat3(0); }
@@ -102,11 +56,11 @@ std::vector<std::optional<glm::dvec3>> BridgeTrack(std::span<const std::optional
 }
 
 // What a single picture says: the joint lies on its line of sight.
-std::optional<PointMeasurement> OnSightLine(const JointSighting& seen, const glm::dvec3& near_W) {
+std::optional<PointMeasurement> OnSightLine(const InformedSighting& seen, const glm::dvec3& near_W) {
   const auto line = SightLineOf(seen.sighting);
   if (!line) return std::nullopt;
   const glm::dvec3 place = NearestOn(*line, near_W);
-  const auto sum = NormalEquationsAt({&seen, 1}, place);
+  const auto sum = PointEquationsAt({&seen, 1}, place);
   if (!sum) return std::nullopt;
   constexpr double kDepthError = 0.15;  // metres *(ours)*: neighbours say no better how far away it is
   const glm::dmat3 depth = glm::outerProduct(line->direction_W, line->direction_W) / (kDepthError * kDepthError);
@@ -162,9 +116,9 @@ std::vector<JointMeasurements> MeasureJoints(const MeasureInputs& inputs, const 
   for (std::size_t role = 0; role < kRoleCount; ++role) {
     std::vector<std::optional<glm::dvec3>> track(count);
     for (std::size_t k = 0; k < count; ++k) {
-      const auto joint = TriangulateJoint(sightings[k][role]);
+      const auto joint = TriangulateLikeliest(sightings[k][role]);
       if (!joint) continue;
-      measured[k].joints[role] = *joint;
+      measured[k].joints[role] = {joint->position, joint->information};
       measured[k].is_triangulated[role] = true;
       track[k] = joint->position;
     }

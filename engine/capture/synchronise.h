@@ -4,23 +4,16 @@
 #include <vector>
 
 #include "engine/cameras/camera.h"
+#include "engine/capture/clock_search.h"
 #include "engine/vision/strokes.h"
 
 namespace etude {
 
-struct SyncOptions {
-  /// The largest offset that is looked for, frames either way. Raise it for cameras that were started by hand.
-  int most_frames = 16;
-  /// Of an end whose sight lines pass each other by more pixels than this, the excess does not count: a mark on the
-  /// wrong limb must not set a clock.
-  double most_px = 20;
-};
-
 /// How late each camera's pictures are *(ours)*, in frames: its frame k was taken at k + offset of the first camera's
 /// time. Each camera is set by the first one alone: the offset at which what both have marked, ends and strokes, meets
-/// best, the mean of their squared distances from what both triangulate, the camera's marks taken between its frames
-/// (cubic). All whole frames are tried, then the best one's neighbourhood by golden section. A camera of which nothing
-/// tells the time (nobody moves, or too little is marked) has offset 0.
+/// best (`FindOffset`), the mean of their squared distances (`EpipolarGeometry`), the camera's marks taken between its
+/// frames (`PixelBetween`). A camera of which nothing tells the time (nobody moves, or too little is marked) has
+/// offset 0.
 std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
                                     std::span<const std::vector<Marks>> marks, const SyncOptions& options = {});
 

@@ -12,13 +12,9 @@
 namespace etude {
 namespace {
 
-/// A person followed through some frames of one camera: which entry of `people[camera][frame]`.
-struct Track {
+/// A person followed in one of the cameras.
+struct Track : PersonTrack {
   std::size_t camera = 0;
-  std::map<std::size_t, std::size_t> entries;  ///< of frames
-
-  std::size_t first() const { return entries.begin()->first; }
-  std::size_t last() const { return entries.rbegin()->first; }
 };
 
 double Median(std::vector<double> values) {
@@ -27,73 +23,6 @@ double Median(std::vector<double> values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-/// How far the keypoints of two sightings by one camera are apart, as a share of the person's height.
-double StepBetween(const SeenPerson& a, const SeenPerson& b, double least_confidence) {
-  std::vector<double> steps;
-  for (std::size_t i = 0; i < kLandmarkCount; ++i) {
-    const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
-    if (p.confidence >= least_confidence && q.confidence >= least_confidence) {
-      steps.push_back(glm::distance(p.pixel, q.pixel));
-    }
-  }
-  constexpr std::size_t kFewest = 3;
-  if (steps.size() < kFewest) return std::numeric_limits<double>::infinity();
-  return Median(std::move(steps)) / std::max(1.0, HeightPx(a));
-}
-
-class Follower {
- public:
-  Follower(const SeenPeople& people, std::size_t camera, const MatchOptions& options)
-      : people_(people), camera_(camera), options_(options) {}
-
-  void Follow(std::vector<Track>& tracks) {
-    const std::size_t begin = tracks.size();
-    for (std::size_t frame = 0; frame < people_.size(); ++frame) {
-      std::vector<bool> taken(people_[frame].size()), extended(tracks.size());
-      for (const auto& [step, track, person] : Candidates(tracks, begin, frame)) {
-        if (taken[person] || extended[track]) continue;
-        tracks[track].entries[frame] = person;
-        taken[person] = extended[track] = true;
-      }
-      for (std::size_t person = 0; person < taken.size(); ++person) {
-        if (!taken[person]) tracks.push_back({camera_, {{frame, person}}});
-      }
-    }
-  }
-
- private:
-  using Candidate = std::tuple<double, std::size_t, std::size_t>;  ///< step, track, person
-
-  /// The nearest first; without those that have a rival nearly as near.
-  std::vector<Candidate> Candidates(const std::vector<Track>& tracks, std::size_t begin, std::size_t frame) const {
-    std::vector<Candidate> all;
-    for (std::size_t t = begin; t < tracks.size(); ++t) {
-      const std::size_t last = tracks[t].last();
-      if (frame - last > static_cast<std::size_t>(options_.longest_absence)) continue;
-      const SeenPerson& before = people_[last][tracks[t].entries.rbegin()->second];
-      for (std::size_t p = 0; p < people_[frame].size(); ++p) {
-        const double step = StepBetween(before, people_[frame][p], options_.least_confidence);
-        if (step < options_.longest_step) all.emplace_back(step, t, p);
-      }
-    }
-    std::ranges::sort(all);
-    constexpr double kNearlyAsNear = 1.5;
-    std::vector<Candidate> clear;
-    for (const Candidate& one : all) {
-      const bool has_rival = std::ranges::any_of(all, [&](const Candidate& other) {
-        const bool shares = (std::get<1>(one) == std::get<1>(other)) != (std::get<2>(one) == std::get<2>(other));
-        return shares && std::get<0>(other) < kNearlyAsNear * std::get<0>(one);
-      });
-      if (!has_rival) clear.push_back(one);
-    }
-    return clear;
-  }
-
-  const SeenPeople& people_;
-  const std::size_t camera_;
-  const MatchOptions& options_;
-};
 
 /// Nearest point to two lines; nothing of parallel ones.
 std::optional<glm::dvec3> MiddleOf(const SightLine& a, const SightLine& b) {
@@ -163,7 +92,7 @@ class Joiner {
     const double height_a = std::max(1.0, HeightPx(a)), height_b = std::max(1.0, HeightPx(b));
     for (std::size_t i = 0; i < kLandmarkCount; ++i) {
       const Keypoint &p = a.keypoints[i], &q = b.keypoints[i];
-      if (p.confidence < options_.least_confidence || q.confidence < options_.least_confidence) continue;
+      if (p.confidence < options_.follow.least_confidence || q.confidence < options_.follow.least_confidence) continue;
       const auto line_a = SightLineOf({cameras_[camera_a], p.pixel}),
                  line_b = SightLineOf({cameras_[camera_b], q.pixel});
       const auto middle = line_a && line_b ? MiddleOf(*line_a, *line_b) : std::nullopt;
@@ -247,7 +176,8 @@ std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras
   assert(std::ranges::all_of(people, [&](const SeenPeople& of) { return of.size() == people.front().size(); }));
   std::vector<Track> tracks;
   for (std::size_t camera = 0; camera < people.size(); ++camera) {
-    Follower(people[camera], camera, options).Follow(tracks);
+    for (PersonTrack& track : FollowPeople(people[camera], options.follow))
+      tracks.push_back({std::move(track), camera});
   }
   // A glimpse says nothing over time. In a very short film everything is one.
   const std::size_t shortest = std::min<std::size_t>(5, (people.front().size() + 1) / 2);

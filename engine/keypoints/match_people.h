@@ -5,21 +5,17 @@
 #include <vector>
 
 #include "engine/cameras/camera.h"
+#include "engine/keypoints/follow_people.h"
 #include "engine/keypoints/people.h"
 
 namespace etude {
 
 struct MatchOptions {
-  /// From frame to frame a person moves by less than this share of the own height in the picture. A film at 30 Hz of
-  /// somebody who runs across a small picture may need more.
-  double longest_step = 0.25;
-  /// Somebody who was not seen for longer is somebody new, until other cameras say who it is. Frames.
-  int longest_absence = 15;
+  FollowOptions follow;
   /// Two cameras see the same person when the rays of the same keypoints miss each other by less than this share of
   /// the person's height, in the pictures, median over time: estimators are off by 1–2 % of it, other people by
   /// 10 % and more *(ours)*.
   double largest_error = 0.06;
-  double least_confidence = 0.1;  ///< keypoints below are passed over
 };
 
 /// One person, as all cameras saw it.
@@ -31,10 +27,9 @@ struct MatchedPerson {
   std::size_t cameras = 0;
 };
 
-/// Who is who, over cameras and time *(ours)*. In each camera, people are followed from frame to frame by where their
-/// keypoints are; where two are as near to one, both begin anew. These tracks are then joined over the cameras, those
-/// first whose rays meet best; tracks of one camera that run at the same time are never one person. No dice: ties go to
-/// the track that began first. Persons come by `sightings`, the one seen most first.
+/// Who is who, over cameras and time *(ours)*. The tracks of each camera's people (`FollowPeople`) are joined over the
+/// cameras, those first whose rays meet best; tracks of one camera that run at the same time are never one person. No
+/// dice: ties go to the track that began first. Persons come by `sightings`, the one seen most first.
 /// @param cameras without their lenses, as are the pixels
 /// @param people of each camera, all of as many frames
 std::vector<MatchedPerson> MatchPeople(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,

@@ -34,17 +34,19 @@ SeenPeople UndistortPeople(const Camera& camera, SeenPeople people) {
   return people;
 }
 
-Result<RecoveredPerson> RecoverPerson(std::span<const Camera> cameras, std::span<const SeenPeople> people,
+RecoverPersonOptions UsualRecovery(double rate_hz, double longer_side_px) {
+  constexpr double kOutlierShare = 0.03, kLongestAbsence = 0.5;  // seconds
+  RecoverPersonOptions options{.rate_hz = rate_hz, .match = {}, .triangulate = {}};
+  options.match.follow.longest_absence = std::max(1, static_cast<int>(std::lround(kLongestAbsence * rate_hz)));
+  options.triangulate.robust.outlier_px = kOutlierShare * longer_side_px;
+  return options;
+}
+
+Result<RecoveredPerson> RecoverPerson(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
                                       const RecoverPersonOptions& options) {
   assert(cameras.size() >= 2 && cameras.size() == people.size());
-  std::vector<ProjectionMatrix> matrices;
-  std::vector<SeenPeople> undistorted;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    matrices.push_back(MatrixOf(cameras[i]));
-    undistorted.push_back(UndistortPeople(cameras[i], people[i]));
-  }
   RecoveredPerson person;
-  person.people = MatchPeople(matrices, undistorted, options.match);
+  person.people = MatchPeople(cameras, people, options.match);
   std::vector<std::size_t> in_space;
   for (std::size_t i = 0; i < person.people.size(); ++i) {
     if (person.people[i].cameras >= 2) in_space.push_back(i);
@@ -58,15 +60,14 @@ Result<RecoveredPerson> RecoverPerson(std::span<const Camera> cameras, std::span
     return Fail({}, "person {}: {} seen by two cameras or more", options.person + 1, in_space.size());
   }
   const MatchedPerson& wanted = person.people[in_space[options.person]];
-  person.landmarks = TriangulatePerson(matrices, wanted, options.triangulate, &person.report);
+  person.landmarks = TriangulatePerson(cameras, wanted, options.triangulate, &person.report);
   BridgePoints(person.landmarks, static_cast<std::size_t>(std::lround(options.longest_gap_s * options.rate_hz)));
   if (options.cutoff_hz > 0) SmoothPoints(person.landmarks, options.rate_hz, options.cutoff_hz);
   ASSIGN_OR_RETURN(const CaptureBody body, MedianBody(person.landmarks));
-  person.lengths = body.lengths;
+  person.body = body;
   const auto states = FitPerson(body, person.landmarks);
-  const auto fitted = std::ranges::count_if(states, [](const auto& state) { return state.has_value(); });
-  if (fitted == 0) return Fail({}, "no frame shows enough of the person");
-  person.held = states.size() - static_cast<std::size_t>(fitted);
+  for (const auto& state : states) person.is_held.push_back(!state);
+  if (std::ranges::count(person.is_held, false) == 0) return Fail({}, "no frame shows enough of the person");
   const std::vector<TreeState> held = HoldStates(states);
   person.clip = ToClip(body, held, options.rate_hz, "capture");
   person.motion.rate_hz = options.rate_hz;

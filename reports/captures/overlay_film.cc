@@ -73,6 +73,34 @@ class ViewPainter {
   const Box box_;
 };
 
+/// A film's pictures, from the first to the last.
+class FilmRoll {
+ public:
+  static Result<FilmRoll> Start(const OverlayView& view) {
+    ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(view.film, view.facts));
+    return FilmRoll(view, std::move(decoder));
+  }
+
+  /// The picture nearest to that frame of the motion, which is no earlier than the one before.
+  Result<const ColourImage*> At(std::size_t frame) {
+    const long wanted = std::clamp(std::lround(static_cast<double>(frame) - view_->offset), 0l,
+                                   static_cast<long>(view_->facts.frames) - 1);
+    for (; shown_ < wanted; ++shown_) {
+      ASSIGN_OR_RETURN(const bool is_there, decoder_.Next(picture_));
+      if (!is_there) return Fail({view_->film.string()}, "ends before frame {}", wanted + 1);
+    }
+    return &picture_;
+  }
+
+ private:
+  FilmRoll(const OverlayView& view, Decoder decoder) : view_(&view), decoder_(std::move(decoder)) {}
+
+  const OverlayView* view_;
+  Decoder decoder_;
+  ColourImage picture_;
+  long shown_ = -1;
+};
+
 }  // namespace
 
 Result<void> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
@@ -80,21 +108,19 @@ Result<void> WriteOverlayFilm(const std::filesystem::path& path, std::span<const
   int width = 0, height = 0;
   const std::vector<Box> boxes = Layout(views, width, height);
   std::vector<ViewPainter> painters;
-  std::vector<Decoder> decoders;
+  std::vector<FilmRoll> rolls;
   for (std::size_t i = 0; i < views.size(); ++i) {
     painters.emplace_back(views[i], boxes[i]);
-    ASSIGN_OR_RETURN(Decoder decoder, Decoder::Start(views[i].film, views[i].facts));
-    decoders.push_back(std::move(decoder));
+    ASSIGN_OR_RETURN(FilmRoll roll, FilmRoll::Start(views[i]));
+    rolls.push_back(std::move(roll));
   }
   const int rate = std::max(1, static_cast<int>(std::lround(motion.rate_hz)));
   ASSIGN_OR_RETURN(Encoder encoder, Encoder::Start(path, width, height, rate));
-  ColourImage picture;
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
     Canvas canvas(width, height);
     for (std::size_t i = 0; i < views.size(); ++i) {
-      ASSIGN_OR_RETURN(const bool is_there, decoders[i].Next(picture));
-      if (!is_there) return Fail({views[i].film.string()}, "ends before frame {}", frame + 1);
-      painters[i].Draw(canvas, picture, motion.poses[frame], frame);
+      ASSIGN_OR_RETURN(const ColourImage* picture, rolls[i].At(frame));
+      painters[i].Draw(canvas, *picture, motion.poses[frame], frame);
     }
     RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
     progress(static_cast<double>(frame + 1) / static_cast<double>(motion.poses.size()));

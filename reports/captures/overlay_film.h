@@ -22,7 +22,8 @@ struct OverlayView {
   FilmFacts facts;
   Camera camera;
   PixelFit fit;                                      ///< from the rig's pixels to the film's
-  std::vector<std::optional<SeenPerson>> keypoints;  ///< of each frame, in the film's pixels; dots
+  double offset = 0;                                 ///< its frame k was taken at k + offset of the motion's frames
+  std::vector<std::optional<SeenPerson>> keypoints;  ///< of each frame of the motion, in the film's pixels; dots
 };
 
 /// Writes the films side by side, each with the skeleton as its camera would show it (lines) and the keypoints that it

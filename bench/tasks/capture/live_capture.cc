@@ -5,6 +5,7 @@
 #include "bench/recordings/capture_extras.h"
 #include "bench/tasks/capture/nearest_poses.h"
 #include "bench/tasks/capture/recovery.h"
+#include "engine/capture/agreeing_marks.h"
 #include "engine/capture/calibrate_cameras.h"
 
 namespace etude {
@@ -70,6 +71,7 @@ std::optional<RecoveredFrame> LiveCapture::RecoverByMarks(std::size_t frame,
     const Marks& drawn = pictures[camera].marks.front();
     marks.push_back({cameras_->lenses.empty() ? drawn : UndistortMarks(cameras_->lenses[camera], drawn)});
   }
+  if (method_.outliers == OutlierRule::kReject) marks = AgreeingMarks(cameras_->matrices, marks);
   const std::vector<KnownMeasurement> told = {ToldOf(truth, method_.oracle)};
   KnownAngles known;
   if (method_.oracle.start || method_.oracle.ik) {
@@ -78,7 +80,7 @@ std::optional<RecoveredFrame> LiveCapture::RecoverByMarks(std::size_t frame,
     if (method_.oracle.ik) known.pose = nearest;
   }
   const MeasureInputs inputs{.cameras = cameras_->matrices, .marks = marks, .known = told};
-  return marks_->Next(MeasureFrames(inputs, MeasureOptionsOf(method_)).front(), known);
+  return marks_->Next(MeasureFrames(inputs).front(), known);
 }
 
 }  // namespace etude

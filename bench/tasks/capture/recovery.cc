@@ -17,7 +17,7 @@ namespace etude {
 namespace {
 
 MeasureInputs PicturesOf(const CaptureRun& run) {
-  return {.cameras = run.cameras.matrices, .marks = run.observation.marks};
+  return {.cameras = run.cameras.matrices, .marks = run.measured.marks};
 }
 
 /// The joints of every frame, of some or none in frames before anything was seen.

@@ -7,6 +7,7 @@
 #include "bench/metrics/measurement.h"
 #include "bench/tasks/capture/nearest_poses.h"
 #include "engine/base/digest.h"
+#include "engine/capture/agreeing_marks.h"
 #include "engine/capture/calibrate_cameras.h"
 #include "engine/capture/synchronise.h"
 
@@ -84,15 +85,12 @@ std::vector<std::vector<Marks>> UndistortAll(std::span<const Camera> lenses, std
   return marks;
 }
 
-// The marks at the first camera's times.
-std::vector<std::vector<Marks>> InTime(std::span<const ProjectionMatrix> cameras,
-                                       const std::vector<std::vector<Marks>>& marks) {
-  return Synchronised(marks, EstimateOffsets(cameras, marks));
-}
-
-MeasuredTake MeasureTake(const MeasureInputs& inputs, const MeasureOptions& measure, const BridgeOptions& bridge) {
+MeasuredTake MeasureTake(std::span<const ProjectionMatrix> cameras, std::vector<std::vector<Marks>> marks,
+                         std::span<const KnownMeasurement> known, const BridgeOptions& bridge) {
   MeasuredTake take;
-  take.frames = MeasureFrames(inputs, measure);
+  take.marks = std::move(marks);
+  const MeasureInputs inputs{.cameras = cameras, .marks = take.marks, .known = known};
+  take.frames = MeasureFrames(inputs);
   take.seen = BridgeGaps(take.frames, bridge);
   take.joints = MeasureJoints(inputs);
   Digest directions, points;
@@ -162,13 +160,12 @@ const MeasuredTake& CaptureStages::GetMeasured(const CaptureMethod& method, cons
   auto kept = measured_.find(choice);
   if (kept == measured_.end()) {
     const std::vector<KnownMeasurement> known = Tell(world_, method.oracle, marked_);
-    const auto straight = UndistortAll(cameras.lenses, observation.marks);
-    const std::vector<std::vector<Marks>> marks =
-        method.sync == Sync::kEstimated ? InTime(cameras.matrices, straight) : straight;
-    const MeasureInputs inputs{.cameras = cameras.matrices, .marks = marks, .known = known};
+    std::vector<std::vector<Marks>> marks = UndistortAll(cameras.lenses, observation.marks);
+    if (method.sync == Sync::kEstimated) marks = Synchronised(marks, EstimateOffsets(cameras.matrices, marks));
+    if (method.outliers == OutlierRule::kReject) marks = AgreeingMarks(cameras.matrices, marks);
     const int every = std::lcm(options_.mark_every, options_.picture_every);
     const BridgeOptions bridge{.longest_gap = std::max(BridgeOptions{}.longest_gap, every)};
-    kept = measured_.emplace(choice, MeasureTake(inputs, MeasureOptionsOf(method), bridge)).first;
+    kept = measured_.emplace(choice, MeasureTake(cameras.matrices, std::move(marks), known, bridge)).first;
   }
   return kept->second;
 }
@@ -201,10 +198,6 @@ Result<const NearestPoses*> CaptureStages::GetNearestPoses(const CaptureMethod& 
   auto kept = nearest_.find(choice);
   if (kept == nearest_.end()) kept = nearest_.emplace(choice, FindNearestPoses(*body, world_.truth)).first;
   return &kept->second;
-}
-
-MeasureOptions MeasureOptionsOf(const CaptureMethod& method) {
-  return {.rejects_outliers = method.outliers == OutlierRule::kReject};
 }
 
 KnownMeasurement ToldOf(const BodyPose& pose, const Oracle& oracle) {

@@ -28,6 +28,9 @@ struct CalibratedCameras {
 
 /// What the marks of a whole take say about space.
 struct MeasuredTake {
+  /// `marks[camera][frame]`: what was drawn, without what lenses do, and as the method wants it in time and without
+  /// those that disagree. Whatever recovers a motion sees these.
+  std::vector<std::vector<Marks>> marks;
   std::vector<FrameMeasurement> frames;
   std::vector<std::optional<LimbObservation>> seen;  ///< the same with gaps bridged
   std::vector<JointMeasurements> joints;             ///< every joint triangulated from all strokes that end there
@@ -106,8 +109,6 @@ class CaptureStages {
   std::map<BodyChoice, Result<CaptureBody>> bodies_;
   std::map<BodyChoice, NearestPoses> nearest_;
 };
-
-MeasureOptions MeasureOptionsOf(const CaptureMethod& method);
 
 /// What somebody who knows the truth of a frame tells a method with these oracles of it.
 KnownMeasurement ToldOf(const BodyPose& truth, const Oracle& oracle);

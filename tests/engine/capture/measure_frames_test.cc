@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/cameras/limb_direction.h"
+#include "engine/capture/agreeing_marks.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "tests/engine/capture/marked_body.h"
 
@@ -232,10 +233,10 @@ TEST(MeasureFrames, OfOneWrongCameraIsExactOnlyWhenOutliersAreRejected) {
         stroke->a += glm::dvec2(50, -35);
         stroke->b += glm::dvec2(-20, 40);
       }
-      const MeasureInputs inputs{.cameras = studio, .marks = marks};
+      const TakeMarks agreeing = AgreeingMarks(studio, marks);
       const auto worst = [&](bool rejects) {
-        const FrameMeasurement frame =
-            MeasureFrames(inputs, {.smallest_plane_angle = Radians(0.1), .rejects_outliers = rejects})[0];
+        const MeasureInputs inputs{.cameras = studio, .marks = rejects ? agreeing : marks};
+        const FrameMeasurement frame = MeasureFrames(inputs, {.smallest_plane_angle = Radians(0.1)})[0];
         double worst_m = 0, worst_rad = 0;
         for (const EffectorMark& mark : EffectorMarks()) {
           worst_m =

@@ -22,13 +22,14 @@ TakeMarks LateMarks(const std::vector<ProjectionMatrix>& cameras, const std::vec
   return marks;
 }
 
-// Of exact marks a hundredth of a frame; what is left is the cubic's.
+// Of exact marks to 0.04 of a frame: misfits are no parabola. A search between frames would be nearer here, and half a
+// frame off with marks that err.
 TEST(Synchronise, FindsHowLateEveryCameraIs) {
   const std::vector<ProjectionMatrix> cameras = ThreeCameras();
   for (const std::vector<double>& offsets :
        {std::vector<double>{0, 3.4, -7.25}, {0, 0.5, 12.75}, {0, -0.2, 0.1}, {0, 0, 0}}) {
     const std::vector<double> found = EstimateOffsets(cameras, LateMarks(cameras, offsets));
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], offsets[i], 0.01) << i;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], offsets[i], 0.04) << i;
   }
 }
 

@@ -49,6 +49,14 @@ std::vector<Camera> Pinholes() {
 
 RecoverPersonOptions Options() { return {.rate_hz = kRate, .match = {}, .triangulate = {}}; }
 
+/// As a tool would: with the lenses undone.
+Result<RecoveredPerson> Recover(std::span<const Camera> cameras, std::span<const SeenPeople> people,
+                                const RecoverPersonOptions& options) {
+  std::vector<SeenPeople> straight;
+  for (std::size_t c = 0; c < cameras.size(); ++c) straight.push_back(UndistortPeople(cameras[c], people[c]));
+  return RecoverPerson(MatricesOf({cameras.begin(), cameras.end()}), straight, options);
+}
+
 /// The largest distance of any landmark to a walker's, metres.
 double WorstOff(const std::vector<LandmarkPlaces>& found, double x, double z, double later) {
   double worst = 0;
@@ -116,15 +124,15 @@ TEST(MatchPeople, LeavesAPersonAloneWhomNoOtherCameraSees) {
 
 TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = RecoverPerson(cameras, TwoWalkers(cameras, 0), Options());
+  const auto person = Recover(cameras, TwoWalkers(cameras, 0), Options());
   ASSERT_TRUE(person) << ToString(person.error());
   const double first = WorstOff(person->landmarks, kFirstX, 0, 0),
                second = WorstOff(person->landmarks, kSecondX, 0.2, 0.4);
   EXPECT_LT(std::min(first, second), 1e-6);
-  EXPECT_NEAR(person->lengths.shank, 0.42, 1e-6);
-  EXPECT_NEAR(person->lengths.upper_arm, 0.29, 1e-6);
-  EXPECT_NEAR(person->lengths.hand, 0.72 * 0.25, 1e-6);
-  EXPECT_EQ(person->held, 0u);
+  EXPECT_NEAR(person->body.lengths.shank, 0.42, 1e-6);
+  EXPECT_NEAR(person->body.lengths.upper_arm, 0.29, 1e-6);
+  EXPECT_NEAR(person->body.lengths.hand, 0.72 * 0.25, 1e-6);
+  EXPECT_EQ(std::ranges::count(person->is_held, true), 0);
   EXPECT_EQ(person->motion.poses.size(), kFrames);
   EXPECT_EQ(person->clip.frames.size(), kFrames);
 }
@@ -155,14 +163,14 @@ double WorstJoint(const RecoveredPerson& person) {
 
 TEST(RecoverPerson, ItsSkeletonStandsWhereThePointsAre) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = RecoverPerson(cameras, OneWalker(cameras, 0), Options());
+  const auto person = Recover(cameras, OneWalker(cameras, 0), Options());
   ASSERT_TRUE(person) << ToString(person.error());
   EXPECT_LT(WorstJoint(*person), 1e-5);
 }
 
 TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = RecoverPerson(cameras, OneWalker(cameras, 2), Options());
+  const auto person = Recover(cameras, OneWalker(cameras, 2), Options());
   ASSERT_TRUE(person) << ToString(person.error());
   std::vector<LandmarkPlaces> walk;
   for (std::size_t k = 0; k < kFrames; ++k) walk.push_back(Walker(0, 0, static_cast<double>(k) / kRate));
@@ -177,7 +185,7 @@ TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
 
 TEST(RecoverPerson, ItsClipHasTheJointsWhereTheMotionHas) {
   const std::vector<Camera> cameras = FourCameras();
-  const auto person = RecoverPerson(cameras, OneWalker(cameras, 2), Options());
+  const auto person = Recover(cameras, OneWalker(cameras, 2), Options());
   ASSERT_TRUE(person) << ToString(person.error());
   std::vector<GlobalTransform> globals;
   for (const Role role : {Role::kLeftKnee, Role::kRightAnkle, Role::kLeftElbow, Role::kRightWrist, Role::kHead}) {
@@ -197,12 +205,12 @@ TEST(RecoverPerson, RefusesWhatIsNoSession) {
   std::vector<Camera> moved{cameras[0], cameras[1]};
   const double sine = std::sin(Radians(10)), cosine = std::cos(Radians(10));
   moved[1].R_CW = glm::transpose(glm::dmat3(1, 0, 0, 0, cosine, -sine, 0, sine, cosine)) * moved[1].R_CW;
-  const auto alone = RecoverPerson(moved, std::span(people).first(2), Options());
+  const auto alone = Recover(moved, std::span(people).first(2), Options());
   ASSERT_FALSE(alone);
   EXPECT_THAT(alone.error().message, HasSubstr("no person is seen alike"));
   RecoverPersonOptions third = Options();
   third.person = 2;
-  EXPECT_THAT(RecoverPerson(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));
+  EXPECT_THAT(Recover(cameras, people, third).error().message, HasSubstr("person 3: 2 seen by two cameras"));
 }
 
 TEST(BridgePoints, FillsShortGapsStraightAndNoLongOnes) {
