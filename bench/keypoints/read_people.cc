@@ -143,7 +143,8 @@ Result<std::vector<SeenPerson>> ReadOpenPoseFrame(const fs::path& file, const st
     ASSIGN_OR_RETURN(const auto points, Triples(Member(person, "pose_keypoints_2d"), place));
     if (points.empty()) continue;
     ASSIGN_OR_RETURN(const SeenPerson seen, ToPerson(points, layout, place));
-    frame.push_back(seen);
+    const auto is_seen = [](const Keypoint& keypoint) { return keypoint.confidence > 0; };
+    if (std::ranges::any_of(seen.keypoints, is_seen)) frame.push_back(seen);
   }
   return frame;
 }

@@ -1,6 +1,7 @@
 """`etude calibrate` and `etude capture`: from measured points to a rig, from films and keypoints to a motion."""
 import json
 import math
+import re
 import subprocess
 import unittest
 
@@ -147,6 +148,27 @@ class Capture(EtudeCase):
         # On exact keypoints of a body that keeps its lengths the skeleton's joints lie on their points.
         self.assertRegex(result.stdout, r"left_knee +0\.0 +0\.0\n")
         self.assertRegex(result.stdout, r"\nall +0\.0 +0\.[0-9]\n")
+
+    def test_sets_clocks_by_keypoints(self):
+        self.calibrate()
+        late = self.keypoints / "right_json"
+        for k in range(FRAMES):  # what the camera sees four frames later
+            flat = [v for point in body((k + 4) / RATE) for v in (*project("right", point), 0.9)]
+            (late / f"right_{k}.json").write_text(json.dumps({"people": [{"pose_keypoints_2d": flat}]}))
+        for k in range(FRAMES - 2, FRAMES):
+            (late / f"right_{k}.json").unlink()
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", f"testsrc=size={WIDTH}x{HEIGHT}:rate={RATE}",
+                        "-frames:v", str(FRAMES - 2), "-pix_fmt", "yuv420p", self.films[2]], check=True, timeout=60)
+        out = self.folder / "m.csv"
+        self.assertIn("let keypoints tell the time (--sync)", self.refusal(*self.capture("-o", out)))
+        self.assertIn("--sync excludes --silhouettes", self.refusal(
+            "capture", "--rig", self.rig, *self.films, "--silhouettes", "--sync", "1", "-o", out))
+        told = self.etude(*self.capture("-o", out, "--sync", "0.3", "--film", self.folder / "m.mp4")).stdout
+        clocks = re.search(r"clocks, after left's: middle ([+-][0-9.]+) frames .*, right ([+-][0-9.]+) frames", told)
+        self.assertIsNotNone(clocks, told)
+        self.assertAlmostEqual(float(clocks[1]), 0, delta=0.2)
+        self.assertAlmostEqual(float(clocks[2]), 4, delta=0.2)
+        self.assertEqual(out.read_text().count("\n"), 1 + FRAMES)
 
     def test_names_cameras_before_or_after_the_films(self):
         self.calibrate()

@@ -48,6 +48,22 @@ TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
   EXPECT_TRUE(film->frames[2].empty());
 }
 
+TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
+  Write("a/f_0.json", OpenPose(26, "NaN, NaN, NaN, 30, 40, 0.7"));
+  Write("a/f_1.json",
+        R"({"note": "NaN \\" NaN", "people": [{"pose_keypoints_2d": [)" + Triples(26, "NaN, 1, NaN") + "]}]}");
+  const auto film = ReadKeypoints(folder_.path() / "a", "");
+  ASSERT_FALSE(film) << "27 keypoints";
+  Write("a/f_0.json", R"({"people": [{"pose_keypoints_2d": [)" + Triples(25, "NaN, NaN, NaN, 30, 40, 0.7") + "]}]}");
+  const auto seen = ReadKeypoints(folder_.path() / "a", "");
+  ASSERT_TRUE(seen) << ToString(seen.error());
+  EXPECT_EQ(seen->frames[0][0][Landmark::kNose].confidence, 0);
+  EXPECT_EQ(seen->frames[0][0][Landmark::kLeftEye].pixel, glm::dvec2(30.5, 40.5));
+  EXPECT_TRUE(seen->frames[1].empty()) << "nobody";
+  Write("a/f_1.json", OpenPose(26, "nan, 1, 1"));
+  EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("not valid JSON"));
+}
+
 TEST_F(ReadPeople, AsksWhichOrderTwentyFiveKeypointsHave) {
   Write("a/1.json", OpenPose(25));
   EXPECT_THAT(Reason(folder_.path() / "a"), HasSubstr("body_25 or body_25b; tell which one by --layout"));
