@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 from etude_case import EtudeCase
 
-COMPARE = Path(__file__).parents[2] / "examples" / "pose-estimator" / "compare.py"
+EXAMPLES = Path(__file__).parents[2] / "examples" / "pose-estimator"
+COMPARE, ANSWER = EXAMPLES / "compare.py", EXAMPLES / "answer.py"
 SCENARIO = """scenario: pictures
 question: How hard are the pictures?
 task: capture
@@ -55,6 +56,30 @@ class PoseEstimator(EtudeCase):
         told = subprocess.run([sys.executable, COMPARE, "--export", self.data], capture_output=True, text=True)
         self.assertEqual(told.returncode, 0, told.stderr)
         return [cell.strip() for cell in told.stdout.splitlines()[-1].strip("|").split("|")]
+
+    def answer(self, shift):
+        """The score of answers out of stored keypoints that are `shift` pixels to the right of the truth."""
+        self.compare(shift, 0.9)
+        answers = self.folder / f"answers-{shift}"
+        kept = answers / ".keypoints" / "pictures" / "all" / "000.json"
+        kept.parent.mkdir(parents=True)
+        kept.write_text((self.truth / "keypoints.json").read_text())
+        told = subprocess.run([sys.executable, ANSWER, self.data, answers], capture_output=True, text=True)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        found = np.array(json.loads((answers / "pictures" / "all" / "000.json").read_text())["poses"])
+        run = self.folder / f"run-{shift}"
+        scored = self.etude("score", self.data, answers, "-o", run, "--name", "estimator", "--alone")
+        self.assertEqual(scored.returncode, 0, scored.stderr)
+        cell = json.loads(self.etude("rows", run).stdout)
+        self.assertEqual(cell["status"], "ok")
+        off = np.linalg.norm(found.reshape(self.poses.shape) - self.poses, axis=2)[:, self.limbs]
+        return 1000 * off.mean(), cell["mpjpe_mm"]
+
+    def test_stored_keypoints_become_answers_that_are_scored(self):
+        joints, all_twenty = self.answer(0)
+        self.assertLess(joints, 10, "what cameras calibrated by clicked points leave")
+        self.assertLess(all_twenty, 60, "hands, feet and head hang from the twelve")
+        self.assertGreater(self.answer(8)[0], joints + 5, "the control: every keypoint eight pixels off")
 
     def test_the_truth_has_no_error(self):
         self.assertEqual(self.compare(0, 0.9), ["all", "6", "100 %", "0.90", "0.0", "0.0", "100 %"])

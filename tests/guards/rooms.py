@@ -112,7 +112,7 @@ MAY_INCLUDE = {
         "engine/base engine/document engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
-        "engine/base engine/boards engine/cameras engine/capture engine/formats engine/kinematics engine/motion "
+        "engine/base engine/boards engine/cameras engine/capture engine/formats engine/keypoints engine/kinematics engine/motion "
         "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
         "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/coach":

@@ -94,6 +94,11 @@ FieldTable<StudioOptions> MakeConditionFields() {
 
 void CheckMethod(Fields& fields, CaptureMethod& method) {
   const Oracle& oracle = method.oracle;
+  if (method.recovery == Recovery::kKeypoints) {
+    method.lengths = LengthSource::kMeasured;  // it knows of no others
+    if (oracle.lengths)
+      fields.Complain(fields.Raw("oracle")->place, "'recovery: keypoints' measures the lengths itself");
+  }
   if (method.recovery == Recovery::kSilhouettes) {
     if (oracle.marks || method.lengths == LengthSource::kMeasured) {
       fields.Complain(fields.node().place,
@@ -130,7 +135,7 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("pieces", &Method::pieces, {{"largest", PersonPieces::kLargest}, {"large", PersonPieces::kLarge}},
                    "Which pieces of what changed are the person: the largest alone (paper B), or every one of some "
                    "size beside it, too.")
-             .With("recovery", {"ik", "ends", "bundle"}),
+             .With("recovery", {"ik", "ends", "bundle", "keypoints"}),
          Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
                    "How a camera is computed from its calibration points."),
          Key::Name("sync", &Method::sync, {{"assumed", Sync::kAssumed}, {"estimated", Sync::kEstimated}},
@@ -145,10 +150,12 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
              {{"ik", Recovery::kIk},
               {"ends", Recovery::kEnds},
               {"bundle", Recovery::kBundle},
+              {"keypoints", Recovery::kKeypoints},
               {"silhouettes", Recovery::kSilhouettes}},
              "How pictures become poses: paper B's inverse kinematics; every joint triangulated from the strokes that "
-             "end there; bundle adjustment of paper B's body over the whole take; or, without a mark, a body fitted to "
-             "the silhouettes."),
+             "end there; bundle adjustment of paper B's body over the whole take; what `etude capture` makes of marks, "
+             "a "
+             "body of their own lengths fitted to all of them; or, without a mark, a body fitted to the silhouettes."),
          Key::Name("start", &Method::start, {{"cold", SilhouetteStart::kCold}, {"near", SilhouetteStart::kNear}},
                    "What is known of the first frame's pose: nothing, or every angle to 10°.")
              .With("recovery", {"silhouettes"}),
@@ -158,7 +165,8 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
              .With("recovery", {"ik", "ends", "bundle"}),
          Key::Name("lengths", &Method::lengths,
                    {{"known", LengthSource::kKnown}, {"measured", LengthSource::kMeasured}},
-                   "Whether the body is measured beforehand, or its limb lengths from the marks of a few frames."),
+                   "Whether the body is measured beforehand, or its limb lengths from the marks of a few frames.")
+             .With("recovery", {"ik", "ends", "bundle", "silhouettes"}),
          Key::Flag("causal", &Method::causal,
                    "Whether each frame's skeleton comes of the pictures up to it alone, as a live system must have it.")
              .With("recovery", {"ik", "silhouettes"}),

@@ -91,6 +91,9 @@ enum class Recovery {
   kIk,      ///< "ik": limb directions and ends, lengths fixed, inverse kinematics (paper B)
   kEnds,    ///< "ends": every joint triangulated from the strokes that end there; no body, no inverse kinematics
   kBundle,  ///< "bundle": all marks of all frames explained at once by one body in smooth motion
+  /// "keypoints": what `etude capture` makes of marks: joints triangulated robustly, a body of their own median lengths
+  /// fitted to all of them (engine/keypoints)
+  kKeypoints,
   /// "silhouettes": no marks; a body fitted to what was cut out, and followed from frame to frame (engine/silhouettes)
   kSilhouettes,
 };

@@ -9,6 +9,8 @@
 #include "engine/capture/fit_pose.h"
 #include "engine/capture/live_recovery.h"
 #include "engine/capture/measure_lengths.h"
+#include "engine/keypoints/marked_person.h"
+#include "engine/keypoints/recover_person.h"
 #include "engine/kinematics/capture_body.h"
 #include "engine/kinematics/start_angles.h"
 #include "engine/motion/rest_body.h"
@@ -90,6 +92,32 @@ void RecoverBundle(CaptureRun& run) {
   }
 }
 
+/// As `etude capture` does with the same marks.
+void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
+  std::vector<SeenPeople> people;
+  double longer_side = 0;
+  for (const std::vector<Marks>& of_camera : run.measured.marks) {
+    const Intrinsics& in = stages.world().cameras[people.size()].intrinsics;
+    longer_side = std::max<double>(longer_side, std::max(in.width, in.height));
+    SeenPeople& seen = people.emplace_back();
+    for (const Marks& marks : of_camera) {
+      const SeenPerson person = PersonOf(marks);
+      seen.emplace_back();
+      if (HeightPx(person) > 0) seen.back().push_back(person);
+    }
+  }
+  run.frames.resize(stages.world().truth.size());
+  const auto person = RecoverPerson(run.cameras.matrices, people, UsualRecovery(kJudgedRateHz, longer_side));
+  if (!person) return;
+  run.body = person->body;
+  TreeState last = StandingState(run.body.tree);
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    if (person->is_held[k]) continue;
+    run.frames[k] = FrameOf(run.body, person->motion.poses[k], last);
+    last = run.frames[k]->state;
+  }
+}
+
 Result<void> RecoverFromSilhouettes(CaptureStages& stages, CaptureRun& run) {
   const StudioOptions& options = stages.options();
   const std::vector<BodyPose>& truth = stages.world().truth;
@@ -153,6 +181,7 @@ BridgeOptions LiveBridgeOptions(const StudioOptions& options) {
 }
 
 Result<CaptureBody> BodyFor(CaptureStages& stages, const CaptureRun& run) {
+  if (run.method.recovery == Recovery::kKeypoints) return PaperBody({});  // until the points tell another
   if (run.method.lengths == LengthSource::kKnown) {
     ASSIGN_OR_RETURN(const CaptureBody* body, stages.GetKnownBody(run.method));
     return *body;
@@ -177,6 +206,9 @@ Result<void> Recover(CaptureStages& stages, CaptureRun& run) {
     case Recovery::kBundle:
       RecoverBundle(run);
       break;
+    case Recovery::kKeypoints:
+      RecoverByKeypoints(stages, run);
+      return {};
     case Recovery::kSilhouettes:
       return RecoverFromSilhouettes(stages, run);
   }

@@ -114,9 +114,9 @@ TEST(CaptureTask, RecoversTheSameMarksInOtherWaysToo) {
   const auto task = Make(
       "duration_s: 0.3\nmethods:\n- {name: ik, body: paper}\n- {name: ends, recovery: ends}\n"
       "- {name: smooth, recovery: ends, smoothing: rts}\n- {name: bundle, recovery: bundle}\n"
-      "- {name: measured, recovery: bundle, lengths: measured}\n");
+      "- {name: measured, recovery: bundle, lengths: measured}\n- {name: keypoints, recovery: keypoints}\n");
   ASSERT_TRUE(task) << ToString(task.error());
-  const auto cells = RunWorld(**task, kKey, 5);
+  const auto cells = RunWorld(**task, kKey, 6);
   for (const CellResult& cell : cells) {
     ASSERT_EQ(cell.status, Status::kOk) << cell.reason;
     EXPECT_EQ(DigestOf(cell, "marks"), DigestOf(cells[0], "marks"));
@@ -129,6 +129,18 @@ TEST(CaptureTask, RecoversTheSameMarksInOtherWaysToo) {
   EXPECT_LT(*ValueOf(cells[3], "bone_length_error_cm"), *ValueOf(cells[1], "bone_length_error_cm"));
   EXPECT_FALSE(ValueOf(cells[3], "limb_length_error_mm")) << "lengths are known";
   EXPECT_LT(*ValueOf(cells[4], "limb_length_error_mm"), 60);
+  EXPECT_LT(*ValueOf(cells[5], "limb_length_error_mm"), 60) << "it measures them";
+  EXPECT_LT(*ValueOf(cells[5], "bone_length_error_cm"), *ValueOf(cells[1], "bone_length_error_cm"));
+}
+
+TEST(CaptureTask, EveryRivalSeesMarksInTimeAndWithoutOutliers) {
+  const auto task = Make(
+      "duration_s: 1\nsync_offset_ms: 100\nmethods:\n"
+      "- {name: assumed, recovery: bundle, oracle: [calibration, marks]}\n"
+      "- {name: estimated, recovery: bundle, sync: estimated, oracle: [calibration, marks]}\n");
+  ASSERT_TRUE(task) << ToString(task.error());
+  const auto cells = RunWorld(**task, kKey, 2);
+  EXPECT_LT(*ValueOf(cells[1], "mpjpe_mm"), 0.7 * *ValueOf(cells[0], "mpjpe_mm"));
 }
 
 TEST(CaptureTask, RefusesTheTruthOfStagesThatAMethodHasNot) {
