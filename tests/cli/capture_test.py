@@ -161,7 +161,7 @@ class Capture(EtudeCase):
                         "-frames:v", str(FRAMES - 2), "-pix_fmt", "yuv420p", self.films[2]], check=True, timeout=60)
         out = self.folder / "m.csv"
         self.assertIn("let keypoints tell the time (--sync)", self.refusal(*self.capture("-o", out)))
-        self.assertIn("--sync excludes --silhouettes", self.refusal(
+        self.assertIn("--silhouettes excludes --sync", self.refusal(
             "capture", "--rig", self.rig, *self.films, "--silhouettes", "--sync", "1", "-o", out))
         told = self.etude(*self.capture("-o", out, "--sync", "0.3", "--film", self.folder / "m.mp4")).stdout
         clocks = re.search(r"clocks, after left's: middle ([+-][0-9.]+) frames .*, right ([+-][0-9.]+) frames", told)

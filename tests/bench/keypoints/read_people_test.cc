@@ -51,7 +51,7 @@ TEST_F(ReadPeople, TakesOpenPosesFramesInTheOrderOfTheirNumbers) {
 TEST_F(ReadPeople, TakesWhatPythonWritesOfKeypointsThatWereNotSeen) {
   Write("a/f_0.json", OpenPose(26, "NaN, NaN, NaN, 30, 40, 0.7"));
   Write("a/f_1.json",
-        R"({"note": "NaN \\" NaN", "people": [{"pose_keypoints_2d": [)" + Triples(26, "NaN, 1, NaN") + "]}]}");
+        R"({"note": "NaN \" NaN", "people": [{"pose_keypoints_2d": [)" + Triples(26, "NaN, 1, NaN") + "]}]}");
   const auto film = ReadKeypoints(folder_.path() / "a", "");
   ASSERT_FALSE(film) << "27 keypoints";
   Write("a/f_0.json", R"({"people": [{"pose_keypoints_2d": [)" + Triples(25, "NaN, NaN, NaN, 30, 40, 0.7") + "]}]}");

@@ -221,7 +221,8 @@ TEST(CaptureTask, FailsWithAReasonWhenNothingIsMarked) {
   const Take take;
   const Observation observation{};
   const CaptureBody body = PaperBody({});
-  const MeasuredTake measured{.frames = std::vector<FrameMeasurement>(2),
+  const MeasuredTake measured{.marks = {},
+                              .frames = std::vector<FrameMeasurement>(2),
                               .seen = {},
                               .joints = {},
                               .directions_digest = "",
