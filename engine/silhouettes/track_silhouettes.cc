@@ -100,22 +100,12 @@ class Tracker {
     return sum / count;
   }
 
-  // Where the take is followed from: the known start and what is likeliest in the pictures; or, where nothing is known,
-  // the likeliest ones, and the likeliest that faces another way at the first one's moment. A moment's outlines hardly
-  // tell front from back, nor do a few frames: the whole take does, because knees and elbows bend one way only.
+  // Where the take is followed from: the known start, and what was found in the pictures, the likeliest first.
   std::vector<Anchor> ChooseAnchors() {
-    std::vector<Anchor> found = FindAnchors();
-    const std::optional<Anchor> known = KnownAnchor();
-    if (known) found.insert(found.begin(), *known);
-    std::vector<Anchor> chosen(found.begin(),
-                               found.begin() + static_cast<std::ptrdiff_t>(std::min(kFollowedAnchors, found.size())));
-    if (known || chosen.empty()) return chosen;
-    const auto faces_another_way = [&](const Anchor& anchor) { return anchor.frame == found.front().frame; };
-    if (std::any_of(chosen.begin() + 1, chosen.end(), faces_another_way)) return chosen;
-    const auto other =
-        std::find_if(found.begin() + static_cast<std::ptrdiff_t>(chosen.size()), found.end(), faces_another_way);
-    if (other != found.end()) chosen.push_back(*other);
-    return chosen;
+    std::vector<Anchor> anchors = FindAnchors();
+    if (const std::optional<Anchor> known = KnownAnchor()) anchors.insert(anchors.begin(), *known);
+    if (anchors.size() > kFollowedAnchors) anchors.resize(kFollowedAnchors);
+    return anchors;
   }
 
   std::vector<Anchor> FindAnchors() {
