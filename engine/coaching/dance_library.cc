@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kLeavingFrames = 60;
 /// In which an act is entered: half a second, and the longest join.
 constexpr std::size_t kEnteringFrames = 15 + 30 + 1;
-/// Around a repetition that is returned to: a lead, so that whoever follows is moving when it begins, and the longest join.
+/// Around a repetition that is returned to: a lead, so that whoever follows is moving when it begins, and the longest
+/// join.
 constexpr std::size_t kBeforeFrames = 45, kIntoFrames = 30;
 
 BodyMotion Excerpt(const BodyMotion& motion, std::size_t first, std::size_t end) {
