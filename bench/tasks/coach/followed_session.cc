@@ -6,10 +6,10 @@
 
 namespace etude {
 
-Result<ReadyCoach> MakeWatching(const CoachStage& stage, std::string_view policy) {
+Result<ReadyCoach> MakeWatching(const CoachStage& stage) {
   CoachMethod method;
   method.name = "watching";
-  method.policy.policy = FindPolicy(policy);
+  method.policy.policy = FindPolicy("never");
   constexpr double kNever = 2;  // evidence ends at 1: no performance counts as right before its window has closed
   method.sight.threshold = kNever;
   std::vector<CoachMethod> methods;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <string_view>
 
 #include "bench/tasks/coach/run.h"
 #include "bench/tasks/coach/session.h"
@@ -9,9 +8,9 @@
 
 namespace etude {
 
-/// A coach who says nothing before a window has closed, and dances the whole song unless the policy is told the truth:
-/// what he sees, any recogniser may be asked about afterwards.
-Result<ReadyCoach> MakeWatching(const CoachStage& stage, std::string_view policy = "never");
+/// A coach who dances the whole song and says nothing before a window has closed: what he sees, any recogniser may be
+/// asked about afterwards.
+Result<ReadyCoach> MakeWatching(const CoachStage& stage);
 
 /// Has a recogniser see a session once more, asked what it was asked then; `judged` gets every performance when its
 /// window closes, and the evidence.

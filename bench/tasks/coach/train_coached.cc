@@ -13,18 +13,16 @@
 namespace etude {
 namespace {
 
-/// A song and who dances it: somebody who never interrupts, and somebody who corrects what was wrong and nothing else,
-/// for who is returned to begins otherwise than who dances on. Neither judges early.
+/// A song and somebody who dances it without ever interrupting or judging early.
 struct Lesson {
   CoachStage stage;
-  ReadyCoach watching, correcting;
+  ReadyCoach coach;
 };
 
 Result<std::unique_ptr<Lesson>> MakeLesson(const std::string& song) {
   auto lesson = std::make_unique<Lesson>();
   ASSIGN_OR_RETURN(lesson->stage, SetCoachStage(song));
-  ASSIGN_OR_RETURN(lesson->watching, MakeWatching(lesson->stage));
-  ASSIGN_OR_RETURN(lesson->correcting, MakeWatching(lesson->stage, "oracle"));
+  ASSIGN_OR_RETURN(lesson->coach, MakeWatching(lesson->stage));
   return lesson;
 }
 
@@ -78,9 +76,8 @@ Result<LearntModel> TrainCoached(std::span<const std::string> songs, const Coach
     const Lesson& lesson = *lessons[index % lessons.size()];
     const CoachCondition condition = ThrowCondition(key);
     const CoachWorld world = MakeCoachWorld(condition, key);
-    const bool weighs = index / lessons.size() % 2 == 1, corrects = index / lessons.size() / 2 % 2 == 1;
-    const ReadyCoach& coach = corrects ? lesson.correcting : lesson.watching;
-    ASSIGN_OR_RETURN(const SessionLog log, RunMethod(coach, condition, lesson.stage, world, nullptr));
+    ASSIGN_OR_RETURN(const SessionLog log, RunMethod(lesson.coach, condition, lesson.stage, world, nullptr));
+    const bool weighs = index / lessons.size() % 2 == 1;
     AddSession(lesson, log, weighs ? Weighting::kAdaptive : Weighting::kFixed, bags);
   }
   return LearntModel{.asked = FitBoostedTrees(bags, training.boosting), .spotted = {}};
