@@ -29,6 +29,7 @@ constexpr const char* kCoachExamples =
     "  etude coach warm_up --stream take.csv --brief          what would the coach have said to this recording?\n"
     "  my_sensor | etude coach groove --stream - | my_stage   live\n"
     "  etude coach my_song.yaml --beats my_song.txt --click clicks.wav --stream - --policy after-n\n"
+    "  etude teach clap.csv jump.csv -o mine.yaml && etude coach groove --moves mine.yaml --recogniser dtw --stream -\n"
     "  etude clip convert builtin:warm_up me.csv && etude coach warm_up --now --brief --stream me.csv";
 
 }  // namespace
@@ -40,6 +41,8 @@ void DefineCoach(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--stream", options->stream, "A file of skeleton rows; -: standard input, as they come")
       ->required();
+  command->add_option("--moves", options->moves,
+                      "A moves file (etude teach): what the song's moves look like when they are right");
   command->add_option("--beats", options->beats, "When the music's beats sound: a text file, seconds, one a line");
   command->add_option("--click", options->click, "Write a click for every beat, too (.wav)");
   command->add_option("--recogniser", options->recogniser, "How performances are recognised")

@@ -20,6 +20,7 @@
 #include "engine/formats/wav.h"
 #include "engine/recognition/recognisers.h"
 #include "engine/streams/live_stream.h"
+#include "engine/teaching/moves_file.h"
 #include "reports/coach/coach_lines.h"
 #include "sim/choreography/beats.h"
 #include "sim/choreography/dance_of.h"
@@ -42,6 +43,22 @@ Result<Song> LoadSong(const std::string& name, std::optional<double> tempo_bpm) 
   return ParseSong(text, name, tempo_bpm);
 }
 
+/// Has a moves file say what those of the dance's moves look like that it teaches.
+Result<void> TeachMoves(const std::string& path, std::vector<TaughtMove>& taught) {
+  ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
+  ASSIGN_OR_RETURN(auto moves, ReadMoves(text, path));
+  for (TaughtMove& move : moves) {
+    const auto danced = std::ranges::find(taught, move.name, &TaughtMove::name);
+    if (danced == taught.end()) {
+      std::string names;
+      for (const TaughtMove& known : taught) names += (names.empty() ? "" : ", ") + known.name;
+      return Fail({path}, "teaches '{}', which this song does not dance; it dances: {}", move.name, names);
+    }
+    *danced = std::move(move);
+  }
+  return {};
+}
+
 Result<Lesson> LoadLesson(const CoachCommandOptions& options) {
   std::vector<double> beats;
   std::optional<double> tempo_bpm;
@@ -58,6 +75,7 @@ Result<Lesson> LoadLesson(const CoachCommandOptions& options) {
   }
   ASSIGN_OR_RETURN(const auto moves, MovesOf(song));
   for (const Move& move : moves) lesson.taught.push_back(TaughtOf(move));
+  if (!options.moves.empty()) RETURN_IF_ERROR(TeachMoves(options.moves, lesson.taught));
   return lesson;
 }
 

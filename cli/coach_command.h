@@ -8,12 +8,13 @@
 namespace etude {
 
 struct CoachCommandOptions {
-  std::string song;                     ///< a built-in song's name, or a song file
-  std::string stream;                   ///< a file of skeleton rows; "-": standard input
-  std::string beats;                    ///< a file of the music's beats, "" = even ones at the song's tempo
-  std::string click;                    ///< a WAV to write, "" = none
-  std::string format;                   ///< of the stream, "" = told by content
-  std::optional<double> rate_hz;        ///< of streams without a clock
+  std::string song;               ///< a built-in song's name, or a song file
+  std::string stream;             ///< a file of skeleton rows; "-": standard input
+  std::string moves;              ///< a moves file: what recognisers are taught of the song's moves, "" = built in
+  std::string beats;              ///< a file of the music's beats, "" = even ones at the song's tempo
+  std::string click;              ///< a WAV to write, "" = none
+  std::string format;             ///< of the stream, "" = told by content
+  std::optional<double> rate_hz;  ///< of streams without a clock
   std::string recogniser = "key-pose";  ///< RecogniserNames()
   std::optional<double> right_from;     ///< of the evidence; else the recogniser's own
   std::string policy = "at-first-mistake";

@@ -25,10 +25,15 @@ std::string_view WordsOf(Mistake mistake) {
 
 void Stepping::OpenWindowAt(double dance_frame) {
   if (state_.open || state_.next_window >= static_cast<int>(dance_.repetitions.size())) return;
-  const Repetition& repetition = dance_.repetitions[state_.next_window];
-  if (dance_frame < static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz) return;
-  state_.open = {.repetition = state_.next_window, .move = repetition.move};
+  const int index = state_.next_window;
+  const Repetition& repetition = dance_.repetitions[index];
+  const double opens = static_cast<double>(repetition.first) + options_.reaction_s * kJudgedRateHz;
+  if (dance_frame < opens) return;
   ++state_.next_window;
+  // One that the coach itself entered late was shown to nobody whole, and is asked of nobody.
+  constexpr double kLateFrames = 3;
+  if (dance_frame > opens + kLateFrames) return;
+  state_.open = {.repetition = index, .move = repetition.move};
   state_.decided = false;
   CountAnew(state_.stillness);
 }

@@ -68,6 +68,26 @@ class Coach(EtudeCase):
         _, live = self.coach("--now", "--stream", "-", text=self.expert.read_text())
         self.assertEqual(recorded, live)
 
+    def test_moves_files_say_what_is_right(self):
+        clap, swaying = self.folder / "clap.csv", self.folder / "clap_is_swaying.csv"
+        self.etude("clip", "convert", "builtin:clap", str(clap))
+        self.etude("clip", "convert", "builtin:fast_sway", str(swaying))
+        dancer, taught = self.folder / "groove.csv", self.folder / "taught.yaml"
+        self.etude("clip", "convert", "builtin:groove", str(dancer))
+
+        def verdicts(stream):
+            self.etude("teach", stream, "-o", taught, "--overwrite")
+            taught.write_text(taught.read_text().replace("clap_is_swaying", "clap"))
+            result = self.etude("coach", "groove", "--now", "--brief", "--policy", "never", "--recogniser", "dtw",
+                                "--moves", taught, "--stream", dancer)
+            events = self.events([json.loads(line) for line in result.stdout.splitlines()[1:]])
+            return [(event["move"], event["event"]) for event in events if event["event"] in ("right", "wrong")]
+
+        self.assertEqual({event for _, event in verdicts(clap)}, {"right"})
+        self.assertEqual({move for move, event in verdicts(swaying) if event == "wrong"}, {"clap"})
+        taught.write_text(taught.read_text().replace("clap", "yodel"))
+        self.refuses("groove", "--moves", taught, "--stream", dancer, says=["yodel", "it dances: clap, fast_sway"])
+
     def test_the_dance_follows_music_that_runs_elsewhere(self):
         rows = self.expert.read_text().splitlines()
         told = [rows[0]]

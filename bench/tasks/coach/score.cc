@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/metrics/coach.h"
+#include "bench/metrics/share.h"
 #include "bench/metrics/transition_smoothness.h"
 #include "engine/base/digest.h"
 
@@ -103,6 +104,9 @@ void ScoreCoaching(const CoachWorld& world, const CoachStage& stage, const Sessi
   result.Measure("danced_share", static_cast<double>(danced) / world.frames);
   result.Measure("gave_up", log.given_up_at ? 1 : 0);
   result.MeasureOr("beat_error_ms", BeatErrorMs(log.beat_errors_s), "nothing was danced to music");
+  const auto bridged = std::ranges::count_if(log.transitions, &LoggedTransition::is_bridged);
+  result.MeasureOr("switch_bridged_share", Share(bridged, static_cast<std::int64_t>(log.transitions.size())),
+                   "there was no transition");
   const std::vector<double> jumps = JumpsOf(log);
   result.MeasureOr("switch_jump_cm", MedianOf(jumps), "there was no transition");
   result.MeasureOr("switch_natural_share", NaturalShare(jumps, stage.natural_jumps_cm), "there was no transition");
@@ -136,7 +140,8 @@ std::vector<std::string> CoachMetrics() {
           "gave_up",
           "beat_error_ms",
           "switch_jump_cm",
-          "switch_natural_share"};
+          "switch_natural_share",
+          "switch_bridged_share"};
 }
 
 }  // namespace etude

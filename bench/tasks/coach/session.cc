@@ -12,6 +12,11 @@
 namespace etude {
 namespace {
 
+bool IsBridged(const TransitionRecord& record) {
+  return record.branch == Branch::kFrontHalf || record.branch == Branch::kRearHalf ||
+         record.branch == Branch::kInBetween;
+}
+
 constexpr int kAhead = static_cast<int>(LiveSensor::kAhead);
 
 /// One session while it runs.
@@ -132,7 +137,7 @@ class Loop {
         log_.corrections.push_back({.decided_frame = frame_, .act_frame = {}});
         break;
       case CoachEvent::kTransition:
-        if (record.transition) log_.transitions.push_back({SeamsOf(*record.transition)});
+        if (record.transition) log_.transitions.push_back({SeamsOf(*record.transition), IsBridged(*record.transition)});
         break;
       default:
         break;

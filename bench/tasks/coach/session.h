@@ -25,6 +25,7 @@ struct LoggedPerformance {
 /// A transition of the coach's: the frames of the session that are the last before each of its transition points.
 struct LoggedTransition {
   std::vector<int> seams;
+  bool is_bridged = false;  ///< bridge frames carry it, directly or through in-betweens made of such
 };
 
 /// What is written on the screen from a frame on.

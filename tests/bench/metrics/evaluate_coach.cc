@@ -77,6 +77,8 @@ std::span<const Evaluator> CoachEvaluators() {
        [](const Json& in) -> Value {
          return NaturalShare(NumbersOf(in, "jumps_cm"), NumbersOf(in, "natural_jumps_cm"));
        }},
+      {"switch_bridged_share",
+       [](const Json& in) -> Value { return Share(in.at("bridged").get<int>(), in.at("transitions").get<int>()); }},
   };
   return kAll;
 }

@@ -59,6 +59,15 @@ TEST_P(RandomPlayers, AreNotJudgedWhileTheCoachShowsAnythingElse) {
   }
 }
 
+TEST_P(RandomPlayers, AreAskedForNothingThatTheCoachHasNotDancedFromItsBeginning) {
+  for (int i = 0; i < kFrames; ++i) {
+    const CoachOutput& out = Next();
+    if (!out.asks || !out.open) continue;
+    const Repetition& asked = session_.coach().dance().repetitions[static_cast<std::size_t>(out.open->repetition)];
+    EXPECT_LE(out.clip_frame, static_cast<double>(asked.first) + 9 + 3) << i;  // the reaction time, and who hurries
+  }
+}
+
 TEST_P(RandomPlayers, EveryWindowComesToOneVerdictBeforeTheNextOneOpens) {
   std::optional<OpenWindow> open;
   int verdicts = 0;

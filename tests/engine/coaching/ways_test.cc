@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "engine/coaching/dance_transitions.h"
 #include "engine/transitions/choices/choice.h"
@@ -15,6 +16,7 @@
 namespace etude {
 namespace {
 
+constexpr int kWindowLag = 9;  // frames after the repetition, as coaches have it by default
 constexpr double kWaitLimit_s = TransitionRequest{}.budget_s;
 
 /// What all those ways came to.
@@ -37,7 +39,6 @@ Ways WaysOf(const std::string& song, const char* choice) {
   const Dance dance = *DanceOf(*LoadBuiltinSong(song));
   const DanceLibrary library = *DanceLibrary::Make(dance);
   const DanceTransitions transitions(library, {.choice = FindChoice(choice), .join = FindJoin("cut")});
-  constexpr int kWindowLag = 9;  // frames after the repetition, as coaches have it by default
   const auto last_of = [&](int clip) { return static_cast<int>(library.library().motions[clip].poses.size()) - 1; };
   Ways ways;
   for (int r = 0; r < static_cast<int>(dance.repetitions.size()); ++r) {
@@ -77,6 +78,28 @@ TEST(Ways, AreAllCarriedByBridgeFrames) {
     EXPECT_GE(ways.pairs.size(), 56u) << song;  // seven for each of at least eight moves
     EXPECT_EQ(ways.unmatched, 0) << song << ": of " << ways.count;
     EXPECT_LT(ways.through_in_betweens, ways.count) << song;
+  }
+}
+
+// Whoever is to dance a repetition again is shown its beginning: the way back leads to what comes before it. Paper A's
+// finds no match there now and then.
+TEST(Ways, BackLeadToBeforeTheRepetition) {
+  for (const std::string& song : BuiltinSongNames()) {
+    const DanceLibrary library = *DanceLibrary::Make(*DanceOf(*LoadBuiltinSong(song)));
+    const int most_of_paper = static_cast<int>(library.dance().repetitions.size()) / 4;
+    for (const auto& [choice, join, most] :
+         {std::tuple{"fuzzy-bridge", "cut", most_of_paper}, std::tuple{"played", "planted-feet", 0}}) {
+      const DanceTransitions transitions(library, {.choice = FindChoice(choice), .join = FindJoin(join)});
+      int late = 0;
+      for (int r = 1; r < static_cast<int>(library.dance().repetitions.size()); ++r) {
+        const Repetition& repetition = library.dance().repetitions[static_cast<std::size_t>(r)];
+        const int slow = library.ClipOfSlow(repetition.move), back = library.ClipReturning(r);
+        const int last = static_cast<int>(library.library().motions[slow].poses.size()) - 1;
+        const auto path = transitions.Find(slow, last - 30, back);
+        late += library.DanceFrameOf(back) + static_cast<std::size_t>(path->clip_frame) > repetition.first + kWindowLag;
+      }
+      EXPECT_LE(late, most) << song << ", " << choice;
+    }
   }
 }
 

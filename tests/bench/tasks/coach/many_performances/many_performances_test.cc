@@ -1,0 +1,84 @@
+// Before a sensor without errors nobody who makes no mistake is corrected, and nobody is praised for standing there.
+#include <gtest/gtest.h>
+
+#include "bench/tasks/coach/learner_player.h"
+#include "sim/choreography/song.h"
+#include "tests/bench/tasks/coach/coach_fixture.h"
+
+namespace etude {
+namespace {
+
+constexpr int kPerformances = 10000;
+
+struct Count {
+  int performances = 0, right = 0, wrong = 0, corrections = 0, praised = 0;
+};
+
+/// Sessions of one person after another, song by song, until they have performed often enough.
+Count Sessions(const char* policy, double seconds, const CoachCondition& people) {
+  CoachMethod method = MethodOf(policy, "dtw");
+  method.sight.threshold = 0.3;  // as in the scenarios, set on other people
+  std::map<std::string, std::vector<ReadyCoach>> coaches;
+  Count count;
+  for (int trial = 0; count.performances < kPerformances; ++trial) {
+    for (const std::string& song : BuiltinSongNames()) {
+      CoachCondition condition = people;
+      condition.song = song;
+      condition.session_s = seconds;
+      condition.sight.noise = 0;
+      const CoachStage& stage = StageOf(song);
+      const CoachWorld world = WorldOf(condition, trial);
+      std::vector<ReadyCoach>& ready = coaches[song];
+      if (ready.empty()) ready = CoachesOf(stage, {method});
+      LearnerPlayer player(world, stage);
+      const SessionLog log = SessionWith(ready.front(), world, player);
+      count.corrections += static_cast<int>(log.corrections.size());
+      for (const LoggedPerformance& performance : log.performances) {
+        ++count.performances;
+        count.right += performance.judged.truth == PerformanceTruth::kRight;
+        count.wrong += performance.judged.truth == PerformanceTruth::kWrong;
+        count.praised += performance.judged.called_right;
+      }
+    }
+  }
+  return count;
+}
+
+CoachCondition PeopleOf(People kind) {
+  CoachCondition condition;
+  condition.sight.session.people = kind;
+  return condition;
+}
+
+TEST(ManyPerformances, APerfectLearnerIsNeverCorrected) {
+  CoachCondition perfect = PeopleOf(People::kExpert);
+  perfect.learner.skill = 1;
+  const Count count = Sessions("at-first-mistake", 180, perfect);
+  EXPECT_EQ(count.right, count.performances);
+  EXPECT_EQ(count.corrections, 0) << "of " << count.performances;
+  EXPECT_EQ(count.praised, count.performances);
+}
+
+TEST(ManyPerformances, NobodyIsPraisedForStandingThere) {
+  constexpr double kBeforeTheCoachTiresOfIt = 29;  // seconds
+  const Count count = Sessions("never", kBeforeTheCoachTiresOfIt, PeopleOf(People::kAbsent));
+  EXPECT_EQ(count.wrong, count.performances);
+  EXPECT_EQ(count.praised, 0) << "of " << count.performances;
+}
+
+// The controls: who has no skill is corrected, and a coach who takes next to anything for right praises them.
+TEST(ManyPerformances, TheCountsCanBeOtherwise) {
+  CoachCondition clumsy = PeopleOf(People::kMixed);
+  clumsy.learner.skill = 0;
+  clumsy.song = "groove";
+  clumsy.session_s = 60;
+  clumsy.sight.noise = 0;
+  const CoachStage& stage = StageOf("groove");
+  const CoachWorld world = WorldOf(clumsy);
+  LearnerPlayer player(world, stage);
+  EXPECT_FALSE(
+      SessionWith(CoachesOf(stage, {MethodOf("at-first-mistake", "dtw")}).front(), world, player).corrections.empty());
+}
+
+}  // namespace
+}  // namespace etude
