@@ -33,8 +33,10 @@ function(etude_unity TARGET)
     return()
   endif()
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-  # GCC takes a .cc file that is compiled with others for a header, whose types should not hold unnamed ones.
-  target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC takes a .cc file that is compiled with others for a header, whose types should not hold unnamed ones.
+    target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+  endif()
   get_target_property(sources ${TARGET} SOURCES)
   foreach(source IN LISTS sources)
     file(STRINGS "${source}" per_target REGEX "hwy/foreach_target.h")
