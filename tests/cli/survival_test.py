@@ -104,6 +104,33 @@ class Survival(EtudeCase):
             self.assertEqual(result.returncode, 0, result.stderr)
         return folders
 
+    def test_shards_started_in_different_folders_merge(self):
+        (self.folder / "shared").mkdir()
+        (self.folder / "suite" / ".git").mkdir(parents=True)  # the top of a repository, and an include beyond it
+        self.write("shared/common.yaml", "defaults: {trials: 4}\n")
+        self.write("suite/ik.yaml", "include: [../shared/common.yaml]\n" + IK.replace("trials: 4\n", ""))
+        (self.folder / "link").symlink_to(self.folder / "suite")
+        starts = [(self.folder, "suite/ik.yaml"), (self.folder / "suite", "ik.yaml"),
+                  (self.folder / "shared", "../suite/ik.yaml"), (self.folder, "link/ik.yaml"),
+                  (self.folder, self.folder / "suite" / "ik.yaml")]
+        shards = []
+        for index, (start, path) in enumerate(starts, 1):
+            shards.append(self.folder / f"shard-{index}")
+            subprocess.run([ETUDE, "run", path, "--shard", f"{index}/{len(starts)}", "-o", shards[-1]], cwd=start,
+                           check=True, capture_output=True)
+            self.assertEqual((shards[-1] / "manifest.json").read_bytes(), (shards[0] / "manifest.json").read_bytes())
+        result = self.etude("merge", *shards, "-o", self.folder / "merged")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.run_suite(self.folder / "suite" / "ik.yaml", out=self.folder / "whole")
+        self.assert_same_results(self.folder / "merged", self.folder / "whole")
+        self.assertIn('"ik.yaml"', (shards[0] / "manifest.json").read_text())
+        # Another text of that name is another suite.
+        self.write("suite/ik.yaml", IK)
+        self.etude("run", self.folder / "suite" / "ik.yaml", "--shard", "1/5", "-o", self.folder / "other")
+        refused = self.etude("merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is a shard of another run", refused.stderr)
+
     def test_shards_merge_to_the_same_bytes_in_any_order(self):
         folders = self.shards(3)
         host = (folders[0] / "host.json").read_bytes()
