@@ -46,6 +46,11 @@ class Program(unittest.TestCase):
         self.assertRegex(sections("-h"), r"DYN \(Position-Independent")
         self.assertRegex(sections("-l"), r"GNU_STACK.* RW ")
 
+    def test_where_bytes_of_others_come_in_stacks_are_guarded_and_the_c_library_checks_lengths(self):
+        symbols = subprocess.run(["nm", "-D", ETUDE], capture_output=True, text=True, check=True).stdout
+        self.assertIn("__stack_chk_fail", symbols)
+        self.assertRegex(symbols, r"U __\w+_chk@")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -4,6 +4,7 @@ import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 import time
 import unittest
@@ -139,6 +140,27 @@ class Survival(EtudeCase):
         result = self.etude("merge", folders[2], folders[0], folders[1], "-o", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assert_same_results(self.whole, self.out)
+
+    def test_a_merge_tells_how_far_it_is_and_can_be_interrupted(self):
+        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 10000").replace("sweep: {joint_noise_deg: [2, 5]}",
+                          "joint_noise_deg: 2").replace("ccd, weights: fixed", "gauss-newton").replace(
+                          "damped-least-squares", "gauss-newton"))
+        shards = [self.folder / "one", self.folder / "two"]
+        for index, shard in enumerate(shards, 1):
+            result = self.etude("run", many, "--shard", f"{index}/2", "-o", shard)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        merge = subprocess.Popen([ETUDE, "merge", *shards, "-o", self.out], stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, text=True)
+        while not (self.out / "manifest.json").exists() and merge.poll() is None:
+            time.sleep(0.001)
+        merge.send_signal(signal.SIGINT)
+        said = merge.communicate(timeout=60)[1]
+        self.assertEqual(merge.returncode, 130, said)
+        self.assertIn("stopped; the shards are as they were", said)
+        self.assertFalse(self.out.exists())
+        whole = self.etude("merge", *shards, "-o", self.out)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertIn("100 %  20000/20000 cells, 20000 ok", whole.stderr)
 
     def test_a_killed_shard_is_resumed(self):
         one, two = self.folder / "one", self.folder / "two"
