@@ -127,9 +127,17 @@ int RunCommand(const RunOptions& given) {
   return ShowOutcome(*outcome);
 }
 
-int MergeCommand(const MergeOptions& options) {
-  const auto outcome = Merge(options);
-  return outcome ? ShowOutcome(*outcome) : Complain(outcome.error());
+int MergeCommand(const MergeOptions& given) {
+  MergeOptions options = given;
+  std::optional<Interrupt> interrupt(std::in_place);
+  options.stop = interrupt->requested();
+  ProgressBar bar;
+  const auto outcome = Merge(options, [&](const Progress& progress) { bar.Show(progress); });
+  interrupt.reset();
+  if (!outcome) return Complain(outcome.error());
+  if (!outcome->stopped) return ShowOutcome(*outcome);
+  Complain({{}, "stopped; the shards are as they were, and there is no merged run"});
+  return kInterrupted;
 }
 
 }  // namespace etude

@@ -8,7 +8,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O2 -g")  # the sanitizers' builds: assertions stay on
+set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O1 -g1")  # the sanitizers' builds: assertions stay on
 
 # x86-64-v2 is the oldest machine Etude promises identical bytes on. Contracting a*b+c into a
 # fused multiply-add would change the last bit from one CPU to the next.
@@ -18,12 +18,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC 12 sees overlapping copies in std::string that are none (GCC bug 105651).
   add_compile_options(-Wno-restrict)
 endif()
-# A library that nothing is taken from is not loaded.
-add_link_options(-Wl,--as-needed)
+# A library that nothing is taken from is not loaded; what the loader has put into place cannot be written any more.
+add_link_options(-Wl,--as-needed -Wl,-z,relro -Wl,-z,now)
 if(ETUDE_WERROR)
   add_compile_options(-Werror)
 endif()
 
+if(ETUDE_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)  # counts the edges that an input takes
+endif()
 if(ETUDE_SANITIZE)
   add_compile_options(-fsanitize=${ETUDE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
   add_link_options(-fsanitize=${ETUDE_SANITIZE})

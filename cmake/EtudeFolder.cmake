@@ -1,10 +1,11 @@
 # One folder = one target. The name of the target, its sources and its tests all follow from the
 # folder's path, so that nothing can be listed in one place and forgotten in another.
 
-# etude_folder(DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
-#   Makes the library etude_<path> of every .cc file of the current folder.
+# etude_folder(HARDENED DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
+#   Makes the library etude_<path> of every .cc file of the current folder. HARDENED: where bytes of others come in, a
+#   smashed stack and what the C library sees written beyond its end stop the program. Not where numbers are crunched.
 function(etude_folder)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "HARDENED" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cc")
   if(sources)
@@ -14,6 +15,9 @@ function(etude_folder)
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
+  endif()
+  if(ARG_HARDENED AND CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ETUDE_SANITIZE)
+    target_compile_options(${target} PRIVATE -D_FORTIFY_SOURCE=2 -fstack-protector-strong -fstack-clash-protection)
   endif()
   target_include_directories(${target} ${scope} "${CMAKE_SOURCE_DIR}")
   target_link_libraries(${target} ${scope} glm::glm tl::expected ${ARG_LIBRARIES})
@@ -33,8 +37,10 @@ function(etude_unity TARGET)
     return()
   endif()
   set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
-  # GCC takes a .cc file that is compiled with others for a header, whose types should not hold unnamed ones.
-  target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC takes a .cc file that is compiled with others for a header, whose types should not hold unnamed ones.
+    target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)
+  endif()
   get_target_property(sources ${TARGET} SOURCES)
   foreach(source IN LISTS sources)
     file(STRINGS "${source}" per_target REGEX "hwy/foreach_target.h")

@@ -4,6 +4,7 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
+set(BLA_VENDOR Generic)  # not ATLAS, which Debian's Ceres brings along
 find_package(Ceres REQUIRED)
 find_package(hwy REQUIRED)
 find_package(LibXml2 REQUIRED)
@@ -18,6 +19,19 @@ find_package(JPEG REQUIRED)
 pkg_check_modules(OSMESA REQUIRED IMPORTED_TARGET osmesa)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+
+# Debian's Ceres asks for ATLAS beside LAPACK and BLAS, and needs nothing of it.
+get_target_property(ceres_needs Ceres::ceres INTERFACE_LINK_LIBRARIES)
+list(FILTER ceres_needs EXCLUDE REGEX "lib(f77blas|atlas)[.]")
+set_target_properties(Ceres::ceres PROPERTIES INTERFACE_LINK_LIBRARIES "${ceres_needs}")
+
+# For manifests: what the bytes of a run may depend on.
+string(CONCAT ETUDE_PACKAGES
+  "Ceres ${Ceres_VERSION}, Eigen ${Eigen3_VERSION}, Highway ${hwy_VERSION}, "
+  "OpenEXR ${OpenEXR_VERSION}, Pagmo ${Pagmo_VERSION}, TinyGLTF ${TinyGLTF_VERSION}, cairo ${CAIRO_VERSION}, "
+  "fmt ${fmt_VERSION}, glm ${glm_VERSION}, libjpeg ${JPEG_VERSION}, libpng ${PNG_VERSION_STRING}, "
+  "libxml2 ${LIBXML2_VERSION_STRING}, nlohmann_json ${nlohmann_json_VERSION}, xxHash ${XXHASH_VERSION}, "
+  "yaml-cpp ${yaml-cpp_VERSION}")
 
 # yaml-cpp 0.7 exports a bare name instead of a namespaced target.
 if(NOT TARGET yaml-cpp::yaml-cpp)

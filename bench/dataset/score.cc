@@ -197,7 +197,7 @@ Result<ScoreOutcome> ScorePredictions(const ScoreOptions& options,
   outcome.run.seconds = meter.progress().seconds;
   if (outcome.run.stopped) return outcome;
   const Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.run.seconds);
-  RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs)));
+  RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), [](std::size_t) { return true; }));
   claimed.Keep();
   return outcome;
 }

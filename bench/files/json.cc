@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 namespace etude {
 namespace {
+
+constexpr int kDeepest = 100;  // what walks over values recurses
 
 /// The path to the first number that JSON cannot hold.
 std::optional<std::string> FindNonFinite(const Json& json) {
@@ -19,6 +23,32 @@ std::optional<std::string> FindNonFinite(const Json& json) {
     }
   }
   return std::nullopt;
+}
+
+/// Whether a CBOR value is one that Json::to_cbor may have written and nests no deeper than allowed: Json::from_cbor
+/// recurses as deep as its input says, in lists and in texts of no told length. What is cut short, it finds out itself.
+bool IsShallowCbor(std::string_view bytes) {
+  std::vector<std::uint64_t> open = {1};  // values still to come, of each list that has begun
+  for (std::size_t at = 0; at < bytes.size() && !open.empty();) {
+    const auto first = static_cast<unsigned char>(bytes[at++]);
+    const int kind = first >> 5;
+    std::uint64_t count = first & 31;
+    if (count >= 24) {
+      if (count > 27) return false;
+      std::uint64_t told = 0;
+      for (std::size_t left = std::size_t{1} << (count - 24); left > 0 && at < bytes.size(); --left) {
+        told = told << 8 | static_cast<unsigned char>(bytes[at++]);
+      }
+      count = told;
+    }
+    --open.back();
+    if (kind == 2 || kind == 3) at += std::min<std::uint64_t>(count, bytes.size() - at);
+    if (kind == 4) open.push_back(count);
+    if (kind == 5) open.push_back(count > bytes.size() ? count : 2 * count);
+    if (kind == 6 || open.size() > kDeepest + 1) return false;
+    while (!open.empty() && open.back() == 0) open.pop_back();
+  }
+  return true;
 }
 
 }  // namespace
@@ -50,12 +80,21 @@ int NestingOf(std::string_view text) {
 }
 
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line) {
-  constexpr int kDeepest = 100;  // what walks over values recurses
   if (NestingOf(text) > kDeepest) return Fail({file, line, 0}, "nested more than {} deep", kDeepest);
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
     return Fail({file, line, 0}, "not valid JSON: {}", error.what());
+  }
+}
+
+Result<Json> ReadCbor(std::string_view bytes, const std::string& file) {
+  if (!IsShallowCbor(bytes))
+    return Fail({file}, "not CBOR as it is written here, or nested more than {} deep", kDeepest);
+  try {
+    return Json::from_cbor(bytes);
+  } catch (const Json::exception& error) {
+    return Fail({file}, "not valid CBOR: {}", error.what());
   }
 }
 

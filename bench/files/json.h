@@ -29,4 +29,8 @@ int NestingOf(std::string_view text);
 /// Reads one JSON value, nested at most 100 deep; complains with the file and `line` (0 = a file of one value).
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line = 0);
 
+/// Reads one value as CBOR (RFC 8949), nested at most 100 deep. Refused, too, what Json::to_cbor never writes: lengths
+/// that are not told beforehand, and tags.
+Result<Json> ReadCbor(std::string_view bytes, const std::string& file);
+
 }  // namespace etude

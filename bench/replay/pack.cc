@@ -1,3 +1,5 @@
+#include "bench/replay/pack.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -52,7 +54,10 @@ Result<Json> PackClips(const ClipLibrary& library) {
 Result<std::vector<std::string>> UnpackClips(const Json& packed, const fs::path& folder) {
   std::vector<std::string> paths;
   for (const Json& file : packed.at("files")) {
-    const fs::path name = fs::path(file.at("name").get<std::string>()).filename();
+    const auto name = file.at("name").get<std::string>();
+    if (name.empty() || name == "." || name == ".." || name.find_first_of(std::string("/\0", 2)) != std::string::npos) {
+      return Fail({}, "'{}' is no name of a file", name);
+    }
     const auto& bytes = file.at("bytes").get_binary();
     paths.push_back((folder / std::to_string(paths.size()) / name).string());
     RETURN_IF_ERROR(WriteFileAtomically(paths.back(), {reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
@@ -97,7 +102,6 @@ Result<Json> PackMotions(const PreparedScenario& scenario) {
   return motions;
 }
 
-/// Has the scenario take its clips from `folder`.
 Result<void> UnpackMotions(const Json& motions, const fs::path& folder, ScenarioSetup& scenario) {
   if (!motions.at("clips").is_null()) {
     ASSIGN_OR_RETURN(scenario.clips, UnpackClips(motions.at("clips"), folder));
@@ -113,30 +117,33 @@ Result<void> UnpackMotions(const Json& motions, const fs::path& folder, Scenario
   return {};
 }
 
-struct Pack {
-  SuiteSetup suite;  ///< of one scenario
-  Row row;
-  Json motions;  ///< what PackMotions gives
-};
+}  // namespace
 
-Result<Pack> ReadPack(const std::string& file) {
+Result<Pack> ReadPack(std::string_view bytes, const std::string& file) {
   const Place place{file, 0, 0};
-  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(const auto json, ReadCbor(bytes, file));
   try {
-    const Json json = Json::from_cbor(bytes);
     if (json.at("etude_pack") != kPackVersion) {
       return Fail(place, "a pack of version {}; this program reads {}", json.at("etude_pack").dump(), kPackVersion);
     }
     ASSIGN_OR_RETURN(auto suite, DecodeSetup(json.at("setup"), place));
     if (suite.scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite.scenarios.size());
     ASSIGN_OR_RETURN(auto row, DecodeRow(json.at("row"), place));
-    return Pack{std::move(suite), std::move(row), json.at("motions")};
+    return Pack{std::move(suite), std::move(row), std::make_unique<Json>(json.at("motions"))};
   } catch (const Json::exception& error) {
     return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", error.what());
   }
 }
 
-}  // namespace
+Result<void> UnpackMotions(Pack& pack, const std::string& file, const fs::path& folder) {
+  try {
+    const auto unpacked = UnpackMotions(*pack.motions, folder, pack.suite.scenarios.front());
+    if (!unpacked) return Fail({file, 0, 0}, "{}", ToString(unpacked.error()));
+    return {};
+  } catch (const std::exception& error) {  // Json's, or a file that the pack does not have
+    return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
+  }
+}
 
 Result<void> PackCell(const std::string& folder, const std::string& cell, const std::string& file, Sealing sealing) {
   ASSIGN_OR_RETURN(const auto run, LoadRun(folder, sealing));
@@ -166,13 +173,10 @@ Result<void> PackCell(const std::string& folder, const std::string& cell, const 
 }
 
 Result<CellCheck> ReplayPack(const std::string& file, const OutsideRules& outside) {
-  ASSIGN_OR_RETURN(auto pack, ReadPack(file));
+  ASSIGN_OR_RETURN(const auto bytes, ReadWholeFile(file));
+  ASSIGN_OR_RETURN(auto pack, ReadPack(bytes, file));
   ASSIGN_OR_RETURN(const auto folder, TemporaryFolder::Make("replay"));
-  try {
-    RETURN_IF_ERROR(UnpackMotions(pack.motions, folder.path(), pack.suite.scenarios.front()));
-  } catch (const std::exception& error) {  // Json's, or a file that the pack does not have
-    return Fail({file, 0, 0}, "a clip that cannot be read: {}", error.what());
-  }
+  RETURN_IF_ERROR(UnpackMotions(pack, file, folder.path()));
   ASSIGN_OR_RETURN(const auto scenarios, PrepareAll(pack.suite));
   RETURN_IF_ERROR(CheckPrograms(file, scenarios, outside));
   const Plan plan(scenarios);

@@ -18,7 +18,9 @@ Result<void> SaveJson(const fs::path& path, const Json& json) {
   return WriteFileAtomically(path, text + "\n");
 }
 
-Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs) {
+Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs,
+                       const std::function<bool(std::size_t rows)>& goes_on) {
+  constexpr std::size_t kRowsBetweenReports = 4096;
   std::vector<Study> studies;
   for (const PreparedScenario& prepared : plan.scenarios()) studies.push_back(StudyOf(prepared.scenario()));
   ASSIGN_OR_RETURN(auto results, ResultWriter::Begin(folder, studies));
@@ -30,6 +32,7 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
         cell + study.conditions.size() * static_cast<std::size_t>(study.trials) * study.methods.size();
     ScenarioTable table(study);
     for (; cell < end; ++cell) {
+      if (cell % kRowsBetweenReports == 0 && !goes_on(cell)) return false;
       ASSIGN_OR_RETURN(const auto finished, cells.Read(cell, plan));
       table.Add(finished.row);
       RETURN_IF_ERROR(results.Add(finished.row, finished.usage));
@@ -37,6 +40,7 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
     ASSIGN_OR_RETURN(auto summary, SumUp(study, table, plan.scenarios()[s].setup().seed, jobs));
     summaries.push_back(std::move(summary));
   }
+  if (!goes_on(cell)) return false;
   RETURN_IF_ERROR(results.Finish(summaries));
   RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
   // The journal is the only other place that knows the results: it goes when all of them are on the disk.
@@ -46,7 +50,8 @@ Result<void> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cell
   std::error_code error;
   fs::remove(folder / kJournalFile, error);
   if (error) return Fail({(folder / kJournalFile).string(), 0, 0}, "cannot be removed: {}", error.message());
-  return SyncFolder(folder);
+  RETURN_IF_ERROR(SyncFolder(folder));
+  return true;
 }
 
 }  // namespace etude

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "bench/files/json.h"
 #include "bench/run/journal.h"
@@ -9,9 +10,10 @@ namespace etude {
 
 /// Writes the results of a whole run into its folder: cells, series, recordings, summary, timings and, last,
 /// host.json. Then the journal, if any, is removed: without it a folder counts as finished. `cells` must be complete.
-/// Many are summed up by `jobs` processes.
-Result<void> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
-                       int jobs);
+/// Many are summed up by `jobs` processes. `goes_on` is told how many rows are written, every few thousand; when it says
+/// no, the folder stays unfinished. Gives whether it is finished.
+Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
+                       int jobs, const std::function<bool(std::size_t rows)>& goes_on);
 
 /// Writes one JSON value and a line end, whole or not at all.
 Result<void> SaveJson(const std::filesystem::path& path, const Json& json);

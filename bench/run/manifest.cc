@@ -10,6 +10,7 @@
 
 #include "bench/files/files.h"
 #include "bench/metrics/catalogue.h"
+#include "bench/process/loaded_libraries.h"
 #include "bench/process/pinned_environment.h"
 #include "bench/results/folder.h"
 #include "bench/tasks/base/sensor_key.h"
@@ -74,6 +75,31 @@ Json DescribeMotions(const PreparedScenario& scenario) {
   return motions;
 }
 
+std::string DigestOf(const std::vector<std::string>& texts) {
+  Digest digest;
+  for (const std::string& text : texts) digest.Add(text + "\n");
+  return digest.Hex();
+}
+
+/// Of the libraries that were loaded, renderer and codecs among them, by their build IDs.
+std::string DigestOfLibraries() {
+  std::vector<std::string> texts;
+  for (const auto& [name, build] : LoadedLibraries()) texts.push_back(name + " " + build);
+  return DigestOf(texts);
+}
+
+SuiteSetup WithCanonicalNames(SuiteSetup suite) {
+  const auto rename = [&](const std::string& name) {
+    const auto found = suite.canonical.find(name);
+    return found == suite.canonical.end() ? name : found->second;
+  };
+  SourceTexts sources;
+  for (auto& [name, text] : suite.sources) sources.emplace(rename(name), std::move(text));
+  suite.sources = std::move(sources);
+  for (ScenarioSetup& scenario : suite.scenarios) scenario.file = rename(scenario.file);
+  return suite;
+}
+
 Result<Json> ReadManifestJson(const std::filesystem::path& path) {
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(path));
   auto json = ReadJson(text, path.string());
@@ -92,8 +118,10 @@ Json MakeManifest(const SuiteSetup& suite, std::span<const PreparedScenario> sce
             {"etude", version},
             {"compiler", __VERSION__},
             {"packages", ETUDE_PACKAGES},
-            {"glibc", gnu_get_libc_version()}};
-  json.update(EncodeSetup(suite));
+            {"glibc", gnu_get_libc_version()},
+            {"libraries", DigestOfLibraries()},
+            {"environment", DigestOf(PinnedEnvironment())}};
+  json.update(EncodeSetup(WithCanonicalNames(suite)));
   for (const TaskKind& kind : AllTaskKinds()) {
     for (const std::string& id : kind.metrics) json["metrics"][id] = FindMetric(id)->version;
   }

@@ -4,6 +4,7 @@
 
 #include "bench/files/files.h"
 #include "bench/results/folder.h"
+#include "bench/run/clock.h"
 #include "bench/run/finish.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
@@ -88,7 +89,8 @@ Result<Json> ReadHost(const fs::path& folder) {
 
 }  // namespace
 
-Result<RunOutcome> Merge(const MergeOptions& options) {
+Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(const Progress&)>& on_progress) {
+  const Clock::time_point start = Clock::now();
   ASSIGN_OR_RETURN(auto shards, FindShards(options.folders));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
   ASSIGN_OR_RETURN(const auto prepared, PrepareRun(shards.folders.begin()->second / "manifest.json"));
@@ -117,8 +119,14 @@ Result<RunOutcome> Merge(const MergeOptions& options) {
   RunOutcome outcome{.folder = options.output, .cells = cells.size(), .cells_ok = cells_ok};
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
-  RETURN_IF_ERROR(FinishRun(options.output, plan, cells, host, WorkerCount(0)));
-  claimed.Keep();
+  const auto goes_on = [&](std::size_t rows) {
+    on_progress({.cells = cells.size(), .cells_done = rows, .cells_ok = cells_ok, .seconds = SecondsSince(start)});
+    return options.stop == nullptr || !*options.stop;
+  };
+  ASSIGN_OR_RETURN(const bool is_whole, FinishRun(options.output, plan, cells, host, WorkerCount(0), goes_on));
+  outcome.stopped = !is_whole;
+  outcome.seconds = SecondsSince(start);
+  if (is_whole) claimed.Keep();
   return outcome;
 }
 

@@ -186,7 +186,9 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
   if (!outcome.fence.empty()) host["fence"] = outcome.fence;
   if (options.shard.IsWhole()) {
-    RETURN_IF_ERROR(FinishRun(folder, plan, cells, host, WorkerCount(options.jobs)));
+    const auto goes_on = [&](std::size_t) { return options.stop == nullptr || !*options.stop; };
+    ASSIGN_OR_RETURN(const bool is_whole, FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on));
+    outcome.stopped = !is_whole;
   } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
     RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
     RETURN_IF_ERROR(SyncTree(folder));

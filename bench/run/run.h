@@ -68,10 +68,11 @@ struct MergeOptions {
   bool overwrite = false;
   std::string command_line;
   std::string program_version;
+  const std::atomic<bool>* stop = nullptr;
 };
 
 /// Makes one run of its shards: the same bytes as a run in one piece. Shards of different builds, suites or
-/// seeds, shards that overlap, and cells that are missing are refused with a list.
-Result<RunOutcome> Merge(const MergeOptions& options);
+/// seeds, shards that overlap, and cells that are missing are refused with a list. Stopped, it leaves nothing.
+Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(const Progress&)>& on_progress);
 
 }  // namespace etude

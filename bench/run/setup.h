@@ -40,6 +40,9 @@ struct SuiteSetup {
   SourceTexts sources;
   std::vector<ScenarioSetup> scenarios;
   std::optional<ScoredMethod> scored;  ///< a method of every scenario, too
+  /// What the manifest calls `sources` that are known by other names here (CanonicalNames); for people, names stay as
+  /// they were given.
+  std::map<std::string, std::string> canonical = {};
 };
 
 Json EncodeSetup(const SuiteSetup& setup);

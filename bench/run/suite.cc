@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include "bench/files/files.h"
+#include "bench/run/canonical_names.h"
 #include "bench/run/manifest.h"
 #include "bench/scenario/methods.h"
 #include "bench/tasks/base/fuzzy_key.h"
@@ -24,8 +26,8 @@ constexpr std::size_t kMostCells = 10'000'000;  // their rows are held in memory
 
 std::string SuiteName(const std::vector<std::string>& paths) {
   if (paths.size() != 1) return "suite";
-  const fs::path path = fs::path(paths.front()).lexically_normal();
   std::error_code error;
+  const fs::path path = fs::absolute(paths.front(), error).lexically_normal();
   if (!fs::is_directory(path, error)) return path.stem().string();
   const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   return name.empty() || name == "." ? "suite" : name;
@@ -128,8 +130,13 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
     SourceTexts texts;
     RETURN_IF_ERROR(ReadSources(file, texts));
     ASSIGN_OR_RETURN(auto scenarios, ParseScenarios(file, texts));
+    std::vector<std::string> names;
+    for (const auto& [name, text] : texts) names.push_back(name);
+    const auto canonical = CanonicalNames(file, names);
+    std::map<std::string_view, std::string_view> texts_in_order;
+    for (const auto& [name, text] : texts) texts_in_order[canonical.at(name)] = text;
     Digest digest;
-    for (const auto& [path, text] : texts) digest.Add(text);
+    for (const auto& [name, text] : texts_in_order) digest.Add(text);
     for (Scenario& scenario : scenarios) {
       const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
       for (const NamedClips& library : libraries) {
@@ -180,6 +187,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
       if (people) setup.trials = std::min(trials, *people);  // a person is judged once
       suite.scenarios.push_back(std::move(setup));
     }
+    suite.canonical.insert(canonical.begin(), canonical.end());
     suite.sources.merge(texts);
   }
   if (!options.clips.empty() || !options.libraries.empty()) {

@@ -147,9 +147,8 @@ std::vector<SeenCorner> FindBoards(const ColourImage& picture, std::span<const B
   std::stable_sort(seen.begin(), seen.end(),
                    [&](const SeenCorner& a, const SeenCorner& b) { return order(a) < order(b); });
   // Of two grids on one board, the one around the stronger corner was found first.
-  const auto [first, last] =
-      std::ranges::unique(seen, [&](const SeenCorner& a, const SeenCorner& b) { return order(a) == order(b); });
-  seen.erase(first, last);
+  const auto is_same = [&](const SeenCorner& a, const SeenCorner& b) { return order(a) == order(b); };
+  seen.erase(std::unique(seen.begin(), seen.end(), is_same), seen.end());
   return seen;
 }
 

@@ -97,7 +97,8 @@ class MapFinder {
   int FindInMiddle(std::span<const std::string_view> role_names, Fits fits) const {
     for (const std::string_view name : role_names) {
       std::vector<NamedJoint> candidates = names_.Find(name);
-      std::ranges::stable_partition(candidates, [&](const NamedJoint& named) { return named.prefix == prefix_; });
+      std::stable_partition(candidates.begin(), candidates.end(),
+                            [&](const NamedJoint& named) { return named.prefix == prefix_; });
       const auto first = std::ranges::find_if(candidates, fits, &NamedJoint::joint);
       if (first != candidates.end()) return first->joint;
     }

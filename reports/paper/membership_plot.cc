@@ -52,8 +52,7 @@ class MembershipPanel {
   std::string Numbers(std::vector<double> marks) const {
     marks.insert(marks.end(), {universe_.low, universe_.high});
     std::ranges::sort(marks);
-    const auto repeated = std::ranges::unique(marks);
-    marks.erase(repeated.begin(), repeated.end());
+    marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
     constexpr double kNear = 22;
     std::string svg;
     std::array<double, 2> last = {-kNear, -kNear};  // where the rows' last numbers stand

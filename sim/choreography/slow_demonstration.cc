@@ -64,7 +64,7 @@ Result<Move> SlowDemonstration(const Move& move) {
   std::ranges::sort(stops);
   if (stops.empty()) return Fail({}, "'{}' has no key poses to demonstrate", move.name);
   if (stops.front() <= 0) return Fail({}, "'{}' has a key pose at beat 0; it must lie after it", move.name);
-  stops.erase(std::ranges::unique(stops).begin(), stops.end());
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
   const Pauses pauses(stops, move.beats);
 
   Move demonstration = move;

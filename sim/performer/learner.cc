@@ -210,7 +210,8 @@ std::vector<GradedFault> Learner::DrawFaults(RandomStream& dice, std::size_t mov
   for (Fault fault : AllFaults()) {
     // Every fault throws its dice, whether it happens or not.
     const double happens = dice.Uniform(), severity = dice.Uniform(), choice = dice.Uniform();
-    const auto ways = std::ranges::equal_range(showable, fault, {}, &GradedFault::fault);
+    const std::span<const GradedFault> ways(std::ranges::lower_bound(showable, fault, {}, &GradedFault::fault),
+                                            std::ranges::upper_bound(showable, fault, {}, &GradedFault::fault));
     if (ways.empty() || happens >= known_[move].ChanceOf(fault)) continue;
     const auto way = static_cast<std::size_t>(choice * static_cast<double>(ways.size()));
     const double thrown = kLeastSeverity + (1 - kLeastSeverity) * severity;

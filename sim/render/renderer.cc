@@ -211,10 +211,10 @@ struct Renderer::State {
 
   void Upload(const std::vector<Figure>& figures, const glm::dvec3& eye) {
     std::vector<CapsuleInstance> plain = MakeInstances(figures, eye), with_face;
-    const auto first_face =
-        std::ranges::stable_partition(plain, [](const CapsuleInstance& instance) { return instance.paint.a == 0; });
-    with_face.assign(first_face.begin(), first_face.end());
-    plain.erase(first_face.begin(), first_face.end());
+    const auto first_face = std::stable_partition(
+        plain.begin(), plain.end(), [](const CapsuleInstance& instance) { return instance.paint.a == 0; });
+    with_face.assign(first_face, plain.end());
+    plain.erase(first_face, plain.end());
     capsules.Upload(plain);
     faces.Upload(with_face);
     all_closed = AllClosed(figures);

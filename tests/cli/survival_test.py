@@ -4,6 +4,7 @@ import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 import time
 import unittest
@@ -104,6 +105,33 @@ class Survival(EtudeCase):
             self.assertEqual(result.returncode, 0, result.stderr)
         return folders
 
+    def test_shards_started_in_different_folders_merge(self):
+        (self.folder / "shared").mkdir()
+        (self.folder / "suite" / ".git").mkdir(parents=True)  # the top of a repository, and an include beyond it
+        self.write("shared/common.yaml", "defaults: {trials: 4}\n")
+        self.write("suite/ik.yaml", "include: [../shared/common.yaml]\n" + IK.replace("trials: 4\n", ""))
+        (self.folder / "link").symlink_to(self.folder / "suite")
+        starts = [(self.folder, "suite/ik.yaml"), (self.folder / "suite", "ik.yaml"),
+                  (self.folder / "shared", "../suite/ik.yaml"), (self.folder, "link/ik.yaml"),
+                  (self.folder, self.folder / "suite" / "ik.yaml")]
+        shards = []
+        for index, (start, path) in enumerate(starts, 1):
+            shards.append(self.folder / f"shard-{index}")
+            subprocess.run([ETUDE, "run", path, "--shard", f"{index}/{len(starts)}", "-o", shards[-1]], cwd=start,
+                           check=True, capture_output=True)
+            self.assertEqual((shards[-1] / "manifest.json").read_bytes(), (shards[0] / "manifest.json").read_bytes())
+        result = self.etude("merge", *shards, "-o", self.folder / "merged")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.run_suite(self.folder / "suite" / "ik.yaml", out=self.folder / "whole")
+        self.assert_same_results(self.folder / "merged", self.folder / "whole")
+        self.assertIn('"ik.yaml"', (shards[0] / "manifest.json").read_text())
+        # Another text of that name is another suite.
+        self.write("suite/ik.yaml", IK)
+        self.etude("run", self.folder / "suite" / "ik.yaml", "--shard", "1/5", "-o", self.folder / "other")
+        refused = self.etude("merge", self.folder / "other", *shards[1:], "-o", self.folder / "none")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("is a shard of another run", refused.stderr)
+
     def test_shards_merge_to_the_same_bytes_in_any_order(self):
         folders = self.shards(3)
         host = (folders[0] / "host.json").read_bytes()
@@ -112,6 +140,27 @@ class Survival(EtudeCase):
         result = self.etude("merge", folders[2], folders[0], folders[1], "-o", self.out)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assert_same_results(self.whole, self.out)
+
+    def test_a_merge_tells_how_far_it_is_and_can_be_interrupted(self):
+        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 10000").replace("sweep: {joint_noise_deg: [2, 5]}",
+                          "joint_noise_deg: 2").replace("ccd, weights: fixed", "gauss-newton").replace(
+                          "damped-least-squares", "gauss-newton"))
+        shards = [self.folder / "one", self.folder / "two"]
+        for index, shard in enumerate(shards, 1):
+            result = self.etude("run", many, "--shard", f"{index}/2", "-o", shard)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        merge = subprocess.Popen([ETUDE, "merge", *shards, "-o", self.out], stdout=subprocess.DEVNULL,
+                                 stderr=subprocess.PIPE, text=True)
+        while not (self.out / "manifest.json").exists() and merge.poll() is None:
+            time.sleep(0.001)
+        merge.send_signal(signal.SIGINT)
+        said = merge.communicate(timeout=60)[1]
+        self.assertEqual(merge.returncode, 130, said)
+        self.assertIn("stopped; the shards are as they were", said)
+        self.assertFalse(self.out.exists())
+        whole = self.etude("merge", *shards, "-o", self.out)
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        self.assertIn("100 %  20000/20000 cells, 20000 ok", whole.stderr)
 
     def test_a_killed_shard_is_resumed(self):
         one, two = self.folder / "one", self.folder / "two"

@@ -129,7 +129,8 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
   }
   const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
-    const std::string& name = problem.files.emplace_back(PictureName(camera, frame, "png"), EncodePng(picture)).name;
+    problem.files.push_back({PictureName(camera, frame, "png"), EncodePng(picture)});
+    const std::string& name = problem.files.back().name;
     if (frame) {
       cameras[camera]["pictures"].push_back(name);
       pictures[camera].push_back(name);

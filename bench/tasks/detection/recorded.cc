@@ -57,8 +57,8 @@ class Joiner {
 };
 
 std::span<const LabelledPart> PartsOf(const LabelledStreams& set, std::size_t stream) {
-  const auto [first, last] = std::ranges::equal_range(set.parts, stream, {}, &LabelledPart::stream);
-  return {first, last};
+  return {std::ranges::lower_bound(set.parts, stream, {}, &LabelledPart::stream),
+          std::ranges::upper_bound(set.parts, stream, {}, &LabelledPart::stream)};
 }
 
 }  // namespace

@@ -71,8 +71,8 @@ void AndersonMixing::Extrapolate(std::span<const double> x, std::span<const doub
 void AndersonMixing::RecordPair(std::span<const double> x, std::span<const double> g) {
   if (has_last_ && memory_ > 0) {
     // The oldest difference makes room for the newest.
-    std::ranges::rotate(df_, df_.end() - 1);
-    std::ranges::rotate(dg_, dg_.end() - 1);
+    std::rotate(df_.begin(), df_.end() - 1, df_.end());
+    std::rotate(dg_.begin(), dg_.end() - 1, dg_.end());
     differences_ = std::min(differences_ + 1, memory_);
     for (std::size_t i = 0; i < g.size(); ++i) {
       df_[0][i] = (g[i] - x[i]) - last_f_[i];

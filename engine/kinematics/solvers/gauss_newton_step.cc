@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <ranges>
 
 #include "engine/kinematics/solvers/gauss_newton_tree.h"
 #include "engine/kinematics/solvers/linear_targets.h"
@@ -145,8 +144,8 @@ void GaussNewtonStep::EliminateInwards(double damping) {
 bool GaussNewtonStep::SubstituteOutwards() {
   bool has_changed = false;
   movements_[0].fill(0);
-  for (const int n : std::views::reverse(inwards_)) {
-    const TreeJoint& joint = tree_.joints[n];
+  for (auto n = inwards_.rbegin(); n != inwards_.rend(); ++n) {
+    const TreeJoint& joint = tree_.joints[*n];
     Spatial movement = movements_[joint.parent];
     for (int d = joint.first_dof; d < joint.first_dof + joint.dof_count; ++d) {
       Hinge& hinge = hinges_[d];
@@ -157,7 +156,7 @@ bool GaussNewtonStep::SubstituteOutwards() {
       change_[d] = std::clamp(best, hinge.lower, hinge.upper);
       AddScaled(hinge.screw.data(), change_[d], movement.data());
     }
-    movements_[n] = movement;
+    movements_[*n] = movement;
   }
   return has_changed;
 }

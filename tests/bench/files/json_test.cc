@@ -39,5 +39,26 @@ TEST(Json, RefusesDeepNestingBeforeItTakesTheStack) {
   EXPECT_FALSE(ReadJson(std::string(101, '[') + std::string(101, ']'), "a.json"));
 }
 
+std::string Cbor(const Json& json) {
+  const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
+  return {bytes.begin(), bytes.end()};
+}
+
+TEST(Cbor, ReadsBackTheSame) {
+  const Json json{{"a", {1, -2, 0.5, nullptr, true, std::string(300, 'x')}}, {"b", Json::binary({0, 0xff})}, {"c", {}}};
+  EXPECT_EQ(*ReadCbor(Cbor(json), "x"), json);
+  EXPECT_THAT(ToString(ReadCbor(Cbor(json).substr(0, 20), "a.pack").error()), HasSubstr("a.pack: not valid CBOR: "));
+}
+
+TEST(Cbor, RefusesDeepNestingBeforeItTakesTheStack) {
+  for (const char list : {'\x81', '\xa1', '\x9f', '\x7f', '\x5f', '\xc1'}) {
+    EXPECT_THAT(ToString(ReadCbor(std::string(1'000'000, list), "a.pack").error()),
+                HasSubstr("not CBOR as it is written"));
+  }
+  EXPECT_TRUE(ReadCbor(std::string(99, '\x81') + "\x80", "x"));
+  EXPECT_FALSE(ReadCbor(std::string(100, '\x81') + "\x80", "x"));
+  EXPECT_FALSE(ReadCbor(std::string("\x9b\xff\xff\xff\xff\xff\xff\xff\xff", 9), "x"));
+}
+
 }  // namespace
 }  // namespace etude

@@ -130,12 +130,12 @@ TEST(GaussNewton, ExtraPassesOfItsActiveSetBringItNearerToTheStartInFewerSteps) 
 
 TEST(GaussNewton, DoesNotCareForTheOrderOfEffectors) {
   KinematicTree reordered = Body();
-  std::ranges::rotate(reordered.effectors, reordered.effectors.begin() + 1);
+  std::rotate(reordered.effectors.begin(), reordered.effectors.begin() + 1, reordered.effectors.end());
   std::swap(reordered.effectors[0], reordered.effectors[1]);
   for (int trial = 0; trial < 20; ++trial) {
     const IkProblem problem = DisturbedProblem(Body(), RandomPose(Body(), trial, 1.0), trial, 15);
     IkProblem other = problem;
-    std::ranges::rotate(other.targets, other.targets.begin() + 1);
+    std::rotate(other.targets.begin(), other.targets.begin() + 1, other.targets.end());
     std::swap(other.targets[0], other.targets[1]);
     const IkSolution a = SolveGaussNewton(Body(), problem, Tight()), b = SolveGaussNewton(reordered, other, Tight());
     EXPECT_EQ(a.iterations, b.iterations);

@@ -1,0 +1,56 @@
+"""What the program is made of: the libraries that it loads, and how it is hardened."""
+
+import re
+import subprocess
+import unittest
+
+from etude_case import ETUDE
+
+# Each is used on purpose; what else turns up was linked by accident.
+LIBRARIES = {
+    "libOSMesa": "renders",
+    "libOpenEXR-3_1": "pictures of numbers", "libImath-3_1": "halves, for OpenEXR", "libpng16": "pictures",
+    "libjpeg": "pictures that were compressed",
+    "libcairo": "draws sheets and films",
+    "libtinygltf": "figures",
+    "libxml2": "tags, calibrations", "libyaml-cpp": "scenarios",
+    "libpagmo": "tunes fuzzy systems",
+    "libglog": "Ceres's", "libcholmod": "Ceres's", "libcxsparse": "Ceres's", "libspqr": "Ceres's",
+    "liblapack": "Ceres's", "libblas": "Ceres's",
+    "libhwy": "vectors", "libfmt": "text", "libxxhash": "digests",
+    "libstdc++": "C++", "libgcc_s": "C++", "libm": "C", "libc": "C", "ld-linux-x86-64": "C",
+}
+
+
+def sections(flag):
+    return subprocess.run(["readelf", "-W", flag, ETUDE], capture_output=True, text=True, check=True).stdout
+
+
+def needed(text):
+    return [re.sub(r"\.so.*", "", name) for name in re.findall(r"\(NEEDED\).*\[(.+)\]", text)]
+
+
+class Program(unittest.TestCase):
+    def test_it_loads_no_library_by_accident(self):
+        found = needed(sections("-d"))
+        self.assertGreater(len(found), 10)
+        self.assertEqual([name for name in found if name not in LIBRARIES], [])
+
+    def test_a_library_by_accident_is_noticed(self):
+        found = needed(" 0x01 (NEEDED)   Shared library: [libf77blas.so.3]\n")
+        self.assertEqual([name for name in found if name not in LIBRARIES], ["libf77blas"])
+
+    def test_what_the_loader_has_put_into_place_stays(self):
+        self.assertRegex(sections("-l"), r"GNU_RELRO")
+        self.assertRegex(sections("-d"), r"FLAGS.*\bNOW\b")
+        self.assertRegex(sections("-h"), r"DYN \(Position-Independent")
+        self.assertRegex(sections("-l"), r"GNU_STACK.* RW ")
+
+    def test_where_bytes_of_others_come_in_stacks_are_guarded_and_the_c_library_checks_lengths(self):
+        symbols = subprocess.run(["nm", "-D", ETUDE], capture_output=True, text=True, check=True).stdout
+        self.assertIn("__stack_chk_fail", symbols)
+        self.assertRegex(symbols, r"U __\w+_chk@")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,72 @@
+#include <nlohmann/json.hpp>
+
+#include "bench/outside/messages.h"
+#include "bench/outside/specimens.h"
+#include "tests/fuzz/readers/target.h"
+
+namespace etude::fuzz {
+namespace {
+
+/// What a program says, line by line, whatever it was asked.
+void Lines(std::string_view bytes) {
+  const std::string line(bytes);
+  ReadHello(line);
+  ReadReady(line);
+  ReadAnswer(line, "1");
+  ReadStepAnswer(line, "1", 2);
+  WhatItAnswers(line);
+  const std::string shown = Printable(line);
+  for (const char c : shown) Require(c >= 0x20 && c < 0x7f, "unprintable bytes of an answer are shown as they are");
+}
+
+std::vector<std::string> LineSeeds() {
+  return {R"({"type":"hello","protocol":1,"name":"a","version":"1"})", R"({"type":"ready"})",
+          R"({"type":"answer","id":"1","answer":{}})", R"({"type":"answer","id":"1","step":2,"answer":{"a":[1]}})",
+          R"({"type":"no_answer","id":"1","reason":"why"})"};
+}
+
+/// A world of a task, made once.
+const SpecimenProblem& ProblemOf(const char* task) {
+  static std::map<std::string, std::vector<Specimen>> specimens;
+  auto& made = specimens[task];
+  if (made.empty()) made = std::move(MakeSpecimens(task, "").value());
+  return made.front().problems.front();
+}
+
+template <const char* kTask>
+void Answer(std::string_view bytes) {
+  const auto json = ReadJson(std::string(bytes), "");
+  if (json && json->is_object()) ProblemOf(kTask).world->Judge(*json);
+}
+
+/// The truth, which most tasks take for an answer, and the problem, in whose words all are given.
+template <const char* kTask>
+std::vector<std::string> AnswerSeeds() {
+  const SpecimenProblem& problem = ProblemOf(kTask);
+  return {problem.world->MakeTruth().value().json->dump(), problem.problem.json->dump()};
+}
+
+constexpr char kTransition[] = "transition", kDetection[] = "detection", kIk[] = "ik", kTracking[] = "tracking",
+               kPoseDistance[] = "pose-distance", kSearch[] = "search";
+
+template <const char* kTask>
+Target AnswerTarget(const std::vector<std::string>& words) {
+  return {std::string("answer-") + kTask, Answer<kTask>, AnswerSeeds<kTask>, words};
+}
+
+}  // namespace
+
+std::vector<Target> AnswerTargets() {
+  return {
+      {"protocol", Lines, LineSeeds, {"\"step\"", "null", "1e999", "\\u0000", "[[[[[[[["}},
+      AnswerTarget<kTransition>({"\"leave_frame\":", "\"enter_frame\":", "\"through\":", "\"between\":", "\"join_s\":",
+                                 "\"unsolved\":", "\"matched\":"}),
+      AnswerTarget<kDetection>({"\"detections\":", "\"from_s\":", "\"move\":"}),
+      AnswerTarget<kIk>({"\"angles_deg\":", "\"iterations\":", "1e9"}),
+      AnswerTarget<kTracking>({"\"angles_deg\":", "\"iterations\":", "1e9"}),
+      AnswerTarget<kPoseDistance>({"\"distances\":", "\"alike\":"}),
+      AnswerTarget<kSearch>({"\"found\":", "[]"}),
+  };
+}
+
+}  // namespace etude::fuzz

@@ -1,0 +1,111 @@
+"""Every reader of files against libFuzzer: see README.md."""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+FOUND = re.compile(r"(crash|leak|timeout|oom|slow-unit)-")
+
+
+def arguments(words=None):
+    about = "A seeded minute of libFuzzer for each reader, fewest executions first. Killed, it goes on."
+    parser = argparse.ArgumentParser(prog="scripts/soak fuzz", description=about)
+    parser.add_argument("--seconds", type=int, default=60, help="of each round of a reader (default: %(default)s)")
+    parser.add_argument("--rounds", type=int, default=1, help="for each reader (default: %(default)s)")
+    parser.add_argument("--hours", type=float, help="begin no round after this time")
+    parser.add_argument("--only", nargs="+", default=[], metavar="READER", help="only these, such as bvh")
+    parser.add_argument("--program", type=Path, help="an etude_fuzz that is built already")
+    return parser.parse_args(words)
+
+
+def build():
+    subprocess.run(["cmake", "--preset", "fuzz"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["ninja", "-C", "build/fuzz", "etude_fuzz"], cwd=ROOT, check=True)
+    return ROOT / "build/fuzz/tests/fuzz/program/etude_fuzz"
+
+
+class Reader:
+    """One target: what was made of it stands in out/soak/fuzz/NAME, the counts in the figure."""
+
+    def __init__(self, program, name, work, counts):
+        self.program, self.name, self.folder = program, name, work / name
+        self.counts = {"executions": 0, "rounds": 0, "edges": 0, "corpus": 0} | counts
+
+    def round(self, seconds):
+        """Fuzzes for so long by a seed of its own; returns the files of what was found."""
+        (self.folder / "found").mkdir(parents=True, exist_ok=True)
+        known = set((self.folder / "found").iterdir())
+        command = [self.program, f"--target={self.name}", self.folder / "corpus", f"-seed={self.counts['rounds'] + 1}",
+                   f"-max_total_time={seconds}", "-timeout=20", "-rss_limit_mb=2048", "-max_len=65536",
+                   "-print_final_stats=1", f"-artifact_prefix={self.folder / 'found'}/"]
+        if (self.folder / "words").stat().st_size > 0:
+            command.append(f"-dict={self.folder / 'words'}")
+        environment = dict(os.environ, TMPDIR="/dev/shm" if Path("/dev/shm").is_dir() else "/tmp")
+        log = self.folder / "log"
+        with log.open("wb") as file:
+            subprocess.run(command, cwd=ROOT, env=environment, stdout=file, stderr=file, preexec_fn=lambda: os.nice(10))
+        self.count(log.read_text(errors="replace"))
+        return sorted(path for path in (self.folder / "found").iterdir() if path not in known and FOUND.match(path.name))
+
+    def count(self, text):
+        executed = re.findall(r"stat::number_of_executed_units: (\d+)", text) or re.findall(r"^#(\d+)", text, re.M)
+        edges = re.findall(r" cov: (\d+) ", text)
+        self.counts["executions"] += int(executed[-1]) if executed else 0
+        self.counts["rounds"] += 1
+        self.counts["edges"] = max([self.counts["edges"]] + [int(edge) for edge in edges[-1:]])
+        self.counts["corpus"] = sum(1 for _ in (self.folder / "corpus").iterdir())
+
+
+def findings(name):
+    """What was found of this reader, mended, and is replayed with the tests ever since."""
+    folder = HERE / "found" / name
+    return sum(1 for _ in folder.iterdir()) if folder.is_dir() else 0
+
+
+def save(path, readers):
+    """The figure: counts for each reader, and of all."""
+    counts = {name: reader.counts | {"findings_mended": findings(name)} for name, reader in sorted(readers.items())}
+    whole = {key: sum(c[key] for c in counts.values()) for key in ("executions", "rounds", "corpus", "findings_mended")}
+    whole["fewest_executions"] = min((c["executions"] for c in counts.values()), default=0)
+    path.with_suffix(".new").write_text(json.dumps({"all": whole, "readers": counts}, indent=1) + "\n")
+    path.with_suffix(".new").rename(path)
+    return whole
+
+
+def run(options, kept_in=HERE, work=ROOT / "out/soak/fuzz"):
+    """Rounds until each reader has had its own; returns what was found and is not mended."""
+    end = time.monotonic() + (options.hours * 3600 if options.hours else float("inf"))
+    program = (options.program or build()).resolve()
+    names = subprocess.run([program, "--list"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    if unknown := [name for name in options.only if name not in names]:
+        raise SystemExit(f"scripts/soak fuzz: no reader '{unknown[0]}'; allowed: {', '.join(names)}")
+    work.mkdir(parents=True, exist_ok=True)
+    subprocess.run([program, f"--make={work}"], cwd=ROOT, check=True)
+    figure = kept_in / "figure.json"
+    kept = json.loads(figure.read_text())["readers"] if figure.exists() else {}
+    readers = {name: Reader(program, name, work, kept.get(name, {})) for name in names}
+    wanted = [readers[name] for name in (options.only or names)]
+    goal = {reader.name: reader.counts["rounds"] + options.rounds for reader in wanted}
+    broken = []
+    while time.monotonic() < end:
+        left = [reader for reader in wanted if reader.counts["rounds"] < goal[reader.name]]
+        if not left:
+            break
+        reader = min(left, key=lambda one: one.counts["executions"])
+        found = reader.round(options.seconds)
+        save(figure, readers)
+        print(f"{reader.name:24} {reader.counts['executions']:>12,} executions, {reader.counts['edges']:>6,} edges, "
+              f"{reader.counts['corpus']:>5,} files" + "".join(f"\n  FOUND {path}" for path in found), flush=True)
+        broken += found
+    print(json.dumps(save(figure, readers)))
+    return broken
+
+
+if __name__ == "__main__":
+    raise SystemExit(1 if run(arguments()) else 0)

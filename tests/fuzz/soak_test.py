@@ -1,0 +1,58 @@
+"""scripts/soak fuzz itself, with a fuzzer that is none."""
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+import soak
+
+# Two readers: `good` is tried 100 times a round; `bad` 7 times, and leaves what broke it.
+FUZZER = """#!/bin/sh
+corpus=$2; seed=${3#-seed=}
+for argument; do case $argument in
+  --list) printf 'good\\nbad\\n'; exit ;;
+  --make=*) for name in good bad; do mkdir -p ${argument#--make=}/$name/corpus; : > ${argument#--make=}/$name/words; done; exit ;;
+  -artifact_prefix=*) found=${argument#-artifact_prefix=} ;;
+esac; done
+echo new > $corpus/$seed
+case $1 in
+  --target=good) echo "#100 DONE cov: 42 ft: 1 corp: 1"; echo "stat::number_of_executed_units: 100" ;;
+  --target=bad) echo "#7 NEW cov: 5 ft: 1"; echo broken > ${found}crash-$seed; exit 77 ;;
+esac
+"""
+
+
+class Soak(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.program = self.folder / "fuzzer"
+        self.program.write_text(FUZZER)
+        self.program.chmod(0o755)
+
+    def run_soak(self, *words):
+        options = soak.arguments(["--program", str(self.program), "--seconds", "1", *words])
+        return [path.name for path in soak.run(options, kept_in=self.folder, work=self.folder / "work")]
+
+    def figure(self):
+        return json.loads((self.folder / "figure.json").read_text())
+
+    def test_what_was_executed_adds_up_and_what_was_found_is_told(self):
+        self.assertEqual(self.run_soak(), ["crash-1"])
+        self.assertEqual(self.run_soak("--rounds", "2"), ["crash-2", "crash-3"])
+        readers = self.figure()["readers"]
+        self.assertEqual(readers["good"], {"executions": 300, "rounds": 3, "edges": 42, "corpus": 3, "findings_mended": 0})
+        self.assertEqual(readers["bad"]["executions"], 21)
+        self.assertEqual(self.figure()["all"]["fewest_executions"], 21)
+
+    def test_only_those_asked_for_run(self):
+        self.assertEqual(self.run_soak("--only", "good"), [])
+        self.assertEqual(self.figure()["readers"]["bad"]["rounds"], 0)
+        with self.assertRaisesRegex(SystemExit, "no reader 'ugly'; allowed: good, bad"):
+            self.run_soak("--only", "ugly")
+
+
+if __name__ == "__main__":
+    unittest.main()
