@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/kinematics/sine_cosine.h"
+#include "engine/kinematics/solvers/lane_goals.h"
 #include "engine/kinematics/solvers/linear_targets.h"
 #include "engine/kinematics/solvers/restarts.h"
 
@@ -133,8 +134,7 @@ class DensePeer final : public IkPeer {
                    std::sqrt(2 * from.axis_weights.x)};
     }
     squared_goal_ = options.position_goal * options.position_goal;
-    const double chord = 2 * std::sin(0.5 * options.axis_goal);
-    squared_chord_ = chord * chord;
+    squared_chord_ = GoalsFor(options, Precision::kDouble).squared_chord_met;
     most_steps_ = options.max_iterations;
     steps_ = 0;
     is_met_ = false;
@@ -350,6 +350,6 @@ class DensePeer final : public IkPeer {
 
 std::unique_ptr<IkPeer> MakeDensePeer(const KinematicTree& tree) { return std::make_unique<DensePeer>(tree); }
 
-const char* DensePeerFlags() { return ETUDE_DENSE_PEER_FLAGS; }
+const char* DensePeerFlags() { return ETUDE_RIVAL_FLAGS; }
 
 }  // namespace etude

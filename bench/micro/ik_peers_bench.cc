@@ -24,6 +24,7 @@
 #include "engine/kinematics/solvers/gauss_newton_plain.h"
 #include "engine/kinematics/solvers/ik_run.h"
 #include "engine/kinematics/solvers/ik_solver.h"
+#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {
@@ -174,6 +175,8 @@ std::vector<Method> AllMethods() {
   }
   methods.push_back(Peer("KDL online", MakeKdlOnline(Body(), {}), 1000));
   methods.push_back(Peer("KDL Newton", MakeKdlNewton(Body(), {.damping = 0.03, .position_weight = 1}), 1000));
+  methods.push_back(Peer("KDL Newton, restarts",
+                         MakeKdlNewton(Body(), {.damping = 0.03, .position_weight = 1, .restarts = kRestarts}), 1000));
   methods.push_back(Peer("Simbody", MakeSimbodyAssembler(Body(), {}), 1000));
   return methods;
 }

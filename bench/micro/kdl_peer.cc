@@ -9,6 +9,7 @@
 #include <kdl/treeiksolvervel_wdls.hpp>
 
 #include "engine/kinematics/solvers/ik_run.h"
+#include "engine/kinematics/solvers/restarts.h"
 
 namespace etude {
 namespace {
@@ -62,6 +63,7 @@ class KdlPeer : public IkPeer {
  public:
   KdlPeer(const KinematicTree& tree, const KdlSettings& settings)
       : tree_(tree),
+        settings_(settings),
         kdl_(ToKdl(tree)),
         lower_(tree.dof_count()),
         upper_(tree.dof_count()),
@@ -112,6 +114,7 @@ class KdlPeer : public IkPeer {
   static std::vector<double> ToAngles(const KDL::JntArray& q) { return {q.data.data(), q.data.data() + q.data.size()}; }
 
   const KinematicTree& tree_;
+  const KdlSettings settings_;
   const KDL::Tree kdl_;
   KDL::JntArray lower_, upper_, q_, found_;
   KDL::Frames targets_;
@@ -128,15 +131,23 @@ class KdlNewton final : public KdlPeer {
     // KDL compares every number of a twist with one limit, metres and radians alike.
     const double goal = std::min(options.position_goal, options.axis_goal) / std::sqrt(3.0);
     if (goal != goal_) {
+      const int steps = settings_.restarts > 0 ? kStepsATry : options.max_iterations;
       solver_ = std::make_unique<KDL::TreeIkSolverPos_NR_JL>(kdl_, EndNames(tree_), lower_, upper_, fk_, velocity_,
-                                                             options.max_iterations, goal);
+                                                             steps, goal);
       goal_ = goal;
     }
-    solver_->CartToJnt(q_, targets_, found_);
+    // As TRAC-IK does for chains: begin anew elsewhere where it is stuck.
+    for (int restart = 1; solver_->CartToJnt(q_, targets_, found_) < 0 && restart <= settings_.restarts; ++restart) {
+      ScatterAround(problem.start.angles, problem.limits, restart, scattered_);
+      std::ranges::copy(scattered_, q_.data.data());
+    }
     return {ToAngles(found_)};
   }
 
  private:
+  static constexpr int kStepsATry = 50;
+
+  std::vector<double> scattered_;
   double goal_ = 0;
   std::unique_ptr<KDL::TreeIkSolverPos_NR_JL> solver_;
 };
