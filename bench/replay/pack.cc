@@ -121,17 +121,21 @@ Result<void> UnpackMotions(const Json& motions, const fs::path& folder, Scenario
 
 Result<Pack> ReadPack(std::string_view bytes, const std::string& file) {
   const Place place{file, 0, 0};
-  ASSIGN_OR_RETURN(const auto json, ReadCbor(bytes, file));
+  const auto is_no_pack = [&](std::string_view why) {
+    return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", why);
+  };
+  const auto json = ReadCbor(bytes, file);
+  if (!json) return is_no_pack(json.error().message);
   try {
-    if (json.at("etude_pack") != kPackVersion) {
-      return Fail(place, "a pack of version {}; this program reads {}", json.at("etude_pack").dump(), kPackVersion);
+    if (json->at("etude_pack") != kPackVersion) {
+      return Fail(place, "a pack of version {}; this program reads {}", json->at("etude_pack").dump(), kPackVersion);
     }
-    ASSIGN_OR_RETURN(auto suite, DecodeSetup(json.at("setup"), place));
+    ASSIGN_OR_RETURN(auto suite, DecodeSetup(json->at("setup"), place));
     if (suite.scenarios.size() != 1) return Fail(place, "not a packed cell: {} scenarios", suite.scenarios.size());
-    ASSIGN_OR_RETURN(auto row, DecodeRow(json.at("row"), place));
-    return Pack{std::move(suite), std::move(row), std::make_unique<Json>(json.at("motions"))};
+    ASSIGN_OR_RETURN(auto row, DecodeRow(json->at("row"), place));
+    return Pack{std::move(suite), std::move(row), std::make_unique<Json>(json->at("motions"))};
   } catch (const Json::exception& error) {
-    return Fail(place, "not a packed cell (etude replay DIR --cell ID --pack FILE writes one): {}", error.what());
+    return is_no_pack(error.what());
   }
 }
 

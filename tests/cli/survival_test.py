@@ -122,8 +122,8 @@ class Survival(EtudeCase):
             self.assertEqual((shards[-1] / "manifest.json").read_bytes(), (shards[0] / "manifest.json").read_bytes())
         result = self.etude("merge", *shards, "-o", self.folder / "merged")
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.run_suite(self.folder / "suite" / "ik.yaml", out=self.folder / "whole")
-        self.assert_same_results(self.folder / "merged", self.folder / "whole")
+        self.run_suite(self.folder / "suite" / "ik.yaml", out=self.folder / "one-piece")
+        self.assert_same_results(self.folder / "merged", self.folder / "one-piece")
         self.assertIn('"ik.yaml"', (shards[0] / "manifest.json").read_text())
         # Another text of that name is another suite.
         self.write("suite/ik.yaml", IK)

@@ -8,9 +8,9 @@
 namespace etude::fuzz {
 namespace {
 
-class Replay : public testing::TestWithParam<Target> {};
+class Replay : public ::testing::TestWithParam<Target> {};
 
-INSTANTIATE_TEST_SUITE_P(OfEvery, Replay, testing::ValuesIn(Targets()), [](const auto& reader) {
+INSTANTIATE_TEST_SUITE_P(OfEvery, Replay, ::testing::ValuesIn(Targets()), [](const auto& reader) {
   std::string name = reader.param.name;
   std::ranges::replace(name, '-', '_');
   return name;

@@ -10,8 +10,6 @@
 namespace etude::fuzz {
 namespace {
 
-const std::string kFile = "fuzzed";
-
 std::vector<NamedCamera> TwoCameras() {
   NamedCamera left{"left", LookAt({}, {-2, 1, 3}, {0, 1, 0})}, right{"2 right", LookAt({}, {2, 1.5, 3}, {0, 1, 0})};
   right.camera.distortion.k1 = -0.1;

@@ -17,8 +17,6 @@
 namespace etude::fuzz {
 namespace {
 
-const std::string kFile = "fuzzed";
-
 /// What every clip goes through next, whatever its file was.
 void MakeBody(const Clip& clip) {
   const auto map = FindJointMap(clip.skeleton, kFile);

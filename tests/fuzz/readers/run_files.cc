@@ -15,7 +15,6 @@
 namespace etude::fuzz {
 namespace {
 
-const std::string kFile = "fuzzed";
 constexpr std::string_view kScenario = R"(
 scenario: small
 question: Does it read?
@@ -164,8 +163,10 @@ void Baseline(std::string_view bytes) {
 }
 
 std::string BaselineSeed() {
-  Snapshot snapshot{.suite = "small", .program_version = "0", .scenarios = {{.name = "small", .trials = 2}}};
-  SnapshotScenario& scenario = snapshot.scenarios.front();
+  Snapshot snapshot{.suite = "small", .program_version = "0", .scenarios = {}};
+  SnapshotScenario& scenario = snapshot.scenarios.emplace_back();
+  scenario.name = "small";
+  scenario.trials = 2;
   scenario.worlds = {{"-", "0123456789abcdef"}};
   scenario.methods = {{"ccd", "0123456789abcdef"}};
   scenario.metrics = {{"position_error_cm", 1}};

@@ -15,8 +15,6 @@
 namespace etude::fuzz {
 namespace {
 
-const std::string kFile = "fuzzed";
-
 void Yaml(std::string_view bytes) {
   const auto node = ParseYaml(bytes, kFile);
   if (node) Require(CountValues(*node) <= 10'000, "more values than allowed");

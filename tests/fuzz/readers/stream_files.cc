@@ -14,8 +14,6 @@ namespace {
 
 using testing::WavingMotion;
 
-const std::string kFile = "fuzzed";
-
 void MakeEven(const Result<StreamRecording>& recording) {
   if (recording) MakeStream(*recording, kFile);
 }

@@ -9,6 +9,9 @@
 
 namespace etude::fuzz {
 
+/// What complaints call what is read.
+inline const std::string kFile = "fuzzed";
+
 /// A reader under attack.
 struct Target {
   std::string name;
