@@ -1,6 +1,7 @@
 #include "bench/metrics/detection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -69,8 +70,29 @@ std::optional<double> RocAuc(std::span<const JudgedEvent> events) {
   return won / (right * wrong_below);
 }
 
+std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, double recall) {
+  std::vector<double> scores;
+  for (const JudgedEvent& event : events) {
+    if (event.is_right) scores.push_back(event.score);
+  }
+  if (scores.empty()) return std::nullopt;
+  std::ranges::sort(scores, std::ranges::greater());
+  constexpr double kRounding = 1e-9;  // 0.9 of ten are nine
+  const double needed = std::ceil(recall * static_cast<double>(scores.size()) - kRounding);
+  return scores[static_cast<std::size_t>(std::max(needed, 1.0)) - 1];
+}
+
 Wait WaitForPraise(double first_right_s, std::optional<int> called_frame, int window_end_frame, double rate_hz) {
   return {called_frame.value_or(window_end_frame) / rate_hz - first_right_s, called_frame.has_value()};
+}
+
+std::optional<double> RightSpotted(std::span<const MoveWindow> right, std::span<const MoveCall> calls) {
+  const auto is_spotted = [&](const MoveWindow& window) {
+    return std::ranges::any_of(calls, [&](const MoveCall& call) {
+      return call.move == window.asked && call.frame >= window.begin && call.frame < window.end;
+    });
+  };
+  return Share(std::ranges::count_if(right, is_spotted), static_cast<std::int64_t>(right.size()));
 }
 
 bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows) {

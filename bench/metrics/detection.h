@@ -40,6 +40,10 @@ std::optional<double> F1(const Confusion& confusion);
 /// Empty when all events are right or none is.
 std::optional<double> RocAuc(std::span<const JudgedEvent> events);
 
+/// The strictest threshold on scores at which this share of the right events, in (0, 1], is called right. Empty when
+/// none is right.
+std::optional<double> ThresholdAtRecall(std::span<const JudgedEvent> events, double recall);
+
 /// Of grey performances, by whether each was called right: the share that was. Empty when there are none.
 std::optional<double> GreyCalledRight(const std::vector<bool>& called);
 
@@ -78,6 +82,15 @@ struct MoveWindow {
 /// Whether a recogniser that fires for `move` at `frame` does so outside every performance of that move, asked for or
 /// performed.
 bool IsFalseAlarm(std::string_view move, int frame, std::span<const MoveWindow> windows);
+
+/// A recogniser took a move for performed.
+struct MoveCall {
+  std::string move;
+  int frame = 0;
+};
+
+/// The share of right performances in which the move asked for was called at least once. Empty when there are none.
+std::optional<double> RightSpotted(std::span<const MoveWindow> right, std::span<const MoveCall> calls);
 
 /// `false_alarms_per_min`, over the whole session, performances included: needs a session longer than nothing.
 double FalseAlarmsPerMinute(std::size_t alarms, double session_s);

@@ -34,7 +34,8 @@ const LearntModel& BuiltinLearntModel();
 const LearntModel& BuiltinCoachedModel();
 
 /// Ours: performances are aligned with the taught examples, measured, and judged by what simulated people taught the
-/// model. The moves are those taught: the model knows none. `by_clock`: as the model was fitted.
+/// model; what is farther from every example than nearly all that taught it is no move at all. The moves are those
+/// taught: the model knows none. `by_clock`: as the model was fitted.
 std::unique_ptr<Recogniser> MakeLearntRecogniser(std::span<const TaughtMove> taught, const SightWeights& weights,
                                                  const LearntModel& model, ByClock by_clock = ByClock::kNo);
 

@@ -17,6 +17,7 @@ struct TaughtExample {
   std::size_t move;
   std::vector<PoseVector> pattern;
   int longest;
+  PoseVector middle;  ///< the mean of the pattern
 };
 
 /// The steps seen last, by their number.
@@ -68,6 +69,7 @@ class MeasuringFollower final : public StepFollower {
         examples_(examples),
         judge_(judge),
         by_clock_(by_clock),
+        is_alone_(moves == 1),
         steps_(LongestOf(examples)),
         costs_(std::max<std::size_t>(moves, 1)) {
     for (const TaughtExample& example : examples) always_.emplace_back(example.pattern, example.longest);
@@ -132,16 +134,23 @@ class MeasuringFollower final : public StepFollower {
                                  const ClockComparison* clock) const {
     const std::vector<StepPair> path = aligner.Path();
     const auto seen = [&](int number) -> const PoseVector& { return steps_[first + number]; };
-    PerformanceMeasures measures = Measure({.path = path,
-                                            .seen = seen,
-                                            .pattern = example.pattern,
-                                            .cost = aligner.Cost(),
-                                            .other_cost = costs_.LowestOther(example.move)});
+    double other = costs_.LowestOther(example.move);
+    if (is_alone_) other = CostOfHolding(example, path, seen);
+    PerformanceMeasures measures =
+        Measure({.path = path, .seen = seen, .pattern = example.pattern, .cost = aligner.Cost(), .other_cost = other});
     if (clock != nullptr) {
       std::ranges::copy(clock->Measure(usual_.Shift()).All(), measures.begin() + kFirstClockMeasure);
     }
     usual_.Relate(measures);
     return measures;
+  }
+
+  /// Where one move is all that was taught: what holding still in its mean pose would cost, on the same path.
+  static double CostOfHolding(const TaughtExample& example, std::span<const StepPair> path,
+                              const std::function<const PoseVector&(int)>& seen) {
+    double cost = 0;
+    for (const StepPair& pair : path) cost += SquaredDistance(seen(pair.seen), example.middle);
+    return cost / static_cast<double>(example.pattern.size());
   }
 
   struct InWindow {
@@ -153,6 +162,7 @@ class MeasuringFollower final : public StepFollower {
   const std::vector<TaughtExample>& examples_;
   const PerformanceJudge& judge_;
   ByClock by_clock_;
+  bool is_alone_;
   RecentSteps steps_;
   RecentCosts costs_;
   std::vector<SubsequenceAligner> always_;  // one per example
@@ -194,7 +204,9 @@ std::unique_ptr<Recogniser> MakeMeasuringRecogniser(std::span<const TaughtMove> 
     const int longest = static_cast<int>(std::ceil(taught[move].span_s * kStepsPerSecond));
     for (const SkeletonStream& stream : taught[move].examples) {
       auto pattern = DescribeStream(stream, PoseParts::kLimbs);
-      if (!pattern.empty()) examples.push_back({move, std::move(pattern), longest});
+      if (pattern.empty()) continue;
+      const PoseVector middle = MeanOf(pattern);
+      examples.push_back({move, std::move(pattern), longest, middle});
     }
   }
   return std::make_unique<MeasuringRecogniser>(std::move(examples), taught.size(), weights, std::move(judge), by_clock);

@@ -15,6 +15,7 @@ namespace etude {
 /// its mean direction is forgiven, and what share of its amplitude is missing; left and right as the larger and the
 /// smaller of both; how far the body is off in each third of the example; the clock; the nearest other move.
 constexpr std::size_t kOwnMeasures = 47;
+constexpr std::size_t kDistanceMeasure = 36;  ///< among them: the root of the path's cost
 /// Then the same once more, each beyond what is usual of this person: 0 as long as nothing is known of them. Then how
 /// the performance keeps to the clock of who asks for it (ClockMeasures), and that beyond the usual, too: 0 for who
 /// does not go by it.

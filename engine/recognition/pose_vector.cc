@@ -63,6 +63,14 @@ double SquaredDistance(const PoseVector& seen, const PoseVector& taught) {
   return total > 0 ? sum / total : 0.0;
 }
 
+PoseVector MeanOf(std::span<const PoseVector> poses) {
+  PoseVector mean{.parts = {}, .weights = poses.front().weights};
+  for (const PoseVector& pose : poses) {
+    for (std::size_t i = 0; i < kPosePartCount; ++i) mean.parts[i] += pose.parts[i] / static_cast<double>(poses.size());
+  }
+  return mean;
+}
+
 PoseVector Mirrored(const PoseVector& pose, PoseParts parts) {
   const auto& ways = WaysOf(parts);
   const glm::dvec3 flip(-1, 1, 1);

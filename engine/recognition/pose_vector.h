@@ -28,6 +28,9 @@ struct PoseVector {
 /// 0 weight in all: nothing is known, and nothing differs.
 double SquaredDistance(const PoseVector& seen, const PoseVector& taught);
 
+/// The mean of what at least one pose is described by; of weight 1 or 0 as the first.
+PoseVector MeanOf(std::span<const PoseVector> poses);
+
 /// Left and right exchanged.
 PoseVector Mirrored(const PoseVector& pose, PoseParts parts);
 

@@ -84,6 +84,26 @@ double Distance(const Angles& a, const Angles& b, std::span<const std::size_t> f
   return std::sqrt(sum);
 }
 
+/// Which poses are held: no angle strays from them in a tenth of a second to either side by as much as a tolerance, so
+/// that a recogniser can meet them for some frames. Where none is, all: of a move that never comes to rest any will do.
+std::vector<bool> HeldPoses(const Track& track, std::span<const std::size_t> features, double rate_hz,
+                            const TeachOptions& options) {
+  const auto count = static_cast<int>(track.size());
+  const int around = std::max(1, static_cast<int>(rate_hz / 10));
+  std::vector<bool> held(track.size());
+  for (int t = 0; t < count; ++t) {
+    bool is_held = true;
+    for (int u = std::max(0, t - around); u <= std::min(count - 1, t + around); ++u) {
+      for (const std::size_t f : features) {
+        is_held = is_held && std::abs(track[u][f] - track[t][f]) < options.least_tolerance_deg;
+      }
+    }
+    held[static_cast<std::size_t>(t)] = is_held;
+  }
+  if (std::ranges::none_of(held, [](bool is) { return is; })) held.assign(track.size(), true);
+  return held;
+}
+
 /// The top of the first hill that is nearly as high as the highest.
 std::size_t FirstOfFarthest(const std::vector<double>& distances) {
   constexpr double kNearlyAsFar = 0.95;
@@ -95,19 +115,22 @@ std::size_t FirstOfFarthest(const std::vector<double>& distances) {
 }
 
 /// The frames of key poses, in order of time.
-std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size_t> features,
+std::vector<std::size_t> KeyFrames(const Track& track, std::span<const std::size_t> features, double rate_hz,
                                    const TeachOptions& options) {
+  const std::vector<bool> held = HeldPoses(track, features, rate_hz, options);
   Angles mean{};
   for (const Angles& angles : track) {
     for (const std::size_t f : features) mean[f] += angles[f] / static_cast<double>(track.size());
   }
   std::vector<double> distances;
-  for (const Angles& angles : track) distances.push_back(Distance(angles, mean, features));
+  for (std::size_t t = 0; t < track.size(); ++t) {
+    distances.push_back(held[t] ? Distance(track[t], mean, features) : 0.0);
+  }
   std::vector<std::size_t> frames = {FirstOfFarthest(distances)};
   double first_gap = 0;
   while (frames.size() < static_cast<std::size_t>(options.most_poses)) {
     for (std::size_t t = 0; t < track.size(); ++t) {
-      const double here = Distance(track[t], track[frames.back()], features);
+      const double here = held[t] ? Distance(track[t], track[frames.back()], features) : 0.0;
       distances[t] = frames.size() == 1 ? here : std::min(distances[t], here);
     }
     const std::size_t next = FirstOfFarthest(distances);
@@ -180,13 +203,13 @@ PoseTarget TargetOf(std::span<const Track> aligned, std::size_t frame, std::size
                                       options.most_tolerance_deg)};
 }
 
-std::vector<TaughtPose> FindKeyPoses(std::span<const Track> tracks, const TeachOptions& options) {
+std::vector<TaughtPose> FindKeyPoses(std::span<const Track> tracks, double rate_hz, const TeachOptions& options) {
   const std::vector<std::size_t> features = AnglesThatMatter(tracks, options);
   const Track& reference = tracks[MiddleExample(tracks)];
   std::vector<Track> aligned;
   for (const Track& track : tracks) aligned.push_back(Aligned(track, reference, features));
   std::vector<TaughtPose> poses;
-  for (const std::size_t frame : KeyFrames(reference, features, options)) {
+  for (const std::size_t frame : KeyFrames(reference, features, rate_hz, options)) {
     TaughtPose& pose = poses.emplace_back();
     for (const std::size_t f : features) pose.targets.push_back(TargetOf(aligned, frame, f, options));
   }
@@ -216,7 +239,7 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     longest = std::max(longest, SecondsOf(stream));
   }
   return TaughtMove{.name = name,
-                    .poses = FindKeyPoses(tracks, options),
+                    .poses = FindKeyPoses(tracks, right.front().rate_hz, options),
                     .span_s = std::min(kLongestSpan, kSlower * longest),
                     .examples = std::move(right),
                     .counter_examples = std::move(wrong)};

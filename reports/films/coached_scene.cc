@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <glm/glm.hpp>
+#include <utility>
 
 #include "reports/films/forest.h"
 #include "reports/films/look.h"
+#include "reports/films/stick_figure.h"
 #include "reports/words/figures.h"
 #include "sim/character/characters.h"
 #include "sim/character/posed.h"
@@ -18,14 +20,10 @@ constexpr Box kStage{12, 52, 1256, 520};
 constexpr Box kSaid{12, 52, 1064, 520};  // of the stage, what words may cover
 constexpr Box kInset{1086, 372, 170, 188};
 constexpr Box kHint{1046, 64, 210, 232};
-constexpr Box kTimeline{12, 584, 1256, 124};
-constexpr double kTimelineLeft = 96, kTimelineRow = 26;
 
 // Who stands where, and what is seen of them.
 constexpr FloorMove kCoachAt{.yaw = 0, .x = -1.05, .z = -0.3}, kLearnerAt{.yaw = 0, .x = 0.95, .z = -0.3};
 constexpr double kSessionEyeHeight = 1.35, kSessionDistance = 5.2, kSessionLookAt = 1.0, kSessionSeen = 2.5;
-
-constexpr Paint kRight{0.36, 0.74, 0.46, 1}, kWrong{0.88, 0.36, 0.32, 1}, kGrey{0.55, 0.58, 0.60, 1};
 
 constexpr int kBeforeCorrection = 3 * kFilmRate;
 
@@ -38,22 +36,8 @@ Paint PaintOfMode(const std::string& mode) {
   if (mode == "dance") return kAccent;
   if (mode == "correct") return kWarm;
   if (mode == "demonstrate") return {0.72, 0.58, 0.90, 1};
-  if (mode == "praise") return kRight;
-  return kGrey;
-}
-
-Paint PaintOfWord(const std::string& word) { return word == "right" ? kRight : word == "wrong" ? kWrong : kGrey; }
-
-/// The body from the front, feet on the lower edge of the box.
-void DrawStickFigure(Canvas& canvas, const BodyPose& pose, const Box& box, double tall, const Paint& paint) {
-  const double scale = box.height / tall;
-  const glm::dvec3 hips = pose[Role::kHipCentre];
-  const auto at = [&](Role role) {
-    const glm::dvec3& joint = pose[role];
-    return glm::dvec2(box.x + box.width / 2 + scale * (joint.x - hips.x), box.y + box.height - 6 - scale * joint.y);
-  };
-  for (const Bone& bone : AllBones()) canvas.DrawLine(at(bone.parent), at(bone.child), 3, paint);
-  canvas.DrawDot(at(Role::kHead), 0.09 * scale, paint);
+  if (mode == "praise") return kRightPaint;
+  return kUndecidedPaint;
 }
 
 /// What is in force at a frame: the last that began.
@@ -154,42 +138,26 @@ FrameSpan CoachedScene::TimelineAt(int now) const {
 }
 
 void CoachedScene::DrawTimeline(Canvas& canvas, int now) const {
-  canvas.FillBox(kTimeline, {0.13, 0.15, 0.17, 1}, kPanelRadius);
   const FrameSpan shown = TimelineAt(now);
-  const auto place = [&](int frame) {
-    const double left = kTimeline.x + kTimelineLeft, width = kTimeline.width - kTimelineLeft - 12;
-    const int length = shown.end - shown.begin;
-    return left + width * std::clamp(frame - shown.begin, 0, length) / std::max(1, length);
-  };
-  const auto row_y = [](int row) { return kTimeline.y + 12 + row * (kTimelineRow + 8); };
-  const auto label = [&](int row, const char* text) {
-    canvas.DrawText({kTimeline.x + 12, row_y(row) + 18}, text, 13, kSoftInk, kTimelineLeft - 16);
-  };
-  const auto bar = [&](int row, int begin, int end, const Paint& paint) {
-    const double left = place(begin), right = place(end);
-    if (right > left) canvas.FillBox({left, row_y(row), right - left - 1, kTimelineRow}, paint, 4);
-  };
-  label(0, "coach");
-  label(1, "truth");
-  label(2, "judged");
+  SessionTimeline timeline(canvas, shown);
+  timeline.Label(0, "coach");
+  timeline.Label(1, "truth");
+  timeline.Label(2, "judged");
   for (std::size_t i = 0; i < facts_.modes.size(); ++i) {
     const int end = i + 1 < facts_.modes.size() ? facts_.modes[i + 1].begin_frame : facts_.Frames();
-    bar(0, facts_.modes[i].begin_frame, end, PaintOfMode(facts_.modes[i].mode));
+    timeline.Bar(0, facts_.modes[i].begin_frame, end, PaintOfMode(facts_.modes[i].mode));
   }
   for (const auto& performance : facts_.performances) {
-    if (performance.end_frame < shown.begin || performance.begin_frame > shown.end) continue;
-    bar(1, performance.begin_frame, performance.end_frame, PaintOfWord(performance.truth));
-    if (now >= performance.end_frame) {
-      bar(2, performance.begin_frame, performance.end_frame, PaintOfWord(performance.called));
-    }
-    canvas.DrawText({place(performance.begin_frame) + 5, row_y(1) + 18}, performance.move, 12, kBackdrop,
-                    std::max(0.0, place(performance.end_frame) - place(performance.begin_frame) - 8));
+    const auto& [begin, end] = std::pair(performance.begin_frame, performance.end_frame);
+    if (end < shown.begin || begin > shown.end) continue;
+    timeline.Bar(1, begin, end, PaintOfWord(performance.truth));
+    if (now >= end) timeline.Bar(2, begin, end, PaintOfWord(performance.called));
+    timeline.Text(1, begin, end, performance.move);
   }
   for (const int seam : facts_.transitions) {
-    if (seam < shown.begin || seam >= shown.end) continue;
-    canvas.DrawLine({place(seam), row_y(0) - 4}, {place(seam), row_y(0) + kTimelineRow + 4}, 2, kInk);
+    if (timeline.Shows(seam)) timeline.Tick(seam, 0, 0, kInk);
   }
-  canvas.DrawLine({place(now), row_y(0) - 6}, {place(now), row_y(2) + kTimelineRow + 6}, 2, kInk);
+  timeline.Tick(now, 0, 2, kInk);
 }
 
 std::vector<double> CoachedScene::Beats() const {

@@ -6,14 +6,10 @@
 #include "engine/motion/character.h"
 #include "reports/films/coached_session.h"
 #include "reports/films/film.h"
+#include "reports/films/session_timeline.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
-
-/// Frames [begin, end) of a session.
-struct FrameSpan {
-  int begin = 0, end = 0;
-};
 
 /// A coached session: the bear in its forest and the learner beside it, the learner's skeleton as the sensor saw it,
 /// the hint with the picture of its key pose, and a timeline of truth, judgements and transitions. A beat is a click.

@@ -13,6 +13,8 @@
 #include "reports/films/coached_session.h"
 #include "reports/films/convergence_scene.h"
 #include "reports/films/film.h"
+#include "reports/films/judged_scene.h"
+#include "reports/films/judged_session.h"
 #include "reports/films/picture_strip.h"
 #include "reports/films/stage_scene.h"
 #include "reports/films/transition_race.h"
@@ -164,6 +166,25 @@ void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& p
   add(worst, "the worst session", "worst-session");
 }
 
+/// A typical session before the sensor; nothing where no motion of one was kept, which scenarios need not.
+std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const MediaPaths& paths,
+                                   const MediaOptions& options) {
+  const ScenarioSummary& scenario = run.scenarios[index];
+  const auto cell = ChooseCell(run, scenario, "sensed");
+  if (!cell) return std::nullopt;
+  auto facts = ReadJudgedSession(run, *cell);
+  const std::filesystem::path path = paths.films / FilmName(run, index, "judged");
+  if (!facts) {
+    Film film;
+    film.file = path.filename().string();
+    film.why_not = "There is no film of a session: " + ToString(facts.error());
+    return film;
+  }
+  const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 24 * kFilmRate;
+  JudgedScene scene(std::move(*facts), fmt::format("{} · trial {}", scenario.name, cell->row->trial), longest);
+  return Shoot(scene, path);
+}
+
 }  // namespace
 
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options) {
@@ -183,6 +204,10 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
     } else if (scenario.task == "coach") {
       MakeSessionFilms(run, i, paths, options, renderer, media);
       continue;
+    } else if (scenario.task == "detection") {
+      auto judged = MakeJudgedFilm(run, i, paths, options);
+      if (!judged) continue;
+      film = std::move(*judged);
     } else {
       continue;
     }

@@ -60,7 +60,7 @@ struct MediaPaths {
 };
 
 struct MediaOptions {
-  bool whole_sessions = false;  ///< coached sessions are not cut around their first correction
+  bool whole_sessions = false;  ///< sessions are not cut: coached ones around a correction, judged ones to 24 s
 };
 
 /// Draws what the recordings of a run show: the films, their posters, the strip and the pictures behind it.

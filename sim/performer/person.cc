@@ -33,13 +33,6 @@ constexpr Preset kPresets[] = {
     {1.50, 1.90, 0.24, 0.07, 0.95, 0.24, 0.08, 0.05, 0.84, 0.13, 0.70, 0.25, 0.25, 0.07, 1.25, 0.03},
 };
 
-/// Of a mixture, from the first on: toddlers, school children, adults, experts.
-People Thrown(double dice) {
-  if (dice < 0.15) return People::kToddler;
-  if (dice < 0.50) return People::kSchoolChild;
-  return dice < 0.85 ? People::kAdult : People::kExpert;
-}
-
 /// 1 at a metre, 0 from 1.65 m on.
 double ChildhoodOf(People kind, double stature_m) {
   if (kind != People::kToddler && kind != People::kSchoolChild) return 0;
@@ -110,10 +103,16 @@ People FindPeople(std::string_view name) {
   return static_cast<People>(found - PeopleNames().begin());
 }
 
+People KindInMixture(double share) {
+  if (share < 0.15) return People::kToddler;
+  if (share < 0.50) return People::kSchoolChild;
+  return share < 0.85 ? People::kAdult : People::kExpert;
+}
+
 Person DrawPerson(const WorldKey& key, People people) {
   RandomStream random(key, "person");
   const double kind = random.Uniform();
-  Person person{.kind = people == People::kMixed ? Thrown(kind) : people};
+  Person person{.kind = people == People::kMixed ? KindInMixture(kind) : people};
   const Preset& preset = kPresets[static_cast<std::size_t>(person.kind)];
   person.stature_m = random.Uniform(preset.least_m, preset.most_m);
   person.body = DimensionsOf(person.stature_m, ChildhoodOf(person.kind, person.stature_m));

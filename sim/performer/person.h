@@ -62,6 +62,10 @@ struct Person {
   std::uint64_t style = 0;  ///< the key of their ways with every move (Style)
 };
 
+/// Who stands at this share, in [0, 1), of a mixture in which toddlers come first, then school children, adults and
+/// experts.
+People KindInMixture(double share);
+
 /// Throws a person, their own dice in each world. What a preset changes is sizes: one throw of the dice makes the same
 /// kind of toddler as of adult.
 Person DrawPerson(const WorldKey& key, People people);

@@ -158,7 +158,8 @@ MAY_INCLUDE = {
         "sim/render bench/clips bench/files bench/films reports/films reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
-        "engine/base engine/cameras engine/formats engine/kinematics engine/motion sim/body sim/camera sim/character sim/music "
+        "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/motion engine/recognition sim/body "
+        "sim/camera sim/character sim/music "
         "sim/render sim/sensors sim/stage bench/files bench/films bench/metrics bench/model bench/recordings reports/plots reports/transitions reports/words",
     "reports/growth": "bench/model reports/paper reports/words",
     "reports/paper": "engine/fuzzy engine/kinematics bench/model reports/plots reports/words",

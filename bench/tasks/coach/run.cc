@@ -62,7 +62,7 @@ Result<std::vector<ReadyCoach>> MakeReady(std::vector<CoachMethod> methods, cons
     auto recogniser = MakeRecogniser(method.sight.recogniser, stage.taught);
     if (!recogniser) return Fail({}, "method {}: {}", method.name, recogniser.error().message);
     ready.recogniser = *std::move(recogniser);
-    method.coach.right_from = method.sight.Decision().threshold;
+    method.coach.right_from = method.sight.Decision().judging;
     ready.coach = std::make_unique<Coach>(*ready.transitions, method.coach, PolicyOf(method));
     if (method.policy.policy->takes_moments) {
       ready.partner =

@@ -34,7 +34,7 @@ class DetectionTask final : public Task {
           fmt::format("clip {} has no labelled moves: detection needs to know what was danced", clip.name));
     }
     const auto decide = [this, seed = key.suite_seed,
-                         scenario = std::string(key.scenario)]() -> const std::vector<DecisionOptions>& {
+                         scenario = std::string(key.scenario)]() -> const std::vector<MethodDecision>& {
       return decisions_.For({seed, scenario, 0});
     };
     return std::make_unique<SessionWorld>(methods_, decide, repertoire_, MakeDetectionWorld(repertoire_, options_, key),

@@ -1,7 +1,10 @@
 #include "bench/tasks/detection/operating_point.h"
 
-#include "bench/metrics/detection.h"
+#include <algorithm>
+#include <iterator>
+
 #include "bench/tasks/detection/run.h"
+#include "bench/tasks/detection/score.h"
 
 namespace etude {
 namespace {
@@ -33,45 +36,54 @@ double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_m
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials) {
   const std::vector<FrameInterval> takes = world->Takes();
+  std::vector<std::string> names;
+  for (const TaughtMove& move : repertoire.taught) names.push_back(move.name);
   for (std::size_t m = 0; m < methods.size(); ++m) {
     const auto& [method, recogniser] = methods[m];
     if (method.threshold) continue;
     const SeenStream seen = SeeSession(*world, method);
     std::vector<EvidenceTrace> traces = FollowSession(*world, seen, repertoire, *recogniser);
+    std::ranges::copy(JudgedEvents(*world, JudgeEvents(*world, traces, 1)), std::back_inserter(trials[m].events));
     for (std::size_t t = 0; t < takes.size(); ++t) {
-      const auto is_performance = [world, &repertoire, begin = takes[t].begin](const Detection& detection) {
-        return IsPerformance(repertoire.taught[detection.move].name, begin + detection.frame, *world);
+      const auto is_performance = [world, names, begin = takes[t].begin](const Detection& detection) {
+        return IsPerformance(names[detection.move], begin + detection.frame, *world);
       };
-      trials[m].push_back(
+      trials[m].alarms.push_back(
           {std::make_shared<const EvidenceTrace>(std::move(traces[t])), seen.filtered.rate_hz, is_performance});
     }
   }
 }
 
-std::vector<DecisionOptions> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
-                                      const std::optional<OperatingPoint>& point) {
-  std::vector<DecisionOptions> decisions;
+std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
+                                     const std::optional<OperatingPoint>& point) {
+  std::vector<MethodDecision> decisions;
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    DecisionOptions& decision = decisions.emplace_back(methods[m].method.Decision());
+    auto& [spotting, judging] = decisions.emplace_back(methods[m].method.Decision());
     if (!point || methods[m].method.threshold) continue;
-    decision.threshold = ThresholdAt(trials[m], point->false_alarms_per_min, decision.refractory_s);
+    spotting.threshold = ThresholdAt(trials[m].alarms, point->false_alarms_per_min, spotting.refractory_s);
+    // Without any evidence nothing is right, however little may be asked for.
+    constexpr double kLeast = 1e-4;
+    judging = std::max(kLeast, ThresholdAtRecall(trials[m].events, point->recall).value_or(spotting.threshold));
   }
   return decisions;
 }
 
-const std::vector<DecisionOptions>& MethodDecisions::For(const WorldKey& key) {
+const std::vector<MethodDecision>& MethodDecisions::For(const WorldKey& key) {
   const auto [known, is_new] = known_.try_emplace({key.suite_seed, std::string(key.scenario)});
   if (is_new) known->second = Set(key);
   return known->second;
 }
 
-std::vector<DecisionOptions> MethodDecisions::Set(const WorldKey& key) const {
+std::vector<MethodDecision> MethodDecisions::Set(const WorldKey& key) const {
   TrialsOfMethods trials(methods_.size());
   const int sessions = options_.operating_point ? options_.operating_point->sessions : 0;
   const std::string others = std::string(key.scenario) + "/operating-point";
+  DetectionOptions usual = options_;
+  usual.session = {.people = options_.session.people, .events = options_.session.events};
   for (int session = 0; session < sessions; ++session) {
+    if (options_.session.people == People::kMixed) usual.session.people = KindInMixture((session + 0.5) / sessions);
     const auto world = std::make_shared<const DetectionWorld>(
-        MakeDetectionWorld(repertoire_, options_, {key.suite_seed, others, session}));
+        MakeDetectionWorld(repertoire_, usual, {key.suite_seed, others, session}));
     AddTrials(world, methods_, repertoire_, trials);
   }
   return DecideBy(methods_, trials, options_.operating_point);

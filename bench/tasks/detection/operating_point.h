@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/metrics/detection.h"
 #include "bench/tasks/detection/options.h"
 #include "bench/tasks/detection/world.h"
 #include "engine/recognition/recogniser.h"
@@ -28,27 +29,31 @@ struct AlarmTrial {
   std::function<bool(const Detection&)> is_performance;
 };
 
-/// The least threshold, to 1 in 2¹⁶, at which the trials together give at most so many false alarms a minute; alarms
-/// become fewer as it rises, but for some that a refractory time hides. 1 where even that gives more. At least one
-/// trial, none without frames.
+/// The least threshold of spotting, to 1 in 2¹⁶, at which the trials together give at most so many false alarms a
+/// minute; alarms become fewer as it rises, but for some that a refractory time hides. 1 where even that gives more. At
+/// least one trial, none without frames.
 double ThresholdAt(std::span<const AlarmTrial> trials, double false_alarms_per_min, double refractory_s);
 
-/// Trials by method.
-using TrialsOfMethods = std::vector<std::vector<AlarmTrial>>;
+/// What a method saw of other people: all that it may take for a move, and what was asked for, judged at no threshold.
+struct MethodTrials {
+  std::vector<AlarmTrial> alarms;
+  std::vector<JudgedEvent> events;
+};
+using TrialsOfMethods = std::vector<MethodTrials>;
 
-/// Adds what each method that says no threshold of its own sees in a world. `repertoire`: what all were taught; it and
-/// the world must outlive the trials.
+/// Adds what each method that says no threshold of its own sees in a world. `repertoire`: what all were taught.
 void AddTrials(const std::shared_ptr<const DetectionWorld>& world, std::span<const ReadyMethod> methods,
                const Repertoire& repertoire, TrialsOfMethods& trials);
 
-/// What each method decides by: its own threshold, else the one of the operating point on its trials, when there is an
-/// operating point. `trials`: everybody's but those of the person judged.
-std::vector<DecisionOptions> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
-                                      const std::optional<OperatingPoint>& point);
+/// What each method decides by: its own threshold, else those of the operating point on its trials, when there is an
+/// operating point. Where nobody was right, the threshold of spotting serves for judging, too. `trials`: everybody's
+/// but those of the person judged.
+std::vector<MethodDecision> DecideBy(std::span<const ReadyMethod> methods, const TrialsOfMethods& trials,
+                                     const std::optional<OperatingPoint>& point);
 
 /// What each method of a scenario of simulated people decides by. With an operating point, thresholds that methods do
 /// not say themselves are set the first time they are asked for, on sessions of people that are keyed apart from those
-/// judged.
+/// judged; of a mixture every kind has its share.
 class MethodDecisions {
  public:
   /// The arguments must outlive this.
@@ -57,15 +62,15 @@ class MethodDecisions {
       : methods_(methods), repertoire_(repertoire), options_(options) {}
 
   /// One per method, for all worlds of this key's scenario and seed.
-  const std::vector<DecisionOptions>& For(const WorldKey& key);
+  const std::vector<MethodDecision>& For(const WorldKey& key);
 
  private:
-  std::vector<DecisionOptions> Set(const WorldKey& key) const;
+  std::vector<MethodDecision> Set(const WorldKey& key) const;
 
   const std::vector<ReadyMethod>& methods_;
   const Repertoire& repertoire_;
   const DetectionOptions& options_;
-  std::map<std::pair<std::uint64_t, std::string>, std::vector<DecisionOptions>> known_;
+  std::map<std::pair<std::uint64_t, std::string>, std::vector<MethodDecision>> known_;
 };
 
 }  // namespace etude

@@ -57,7 +57,9 @@ const FieldTable<OperatingPoint>& OperatingPointFields() {
   using Key = Field<OperatingPoint>;
   static const FieldTable<OperatingPoint> table{
       {Key::Number("false_alarms_per_min", &OperatingPoint::false_alarms_per_min, {0.01, 60},
-                   "How many false alarms a minute are borne."),
+                   "How many false alarms a minute are borne in spotting moves that nobody need have asked for."),
+       Key::Number("recall", &OperatingPoint::recall, {0.01, 1},
+                   "Which share of right performances that were asked for is to be called right."),
        Key::Number("sessions", &OperatingPoint::sessions, {1, 1000},
                    "On how many sessions of other people the thresholds are set.")}};
   return table;
@@ -118,7 +120,8 @@ FieldTable<DetectionOptions> MakeConditionFields() {
                    "The evidence from which on a move counts as performed; for all methods.")
            .WhenAbsent("(each recogniser's own)"),
        Key{{"operating_point", MappingKind("a mapping", OperatingPointFields().Describe()), "(none)",
-            "Sets each method's threshold on other people, to so many false alarms a minute."},
+            "Sets each method's thresholds on other people: to spot moves at so many false alarms a minute, to judge "
+            "what was asked for at a recall."},
            [](Fields& condition, Options& o) {
              if (condition.Raw("operating_point") == nullptr) return;
              ReadNested(condition, "operating_point", OperatingPointFields(), o.operating_point.emplace());

@@ -23,11 +23,21 @@ namespace etude {
 /// What stands between sensor and performer (`MakeOccluders`).
 enum class OccluderKind { kNone, kTable, kChair, kPerson };
 
-/// Where methods are compared: each at the threshold that gives so many false alarms on other people, under the same
-/// condition, so that none is better only because it says yes more often.
+/// Where methods are compared, set on other people under the same condition, who err as people do (half of their
+/// performances, as badly as it comes), however the condition says those judged err: each method spots moves at the
+/// threshold that gives so many false alarms, and judges what was asked for at the one that praises so many of the
+/// right performances: none is better only because it says yes, or no, more often.
 struct OperatingPoint {
   double false_alarms_per_min = 1;
-  int sessions = 24;  ///< of those people, one each
+  double recall = 0.9;  ///< of judging
+  int sessions = 24;    ///< of those people, one each
+};
+
+/// What a method decides by. Two questions, each with its own threshold: whether a move that nobody need have asked for
+/// was performed, of all moves at any time, and whether the one performance that was asked for is right.
+struct MethodDecision {
+  DecisionOptions spotting;
+  double judging = 0.5;  ///< the evidence from which on a performance asked for is called right
 };
 
 /// One condition of a detection scenario: who dances, and how well the sensor sees it.
@@ -68,8 +78,10 @@ struct DetectionMethod {
   double refractory_s = DecisionOptions{}.refractory_s;
 
   CaptureMethod Capture() const { return capture.value_or(CaptureMethod{}); }
-  DecisionOptions Decision() const {
-    return {.threshold = threshold.value_or(recogniser.kind->threshold), .refractory_s = refractory_s};
+  /// One threshold for both questions: its own, else the recogniser's.
+  MethodDecision Decision() const {
+    const double both = threshold.value_or(recogniser.kind->threshold);
+    return {.spotting = {.threshold = both, .refractory_s = refractory_s}, .judging = both};
   }
 };
 

@@ -104,13 +104,13 @@ Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught) {
 }
 
 Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
-                      std::string_view person, const std::vector<DetectionMethod>& methods) {
+                      const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods) {
   Fold fold;
   if (taught) {
     fold.repertoire.taught = *taught;
     std::ranges::sort(fold.repertoire.taught, {}, &TaughtMove::name);
   } else {
-    const auto by_others = [&](const LabelledPart& part) { return part.person != person; };
+    const auto by_others = [&](const LabelledPart& part) { return !left_out.contains(part.person); };
     ASSIGN_OR_RETURN(fold.repertoire.taught, TeachMoves(set.streams, set.parts, by_others, false));
   }
   std::set<std::string> names(set.moves.begin(), set.moves.end());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,16 +21,16 @@ DetectionWorld MakeRecordedWorld(const LabelledStreams& set, std::size_t person,
 /// person, or recordings of which nobody says who they show.
 Result<void> CheckRecordings(const LabelledStreams& set, bool are_taught);
 
-/// What recognisers know when one person is judged: what the other people did.
+/// What recognisers know when people are left out: what the others did.
 struct Fold {
   Repertoire repertoire;
   std::vector<ReadyMethod> methods;
 };
 
-/// `taught`: by whom and whatever; nothing: all moves by everybody but `person`, right performances as examples and
-/// wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails when there is none, and
+/// `taught`: by whom and whatever; nothing: all moves by everybody but those left out, right performances as examples
+/// and wrong ones as counter-examples. A move that nobody else did right stays untaught. Fails when there is none, and
 /// where a method needs more of a move than it has.
 Result<Fold> MakeFold(const LabelledStreams& set, const std::optional<std::vector<TaughtMove>>& taught,
-                      std::string_view person, const std::vector<DetectionMethod>& methods);
+                      const std::set<std::string>& left_out, const std::vector<DetectionMethod>& methods);
 
 }  // namespace etude

@@ -31,7 +31,7 @@ class RecordedTask final : public Task {
     if (!fold) return std::make_unique<SkippedWorld>(fold.error().message);
     return std::make_unique<SessionWorld>(
         fold->methods,
-        [this, key, scenario = std::string(key.scenario)]() -> const std::vector<DecisionOptions>& {
+        [this, key, scenario = std::string(key.scenario)]() -> const std::vector<MethodDecision>& {
           return DecisionsFor({key.suite_seed, scenario, key.trial});
         },
         fold->repertoire, MakeRecordedWorld(set_, person, options_, key), keeps_motion);
@@ -50,41 +50,40 @@ class RecordedTask final : public Task {
   }
 
  private:
+  const std::string& NameOf(std::size_t person) const { return set_.people[person].name; }
+
   /// What is known when this person is judged.
   const Result<Fold>& FoldOf(std::size_t person) const {
     const std::size_t index = taught_ ? 0 : person;  // what was taught beforehand is the same for all
     const auto known = folds_.find(index);
     if (known != folds_.end()) return known->second;
-    return folds_.emplace(index, MakeFold(set_, taught_, set_.people[person].name, methods_)).first->second;
+    return folds_.emplace(index, MakeFold(set_, taught_, {NameOf(person)}, methods_)).first->second;
   }
 
-  /// The evidence in this person's recordings, of recognisers that they did not teach.
-  const TrialsOfMethods& TrialsOf(const WorldKey& key) const {
-    const auto [known, is_new] = trials_.try_emplace(key.trial, TrialsOfMethods(methods_.size()));
-    const auto person = static_cast<std::size_t>(key.trial);
-    const Result<Fold>& fold = FoldOf(person);
-    if (is_new && fold) {
-      const auto world = std::make_shared<const DetectionWorld>(MakeRecordedWorld(set_, person, options_, key));
-      AddTrials(world, fold->methods, fold->repertoire, known->second);
-    }
-    return known->second;
-  }
-
-  /// Thresholds are set on all other people.
-  const std::vector<DecisionOptions>& DecisionsFor(const WorldKey& key) const {
+  /// Thresholds are set on other people, each seen by recognisers that neither they nor the person judged have taught.
+  const std::vector<MethodDecision>& DecisionsFor(const WorldKey& key) const {
     const auto known = decisions_.find(key.trial);
     if (known != decisions_.end()) return known->second;
-    TrialsOfMethods others(methods_.size());
-    for (std::size_t person = 0; options_.operating_point && person < set_.people.size(); ++person) {
-      const auto trial = static_cast<int>(person);
-      if (trial == key.trial) continue;
-      const TrialsOfMethods& trials = TrialsOf({key.suite_seed, key.scenario, trial});
-      for (std::size_t m = 0; m < methods_.size(); ++m) {
-        others[m].insert(others[m].end(), trials[m].begin(), trials[m].end());
-      }
+    const auto judged = static_cast<std::size_t>(key.trial);
+    const std::size_t people = set_.people.size();
+    TrialsOfMethods trials(methods_.size());
+    if (options_.operating_point) {
+      const auto asked = static_cast<std::size_t>(options_.operating_point->sessions);
+      for (std::size_t i = 1; i <= std::min(asked, people - 1); ++i)
+        AddOther((judged + i) % people, judged, key, trials);
     }
-    const Fold& fold = *FoldOf(static_cast<std::size_t>(key.trial));
-    return decisions_.emplace(key.trial, DecideBy(fold.methods, others, options_.operating_point)).first->second;
+    return decisions_.emplace(key.trial, DecideBy(FoldOf(judged)->methods, trials, options_.operating_point))
+        .first->second;
+  }
+
+  void AddOther(std::size_t other, std::size_t judged, const WorldKey& key, TrialsOfMethods& trials) const {
+    const WorldKey own{key.suite_seed, key.scenario, static_cast<int>(other)};
+    const auto world = std::make_shared<const DetectionWorld>(MakeRecordedWorld(set_, other, options_, own));
+    if (taught_) {
+      AddTrials(world, FoldOf(0)->methods, FoldOf(0)->repertoire, trials);
+    } else if (const auto fold = MakeFold(set_, {}, {NameOf(other), NameOf(judged)}, methods_)) {
+      AddTrials(world, fold->methods, fold->repertoire, trials);
+    }
   }
 
   const DetectionOptions options_;
@@ -93,8 +92,7 @@ class RecordedTask final : public Task {
   const Taught taught_;
   // Memories of what depends on keys alone; a task meets one scenario and one seed.
   mutable std::map<std::size_t, Result<Fold>> folds_;
-  mutable std::map<int, TrialsOfMethods> trials_;
-  mutable std::map<int, std::vector<DecisionOptions>> decisions_;
+  mutable std::map<int, std::vector<MethodDecision>> decisions_;
 };
 
 /// Keys that nobody reads where people were recorded.
@@ -128,12 +126,14 @@ Result<std::unique_ptr<Task>> MakeRecordedTask(TaskInput& input, const Detection
     ASSIGN_OR_RETURN(taught, ReadMoves(input.texts.at(kMovesKey), options.moves));
   }
   RETURN_IF_ERROR(CheckRecordings(set, taught.has_value()));
-  if (options.operating_point && set.people.size() < 2) {
-    return Fail(condition.Find("operating_point")->place, "thresholds are set on other people; {} is alone",
-                set.people.front().name);
+  const std::size_t needed = taught ? 2 : 3;  // one judged, one on whom thresholds are set, one who teaches both
+  if (options.operating_point && set.people.size() < needed) {
+    return Fail(condition.Find("operating_point")->place,
+                "thresholds are set on people who neither teach nor are judged; recorded: {}, needed: {}",
+                set.people.size(), needed);
   }
   // What no person's recogniser can do without is told before anything is run.
-  if (auto all = MakeFold(set, taught, "", methods); !all) return tl::unexpected(all.error());
+  if (auto all = MakeFold(set, taught, {}, methods); !all) return tl::unexpected(all.error());
   return std::make_unique<RecordedTask>(options, std::move(methods), set, std::move(taught));
 }
 

@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "bench/streams/watch.h"
-
 #include "bench/tasks/sensing/camera_stream.h"
 
 namespace etude {
@@ -81,20 +80,35 @@ std::optional<std::size_t> NameOf(const DetectionEvent& event, const DetectionWo
 
 }  // namespace
 
+std::vector<Judgement> JudgeEvents(const DetectionWorld& world, std::span<const EvidenceTrace> traces,
+                                   double threshold) {
+  const std::vector<FrameInterval> takes = world.Takes();
+  std::vector<Judgement> judgements;
+  auto event = world.events.begin();
+  for (std::size_t t = 0; t < takes.size(); ++t) {
+    const auto [begin, end] = takes[t];
+    for (; event != world.events.end() && event->window.end <= end; ++event) {
+      judgements.push_back(JudgeWindow(traces[t], {event->window.begin - begin, event->window.end - begin}, threshold));
+    }
+  }
+  return judgements;
+}
+
 SessionVerdict JudgeSession(const DetectionWorld& world, const SeenStream& seen, const Repertoire& repertoire,
-                            const Recogniser& recogniser, const DecisionOptions& decision) {
+                            const Recogniser& recogniser, const MethodDecision& decision) {
   const std::vector<EvidenceTrace> traces = FollowSession(world, seen, repertoire, recogniser);
   const std::vector<FrameInterval> takes = world.Takes();
-  SessionVerdict verdict{.filtered = seen.filtered, .events = {}, .alarms = {}};
+  SessionVerdict verdict{
+      .filtered = seen.filtered, .events = JudgeEvents(world, traces, decision.judging), .alarms = {}};
+  verdict.threshold = decision.judging;
   auto event = world.events.begin();
   for (std::size_t t = 0; t < takes.size(); ++t) {
     const auto [begin, end] = takes[t];
     for (; event != world.events.end() && event->window.end <= end; ++event) {
       const FrameInterval window{event->window.begin - begin, event->window.end - begin};
-      verdict.events.push_back(JudgeWindow(traces[t], window, decision.threshold));
       verdict.named.push_back(NameOf(*event, world, seen, repertoire, recogniser, window, traces[t]));
     }
-    for (const Detection& detection : FindMoves(traces[t], seen.filtered.rate_hz, decision)) {
+    for (const Detection& detection : FindMoves(traces[t], seen.filtered.rate_hz, decision.spotting)) {
       verdict.spotted.push_back({detection.move, begin + detection.frame});
     }
   }

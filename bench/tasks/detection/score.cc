@@ -4,22 +4,22 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/metrics/action_points.h"
-#include "bench/metrics/detection.h"
 #include "engine/base/digest.h"
 
 namespace etude {
-namespace {
 
-std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, const SessionVerdict& verdict) {
+std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements) {
   std::vector<JudgedEvent> events;
-  for (std::size_t i = 0; i < verdict.events.size(); ++i) {
-    const Judgement& judgement = verdict.events[i];
+  for (std::size_t i = 0; i < judgements.size(); ++i) {
+    const Judgement& judgement = judgements[i];
     const DetectionEvent& event = world.events[i];
     if (event.truth == Truth::kGrey) continue;
     events.push_back({event.IsRight(), judgement.recognised_at.has_value(), judgement.score});
   }
   return events;
 }
+
+namespace {
 
 /// Whether each performance of which `is_meant` holds was called right.
 template <typename IsMeant>
@@ -45,6 +45,17 @@ void ScoreNames(const DetectionWorld& world, const SessionVerdict& verdict, cons
     performances.push_back({danced, verdict.named[i] ? repertoire.taught[*verdict.named[i]].name : ""});
   }
   result.MeasureOr("move_named", MoveNamed(performances), "no move was danced");
+}
+
+std::optional<double> ShareSpotted(const DetectionWorld& world, const SessionVerdict& verdict,
+                                   const Repertoire& repertoire) {
+  std::vector<MoveWindow> right;
+  for (const DetectionEvent& event : world.events) {
+    if (event.IsRight()) right.push_back({event.move, event.danced, event.window.begin, event.window.end});
+  }
+  std::vector<MoveCall> calls;
+  for (const Detection& each : verdict.spotted) calls.push_back({repertoire.taught[each.move].name, each.frame});
+  return RightSpotted(right, calls);
 }
 
 /// How long each right performance had to wait for its praise; a miss waited in vain until its window closed.
@@ -112,7 +123,7 @@ std::string EventsDigest(const SessionVerdict& verdict, const Repertoire& repert
 
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
                   CellResult& result) {
-  const std::vector<JudgedEvent> events = JudgedEvents(world, verdict);
+  const std::vector<JudgedEvent> events = JudgedEvents(world, verdict.events);
   const Confusion confusion = CountConfusion(events);
   const std::vector<Wait> waits = WaitsOf(world, verdict);
   result.MeasureOr("f1", F1(confusion), "no performance was right, and none was called right");
@@ -121,6 +132,7 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
   result.MeasureOr("fault_found", FaultFound(CalledRight(world, verdict, HasFault)), "no performance had a fault");
   result.MeasureOr("grey_called_right", GreyCalledRight(CalledRight(world, verdict, IsGrey)),
                    "no performance was grey");
+  result.MeasureOr("right_spotted", ShareSpotted(world, verdict, repertoire), "no performance was right");
   ScoreNames(world, verdict, repertoire, result);
   if (world.points.empty()) {
     result.Missing("action_point_f", "no label is an action point");
@@ -135,7 +147,7 @@ void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, co
 }
 
 std::vector<std::string> DetectionMetrics() {
-  return {"f1",         "precision",      "recall",  "fault_found", "grey_called_right",
+  return {"f1",         "precision",      "recall",  "fault_found", "grey_called_right",   "right_spotted",
           "move_named", "action_point_f", "roc_auc", "latency_s",   "false_alarms_per_min"};
 }
 
@@ -216,16 +228,42 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
           {"right_answered", "right performance", std::move(answered)}};
 }
 
+namespace {
+
+nlohmann::ordered_json KeyPosesOf(const TaughtMove& move) {
+  nlohmann::ordered_json poses = nlohmann::ordered_json::array();
+  for (const TaughtPose& pose : move.poses) {
+    nlohmann::ordered_json& told = poses.emplace_back(nlohmann::ordered_json::array());
+    for (const PoseTarget& target : pose.targets) {
+      told.push_back({{"feature", FeatureName(target.feature)},
+                      {"degrees", target.degrees},
+                      {"tolerance_deg", target.tolerance_deg}});
+    }
+  }
+  return poses;
+}
+
+}  // namespace
+
 Recording RecordSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire) {
   nlohmann::ordered_json extras = {{"format", "etude-detection"}, {"version", 1}};
+  if (verdict.threshold) extras["threshold"] = *verdict.threshold;
+  extras["moves"] = nlohmann::ordered_json::array();
+  for (const TaughtMove& move : repertoire.taught) {
+    extras["moves"].push_back({{"name", move.name}, {"key_poses", KeyPosesOf(move)}});
+  }
   extras["events"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < verdict.events.size(); ++i) {
     const DetectionEvent& event = world.events[i];
     const Judgement& judgement = verdict.events[i];
     const FrameInterval& window = event.window;
-    nlohmann::ordered_json told = {{"move", event.move},      {"fault", event.FaultText()},
-                                   {"danced", event.danced},  {"begin_frame", window.begin},
-                                   {"end_frame", window.end}, {"called_right", judgement.recognised_at.has_value()},
+    nlohmann::ordered_json told = {{"move", event.move},
+                                   {"truth", TruthName(event.truth)},
+                                   {"fault", event.FaultText()},
+                                   {"danced", event.danced},
+                                   {"begin_frame", window.begin},
+                                   {"end_frame", window.end},
+                                   {"called_right", judgement.recognised_at.has_value()},
                                    {"score", judgement.score}};
     if (judgement.recognised_at) told["called_frame"] = window.begin + *judgement.recognised_at;
     extras["events"].push_back(std::move(told));

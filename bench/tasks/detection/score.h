@@ -6,10 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "bench/metrics/detection.h"
 #include "bench/tasks/base/task.h"
 #include "bench/tasks/detection/run.h"
 
 namespace etude {
+
+/// The performances asked for that are right or wrong, not grey, and how each was judged (one judgement per event).
+std::vector<JudgedEvent> JudgedEvents(const DetectionWorld& world, std::span<const Judgement> judgements);
 
 /// The metrics of a session (docs/metrics.md).
 void ScoreSession(const DetectionWorld& world, const SessionVerdict& verdict, const Repertoire& repertoire,
@@ -47,7 +51,10 @@ std::vector<Series> PerformanceSeries(const DetectionWorld& world, const Session
 /// The session: tracks "truth" and "sensed" (as the recogniser saw it), and in `extras_json`
 ///
 ///     {"format": "etude-detection", "version": 1,
-///      "events": [{"move": "clap", "fault": "none", "danced": "clap", "begin_frame": 30, "end_frame": 120,
+///      "threshold": 0.4,                                  of judging; absent: an answer from outside
+///      "moves": [{"name": "clap", "key_poses": [[{"feature": "RH", "degrees": 90, "tolerance_deg": 20}, …], …]}, …],
+///      "events": [{"move": "clap", "truth": "right", "fault": "none", "danced": "clap", "begin_frame": 30,
+///      "end_frame": 120,
 ///                  "called_right": true, "called_frame": 88, "score": 0.83}, …],
 ///      "alarms": [{"move": "sway", "frame": 215}, …],
 ///      "joint_states": ["tttttttttttttttiiiii", …]}   one letter per joint and frame: tracked, inferred, not tracked

@@ -16,7 +16,7 @@ namespace etude {
 class SessionWorld final : public TaskWorld {
  public:
   /// What the methods decide by; may be costly the first time.
-  using Decide = std::function<const std::vector<DecisionOptions>&()>;
+  using Decide = std::function<const std::vector<MethodDecision>&()>;
 
   /// Methods and repertoire must outlive this.
   SessionWorld(const std::vector<ReadyMethod>& methods, Decide decide, const Repertoire& repertoire,

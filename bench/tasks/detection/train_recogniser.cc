@@ -18,12 +18,6 @@ struct Measured {
   PerformanceMeasures measures;
 };
 
-/// Where `distance` stands among the measures.
-std::size_t DistanceIndex() {
-  const auto& names = MeasureNames();
-  return static_cast<std::size_t>(std::ranges::find(names, "distance") - names.begin());
-}
-
 /// Bags of one kind: what each holds, nearest first, and not more than can matter.
 class BagMaker {
  public:
@@ -36,9 +30,8 @@ class BagMaker {
 
   void Into(std::vector<LabelledBag>& all) {
     constexpr std::size_t kMost = 12;
-    static const std::size_t distance = DistanceIndex();
     for (auto& [key, bag] : bags_) {
-      std::ranges::stable_sort(bag.performances, {}, [](const auto& each) { return each[distance]; });
+      std::ranges::stable_sort(bag.performances, {}, [](const auto& each) { return each[kDistanceMeasure]; });
       bag.performances.resize(std::min(bag.performances.size(), kMost));
       all.push_back(std::move(bag));
     }

@@ -34,6 +34,19 @@ Value Grey(const Json& in) {
   return GreyCalledRight(called);
 }
 
+Value Spotted(const Json& in) {
+  std::vector<MoveWindow> right;
+  for (const Json& asked : in.at("asked")) {
+    if (!asked.at("right").get<bool>()) continue;
+    const auto move = asked.at("move").get<std::string>();
+    right.push_back({move, move, asked.at("begin_frame").get<int>(), asked.at("end_frame").get<int>()});
+  }
+  std::vector<MoveCall> calls;
+  for (const Json& call : in.at("calls"))
+    calls.push_back({call.at("move").get<std::string>(), call.at("frame").get<int>()});
+  return RightSpotted(right, calls);
+}
+
 Value Named(const Json& in) {
   std::vector<NamedMove> performances;
   for (const Json& performance : in.at("dances")) {
@@ -86,6 +99,7 @@ std::span<const Evaluator> DetectionEvaluators() {
       {"f1", [](const Json& in) -> Value { return F1(ConfusionOf(in)); }},
       {"fault_found", Found},
       {"grey_called_right", Grey},
+      {"right_spotted", Spotted},
       {"move_named", Named},
       {"action_point_f", Points},
       {"roc_auc", [](const Json& in) -> Value { return RocAuc(EventsOf(in)); }},

@@ -51,7 +51,7 @@ MUTANTS = {
         "frames_solved"]),
     "counts for shares": (common, {"share": sum}, [
         "limb_direction_coverage", "triangulation_coverage", "frames_in_view", "frames_recovered", "precision", "recall",
-        "fault_found", "grey_called_right", "move_named",
+        "fault_found", "grey_called_right", "right_spotted", "move_named",
         "frames_solved", "frames_solved_tight"]),
     "a window of nine frames": (transition, {"REACH": 4}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),
     "a window of thirteen": (transition, {"REACH": 6}, ["jump_cm", "mean_joint_jump_cm", "jerk_peak_mps3"]),

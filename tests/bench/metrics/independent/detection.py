@@ -26,6 +26,12 @@ def grey_called_right(given):
     return common.share([each["called"] for each in given["graded"] if each["truth"] == "grey"])
 
 
+def right_spotted(given):
+    return common.share([any(call["move"] == each["move"] and each["begin_frame"] <= call["frame"] < each["end_frame"]
+                             for call in given["calls"])
+                         for each in given["asked"] if each["right"]])
+
+
 def move_named(given):
     return common.share([each["named"] == each["danced"] for each in given["dances"]])
 
@@ -100,6 +106,7 @@ METRICS = {
     "f1": f1,
     "fault_found": fault_found,
     "grey_called_right": grey_called_right,
+    "right_spotted": right_spotted,
     "move_named": move_named,
     "action_point_f": action_point_f,
     "roc_auc": roc_auc,

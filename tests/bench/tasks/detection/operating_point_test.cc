@@ -35,5 +35,41 @@ TEST(ThresholdAt, IsOneWhereEvenCertaintyIsTooOften) {
   EXPECT_EQ(ThresholdAt(std::vector<AlarmTrial>{Peaks({1, 1, 1})}, 1, 1), 1);
 }
 
+JudgedEvent Scored(bool is_right, double score) { return {is_right, false, score}; }
+
+TEST(ThresholdAtRecall, PraisesSoManyOfTheRightAndNoMore) {
+  std::vector<JudgedEvent> events = {Scored(false, 0.95), Scored(false, 0.05)};  // wrong ones have no say
+  for (int i = 1; i <= 10; ++i) events.push_back(Scored(true, 0.09 * i));
+  EXPECT_DOUBLE_EQ(*ThresholdAtRecall(events, 0.9), 0.18);
+  EXPECT_DOUBLE_EQ(*ThresholdAtRecall(events, 0.89), 0.18);
+  EXPECT_DOUBLE_EQ(*ThresholdAtRecall(events, 0.91), 0.09);
+  EXPECT_DOUBLE_EQ(*ThresholdAtRecall(events, 0.01), 0.9);
+  EXPECT_FALSE(ThresholdAtRecall(std::vector{Scored(false, 1)}, 0.9).has_value());
+}
+
+TEST(DecideBy, SetsTwoThresholds) {
+  const std::vector<AlarmTrial> alarms = {Peaks({0.9, 0.3, 0.5})};
+  const TrialsOfMethods trials = {{alarms, {Scored(true, 0.4), Scored(true, 0), Scored(false, 0.6)}}};
+  std::vector<ReadyMethod> methods(1);
+  const auto set = DecideBy(methods, trials, OperatingPoint{.false_alarms_per_min = 1, .recall = 0.5});
+  EXPECT_NEAR(set[0].spotting.threshold, 0.5, 1e-4);
+  EXPECT_DOUBLE_EQ(set[0].judging, 0.4);
+  EXPECT_GT(DecideBy(methods, trials, OperatingPoint{.recall = 1})[0].judging, 0) << "no evidence is no praise";
+  const auto unset = DecideBy(methods, trials, std::nullopt);
+  EXPECT_EQ(unset[0].spotting.threshold, 0.5);
+  EXPECT_EQ(unset[0].judging, 0.5);
+  methods[0].method.threshold = 0.7;  // says its own: for both questions
+  const auto own = DecideBy(methods, trials, OperatingPoint{});
+  EXPECT_EQ(own[0].spotting.threshold, 0.7);
+  EXPECT_EQ(own[0].judging, 0.7);
+}
+
+TEST(DecideBy, SpottingsThresholdJudgesWhereNobodyWasRight) {
+  const TrialsOfMethods trials = {{{Peaks({0.9, 0.3, 0.5})}, {Scored(false, 0.2)}}};
+  const std::vector<ReadyMethod> methods(1);
+  const auto set = DecideBy(methods, trials, OperatingPoint{.false_alarms_per_min = 1});
+  EXPECT_EQ(set[0].judging, set[0].spotting.threshold);
+}
+
 }  // namespace
 }  // namespace etude

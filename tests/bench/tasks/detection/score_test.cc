@@ -53,6 +53,8 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
                     Called(20, 0.6), Called(std::nullopt, 0), Called(50, 0.7)};
   verdict.named = {1, 1, 2, 1, 0, std::nullopt};
   verdict.alarms = {{1, 120}, {0, 400}, {0, 800}};
+  // The first in its window, the second after it, the third as another move, and two wrong ones.
+  verdict.spotted = {{1, 89}, {1, 210}, {2, 290}, {1, 400}, {1, 520}};
 
   CellResult cell;
   ScoreSession(world, verdict, kMoves, cell);
@@ -61,6 +63,7 @@ TEST(ScoreSession, MatchesAVectorWorkedByHand) {
   EXPECT_DOUBLE_EQ(Value(cell, "f1"), 2.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "fault_found"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "grey_called_right"), 1);
+  EXPECT_DOUBLE_EQ(Value(cell, "right_spotted"), 1.0 / 3);
   EXPECT_DOUBLE_EQ(Value(cell, "move_named"), 3.0 / 5);  // of one nothing was danced
   EXPECT_DOUBLE_EQ(Value(cell, "roc_auc"), 5.0 / 6);     // 0.4 loses to 0.6
   // Waits 0.1, 0.3 and one given up after 1 s: the median of all three is 0.3; of those that came it were 0.2.

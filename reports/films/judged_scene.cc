@@ -1,0 +1,230 @@
+#include "reports/films/judged_scene.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "reports/films/look.h"
+#include "reports/films/stick_figure.h"
+#include "reports/words/figures.h"
+
+namespace etude {
+namespace {
+
+constexpr Box kSeenPanel{12, 52, 440, 520}, kAnglesPanel{464, 52, 804, 520};
+constexpr Box kFigure{12, 84, 440, 440};
+constexpr double kTall = 2.4;  // metres of the figure's box
+constexpr Paint kGround{0.05, 0.06, 0.07, 0.78}, kGhost{0.80, 0.83, 0.85, 0.28};
+constexpr double kStripLeft = 116, kStripsTop = 116, kStripsHeight = 392, kStripGap = 8;
+constexpr double kHighestAngle = 180;
+
+Paint WithOpacity(const Paint& paint, double a) { return {paint.r, paint.g, paint.b, a}; }
+
+/// The angles that any of the poses tells, in their order.
+std::vector<Feature> FeaturesOf(const std::vector<TaughtPose>& poses) {
+  std::vector<Feature> features;
+  for (const TaughtPose& pose : poses) {
+    for (const PoseTarget& target : pose.targets) {
+      if (std::ranges::find(features, target.feature) == features.end()) features.push_back(target.feature);
+    }
+  }
+  return features;
+}
+
+/// A strip in which a value runs over the frames of a window.
+struct Strip {
+  Box box;
+  int begin, end;
+  double highest;
+
+  double X(int frame) const {
+    return box.x + box.width * std::clamp(frame - begin, 0, end - begin) / std::max(1, end - begin);
+  }
+  double Y(double value) const { return box.y + box.height * (1 - std::clamp(value / highest, 0.0, 1.0)); }
+};
+
+}  // namespace
+
+JudgedScene::JudgedScene(JudgedSessionFacts facts, std::string heading, int longest)
+    : facts_(std::move(facts)), heading_(std::move(heading)) {
+  const auto& all = facts_.performances;
+  std::size_t shown = 0;
+  while (shown < all.size() && !IsMisjudged(shown)) ++shown;
+  if (shown == all.size()) shown = 0;
+  if (shown > 0) --shown;
+  const int frames = facts_.Frames();
+  first_ = std::clamp(all[shown].begin_frame - kFilmRate, 0, std::max(0, frames - longest));
+  last_ = first_ + std::min(frames - first_, longest);
+}
+
+bool JudgedScene::IsMisjudged(std::size_t performance) const {
+  const std::string& truth = facts_.performances[performance].truth;
+  const bool called_right = facts_.judges.front().called_right[performance].has_value();
+  return truth == (called_right ? "wrong" : "right");
+}
+
+std::size_t JudgedScene::CurrentAt(int frame) const {
+  const auto after = std::ranges::upper_bound(facts_.performances, frame, {}, &Performance::begin_frame);
+  return after == facts_.performances.begin() ? 0 : static_cast<std::size_t>(after - facts_.performances.begin()) - 1;
+}
+
+std::string JudgedScene::CalledAt(std::size_t judge, std::size_t performance, int frame) const {
+  const auto& right = facts_.judges[judge].called_right[performance];
+  if (right && frame >= *right) return "right";
+  return frame >= facts_.performances[performance].end_frame ? "wrong" : "";
+}
+
+int JudgedScene::PosterFrame() const {
+  for (const Performance& performance : facts_.performances) {
+    const int late = performance.begin_frame + 3 * (performance.end_frame - performance.begin_frame) / 4;
+    if (performance.begin_frame >= first_ && late < last_) return late - first_;
+  }
+  return Frames() / 2;
+}
+
+std::string JudgedScene::Words() const {
+  return fmt::format(
+      "A session before the sensor, seconds {} to {} of {}: the skeleton as the sensor saw it, over the body as it "
+      "moved (pale); "
+      "the angles of the key poses asked for, a pose ticked off when paper A's rule has seen it; the evidence of {}. "
+      "Timeline: what every performance truly was, what it was taken for, and false alarms.",
+      FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
+      FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.judges.front().method);
+}
+
+void JudgedScene::DrawSkeleton(Canvas& canvas, int now) const {
+  const auto t = static_cast<std::size_t>(now);
+  canvas.FillBox(kSeenPanel, kGround, kPanelRadius);
+  DrawStickFigure(canvas, facts_.truth.poses[t], kFigure, kTall, kGhost);
+  const SensedFrame& sensed = facts_.seen.filtered.frames[t];
+  if (sensed.body_seen) {
+    const BodyPose pose = PoseOf(sensed);
+    DrawStickFigure(canvas, pose, kFigure, kTall, kAccent);
+    for (std::size_t j = 0; j < kRoleCount; ++j) {
+      const auto role = static_cast<Role>(j);
+      const TrackingState state = sensed[role].state;
+      if (state == TrackingState::kTracked) continue;
+      canvas.DrawDot(StickJoint(pose, role, kFigure, kTall), 6,
+                     state == TrackingState::kInferred ? kWarm : kWrongPaint);
+    }
+  }
+  DrawTag(canvas, kSeenPanel, sensed.body_seen ? "As the sensor saw it" : "The sensor sees nobody");
+  canvas.DrawText({kSeenPanel.x + 16, kSeenPanel.y + kSeenPanel.height - 16},
+                  "pale: as danced · orange: guessed joint · red: not seen", 12, kSoftInk, kSeenPanel.width - 32);
+}
+
+void JudgedScene::DrawAngles(Canvas& canvas, int now) const {
+  canvas.FillBox(kAnglesPanel, kGround, kPanelRadius);
+  const std::size_t current = CurrentAt(now);
+  const Performance& asked = facts_.performances[current];
+  const bool is_open = now >= asked.begin_frame && now < asked.end_frame;
+  const double left = kAnglesPanel.x + 16;
+  canvas.DrawText({left, kAnglesPanel.y + 28},
+                  fmt::format("{}: {}", is_open ? "asked for" : "asked for last", asked.move), 18, kInk, 300, true);
+  const std::string called = CalledAt(0, current, now);
+  const std::string verdict = called.empty() ? "not yet judged" : "called " + called;
+  canvas.DrawText({left, kAnglesPanel.y + 50}, fmt::format("{}: {}", facts_.judges.front().method, verdict), 14,
+                  called.empty() ? kSoftInk : PaintOfWord(called), 300, true);
+  const std::string fault = asked.fault == "none" ? "" : " (" + asked.fault + ")";
+  canvas.DrawText({left, kAnglesPanel.y + 70}, fmt::format("truth: {}{}", asked.truth, fault), 14,
+                  PaintOfWord(asked.truth), 300);
+  // Key poses, ticked off in their order.
+  for (std::size_t k = 0; k < asked.poses.size(); ++k) {
+    const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
+    const Box box{kAnglesPanel.x + 316 + 122 * static_cast<double>(k % 4),
+                  kAnglesPanel.y + 14 + 30 * static_cast<double>(k / 4), 118, 24};
+    if (box.y + box.height > kAnglesPanel.y + kStripsTop - 20) break;
+    canvas.FillBox(box, is_reached ? kRightPaint : WithOpacity(kUndecidedPaint, 0.5), 5);
+    canvas.DrawText({box.x + 8, box.y + 17}, fmt::format("key pose {}{}", k + 1, is_reached ? " ✓" : ""), 13,
+                    is_reached ? kBackdrop : kInk, box.width - 8, true);
+  }
+  const std::vector<Feature> features = FeaturesOf(asked.poses);
+  const double rows = static_cast<double>(features.size()) + 1;
+  const double height = std::min(84.0, kStripsHeight / rows - kStripGap);
+  const int shown_to = std::min(now, asked.end_frame - 1);
+  const auto strip_at = [&](std::size_t row, double highest) {
+    return Strip{
+        {kAnglesPanel.x + kStripLeft, kAnglesPanel.y + kStripsTop + static_cast<double>(row) * (height + kStripGap),
+         kAnglesPanel.width - kStripLeft - 16, height},
+        asked.begin_frame,
+        asked.end_frame,
+        highest};
+  };
+  const auto draw = [&](const Strip& strip, const std::string& name, const std::string& value, const auto& at) {
+    canvas.FillBox(strip.box, {0.16, 0.18, 0.20, 1}, 4);
+    canvas.DrawText({left, strip.box.y + height / 2 - 2}, name, 13, kInk, kStripLeft - 24, true);
+    canvas.DrawText({left, strip.box.y + height / 2 + 15}, value, 13, kSoftInk, kStripLeft - 24);
+    std::vector<glm::dvec2> path;
+    for (int frame = asked.begin_frame; frame <= shown_to; ++frame)
+      path.emplace_back(strip.X(frame), strip.Y(at(frame)));
+    return path;
+  };
+  for (std::size_t row = 0; row < features.size(); ++row) {
+    const Feature feature = features[row];
+    const auto angle = [&](int frame) { return facts_.seen.frames[static_cast<std::size_t>(frame)].features[feature]; };
+    const Strip strip = strip_at(row, kHighestAngle);
+    const auto path = draw(strip, std::string(FeatureName(feature)), FormatFixed(angle(now), 0) + "°", angle);
+    for (std::size_t k = 0; k < asked.poses.size(); ++k) {
+      const bool is_reached = asked.reached[k] && now >= *asked.reached[k];
+      for (const PoseTarget& target : asked.poses[k].targets) {
+        if (target.feature != feature) continue;
+        const double top = strip.Y(target.degrees + target.tolerance_deg);
+        const double bottom = strip.Y(target.degrees - target.tolerance_deg);
+        canvas.FillBox({strip.box.x, top, strip.box.width, bottom - top},
+                       WithOpacity(is_reached ? kRightPaint : kAccent, 0.18));
+        canvas.DrawText({strip.box.x + strip.box.width - 16, strip.Y(target.degrees) + 5}, fmt::format("{}", k + 1), 12,
+                        kSoftInk, 14);
+      }
+      if (is_reached)
+        canvas.DrawLine({strip.X(*asked.reached[k]), strip.box.y}, {strip.X(*asked.reached[k]), strip.box.y + height},
+                        1.5, kRightPaint);
+    }
+    if (path.size() > 1) canvas.DrawPath(path, 2, kInk);
+  }
+  if (facts_.evidence.empty()) return;
+  const auto evidence = [&](int frame) { return facts_.evidence[static_cast<std::size_t>(frame)]; };
+  const Strip strip = strip_at(features.size(), 1);
+  const auto path = draw(strip, "evidence", FormatFixed(evidence(shown_to), 2), evidence);
+  if (facts_.threshold) {
+    canvas.DrawLine({strip.box.x, strip.Y(*facts_.threshold)},
+                    {strip.box.x + strip.box.width, strip.Y(*facts_.threshold)}, 1.5, kWarm);
+  }
+  if (path.size() > 1) canvas.DrawPath(path, 2, kAccent);
+}
+
+void JudgedScene::DrawTimeline(Canvas& canvas, int now) const {
+  SessionTimeline timeline(canvas, {first_, last_});
+  const auto rows = static_cast<int>(facts_.judges.size());
+  timeline.Label(0, "truth");
+  for (const Performance& performance : facts_.performances) {
+    if (performance.end_frame < first_ || performance.begin_frame > last_) continue;
+    timeline.Bar(0, performance.begin_frame, performance.end_frame, PaintOfWord(performance.truth));
+    timeline.Text(0, performance.begin_frame, performance.end_frame, performance.move);
+  }
+  for (int j = 0; j < rows; ++j) {
+    const auto& judge = facts_.judges[static_cast<std::size_t>(j)];
+    timeline.Label(j + 1, judge.method);
+    for (std::size_t i = 0; i < facts_.performances.size(); ++i) {
+      const Performance& performance = facts_.performances[i];
+      if (performance.end_frame < first_ || performance.begin_frame > last_) continue;
+      const std::string called = CalledAt(static_cast<std::size_t>(j), i, now);
+      if (called.empty()) continue;
+      timeline.Bar(j + 1, performance.begin_frame, performance.end_frame, PaintOfWord(called));
+    }
+    for (const auto& alarm : judge.alarms) {
+      if (alarm.frame <= now && timeline.Shows(alarm.frame)) timeline.Tick(alarm.frame, j + 1, j + 1, kWarm);
+    }
+  }
+  timeline.Tick(now, 0, rows, kInk);
+}
+
+Canvas JudgedScene::Draw(int frame) {
+  const int now = first_ + frame;
+  Canvas canvas = BeginFrame(fmt::format("{} · {} s", heading_, FormatFixed(now / kJudgedRateHz, 1)));
+  DrawSkeleton(canvas, now);
+  DrawAngles(canvas, now);
+  DrawTimeline(canvas, now);
+  return canvas;
+}
+
+}  // namespace etude
