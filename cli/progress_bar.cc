@@ -28,16 +28,20 @@ ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 void ProgressBar::Show(const Progress& progress) {
   const double share =
       progress.cells == 0 ? 1 : static_cast<double>(progress.cells_done) / static_cast<double>(progress.cells);
-  const std::string text = fmt::format("{}/{} cells, {} ok, {:.0f} s", progress.cells_done, progress.cells,
-                                       progress.cells_ok, progress.seconds);
+  Show(share,
+       fmt::format("{}/{} cells, {} ok, {:.0f} s", progress.cells_done, progress.cells, progress.cells_ok,
+                   progress.seconds),
+       Remaining(progress));
+}
+
+void ProgressBar::Show(double share, const std::string& what, const std::string& remaining) {
   if (is_terminal_) {
     const int filled = static_cast<int>(share * kWidth);
     const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-    const std::string_view end = progress.cells_done == progress.cells ? "\n" : "";
-    Print(fmt::format("\r\033[K[{}] {}{}{}", bar, text, Remaining(progress), end));
+    Print(fmt::format("\r\033[K[{}] {}{}{}", bar, what, remaining, share >= 1 ? "\n" : ""));
   } else if (const int tenths = static_cast<int>(share * 10); tenths > tenths_shown_) {
     tenths_shown_ = tenths;
-    Print(fmt::format("{:3d} %  {}\n", tenths * 10, text));
+    Print(fmt::format("{:3d} %  {}\n", tenths * 10, what));
   }
 }
 

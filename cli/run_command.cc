@@ -132,7 +132,7 @@ int MergeCommand(const MergeOptions& given) {
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
   ProgressBar bar;
-  const auto outcome = Merge(options, [&](const Progress& progress) { bar.Show(progress); });
+  const auto outcome = Merge(options, [&](double share) { bar.Show(share, "merged"); });
   interrupt.reset();
   if (!outcome) return Complain(outcome.error());
   if (!outcome->stopped) return ShowOutcome(*outcome);

@@ -89,7 +89,7 @@ Result<Json> ReadHost(const fs::path& folder) {
 
 }  // namespace
 
-Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(const Progress&)>& on_progress) {
+Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress) {
   const Clock::time_point start = Clock::now();
   ASSIGN_OR_RETURN(auto shards, FindShards(options.folders));
   if (shards.folders.empty()) return Fail({}, "there is nothing to merge: {}", Join(shards.missing, "; "));
@@ -120,7 +120,7 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(c
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
   const auto goes_on = [&](std::size_t rows) {
-    on_progress({.cells = cells.size(), .cells_done = rows, .cells_ok = cells_ok, .seconds = SecondsSince(start)});
+    on_progress(static_cast<double>(rows) / static_cast<double>(cells.size()));
     return options.stop == nullptr || !*options.stop;
   };
   ASSIGN_OR_RETURN(const bool is_whole, FinishRun(options.output, plan, cells, host, WorkerCount(0), goes_on));

@@ -23,12 +23,12 @@ struct RunOptions {
   std::vector<std::string> libraries;  ///< NAME=CLIPS, beside the scenarios' libraries; one name may stand repeatedly
   std::vector<std::string> streams;  ///< in the place of simulated people or the scenarios' recordings, when not empty
   std::string labels;                ///< of `streams`, or of `clips`
-  std::string joint_map;               ///< replaces the scenarios' joint maps when not empty
-  std::string output;                  ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
-  bool overwrite = false;              ///< replace a folder that already holds a run
-  bool resume = false;                 ///< go on with the run that the folder holds
-  Shard shard;                         ///< run this part only
-  int jobs = 0;                        ///< worker processes; 0 = one per processor
+  std::string joint_map;             ///< replaces the scenarios' joint maps when not empty
+  std::string output;                ///< "" = out/<suite>-<seed>, and "-<i>-of-<n>" for a shard
+  bool overwrite = false;            ///< replace a folder that already holds a run
+  bool resume = false;               ///< go on with the run that the folder holds
+  Shard shard;                       ///< run this part only
+  int jobs = 0;                      ///< worker processes; 0 = one per processor
   OutsideRules outside;
   JournalLag sync;           ///< how far the disk may be behind
   std::string command_line;  ///< for host.json
@@ -72,7 +72,8 @@ struct MergeOptions {
 };
 
 /// Makes one run of its shards: the same bytes as a run in one piece. Shards of different builds, suites or
-/// seeds, shards that overlap, and cells that are missing are refused with a list. Stopped, it leaves nothing.
-Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(const Progress&)>& on_progress);
+/// seeds, shards that overlap, and cells that are missing are refused with a list. Stopped, it leaves nothing. Its
+/// progress is the share of rows that are written, and promises nothing: only its end does.
+Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(double share)>& on_progress);
 
 }  // namespace etude
