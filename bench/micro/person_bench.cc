@@ -30,7 +30,7 @@ bool IsIn(int x, int y, int shift, double cx, double cy, double rx, double ry) {
 /// Head, trunk, arms and legs; what shows through a small hole is the person's, too.
 bool IsPerson(int x, int y, int shift) {
   const auto in = [&](double cx, double cy, double rx, double ry) { return IsIn(x, y, shift, cx, cy, rx, ry); };
-  return in(320, 120, 22, 28) || in(320, 220, 45, 80) || in(260, 210, 12, 70) || in(380, 210, 12, 70) ||
+  return in(320, 120, 22, 28) || in(320, 220, 45, 80) || in(270, 210, 12, 70) || in(370, 210, 12, 70) ||
          in(300, 350, 20, 90) || in(340, 350, 20, 90);
 }
 
@@ -47,7 +47,7 @@ ColourImage Room(const char* noise, int shift, bool has_person) {
       if (has_person) {
         if (in(320, 120, 22, 28)) r = 220, g = 160, b = 130;
         if (in(320, 220, 45, 80)) r = 200, g = 40, b = 50;
-        if (in(260, 210, 12, 70) || in(380, 210, 12, 70)) r = 220, g = 160, b = 130;
+        if (in(270, 210, 12, 70) || in(370, 210, 12, 70)) r = 220, g = 160, b = 130;
         if (in(300, 350, 20, 90) || in(340, 350, 20, 90)) r = 40, g = 120, b = 60;
         if (in(318, 225, 5, 3)) r = 150 * shade, g = 170 * shade, b = 210 * shade;  // a small hole
       }
