@@ -18,7 +18,8 @@ namespace etude {
 ///      "digests":["world","0123456789abcdef"],"series":[["position_error_cm","iteration",[3,2,1]]],
 ///      "recording":{…},"sum":"0123456789abcdef"}
 ///
-/// Behind a series' values stand the names of what they count, where they do. A value that is not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
+/// Behind a series' values stand the names of what they count, where they do. A value that is not finite, or a metric
+/// that the catalogue does not know, turns the cell into bad_output.
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 
 /// What a line says first.

@@ -97,9 +97,9 @@ inline constexpr double kIkFarthest = 1e6;
 inline constexpr double kUnitTolerance = 2e-6, kFrameTolerance = 1e-5;
 
 /// Why a problem cannot be worked on, or empty when it can: joints that are no tree, angles that are not theirs one
-/// after the other, sizes that do not fit it, values
-/// that are not finite or absurdly far (> 1,000 km), limbs of no length (a joint may stand where the root does), limits
-/// whose lower end is above the upper, axes that are not unit vectors, negative weights, an iteration limit below 1.
+/// after the other, sizes that do not fit it, values that are not finite or absurdly far (> 1,000 km), limbs of no
+/// length (a joint may stand where the root does), limits whose lower end is above the upper, axes that are not unit
+/// vectors, negative weights, an iteration limit below 1.
 std::string_view FindFault(const KinematicTree& tree, const IkProblem& problem, const IkOptions& options);
 /// The parts of it that are no single problem's, and the one that is: of a tree without faults.
 std::string_view FindFault(const KinematicTree& tree, const IkOptions& options);

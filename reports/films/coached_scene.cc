@@ -73,8 +73,8 @@ int CoachedScene::PosterFrame() const {
 std::string CoachedScene::Words() const {
   return fmt::format(
       "A coached session, seconds {} to {} of {}: the coach in its forest, the learner as danced beside it, and as the "
-      "sensor "
-      "saw it (lower right). Timeline: what the coach does; what every performance truly was; what it was taken for. "
+      "sensor saw it (lower right). Timeline: what the coach does; what every performance truly was; what it was taken "
+      "for. "
       "{} corrections in the whole session. A click for every beat of the music.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.corrections.size());

@@ -85,8 +85,8 @@ int JudgedScene::PosterFrame() const {
 std::string JudgedScene::Words() const {
   return fmt::format(
       "A session before the sensor, seconds {} to {} of {}: the skeleton as the sensor saw it, over the body as it "
-      "moved (pale); "
-      "the angles of the key poses asked for, a pose ticked off when paper A's rule has seen it; the evidence of {}. "
+      "moved (pale); the "
+      "angles of the key poses asked for, a pose ticked off when paper A's rule has seen it; the evidence of {}. "
       "Timeline: what every performance truly was, what it was taken for, and false alarms.",
       FormatFixed(first_ / kJudgedRateHz, 0), FormatFixed(last_ / kJudgedRateHz, 0),
       FormatFixed(facts_.Frames() / kJudgedRateHz, 0), facts_.judges.front().method);

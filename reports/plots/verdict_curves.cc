@@ -11,8 +11,8 @@
 #include "reports/plots/marks.h"
 #include "reports/plots/panel.h"
 #include "reports/words/escape.h"
-#include "reports/words/yardstick.h"
 #include "reports/words/figures.h"
+#include "reports/words/yardstick.h"
 
 namespace etude {
 namespace {

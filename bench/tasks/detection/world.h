@@ -64,11 +64,11 @@ struct ActionPoint {
 struct DetectionWorld {
   BodyMotion motion;  ///< as performed; of a recording, whose truth nobody knows, as sensed
   std::vector<DetectionEvent> events;
-  SkeletonStream stream;  ///< of a skeleton sensor; before cameras, whose skeletons are up to each method, of nobody
-  std::string person = {};               ///< of recordings
-  std::vector<ActionPoint> points = {};  ///< of recordings
+  SkeletonStream stream;    ///< of a skeleton sensor; before cameras, whose skeletons are up to each method, of nobody
+  std::string person = {};  ///< of recordings
+  std::vector<ActionPoint> points = {};      ///< of recordings
   std::shared_ptr<CameraTake> cameras = {};  ///< null: there are none
-  std::vector<int> starts = {};          ///< the first frames of all recordings but the first
+  std::vector<int> starts = {};              ///< the first frames of all recordings but the first
 
   /// What is followed in one go: each recording.
   std::vector<FrameInterval> Takes() const;

@@ -18,8 +18,9 @@ namespace etude {
 /// - `kDouble`: every solution is that of `SolveGaussNewton`, to the last bit.
 /// - `kFloat`: twice as many lanes. Goals are nine tenths of what is asked for, so that those asked for are met in
 ///   double; damping is 10⁻⁵ at least, and steps are not pulled to the start once |e|² < 10⁻⁶, where floats see no more
-///   of it. A problem that floats do not solve is solved in double, from its start, and its iterations are those. Where several poses meet the
-///   targets it may be another one that is found than in double. Not for goals below 2·10⁻⁴ cm or degrees.
+///   of it. A problem that floats do not solve is solved in double, from its start, and its iterations are those. Where
+///   several poses meet the targets it may be another one that is found than in double. Not for goals below 2·10⁻⁴ cm
+///   or degrees.
 /// A bad problem answers kBadInput for itself; so does every problem when the tree or the options are bad.
 /// `IkOptions::trace` is not filled.
 IkBatchSolution SolveGaussNewtonBatch(const KinematicTree& tree, const IkBatch& problems, const IkOptions& options,

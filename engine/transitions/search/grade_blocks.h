@@ -70,8 +70,8 @@ void ForEachLane(std::uint32_t bits, const Visit& visit) {
 BlockResult SquaredDistances(const GradeMetric& metric, const Grades& query, const FrameBlock& block, double limit);
 
 /// The least d² that any frame of `query` can have from any frame of each box (rounded outwards). It is never greater
-/// than the d² of such a pair as `ComputeDistance` rounds it: both are made by the same operations in the same order, and
-/// rounding keeps order.
+/// than the d² of such a pair as `ComputeDistance` rounds it: both are made by the same operations in the same order,
+/// and rounding keeps order.
 BlockResult SquaredBounds(const GradeMetric& metric, const GradeBox& query, const BoxBlock& block, double limit);
 
 /// A limit on d² that no frame exceeds whose rounded distance is at most `distance`.

@@ -23,7 +23,9 @@ FinishedCell SampleCell() {
   result.Measure("iterations", -0.0);
   result.Missing("orientation_error_deg", "");
   result.digests = {{"problem", "00ff"}, {"solution", "11ee"}};
-  result.series = {{"position_error_cm", "iteration", {3, 2, 1e300}}, {"empty", "frame", {}}, {"named", "performance", {1}, {"clap", "a \"so\""}}};
+  result.series = {{"position_error_cm", "iteration", {3, 2, 1e300}},
+                   {"empty", "frame", {}},
+                   {"named", "performance", {1}, {"clap", "a \"so\""}}};
   BodyPose pose;
   pose[Role::kHead] = {0.1, 1.7, -0.3};
   result.recording = Recording{{{"truth", {30, {pose, pose}}}}, R"({"from":"clap"})"};

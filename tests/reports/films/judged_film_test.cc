@@ -33,9 +33,8 @@ Recording SessionRecording(bool calls_right) {
   for (const KeyPose& pose : Clap().key_poses) {
     nlohmann::json& told = poses.emplace_back(nlohmann::json::array());
     for (const KeyPose::Target& target : pose.targets) {
-      told.push_back({{"feature", target.feature},
-                      {"degrees", target.degrees},
-                      {"tolerance_deg", target.tolerance_deg}});
+      told.push_back(
+          {{"feature", target.feature}, {"degrees", target.degrees}, {"tolerance_deg", target.tolerance_deg}});
     }
   }
   extras["moves"].push_back({{"name", "clap"}, {"key_poses", poses}});
