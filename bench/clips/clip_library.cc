@@ -15,13 +15,19 @@ Result<void> AddBuiltin(const std::string& reference, const Place& place, ClipLi
   return {};
 }
 
+std::shared_ptr<const RecordedFigure> FigureOf(const OpenedClip& clip) {
+  if (clip.source.character == nullptr) return nullptr;
+  return std::make_shared<const RecordedFigure>(clip.source.character, clip.source.clip, clip.map, clip.body);
+}
+
 Result<void> AddFile(const std::string& reference, const OpenOptions& options, ClipLibrary& library) {
   ASSIGN_OR_RETURN(auto clips, ReadClips(reference, options));
   for (SourceClip& clip : clips) {
     ASSIGN_OR_RETURN(auto opened, UnderstandClip(std::move(clip), options));
     RestBody body = MeasureBody(opened.source.clip, opened.map, opened.body);
+    std::shared_ptr<const RecordedFigure> figure = FigureOf(opened);
     library.clips.push_back({opened.source.name, opened.source.source, std::move(opened.body.motion), std::nullopt,
-                             opened.body.note, std::move(body)});
+                             opened.body.note, std::move(body), std::move(figure)});
   }
   return {};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/rest_body.h"
+#include "sim/character/recorded_figure.h"
 #include "sim/choreography/move.h"
 
 namespace etude {
@@ -20,6 +22,7 @@ struct LibraryClip {
   std::optional<Move> move;  ///< the authored move, with its key poses; only built-in moves have one
   std::string note;          ///< what loading had to repair ("dropped a leading T-pose", "1 unit = 5.65 cm")
   RestBody body = {};        ///< of who moves, at rest; without joints where nobody has measured it
+  std::shared_ptr<const RecordedFigure> figure = {};  ///< of a file with meshes
 };
 
 /// The clips of one scenario, in order; trials go round-robin over them.

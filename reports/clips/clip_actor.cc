@@ -1,6 +1,5 @@
 #include "reports/clips/clip_actor.h"
 
-#include "engine/motion/sample.h"
 #include "engine/retargeting/proportions.h"
 #include "sim/body/shape.h"
 #include "sim/character/characters.h"
@@ -41,7 +40,8 @@ Result<ClipActor> ClipActor::Make(OpenedClip clip, std::optional<ActorKind> kind
 
 ClipActor::ClipActor(OpenedClip clip, ActorKind kind)
     : clip_(std::move(clip)), kind_(kind), motion_(clip_.body.motion) {
-  if (kind_ == ActorKind::kOwn) character_ = clip_.source.character;
+  const SourceClip& source = clip_.source;
+  if (kind_ == ActorKind::kOwn) own_.emplace(source.character, source.clip, clip_.map, clip_.body);
   if (kind_ == ActorKind::kMannequin) character_ = std::make_shared<const Character>(MannequinCharacter());
   if (kind_ == ActorKind::kBear) {
     character_ = std::make_shared<const Character>(BearCharacter());
@@ -55,19 +55,12 @@ Figure ClipActor::FigureAt(std::size_t frame) const {
     case ActorKind::kBody:
       return {BodyCapsules(pose), SidedColours(), {}};
     case ActorKind::kOwn:
-      return OwnFigureAt(frame);
+      return own_->At(static_cast<double>(frame));
     case ActorKind::kMannequin:
     case ActorKind::kBear:
       break;
   }
   return PosedFigure(*character_, pose);
-}
-
-Figure ClipActor::OwnFigureAt(std::size_t frame) const {
-  const Clip& clip = clip_.source.clip;
-  const double at =
-      static_cast<double>(clip_.body.dropped_frames) + static_cast<double>(frame) * clip.rate_hz / motion_.rate_hz;
-  return PosedFigure(*character_, SampleFrame(clip, at), WorldFromFile(clip_.body));
 }
 
 }  // namespace etude

@@ -6,6 +6,7 @@
 #include "bench/clips/open_clip.h"
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
+#include "sim/character/recorded_figure.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -32,12 +33,12 @@ class ClipActor {
 
  private:
   ClipActor(OpenedClip clip, ActorKind kind);
-  Figure OwnFigureAt(std::size_t frame) const;
 
   OpenedClip clip_;
   ActorKind kind_;
   BodyMotion motion_;
-  std::shared_ptr<const Character> character_;
+  std::optional<RecordedFigure> own_;           // of kOwn
+  std::shared_ptr<const Character> character_;  // of kMannequin, kBear
 };
 
 }  // namespace etude

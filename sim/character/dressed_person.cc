@@ -37,27 +37,17 @@ DressedPerson::DressedPerson(const Outfit& outfit) {
     for (const Piece& piece : painted.pieces) builder.Add(material, piece);
   }
   character_ = std::move(builder).Take();
+  still_ = StillSurfaces(character_, PartsOfJoints(character_.skeleton));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const SkinnedMesh& mesh = character_.meshes[i];
-    Surface& surface = still_.emplace_back();
-    surface.triangles = mesh.triangles;
-    surface.parts = PartsOfTriangles(character_.skeleton, mesh);
-    surface.colour = all[i].paint.first;
+    Surface& surface = still_[i];
     surface.paint = all[i].paint;
     surface.is_closed = true;
-    for (const SkinnedMesh::Vertex& vertex : mesh.vertices) surface.rest.emplace_back(vertex.position);
+    for (const SkinnedMesh::Vertex& vertex : character_.meshes[i].vertices) surface.rest.emplace_back(vertex.position);
   }
 }
 
 Figure DressedPerson::At(const BodyPose& pose) const {
-  const std::vector<GlobalTransform> globals = FilledGlobals(character_, pose);
-  Figure figure;
-  figure.surfaces = still_;
-  for (std::size_t i = 0; i < still_.size(); ++i) {
-    DeformedMesh deformed = Deform(character_.meshes[i], globals);
-    figure.surfaces[i].positions = std::move(deformed.positions);
-    figure.surfaces[i].normals = std::move(deformed.normals);
-  }
+  Figure figure = FigureAt(character_, still_, FilledGlobals(character_, pose));
   figure.shadow = BodyCapsules(pose);
   return figure;
 }

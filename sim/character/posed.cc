@@ -19,33 +19,16 @@ constexpr std::array<Part, kRoleCount> kPartOfRole = {
     Part::kRightHand,   Part::kRightHand,  Part::kLeftThigh,  Part::kLeftShank,     Part::kLeftFoot,
     Part::kLeftFoot,    Part::kRightThigh, Part::kRightShank, Part::kRightFoot,     Part::kRightFoot};
 
-// An ear belongs to the head that it hangs from: the nearest joint upwards that is named after a role decides.
-Part PartOfJoint(const Skeleton& skeleton, int joint) {
-  for (; joint >= 0; joint = skeleton.joints[joint].parent) {
-    if (const auto role = FindRole(skeleton.joints[joint].name)) return kPartOfRole[Index(*role)];
-  }
-  return Part::kTrunk;
-}
+using MaybeParts = std::vector<std::optional<Part>>;  // of every joint
 
-Figure FigureAt(const Character& character, const std::vector<GlobalTransform>& globals) {
-  Figure figure;
-  figure.surfaces.reserve(character.meshes.size());
-  for (const SkinnedMesh& mesh : character.meshes) {
-    DeformedMesh deformed = Deform(mesh, globals);
-    const Material& material = character.materials[mesh.material];
-    const glm::dvec3& colour = material.colour;
-    figure.surfaces.push_back({.positions = std::move(deformed.positions),
-                               .normals = std::move(deformed.normals),
-                               .triangles = mesh.triangles,
-                               .parts = PartsOfTriangles(character.skeleton, mesh),
-                               .colour = {SrgbOfLinear(colour.r), SrgbOfLinear(colour.g), SrgbOfLinear(colour.b)}});
-    if (!material.texture) continue;
-    figure.surfaces.back().texture = material.texture;
-    for (const SkinnedMesh::Vertex& vertex : mesh.vertices) {
-      figure.surfaces.back().on_texture.emplace_back(vertex.on_texture);
-    }
+std::vector<Part> Inherited(const Skeleton& skeleton, const MaybeParts& known) {
+  std::vector<Part> parts;
+  parts.reserve(known.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const int parent = skeleton.joints[i].parent;
+    parts.push_back(known[i].value_or(parent >= 0 ? parts[static_cast<std::size_t>(parent)] : Part::kTrunk));
   }
-  return figure;
+  return parts;
 }
 
 // What hangs from a role's joint was made for the standing body: how much wider, longer and deeper `pose` wants it.
@@ -73,11 +56,28 @@ glm::dvec3 SizeOf(Role role, const BodyPose& pose) {
 
 }  // namespace
 
-std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& mesh) {
-  std::vector<Part> part_of_binding;
-  for (const SkinnedMesh::Binding& binding : mesh.bindings) {
-    part_of_binding.push_back(PartOfJoint(skeleton, binding.joint));
+std::vector<Part> PartsOfJoints(const Skeleton& skeleton) {
+  MaybeParts known(skeleton.joints.size());
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (const auto role = FindRole(skeleton.joints[i].name)) known[i] = kPartOfRole[Index(*role)];
   }
+  return Inherited(skeleton, known);
+}
+
+std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
+  MaybeParts known(skeleton.joints.size());
+  const auto part_of = [&known](int joint) -> std::optional<Part>& { return known[static_cast<std::size_t>(joint)]; };
+  for (const Role role : AllRoles()) {
+    // Where several ride on one joint, the first is the one that it moves. A head is below its tip.
+    if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
+  }
+  for (int joint = map[Role::kHead].joint; joint >= 0 && !part_of(joint); joint = skeleton.joints[joint].parent) {
+    part_of(joint) = Part::kHead;
+  }
+  return Inherited(skeleton, known);
+}
+
+std::vector<Part> PartsOfTriangles(const std::vector<Part>& parts_of_joints, const SkinnedMesh& mesh) {
   std::vector<Part> parts;
   parts.reserve(mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
@@ -85,9 +85,9 @@ std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& 
     for (const std::uint32_t corner : triangle) {
       const SkinnedMesh::Vertex& vertex = mesh.vertices[corner];
       for (std::size_t i = 0; i < vertex.weights.size(); ++i) {
-        if (vertex.weights[i] != 0) {
-          share[static_cast<std::size_t>(part_of_binding[vertex.bindings[i]])] += vertex.weights[i];
-        }
+        if (vertex.weights[i] == 0) continue;
+        const Part part = parts_of_joints[mesh.bindings[vertex.bindings[i]].joint];
+        share[static_cast<std::size_t>(part)] += vertex.weights[i];
       }
     }
     parts.push_back(static_cast<Part>(std::ranges::max_element(share) - share.begin()));
@@ -95,15 +95,50 @@ std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& 
   return parts;
 }
 
-Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world) {
-  assert(pose.size() == character.skeleton.joints.size());
+std::vector<Surface> StillSurfaces(const Character& character, const std::vector<Part>& parts_of_joints) {
+  std::vector<Surface> surfaces;
+  surfaces.reserve(character.meshes.size());
+  for (const SkinnedMesh& mesh : character.meshes) {
+    const Material& material = character.materials[mesh.material];
+    const glm::dvec3& colour = material.colour;
+    Surface& surface = surfaces.emplace_back();
+    surface.triangles = mesh.triangles;
+    surface.parts = PartsOfTriangles(parts_of_joints, mesh);
+    surface.colour = {SrgbOfLinear(colour.r), SrgbOfLinear(colour.g), SrgbOfLinear(colour.b)};
+    surface.texture = material.texture;
+    if (!material.texture) continue;
+    for (const SkinnedMesh::Vertex& vertex : mesh.vertices) surface.on_texture.emplace_back(vertex.on_texture);
+  }
+  return surfaces;
+}
+
+Figure FigureAt(const Character& character, const std::vector<Surface>& still,
+                const std::vector<GlobalTransform>& globals) {
+  Figure figure;
+  figure.surfaces = still;
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    DeformedMesh deformed = Deform(character.meshes[i], globals);
+    figure.surfaces[i].positions = std::move(deformed.positions);
+    figure.surfaces[i].normals = std::move(deformed.normals);
+  }
+  return figure;
+}
+
+std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const LocalPose& pose,
+                                            const glm::dmat4& to_world) {
+  assert(pose.size() == skeleton.joints.size());
   std::vector<GlobalTransform> globals;
-  ComputeGlobals(character.skeleton, pose, globals);
+  ComputeGlobals(skeleton, pose, globals);
   for (GlobalTransform& global : globals) {
     global.position = glm::dvec3(to_world * glm::dvec4(global.position, 1));
     global.axes = glm::dmat3(to_world) * global.axes;
   }
-  return FigureAt(character, globals);
+  return globals;
+}
+
+Figure PosedFigure(const Character& character, const LocalPose& pose, const glm::dmat4& to_world) {
+  return FigureAt(character, StillSurfaces(character, PartsOfJoints(character.skeleton)),
+                  GlobalsInWorld(character.skeleton, pose, to_world));
 }
 
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose) {
@@ -118,7 +153,8 @@ std::vector<GlobalTransform> FilledGlobals(const Character& character, const Bod
 }
 
 Figure PosedFigure(const Character& character, const BodyPose& pose) {
-  return FigureAt(character, FilledGlobals(character, pose));
+  return FigureAt(character, StillSurfaces(character, PartsOfJoints(character.skeleton)),
+                  FilledGlobals(character, pose));
 }
 
 }  // namespace etude

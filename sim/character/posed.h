@@ -4,6 +4,7 @@
 
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
+#include "engine/retargeting/joint_map.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -19,7 +20,23 @@ Figure PosedFigure(const Character& character, const BodyPose& pose);
 /// The joints of such a character in `pose`, their axes as much longer or shorter as its limbs are.
 std::vector<GlobalTransform> FilledGlobals(const Character& character, const BodyPose& pose);
 
+/// The part of the body that each joint of a skeleton moves: that of the role it is named after, else what the nearest
+/// such joint upwards moves (an ear belongs to the head that it hangs from), else the trunk.
+std::vector<Part> PartsOfJoints(const Skeleton& skeleton);
+/// The same of a file's skeleton, whose roles `map` has found; all between neck and head is head.
+std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map);
+
 /// What each triangle shows: the part whose joints move its corners most.
-std::vector<Part> PartsOfTriangles(const Skeleton& skeleton, const SkinnedMesh& mesh);
+std::vector<Part> PartsOfTriangles(const std::vector<Part>& parts_of_joints, const SkinnedMesh& mesh);
+
+/// One surface per mesh with all of it that no pose changes.
+std::vector<Surface> StillSurfaces(const Character& character, const std::vector<Part>& parts_of_joints);
+/// Those surfaces where the joints take them.
+Figure FigureAt(const Character& character, const std::vector<Surface>& still,
+                const std::vector<GlobalTransform>& globals);
+
+/// The joints of a skeleton's pose in the world.
+std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const LocalPose& pose,
+                                            const glm::dmat4& to_world);
 
 }  // namespace etude

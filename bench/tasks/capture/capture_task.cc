@@ -89,6 +89,15 @@ class CaptureTask : public Task {
   const CaptureStudy study_;
 };
 
+Result<void> CheckFigures(const TaskInput& input) {
+  for (const LibraryClip& clip : input.clips.clips) {
+    if (clip.figure != nullptr) continue;
+    return Fail(input.condition.node().Find("figure")->place,
+                "'figure: own' needs clips with meshes (glTF); '{}' has none", clip.source);
+  }
+  return {};
+}
+
 Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   CaptureStudy study;
   CaptureConditionFields().Read(input.condition, study.options);
@@ -97,6 +106,7 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
+  if (study.options.figure == PerformerFigure::kOwn) RETURN_IF_ERROR(CheckFigures(input));
   study.methods = std::move(methods);
   for (const CaptureMethod& method : study.methods) AddSource(PersonSourceOf(method), study.sources);
   study.clips = input.clips;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/tasks/capture/shooting.h"
 #include "engine/base/unit_vector.h"
 #include "sim/annotator/drawing.h"
 #include "sim/body/shape.h"
@@ -89,8 +90,8 @@ Marking::Marking(const StudioOptions& options, const CaptureWorld& world, const 
     : mark_every_(static_cast<std::size_t>(options.mark_every)), annotators_(world.cameras.size()) {
   const PersonErrors errors{.error_px = options.annotation_error_px};
   const BodyPose& body = world.truth.front();
-  eye_.figure = world.stage.IsPerformerDressed() ? FigureKind::kDressed : FigureKind::kCapsules;
-  eye_.head_below_crown = HeadBelowCrown(world.stage.PerformerAt(body, world.colours), body);
+  eye_.figure = world.own || world.stage.IsPerformerDressed() ? FigureKind::kDressed : FigureKind::kCapsules;
+  eye_.head_below_crown = HeadBelowCrown(PerformerAt(world, 0), body);
   for (std::size_t camera = 0; camera < annotators_.size(); ++camera) {
     for (int annotator = 0; annotator < options.annotators; ++annotator) {
       annotators_[camera].emplace_back(errors, eye_, key, annotator, static_cast<int>(camera));

@@ -56,8 +56,13 @@ FieldTable<StudioOptions> MakeConditionFields() {
                     {0.2, 5}, "How high they stand: one for each angle; in other rigs the cameras take them in turn."),
        Key::Number("camera_distance_m", InRig<&RigOptions::distance_m>, {2, 10},
                    "From the middle of where the performer moves, as far as the room allows."),
+       Key::Name(
+           "figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
+           "Who is drawn: the stage's own people, or the meshes and textures that the clips' files bring (glTF)."),
        Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
-                 "Colours that stand apart from the room's, or a grey shirt and trousers of the floor's hue."),
+                 "Of the stage's people: colours that stand apart from the room's, or a grey shirt and trousers of the "
+                 "floor's "
+                 "hue."),
        Key::Number(
            "scene", &Options::scene, {0, 1},
            "How much a room people live in: 0 = the studio, 1 = furniture, clutter, a second person, hues alike."),

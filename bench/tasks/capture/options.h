@@ -16,6 +16,12 @@ enum class Clothes {
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
 };
 
+/// Who is drawn.
+enum class PerformerFigure {
+  kStaged,  ///< "staged": the stage's own people, dressed as `clothes` and `scene` say
+  kOwn,     ///< "own": the meshes and textures that the clip's file brings
+};
+
 /// What the cameras are calibrated with.
 enum class CalibrationTargetKind {
   kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
@@ -26,6 +32,7 @@ enum class CalibrationTargetKind {
 struct StudioOptions {
   double duration_s = 2;
   RigOptions rig = {};  ///< where the cameras stand
+  PerformerFigure figure = PerformerFigure::kStaged;
   Clothes clothes = Clothes::kStudio;
   /// 0 = the studio; 1 = a furnished room with people and things that move (sim/stage/README.md has the steps between).
   double scene = 0;

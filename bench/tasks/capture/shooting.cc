@@ -46,6 +46,15 @@ BodyPose PoseAt(std::span<const BodyPose> poses, double frame) {
   return pose;
 }
 
+Figure PerformerAt(const CaptureWorld& world, double frame) {
+  const BodyPose pose = PoseAt(world.truth, frame);
+  if (!world.own) return world.stage.PerformerAt(pose, world.colours);
+  const double inside = std::clamp(frame, 0.0, static_cast<double>(world.truth.size() - 1));
+  Figure figure = world.own->figure->At(static_cast<double>(world.own->first) + inside, world.own->move);
+  figure.shadow = BodyCapsules(pose);
+  return figure;
+}
+
 CameraEffects FaultlessPictures(const CameraEffects& effects) {
   return {.sync_offset_ms = effects.sync_offset_ms,
           .clock_drift_ppm = effects.clock_drift_ppm,
@@ -72,7 +81,7 @@ View Shooting::Shoot(std::size_t camera, std::size_t frame, Targets targets) {
     room.brightness *= BrightnessAt(world_.brightness, time) * world_.stage.FlickerAt(seconds);
     room.interior = world_.stage.interior();
     std::vector<Figure> figures = world_.stage.MoversAt(seconds);
-    figures.push_back(world_.stage.PerformerAt(PoseAt(world_.truth, time), world_.colours));
+    figures.push_back(PerformerAt(world_, time));
     return renderer_.RenderRows(room, figures, model.pinhole(), wanted, rows);
   };
   return model.Shoot(frame, scene, targets);

@@ -14,6 +14,9 @@ namespace etude {
 /// that nothing jumps; exactly poses[k] at k; beyond the ends the first or the last.
 BodyPose PoseAt(std::span<const BodyPose> poses, double frame);
 
+/// Who is seen at such a time.
+Figure PerformerAt(const CaptureWorld& world, double frame);
+
 /// Where and when cameras look, and nothing that harms what they see: what is left of the effects for pictures of the
 /// truth.
 CameraEffects FaultlessPictures(const CameraEffects& effects);

@@ -11,12 +11,19 @@ namespace {
 
 constexpr double kReach = 1.2;  // metres from the middle that both cameras see
 
-std::vector<BodyPose> Window(const LibraryClip& clip, std::size_t start, std::size_t frames) {
+// What is taken of a clip, and how it was moved to the middle of the floor.
+struct Window {
+  std::size_t start = 0;
+  FloorMove to_origin;
+  std::vector<BodyPose> poses;
+};
+
+Window MakeWindow(const LibraryClip& clip, std::size_t start, std::size_t frames) {
   const std::vector<BodyPose>& all = clip.motion.poses;
-  std::vector<BodyPose> window;
-  for (std::size_t i = 0; i < frames; ++i) window.push_back(all[(start + i) % all.size()]);
-  const FloorMove to_origin = ToOrigin(window[frames / 2]);
-  for (BodyPose& pose : window) pose = to_origin.Apply(pose);
+  Window window{.start = start};
+  for (std::size_t i = 0; i < frames; ++i) window.poses.push_back(all[(start + i) % all.size()]);
+  window.to_origin = ToOrigin(window.poses[frames / 2]);
+  for (BodyPose& pose : window.poses) pose = window.to_origin.Apply(pose);
   return window;
 }
 
@@ -28,7 +35,7 @@ double FarthestFromMiddle(const std::vector<BodyPose>& poses) {
   return farthest;
 }
 
-std::vector<BodyPose> ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
+Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
   RandomStream random(key, "capture/window");
   const std::size_t available = clip.motion.poses.size();
   const bool loops = clip.move && clip.move->loops;
@@ -37,12 +44,12 @@ std::vector<BodyPose> ChooseWindow(const StudioOptions& options, const LibraryCl
   const std::size_t starts = loops ? available : available - frames + 1;
 
   constexpr int kThrows = 12;
-  std::vector<BodyPose> best;
+  Window best;
   double least = 0;
   for (int i = 0; i < kThrows; ++i) {
-    std::vector<BodyPose> window = Window(clip, random.IndexBelow(starts), frames);
-    const double farthest = FarthestFromMiddle(window);
-    if (best.empty() || farthest < least) {
+    Window window = MakeWindow(clip, random.IndexBelow(starts), frames);
+    const double farthest = FarthestFromMiddle(window.poses);
+    if (best.poses.empty() || farthest < least) {
       best = std::move(window);
       least = farthest;
     }
@@ -148,9 +155,11 @@ CaptureWorld MakeStudio(const StudioOptions& options, const Booking& booking, co
 }
 
 CaptureWorld MakeCaptureWorld(const StudioOptions& options, const LibraryClip& clip, const WorldKey& key) {
-  std::vector<BodyPose> truth = ChooseWindow(options, clip, key);
+  Window window = ChooseWindow(options, clip, key);
+  std::vector<BodyPose>& truth = window.poses;
   const RestBody body = clip.body.joints.empty() ? RestBodyOf(truth) : clip.body;
   CaptureWorld world = MakeStudio(options, {truth, body, MeasureLimbLengths(truth), truth.size()}, key);
+  if (options.figure == PerformerFigure::kOwn) world.own = {clip.figure, window.start, window.to_origin};
   world.truth = std::move(truth);
   world.in_view = FramesInView(world.cameras, world.truth);
   return world;

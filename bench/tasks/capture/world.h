@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/motion/body.h"
 #include "engine/motion/rest_body.h"
+#include "sim/character/recorded_figure.h"
 #include "sim/random/stream.h"
 #include "sim/render/renderer.h"
 #include "sim/stage/stage.h"
@@ -24,12 +27,20 @@ struct PersonalLimbs {
   RestBody body;
 };
 
+/// The figure that a clip brings, from a frame of that clip on and moved to where the take is.
+struct OwnFigure {
+  std::shared_ptr<const RecordedFigure> figure;
+  std::size_t first = 0;
+  FloorMove move;
+};
+
 /// Everything true about one take: who moves how in front of which cameras under which light.
 struct CaptureWorld {
   std::vector<BodyPose> truth;     ///< 30 Hz, about the floor's origin, facing +Z in its middle frame
   PersonalLimbs person;            ///< who moves
   PersonalLimbs measured;          ///< the same as it was measured beforehand, as paper B does
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
+  std::optional<OwnFigure> own;    ///< who is drawn in place of the stage's people
   glm::dvec3 middle{0};            ///< on the floor: where the performer is expected
   std::vector<Camera> cameras;     ///< two or more, each with its lens
   std::vector<bool> in_view;       ///< of each frame: whether two cameras have the whole body in their pictures

@@ -8,9 +8,9 @@ namespace etude {
 const FieldTable<StudioOptions>& CameraSensingFields() {
   static const FieldTable<StudioOptions> table = [] {
     using Key = Field<StudioOptions>;
-    FieldTable<StudioOptions> made{
-        FieldsOf<StudioOptions>(CaptureConditionFields(), std::identity(), Keep::kOthers, {"duration_s", "moments"}),
-        CaptureConditionFields().check};
+    FieldTable<StudioOptions> made{FieldsOf<StudioOptions>(CaptureConditionFields(), std::identity(), Keep::kOthers,
+                                                           {"duration_s", "figure", "moments"}),
+                                   CaptureConditionFields().check};
     made.fields.push_back(Key::Number("picture_every", &StudioOptions::picture_every, {1, 30},
                                       "The cameras take every n-th frame, of 30 Hz; in between the last skeleton "
                                       "stands."));

@@ -305,6 +305,7 @@ TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
            Case{"camera_heights_m: [1]\nmethods: [{name: a}]", "one for each of the 2 cameras"},
            Case{"calibration_target: boards\ncalibration_pairs: 9\nmethods: [{name: a}]", "has no 'calibration_pairs'"},
            Case{"camera_angles_deg: [0]\nmethods: [{name: a}]", "it needs 2 to 8"},
+           Case{"figure: own\nmethods: [{name: a}]", "test.yaml:1:9: 'figure: own' needs clips with meshes (glTF)"},
            Case{"duration_s: -1\nmethods: [{name: a}]", "duration_s"},
        }) {
     const auto task = Make(c.yaml);

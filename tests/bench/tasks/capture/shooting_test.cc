@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
+#include "engine/retargeting/rig.h"
+#include "sim/character/characters.h"
 #include "sim/choreography/stance.h"
 
 namespace etude {
@@ -64,6 +67,40 @@ TEST(Shooting, ShowsWhatStandsThereAtTheCamerasOwnTime) {
   Shooting punctual(then, {.noise = 0}, kShootingKey, **renderer);
   EXPECT_EQ(shooting.Shoot(1, 4, Targets::kAll).colour.pixels, punctual.Shoot(1, 0, Targets::kAll).colour.pixels);
   EXPECT_NE(shooting.Shoot(0, 4, Targets::kAll).colour.pixels, punctual.Shoot(0, 0, Targets::kAll).colour.pixels);
+}
+
+// A mannequin out of a file, half way through a clip that leads away from the middle.
+TEST(Shooting, ShowsAClipsOwnFigureWhereItsBodyIs) {
+  const auto renderer = Renderer::Create();
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto mannequin = std::make_shared<const Character>(MannequinCharacter());
+  BodyConversion body;
+  body.metres_per_unit = 1;
+  body.motion = {.rate_hz = 30, .poses = Poses(12, [](double k) { return 0.5 * k; })};
+  Clip clip = RigClip(body.motion, StandingPose(), "walk");
+  clip.skeleton = mannequin->skeleton;
+  const auto map = FindJointMap(clip.skeleton, "walk");
+  ASSERT_TRUE(map) << map.error().message;
+
+  constexpr std::size_t kFirst = 4;
+  const FloorMove move{.yaw = 0.3, .x = -2, .z = 0.6};
+  std::vector<BodyPose> truth;
+  for (const BodyPose& pose : std::span(body.motion.poses).subspan(kFirst, 2)) truth.push_back(move.Apply(pose));
+  CaptureWorld world = WorldOf(std::move(truth));
+  world.own = {std::make_shared<const RecordedFigure>(mannequin, clip, *map, body), kFirst, move};
+  Shooting shooting(world, {.noise = 0}, kShootingKey, **renderer);
+  for (const std::size_t frame : {0, 1}) {
+    const LabelImage labels = shooting.Shoot(0, frame, Targets::kAll).labels;
+    const auto label_between = [&](Role from, Role to) {
+      const glm::dvec3 middle = 0.5 * (world.truth[frame][from] + world.truth[frame][to]);
+      const glm::ivec2 pixel(*Project(world.cameras[0], middle));
+      return static_cast<Part>(labels.pixels[static_cast<std::size_t>(pixel.y * labels.width + pixel.x)]);
+    };
+    EXPECT_EQ(label_between(Role::kLeftKnee, Role::kLeftAnkle), Part::kLeftShank);
+    EXPECT_EQ(label_between(Role::kRightHip, Role::kRightKnee), Part::kRightThigh);
+    EXPECT_EQ(label_between(Role::kRightElbow, Role::kRightWrist), Part::kRightForearm);
+    EXPECT_EQ(label_between(Role::kSpine, Role::kShoulderCentre), Part::kTrunk);
+  }
 }
 
 // Each band of a rolling shutter is the same rows of the whole picture at that time.
