@@ -3,6 +3,7 @@
 #include "bench/clips/builtin_clip.h"
 #include "bench/clips/references.h"
 #include "engine/retargeting/measure_body.h"
+#include "sim/character/recorded_figure.h"
 
 namespace etude {
 namespace {

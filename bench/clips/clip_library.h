@@ -9,10 +9,11 @@
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/rest_body.h"
-#include "sim/character/recorded_figure.h"
 #include "sim/choreography/move.h"
 
 namespace etude {
+
+class RecordedFigure;  // sim/character
 
 /// A motion that worlds can be made of: at 30 Hz, metres, Y up, feet on the floor.
 struct LibraryClip {

@@ -71,7 +71,13 @@ std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map) {
     // Where several ride on one joint, the first is the one that it moves. A head is below its tip.
     if (role != Role::kHead && !part_of(map[role].joint)) part_of(map[role].joint) = kPartOfRole[Index(role)];
   }
-  for (int joint = map[Role::kHead].joint; joint >= 0 && !part_of(joint); joint = skeleton.joints[joint].parent) {
+  // The neck ends where the shoulders hang.
+  std::vector<bool> carries_shoulder(known.size());
+  for (int joint = map[Role::kLeftShoulder].joint; joint >= 0; joint = skeleton.joints[joint].parent) {
+    carries_shoulder[static_cast<std::size_t>(joint)] = true;
+  }
+  for (int joint = map[Role::kHead].joint; !carries_shoulder[static_cast<std::size_t>(joint)] && !part_of(joint);
+       joint = skeleton.joints[joint].parent) {
     part_of(joint) = Part::kHead;
   }
   return Inherited(skeleton, known);

@@ -23,7 +23,8 @@ std::vector<GlobalTransform> FilledGlobals(const Character& character, const Bod
 /// The part of the body that each joint of a skeleton moves: that of the role it is named after, else what the nearest
 /// such joint upwards moves (an ear belongs to the head that it hangs from), else the trunk.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton);
-/// The same of a file's skeleton, whose roles `map` has found; all between neck and head is head.
+/// The same of a file's skeleton, whose roles `map` has found; all between neck and head is head, but
+/// what carries a shoulder.
 std::vector<Part> PartsOfJoints(const Skeleton& skeleton, const JointMap& map);
 
 /// What each triangle shows: the part whose joints move its corners most.

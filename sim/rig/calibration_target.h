@@ -27,6 +27,19 @@ std::vector<PlacedBoard> CalibrationTarget(const glm::dvec3& middle);
 /// What the renderer draws of them.
 std::vector<Surface> SurfacesOf(std::span<const PlacedBoard> boards);
 
+/// A dark disc on a bright plane, to be pointed at.
+struct PlacedDisc {
+  glm::dvec3 middle_W{0};
+  glm::dvec3 outwards_W{0};  ///< unit, out of the plane
+};
+
+/// The same cube with a disc of 5 cm in the middle of every square: paper B's "marks on different planes".
+struct MarkedCube {
+  std::vector<PlacedDisc> discs;
+  std::vector<Surface> surfaces;  ///< what the renderer draws of them and of the planes
+};
+MarkedCube MakeMarkedCube(const glm::dvec3& middle);
+
 /// The corners that were seen, each with its place in the world.
 std::vector<PointPair> PairsOf(std::span<const PlacedBoard> boards, std::span<const SeenCorner> seen);
 

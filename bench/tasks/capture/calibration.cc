@@ -1,7 +1,12 @@
 #include "bench/tasks/capture/calibration.h"
 
+#include <cmath>
+#include <optional>
+
 #include "bench/tasks/capture/shooting.h"
+#include "engine/base/angles.h"
 #include "engine/boards/find_boards.h"
+#include "engine/boards/find_disc.h"
 #include "sim/rig/calibration_target.h"
 
 namespace etude {
@@ -30,12 +35,46 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
   return pairs;
 }
 
+// Where the picture has a disc that somebody points at, so far off its middle.
+std::optional<glm::dvec2> FindPointedAt(const PlacedDisc& disc, const Camera& camera, const GreyImage& picture,
+                                        const glm::dvec2& off) {
+  constexpr double kMostAside_deg = 70;
+  constexpr double kReach = 8, kWidest = 40;  // pixels
+  const glm::dvec3 to_camera = glm::normalize(camera.p_WC - disc.middle_W);
+  if (glm::dot(to_camera, disc.outwards_W) < std::cos(Radians(kMostAside_deg))) return std::nullopt;
+  const auto pixel = Project(camera, disc.middle_W);
+  return pixel ? FindDisc(picture, *pixel + off, kReach, kWidest) : std::nullopt;
+}
+
 }  // namespace
 
 CalibrationPairs ClickedPoints(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key) {
   CalibrationPairs pairs;
   for (const Camera& camera : world.cameras) {
     pairs.push_back(ClickedBy(options, camera, pairs.size(), world.middle, key));
+  }
+  return pairs;
+}
+
+CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& world, const WorldKey& key,
+                            Renderer& renderer) {
+  const MarkedCube cube = MakeMarkedCube(world.middle);
+  RandomStream tape(key, "capture/measured-marks");
+  std::vector<glm::dvec3> measured;
+  for (const PlacedDisc& disc : cube.discs) {
+    measured.push_back(disc.middle_W + options.calibration_measure_mm * kMetresPerMm * tape.Normal3());
+  }
+  Shooting shooting(world, options.camera, key, renderer);
+  CalibrationPairs pairs;
+  for (std::size_t camera = 0; camera < world.cameras.size(); ++camera) {
+    const GreyImage grey = ToGrey(shooting.ShootStage(camera, {Figure{.shape = {}, .surfaces = cube.surfaces}}));
+    RandomStream hand(key, fmt::format("capture/camera-{}/calibration-marks", camera));
+    std::vector<PointPair>& found = pairs.emplace_back();
+    for (std::size_t i = 0; i < cube.discs.size(); ++i) {
+      const glm::dvec2 off = options.calibration_noise_px * glm::dvec2(hand.Normal(), hand.Normal());
+      const auto pixel = FindPointedAt(cube.discs[i], world.cameras[camera], grey, off);
+      if (pixel) found.push_back({measured[i], *pixel});
+    }
   }
   return pairs;
 }

@@ -69,16 +69,19 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Number("light_drift", &Options::light_drift, {0, 0.5}, "Largest relative change of the lamp's brightness."),
        Key::Name(
            "calibration_target", &Options::calibration_target,
-           {{"points", CalibrationTargetKind::kPoints}, {"boards", CalibrationTargetKind::kBoards}},
-           "What the cameras are calibrated with: points on planes, clicked by a human, or a cube of boards that is "
-           "found in a picture."),
+           {{"points", CalibrationTargetKind::kPoints},
+            {"marks", CalibrationTargetKind::kMarks},
+            {"boards", CalibrationTargetKind::kBoards}},
+           "What the cameras are calibrated with: points on planes, clicked by a human; discs on the planes of a cube, "
+           "clicked and then found in a picture; or a cube of coded boards that is found in a picture."),
        Key::Number("calibration_pairs", &Options::calibration_pairs, {6, 1000}, "Clicked points per camera.")
            .With("calibration_target", {"points"}),
-       Key::Number("calibration_measure_mm", &Options::calibration_measure_mm, {0, 100},
-                   "Standard deviation of the target's measured places, along each axis: of a point, or of a board."),
+       Key::Number(
+           "calibration_measure_mm", &Options::calibration_measure_mm, {0, 100},
+           "Standard deviation of the target's measured places, along each axis: of a point, a mark or a board."),
        Key::Number("calibration_noise_px", &Options::calibration_noise_px, {0, 20},
-                   "Standard deviation of a calibration point's pixel, in u and in v.")
-           .With("calibration_target", {"points"}),
+                   "Standard deviation of a click on a calibration point or mark, in u and in v.")
+           .With("calibration_target", {"points", "marks"}),
        Key::Number(
            "annotation_error_px", &Options::annotation_error_px, {0, 50},
            "Standard deviation of an annotator's marks, in u and in v; what else people get wrong grows with it."),

@@ -25,6 +25,7 @@ enum class PerformerFigure {
 /// What the cameras are calibrated with.
 enum class CalibrationTargetKind {
   kPoints,  ///< "points": marked on planes, and clicked in the picture (paper B)
+  kMarks,   ///< "marks": discs on planes, pointed at and then found in the picture
   kBoards,  ///< "boards": a cube of calibration boards, found in the picture
 };
 

@@ -131,7 +131,8 @@ Result<const CalibrationPairs*> CaptureStages::GetCalibrationPairs() {
     pairs_ = ClickedPoints(options_, world_, key_);
   } else {
     ASSIGN_OR_RETURN(const auto renderer, GetRenderer());
-    pairs_ = FoundCorners(options_, world_, key_, *renderer);
+    const auto find = options_.calibration_target == CalibrationTargetKind::kMarks ? FoundMarks : FoundCorners;
+    pairs_ = find(options_, world_, key_, *renderer);
   }
   return &*pairs_;
 }

@@ -20,7 +20,8 @@ struct Window {
 
 Window MakeWindow(const LibraryClip& clip, std::size_t start, std::size_t frames) {
   const std::vector<BodyPose>& all = clip.motion.poses;
-  Window window{.start = start};
+  Window window;
+  window.start = start;
   for (std::size_t i = 0; i < frames; ++i) window.poses.push_back(all[(start + i) % all.size()]);
   window.to_origin = ToOrigin(window.poses[frames / 2]);
   for (BodyPose& pose : window.poses) pose = window.to_origin.Apply(pose);

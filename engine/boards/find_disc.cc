@@ -1,0 +1,147 @@
+#include "engine/boards/find_disc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "engine/base/angles.h"
+
+namespace etude {
+namespace {
+
+constexpr double kNarrowest = 3;       // pixels
+constexpr double kLeastContrast = 20;  // counts of 255
+constexpr double kOddestShape = 0.25;  // how much the area may differ from that of an ellipse with its second moments
+
+// A piece of the picture; right and bottom lie beyond it.
+struct Window {
+  int left, top, right, bottom;
+
+  Window(const GreyImage& picture, const glm::dvec2& middle, double half)
+      : left(std::max(static_cast<int>(std::floor(middle.x - half)), 0)),
+        top(std::max(static_cast<int>(std::floor(middle.y - half)), 0)),
+        right(std::min(static_cast<int>(std::ceil(middle.x + half)), picture.width)),
+        bottom(std::min(static_cast<int>(std::ceil(middle.y + half)), picture.height)) {}
+
+  bool Has(int x, int y) const { return left <= x && x < right && top <= y && y < bottom; }
+};
+
+glm::dvec2 MiddleOf(int x, int y) { return {x + 0.5, y + 0.5}; }
+
+std::optional<glm::ivec2> FindDarkest(const GreyImage& picture, const glm::dvec2& pointer, double reach) {
+  const Window window(picture, pointer, reach);
+  std::optional<glm::ivec2> darkest;
+  for (int y = window.top; y < window.bottom; ++y) {
+    for (int x = window.left; x < window.right; ++x) {
+      if (glm::distance(MiddleOf(x, y), pointer) > reach) continue;
+      if (!darkest || picture.At(x, y) < picture.At(darkest->x, darkest->y)) darkest = {x, y};
+    }
+  }
+  return darkest;
+}
+
+float BrightestOf(const GreyImage& picture, const Window& window) {
+  float brightest = 0;
+  for (int y = window.top; y < window.bottom; ++y) {
+    for (int x = window.left; x < window.right; ++x) brightest = std::max(brightest, picture.At(x, y));
+  }
+  return brightest;
+}
+
+// The pixels darker than `threshold` that hang together with one; none where they go on beyond the window.
+std::vector<glm::ivec2> DarkPiece(const GreyImage& picture, const glm::ivec2& darkest, const Window& window,
+                                  float threshold) {
+  const int width = window.right - window.left;
+  std::vector<bool> met(static_cast<std::size_t>(width) * static_cast<std::size_t>(window.bottom - window.top));
+  std::vector<glm::ivec2> piece;
+  bool is_cut = false;
+  const auto meet = [&](int x, int y) {
+    if (!window.Has(x, y)) {
+      is_cut = true;
+      return;
+    }
+    const auto index = static_cast<std::size_t>((y - window.top) * width + (x - window.left));
+    if (met[index] || picture.At(x, y) >= threshold) return;
+    met[index] = true;
+    piece.emplace_back(x, y);
+  };
+  meet(darkest.x, darkest.y);
+  for (std::size_t i = 0; i < piece.size() && !is_cut; ++i) {
+    const glm::ivec2 p = piece[i];
+    for (const glm::ivec2& step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) meet(p.x + step.x, p.y + step.y);
+  }
+  return is_cut ? std::vector<glm::ivec2>{} : piece;
+}
+
+// How much of a piece's surroundings is dark, and how that lies: its moments.
+struct Darkness {
+  double area = 0;  // pixels
+  glm::dvec2 middle{0};
+  double spread = 0;  // the determinant of the covariance, pixels⁴
+
+  /// An ellipse with these second moments has this area, and is about this wide.
+  double AreaOfEllipse() const { return 4 * kPi * std::sqrt(spread); }
+  double Width() const { return 4 * std::sqrt(std::sqrt(spread)); }
+};
+
+float Median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece) {
+  glm::ivec2 low = piece.front(), high = piece.front();
+  std::vector<float> inside, around;
+  for (const glm::ivec2& p : piece) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+    inside.push_back(picture.At(p.x, p.y));
+  }
+  constexpr int kEdge = 3;  // pixels that the disc's edge is blurred over, and one of the ground
+  low = glm::max(low - kEdge, glm::ivec2(0));
+  high = glm::min(high + kEdge, glm::ivec2(picture.width - 1, picture.height - 1));
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      if (x == low.x || x == high.x || y == low.y || y == high.y) around.push_back(picture.At(x, y));
+    }
+  }
+  const float dark = Median(std::move(inside)), bright = Median(std::move(around));
+  Darkness sum;
+  if (!(bright > dark)) return sum;
+  glm::dmat2 second(0);
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      const double share = std::clamp((bright - picture.At(x, y)) / (bright - dark), 0.0f, 1.0f);
+      const glm::dvec2 at = MiddleOf(x - low.x, y - low.y);
+      sum.area += share;
+      sum.middle += share * at;
+      second += share * glm::outerProduct(at, at);
+    }
+  }
+  sum.middle /= sum.area;
+  sum.spread = glm::determinant(second / sum.area - glm::outerProduct(sum.middle, sum.middle));
+  sum.middle += low;
+  return sum;
+}
+
+}  // namespace
+
+std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& pointer, double reach_px,
+                                   double widest_px) {
+  const auto darkest = FindDarkest(picture, pointer, reach_px);
+  if (!darkest) return std::nullopt;
+  const Window window(picture, MiddleOf(darkest->x, darkest->y), widest_px);
+  const float dark = picture.At(darkest->x, darkest->y), bright = BrightestOf(picture, window);
+  if (bright - dark < kLeastContrast) return std::nullopt;
+  const std::vector<glm::ivec2> piece = DarkPiece(picture, *darkest, window, 0.5f * (dark + bright));
+  if (piece.empty()) return std::nullopt;
+  const Darkness disc = Measure(picture, piece);
+  if (!(disc.spread > 0) || disc.Width() < kNarrowest) return std::nullopt;
+  if (std::abs(disc.area / disc.AreaOfEllipse() - 1) > kOddestShape) return std::nullopt;
+  return disc.middle;
+}
+
+}  // namespace etude
