@@ -113,8 +113,8 @@ MAY_INCLUDE = {
         "sim/random bench/clips bench/files bench/keys bench/model",
     "bench/tasks/capture":
         "engine/base engine/boards engine/cameras engine/capture engine/formats engine/keypoints engine/kinematics engine/motion "
-        "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/depth_camera sim/random sim/render sim/rig sim/sensors "
-        "sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
+        "engine/silhouettes engine/vision sim/annotator sim/body sim/camera sim/character sim/depth_camera sim/random sim/render sim/rig "
+        "sim/sensors sim/stage bench/clips bench/files bench/keys bench/metrics bench/model bench/recordings bench/tasks/base",
     "bench/tasks/coach":
         "engine/base engine/coaching engine/motion engine/recognition "
         "sim/choreography sim/music sim/performer sim/random sim/skeleton_sensor bench/keys bench/metrics bench/model "
