@@ -56,13 +56,20 @@ PoseVector Halved(const PoseVector& pose) {
   return halved;
 }
 
-/// How unlike the end of `seen` is the pattern: root mean square over its steps; kFar when too little was seen.
-double Distance(std::span<const PoseVector> seen, const Pattern& pattern) {
+/// How unlike the end of `seen` is the pattern: root mean square over its steps; kFar when too little was seen, or when
+/// it is farther than `farthest`: most patterns are given up after a few steps.
+double Distance(std::span<const PoseVector> seen, const Pattern& pattern, double farthest = kFar) {
   if (seen.size() < pattern.size()) return kFar;
   const auto end = seen.last(pattern.size());
+  const auto steps = static_cast<double>(pattern.size());
+  constexpr double kRounding = 1 + 1e-9;  // what is as far is not given up
+  const double most = kRounding * farthest * farthest * steps;
   double sum = 0;
-  for (std::size_t i = 0; i < pattern.size(); ++i) sum += SquaredDistance(end[i], pattern[i]);
-  return std::sqrt(sum / static_cast<double>(pattern.size()));
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    sum += SquaredDistance(end[i], pattern[i]);
+    if (sum > most) return kFar;
+  }
+  return std::sqrt(sum / steps);
 }
 
 Example ExampleOf(std::size_t move, Pattern right) {
@@ -129,13 +136,12 @@ class NearestFollower final : public StepFollower {
     for (std::size_t i = 0; i < examples_.size(); ++i) {
       const Example& example = examples_[i];
       const std::size_t steps = example.right.size();
+      double &right = right_[example.move], &wrong = wrong_[example.move], &still = held_still_[example.move];
       held_[i].Update(step);
-      wrong_[example.move] = std::min(wrong_[example.move], standing_.Distance(steps));
-      held_still_[example.move] = std::min(held_still_[example.move], held_[i].Distance(steps));
-      right_[example.move] = std::min(right_[example.move], Distance(seen_, example.right));
-      for (const Pattern& wrong : example.wrong) {
-        wrong_[example.move] = std::min(wrong_[example.move], Distance(seen_, wrong));
-      }
+      wrong = std::min(wrong, standing_.Distance(steps));
+      still = std::min(still, held_[i].Distance(steps));
+      right = std::min(right, Distance(seen_, example.right, right));
+      for (const Pattern& pattern : example.wrong) wrong = std::min(wrong, Distance(seen_, pattern, wrong));
       fits_into_window |= asked() == example.move && example.right.size() <= since_open_;
     }
     for (std::size_t move = 0; move < spotted.size(); ++move) {

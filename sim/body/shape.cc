@@ -155,6 +155,15 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
+/// Whether the ray misses the sphere around the whole capsule, by so much that rounding cannot matter: most do.
+bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+  constexpr double kAir = 1e-6;  // metres
+  const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
+  const double radius = 0.5 * glm::length(capsule.b - capsule.a) + capsule.radius + kAir;
+  const double along = glm::dot(from, direction), outside = glm::dot(from, from) - radius * radius;
+  return outside > 0 && (along > 0 || along * along < outside);
+}
+
 /// Where the ray enters the round side of the capsule, its half-spheres aside.
 double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   const glm::dvec3 axis = capsule.b - capsule.a;
@@ -188,6 +197,7 @@ std::vector<Capsule> BodyCapsules(const BodyPose& pose) {
 }
 
 double HitDistance(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
+  if (PassesBy(capsule, origin, direction)) return kInfinity;
   if (IsInside(capsule, origin)) return 0;
   return std::min({SideEntry(capsule, origin, direction), SphereEntry(capsule.a, capsule.radius, origin, direction),
                    SphereEntry(capsule.b, capsule.radius, origin, direction)});
