@@ -1,5 +1,6 @@
 #include "bench/metrics/segmentation.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstdint>
 
@@ -31,14 +32,23 @@ std::optional<double> Percent(std::int64_t part, std::int64_t whole) {
 MaskScore ScoreMask(const Mask& found, const Mask& truth, const Mask& shadow) {
   assert(found.pixels.size() == truth.pixels.size() && found.pixels.size() == shadow.pixels.size());
   std::int64_t both = 0, found_count = 0, true_count = 0, shadow_found = 0, shadow_count = 0;
-  for (std::size_t i = 0; i < found.pixels.size(); ++i) {
-    // Without branches: half a million times per picture.
-    const int f = found.pixels[i] != 0, t = truth.pixels[i] != 0, s = shadow.pixels[i] != 0;
-    both += f & t;
-    found_count += f;
-    true_count += t;
-    shadow_found += f & s;
-    shadow_count += s;
+  constexpr std::size_t kRun = 240;  // pixels that a byte can count: sixteen at once
+  for (std::size_t first = 0; first < found.pixels.size(); first += kRun) {
+    const std::size_t end = std::min(first + kRun, found.pixels.size());
+    std::uint8_t run_both = 0, run_found = 0, run_true = 0, run_shadow_found = 0, run_shadow = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint8_t f = found.pixels[i] != 0, t = truth.pixels[i] != 0, s = shadow.pixels[i] != 0;
+      run_both += f & t;
+      run_found += f;
+      run_true += t;
+      run_shadow_found += f & s;
+      run_shadow += s;
+    }
+    both += run_both;
+    found_count += run_found;
+    true_count += run_true;
+    shadow_found += run_shadow_found;
+    shadow_count += run_shadow;
   }
   return {.iou = Share(both, found_count + true_count - both),
           .precision = Share(both, found_count),
