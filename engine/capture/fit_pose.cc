@@ -6,7 +6,6 @@
 #include "engine/base/angles.h"
 #include "engine/base/unit_vector.h"
 #include "engine/kinematics/euler.h"
-#include "engine/kinematics/solvers/gauss_newton.h"
 
 namespace etude {
 namespace {
@@ -35,6 +34,24 @@ glm::dvec3 AnglesOf(const glm::dmat3& R_JL, int dof_count) {
   return {std::atan2(-z_J.y, z_J.z), std::asin(std::clamp(z_J.x, -1.0, 1.0)), 0};
 }
 
+// The body's tree with an effector for every role that the root does not hold, in the order of `roles`.
+KinematicTree WithRoles(const CaptureBody& body, std::vector<Role>& roles) {
+  KinematicTree tree = body.tree;
+  tree.effectors.clear();
+  for (const Role role : AllRoles()) {
+    TreePoint point = body.roles[Index(role)];
+    // Where a limb begins is a point of the one before.
+    while (point.joint > 0 && glm::length(point.p_LQ) < kNowhere) {
+      const TreeJoint& joint = tree.joints[point.joint];
+      point = {joint.parent, joint.p_PJ};
+    }
+    if (point.joint == 0) continue;
+    tree.effectors.push_back({RoleName(role), point.joint, point.p_LQ});
+    roles.push_back(role);
+  }
+  return tree;
+}
+
 IkOptions ExactSteps() {
   IkOptions options;
   options.max_iterations = 40;
@@ -50,19 +67,8 @@ PoseTargets TargetsAt(const BodyPose& pose) {
   return targets;
 }
 
-PoseFitter::PoseFitter(const CaptureBody& body) : body_(body), tree_(body.tree), children_(tree_.joints.size()) {
-  tree_.effectors.clear();
-  for (const Role role : AllRoles()) {
-    TreePoint point = body.roles[Index(role)];
-    // Where a limb begins is a point of the one before.
-    while (point.joint > 0 && glm::length(point.p_LQ) < kNowhere) {
-      const TreeJoint& joint = tree_.joints[point.joint];
-      point = {joint.parent, joint.p_PJ};
-    }
-    if (point.joint == 0) continue;
-    tree_.effectors.push_back({RoleName(role), point.joint, point.p_LQ});
-    effector_roles_.push_back(role);
-  }
+PoseFitter::PoseFitter(const CaptureBody& body)
+    : body_(body), tree_(WithRoles(body, effector_roles_)), solver_(tree_), children_(tree_.joints.size()) {
   for (std::size_t i = 1; i < tree_.joints.size(); ++i)
     children_[tree_.joints[i].parent].push_back(static_cast<int>(i));
 }
@@ -172,7 +178,7 @@ TreeState PoseFitter::Improve(const PoseTargets& wanted, const TreeState& state)
     target.axis_weights = glm::dvec3(0);
     problem.targets.push_back(target);
   }
-  IkSolution solution = SolveGaussNewton(tree_, problem, ExactSteps(), {});
+  IkSolution solution = solver_.Solve(problem, ExactSteps());
   TreeState found = state;
   if (solution.status != IkStatus::kBadInput) found.angles = std::move(solution.angles);
   return found;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/kinematics/capture_body.h"
+#include "engine/kinematics/solvers/gauss_newton.h"
 #include "engine/kinematics/tree.h"
 #include "engine/motion/body.h"
 
@@ -27,6 +28,8 @@ class PoseFitter {
  public:
   /// `body` must outlive this.
   explicit PoseFitter(const CaptureBody& body);
+  PoseFitter(const PoseFitter&) = delete;
+  PoseFitter& operator=(const PoseFitter&) = delete;
 
   /// The angles that minimise Σ weight · |place − role|², at least locally; the root stands at the place of the left
   /// foot. Nothing when a place that counts is not finite, or the left foot's does not count.
@@ -50,8 +53,9 @@ class PoseFitter {
   glm::dmat3 TurnTowards(int limb, const glm::dvec3& p_WL, const glm::dmat3& R_WJ, const PoseTargets& wanted) const;
 
   const CaptureBody& body_;
-  KinematicTree tree_;  // with an effector for every role that the root does not hold
   std::vector<Role> effector_roles_;
+  const KinematicTree tree_;  // with an effector for every role that the root does not hold
+  const GaussNewtonSolver solver_;
   std::vector<std::vector<int>> children_;
 };
 

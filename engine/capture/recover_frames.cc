@@ -77,9 +77,7 @@ std::optional<TreeState> StartOf(const Start& found, const std::optional<Recover
 }  // namespace
 
 FrameRecovery::FrameRecovery(const CaptureBody& body, const RecoverOptions& options)
-    : body_(body), options_(options), fitter_(body) {
-  assert(options.solver != nullptr);
-}
+    : body_(body), options_(options), solver_(Prepare(*options.solver, body.tree)), fitter_(body) {}
 
 std::optional<RecoveredFrame> FrameRecovery::Next(const std::optional<LimbObservation>& observed, bool is_marked,
                                                   const KnownAngles& known) {
@@ -110,7 +108,7 @@ std::optional<RecoveredFrame> FrameRecovery::Solve(const LimbObservation& seen, 
       errors.push_back(ErrorOf(frames.effectors[e], problem.targets[e]));
     }
   } else {
-    IkSolution solution = options_.solver->solve(body_.tree, problem, options_.ik);
+    IkSolution solution = solver_->Solve(problem, options_.ik);
     if (solution.status == IkStatus::kBadInput) return std::nullopt;
     state.angles = std::move(solution.angles);
     errors = std::move(solution.errors);

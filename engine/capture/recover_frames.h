@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -75,6 +76,7 @@ class FrameRecovery {
 
   const CaptureBody& body_;
   const RecoverOptions options_;
+  const std::unique_ptr<PreparedIkSolver> solver_;
   const PoseFitter fitter_;
   std::optional<RecoveredFrame> last_;
 };

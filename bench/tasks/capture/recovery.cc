@@ -28,12 +28,21 @@ std::vector<SomeJoints> JointsOf(const CaptureRun& run) {
   return BridgeJoints(run.measured.joints);
 }
 
-/// A frame whose pose comes first, and the tree's state after it: as near to it as start angles come.
-RecoveredFrame FrameOf(const CaptureBody& body, const BodyPose& pose, const TreeState& last) {
-  const auto state =
-      body.is_paper ? FindStartState(body.tree, pose, body.tree.limits) : PoseFitter(body).Fit(TargetsAt(pose));
-  return {pose, state.value_or(last), pose, {}};
-}
+/// Frames whose pose comes first, and the tree's state after it: as near to it as start angles come.
+class PosedFrames {
+ public:
+  explicit PosedFrames(const CaptureBody& body) : body_(body), fitter_(body) {}
+
+  RecoveredFrame At(const BodyPose& pose, const TreeState& last) const {
+    const auto state =
+        body_.is_paper ? FindStartState(body_.tree, pose, body_.tree.limits) : fitter_.Fit(TargetsAt(pose));
+    return {pose, state.value_or(last), pose, {}};
+  }
+
+ private:
+  const CaptureBody& body_;
+  const PoseFitter fitter_;
+};
 
 /// What marks alone tell of each frame, none of them later ones; frames without marks show the last skeleton.
 void RecoverLive(const CaptureStages& stages, const NearestPoses* nearest, CaptureRun& run) {
@@ -69,9 +78,10 @@ Result<void> RecoverByIk(CaptureStages& stages, CaptureRun& run) {
 void RecoverEnds(CaptureRun& run) {
   TreeState last = StandingState(run.body.tree);
   const BodyPose standing = ToBodyPose(run.body, last);
+  const PosedFrames frames(run.body);
   for (const SomeJoints& joints : JointsOf(run)) {
     const auto pose = CompleteJoints(joints, standing);
-    run.frames.push_back(pose ? std::optional(FrameOf(run.body, *pose, last)) : std::nullopt);
+    run.frames.push_back(pose ? std::optional(frames.At(*pose, last)) : std::nullopt);
     if (pose) last = run.frames.back()->state;
   }
 }
@@ -111,9 +121,10 @@ void RecoverByKeypoints(const CaptureStages& stages, CaptureRun& run) {
   if (!person) return;
   run.body = person->body;
   TreeState last = StandingState(run.body.tree);
+  const PosedFrames frames(run.body);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     if (person->is_held[k]) continue;
-    run.frames[k] = FrameOf(run.body, person->motion.poses[k], last);
+    run.frames[k] = frames.At(person->motion.poses[k], last);
     last = run.frames[k]->state;
   }
 }
@@ -158,10 +169,11 @@ void SmoothFrames(CaptureRun& run) {
   const auto first = std::ranges::find_if(run.frames, [](const auto& frame) { return frame.has_value(); });
   if (first == run.frames.end()) return;
   RecoveredFrame last = **first;
+  const PosedFrames posed(run.body);
   const std::vector<BodyPose> smooth = SmoothPoses(poses, run.measured.joints, kJudgedRateHz);
   for (std::size_t k = 0; k < run.frames.size(); ++k) {
     if (run.frames[k]) last = *run.frames[k];
-    RecoveredFrame frame = FrameOf(run.body, smooth[k], last.state);
+    RecoveredFrame frame = posed.At(smooth[k], last.state);
     frame.fixed = last.fixed;
     if (run.frames[k]) frame.errors = last.errors;
     run.frames[k] = std::move(frame);

@@ -36,9 +36,10 @@ Result<TrackingAnswer> Follow(const TrackingWorld& world, const TrackingMethod& 
     }
     return answer;
   }
+  const auto solver = Prepare(*method.solver, world.tree);
   for (std::size_t frame = 0; frame < world.truth.size(); ++frame) {
     const IkProblem problem = ProblemAt(world, frame, frame > 0 ? answer.angles.back() : world.first_angles);
-    IkSolution solution = method.solver->solve(world.tree, problem, method.options);
+    IkSolution solution = solver->Solve(problem, method.options);
     RETURN_IF_ERROR(Take(std::move(solution), problem, world, method, answer));
   }
   return answer;

@@ -136,7 +136,8 @@ GaussNewtonSolver::GaussNewtonSolver(const KinematicTree& tree) : tree_(tree) {
 }
 GaussNewtonSolver::~GaussNewtonSolver() = default;
 
-IkSolution GaussNewtonSolver::Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own) {
+IkSolution GaussNewtonSolver::Solve(const IkProblem& problem, const IkOptions& options,
+                                    const GaussNewtonOptions& own) const {
   if (!solver_ || !FindFault(options).empty() || !FindProblemFault(tree_, problem).empty()) return BadInput(tree_);
   return options.trace ? SolveGaussNewtonPlainly(tree_, problem, options, own) : solver_->Solve(problem, options, own);
 }

@@ -47,7 +47,8 @@ class GaussNewtonSolver {
   explicit GaussNewtonSolver(const KinematicTree& tree);
   ~GaussNewtonSolver();
 
-  IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own = {});
+  /// Of the object only its memory changes: an answer does not depend on what was asked before.
+  IkSolution Solve(const IkProblem& problem, const IkOptions& options, const GaussNewtonOptions& own = {}) const;
 
  private:
   class Solver;

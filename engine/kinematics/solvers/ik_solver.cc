@@ -34,17 +34,46 @@ IkSolver WithSettings(IkSolver solver, SolveWithOwn<Own> solve, const SettingTab
   return solver;
 }
 
-IkSolver GaussNewton() {
-  const SettingTable<GaussNewtonOptions> table = {
+const SettingTable<GaussNewtonOptions>& GaussNewtonSettings() {
+  static const SettingTable<GaussNewtonOptions> table = {
       {{"first_sweeps", &GaussNewtonOptions::first_sweeps, 0, 100, "Sweeps before the first Gauss-Newton step."}}};
+  return table;
+}
+
+class PreparedGaussNewton final : public PreparedIkSolver {
+ public:
+  explicit PreparedGaussNewton(const KinematicTree& tree) : solver_(tree) {}
+  IkSolution Solve(const IkProblem& problem, const IkOptions& options) const override {
+    return solver_.Solve(problem, options, GaussNewtonSettings().Apply(options.solver_settings));
+  }
+
+ private:
+  const GaussNewtonSolver solver_;
+};
+
+/// Of a solver that has nothing to prepare.
+class Unprepared final : public PreparedIkSolver {
+ public:
+  Unprepared(const IkSolver& solver, const KinematicTree& tree) : solver_(solver), tree_(tree) {}
+  IkSolution Solve(const IkProblem& problem, const IkOptions& options) const override {
+    return solver_.solve(tree_, problem, options);
+  }
+
+ private:
+  const IkSolver& solver_;
+  const KinematicTree& tree_;
+};
+
+IkSolver GaussNewton() {
   IkSolver solver = WithSettings<GaussNewtonOptions>(
       {.name = "gauss-newton",
        .description = "Gauss-Newton steps that stay near the start, sweeps where they get stuck (the default)",
        .step = "steps"},
-      SolveGaussNewton, table);
-  solver.solve_batch = [table](const KinematicTree& tree, std::span<const IkProblem> problems,
-                               const IkOptions& options) {
-    return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble, table.Apply(options.solver_settings));
+      SolveGaussNewton, GaussNewtonSettings());
+  solver.prepare = [](const KinematicTree& tree) { return std::make_unique<PreparedGaussNewton>(tree); };
+  solver.solve_batch = [](const KinematicTree& tree, std::span<const IkProblem> problems, const IkOptions& options) {
+    return SolveGaussNewtonBatch(tree, problems, options, Precision::kDouble,
+                                 GaussNewtonSettings().Apply(options.solver_settings));
   };
   return solver;
 }
@@ -140,11 +169,17 @@ std::span<const IkSolver> AllIkSolvers() {
   return solvers;
 }
 
+std::unique_ptr<PreparedIkSolver> Prepare(const IkSolver& solver, const KinematicTree& tree) {
+  if (solver.prepare) return solver.prepare(tree);
+  return std::make_unique<Unprepared>(solver, tree);
+}
+
 std::vector<IkSolution> SolveAll(const IkSolver& solver, const KinematicTree& tree, std::span<const IkProblem> problems,
                                  const IkOptions& options) {
   if (solver.solve_batch && !options.trace) return solver.solve_batch(tree, problems, options);
+  const auto prepared = Prepare(solver, tree);
   std::vector<IkSolution> solutions;
-  for (const IkProblem& problem : problems) solutions.push_back(solver.solve(tree, problem, options));
+  for (const IkProblem& problem : problems) solutions.push_back(prepared->Solve(problem, options));
   return solutions;
 }
 

@@ -87,6 +87,32 @@ TEST_P(EverySolver, AnswersManyAsItAnswersEach) {
   }
 }
 
+// Whatever it was asked before, bad problems and other options included.
+TEST_P(EverySolver, AnswersPreparedAsItAnswersEach) {
+  const auto prepared = Prepare(*FindIkSolver(GetParam()), Body());
+  IkProblem bad = FarProblem(0);
+  bad.start.angles[0] = std::numeric_limits<double>::quiet_NaN();
+  for (int round = 0; round < 2; ++round) {
+    for (int trial = 0; trial < 6; ++trial) {
+      IkOptions options;
+      options.max_iterations = 30;
+      options.trace = trial == 2;
+      options.limits = trial != 3;
+      if (trial == 4) options.angle_change_tolerance = 0.1;
+      const IkProblem problem = trial == 1 ? bad : FarProblem(trial);
+      const IkSolution each = Solve(problem, options), found = prepared->Solve(problem, options);
+      EXPECT_EQ(found.angles, each.angles) << trial;
+      EXPECT_EQ(found.status, each.status);
+      EXPECT_EQ(found.iterations, each.iterations);
+      EXPECT_EQ(found.fk_evaluations, each.fk_evaluations);
+      EXPECT_EQ(found.trace.size(), each.trace.size());
+    }
+  }
+  KinematicTree faulty = Body();
+  faulty.joints[1].parent = 1;
+  EXPECT_EQ(Prepare(*FindIkSolver(GetParam()), faulty)->Solve(FarProblem(0), {}).status, IkStatus::kBadInput);
+}
+
 TEST_P(EverySolver, NeverLeavesTheLimits) {
   IkOptions options;
   options.max_iterations = 60;
