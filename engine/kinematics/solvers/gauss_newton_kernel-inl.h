@@ -10,6 +10,8 @@
 #define ETUDE_GAUSS_NEWTON_KERNEL_INL_H_
 #endif
 
+#include <type_traits>
+
 #include "engine/kinematics/solvers/gauss_newton_tree.h"
 #include "engine/kinematics/solvers/lanes-inl.h"
 #include "hwy/highway.h"
@@ -145,6 +147,11 @@ struct AskedLanes {
   V vector[6];  ///< η
 };
 
+/// Λ is symmetric but for rounding. In double it is kept in full, since that is what `GaussNewtonStep` does; in float,
+/// which need not agree with anybody, by its lower triangle.
+template <class V>
+inline constexpr bool kHasUpperTriangle = !std::is_same_v<V, Lanes<float>>;
+
 /// The same, or a sum of such, in full.
 template <class V>
 struct QuadraticLanes {
@@ -208,6 +215,7 @@ template <bool kIsFirst, class V>
 HWY_INLINE void Gather(const AskedLanes<V>& asked, QuadraticLanes<V>& sum) {
   const V nothing(0.0);
   const auto put = [&](int row, int column, const V& x) HWY_ATTR {
+    if (!kHasUpperTriangle<V> && column > row) return;
     V& cell = sum.matrix[6 * row + column];
     cell = kIsFirst ? x : cell + x;
   };
@@ -254,10 +262,12 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   V* HWY_RESTRICT m = limb.matrix;
   V s[6], y[6];
   for (int k = 0; k < 6; ++k) s[k] = hinge.screw[k];
-  for (int i = 0; i < 6; ++i) {
-    y[i] =
-        (m[i] * s[0] + m[6 + i] * s[1]) + (m[12 + i] * s[2] + m[18 + i] * s[3]) + (m[24 + i] * s[4] + m[30 + i] * s[5]);
-  }
+  const auto times = [&](int row, int column) HWY_ATTR {
+    const bool is_kept = kHasUpperTriangle<V> || column <= row;
+    return m[is_kept ? 6 * row + column : 6 * column + row] * s[row];
+  };
+  for (int i = 0; i < 6; ++i)
+    y[i] = (times(0, i) + times(1, i)) + (times(2, i) + times(3, i)) + (times(4, i) + times(5, i));
   const V nothing(0.0);
   const V scale = V(1.0) / (damping + Larger(nothing, Dot6(y, s)));
   const V best = scale * (damping * pull + Dot6(limb.vector, s));
@@ -267,7 +277,7 @@ HWY_INLINE void EliminateHinge(const V& damping, const V& pull, const V& lower, 
   const V share = OrZero(is_free, nothing - scale);
   for (int r = 0; r < 6; ++r) {
     const V row_share = share * y[r];
-    for (int i = 0; i < 6; ++i) m[6 * r + i] = m[6 * r + i] + row_share * y[i];
+    for (int i = 0; i < (kHasUpperTriangle<V> ? 6 : r + 1); ++i) m[6 * r + i] = m[6 * r + i] + row_share * y[i];
   }
   const V back = nothing - change;
   for (int k = 0; k < 6; ++k) {

@@ -13,17 +13,12 @@
 
 // In this order: per target.
 #include "engine/kinematics/solvers/gauss_newton_kernel-inl.h"
+#include "engine/kinematics/solvers/lane_poses-inl.h"
 #include "engine/kinematics/solvers/lanes-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etude::HWY_NAMESPACE {
-
-/// The angles of one degree of freedom.
-template <class V>
-struct AngleLanes {
-  V now, last, best, start, lower, upper;
-};
 
 /// Problems on their way, one in each lane: a round places all poses, tells their courses how far they are off, and
 /// steps. A lane whose pose is no outcome of a step, or whose step wants another pass of its active set while few
@@ -39,19 +34,16 @@ class GaussNewtonLanes {
         queue_(queue),
         lanes_(hn::Lanes(hn::ScalableTag<T>())),
         angles_(tree.dof_count),
-        hinges_(tree.dof_count),
-        frames_(tree.joints.size()),
+        poses_(tree),
+        hinges_(poses_.hinges()),
         movements_(tree.joints.size()),
-        targets_(tree.effectors.size()),
-        asked_(tree.effectors.size()),
         quadratics_(tree.quadratic_count),
         scratch_(tree.dof_count),
         registers_(kRegisterCount) {}
 
   void Run() {
     while (FillLanes()) {
-      Place();
-      Linearise();
+      poses_.Place(angles_);
       Steer();
       Step();
     }
@@ -70,9 +62,6 @@ class GaussNewtonLanes {
 
   /// Numbers of every lane.
   enum Register {
-    kSquares,
-    kSquaredDistance,
-    kSquaredChord,
     kDamping,
     kToStart,    // 1 or 0, as what follows
     kKeepsLast,  // the present pose becomes the last one
@@ -122,74 +111,7 @@ class GaussNewtonLanes {
       SetLane(angles_[d].upper, n, upper);
       SetLane(hinges_[d].side, n, 0);
     }
-    from += 2 * dofs;
-    // In float, places are counted from the root, where they have the most digits.
-    constexpr bool kFromRoot = sizeof(T) < sizeof(double);
-    double origin[3] = {};
-    for (int k = 0; k < 3; ++k) {
-      const double place = take();
-      if (kFromRoot) origin[k] = place;
-      SetLane(frames_[0].position[k], n, place - origin[k]);
-    }
-    for (int k = 0; k < 9; ++k) SetLane(frames_[0].axes[k / 3][k % 3], n, take());
-    for (TargetLanes<V>& target : targets_) {
-      for (int k = 0; k < 3; ++k) SetLane(target.position[k], n, take() - origin[k]);
-      for (int k = 0; k < 9; ++k) SetLane(target.axes[k / 3][k % 3], n, take());
-      SetLane(target.position_weight, n, take() / kSquaredPositionScale);
-      for (int k = 0; k < 3; ++k) SetLane(target.axis_weights[k], n, take());
-    }
-  }
-
-  /// Forward kinematics, and the screws of hinges.
-  void Place() {
-    const FrameLanes<V>& root = frames_[0];
-    for (std::size_t n = 1; n < tree_.joints.size(); ++n) {
-      const GaussNewtonTree::Joint& joint = tree_.joints[n];
-      const FrameLanes<V>& parent = frames_[joint.parent];
-      FrameLanes<V>& frame = frames_[n];
-      V p_RJ_W[3], axes[3][3];
-      V p_PJ_W[3];
-      Mix(parent.axes, joint.p_PJ, p_PJ_W);
-      for (int k = 0; k < 3; ++k) {
-        frame.position[k] = parent.position[k] + p_PJ_W[k];
-        p_RJ_W[k] = frame.position[k] - root.position[k];
-      }
-      if (joint.renames_axes) {
-        for (int c = 0; c < 3; ++c) {
-          for (int k = 0; k < 3; ++k) axes[c][k] = parent.axes[joint.from[c]][k] * V(joint.sign[c]);
-        }
-      } else {
-        for (int c = 0; c < 3; ++c) Mix(parent.axes, joint.R_PJ[c], axes[c]);
-      }
-      if (joint.dof_count > 0) TurnHinge<0>(joint, p_RJ_W, axes);
-      if (joint.dof_count > 1) TurnHinge<1>(joint, p_RJ_W, axes);
-      if (joint.dof_count > 2) TurnHinge<2>(joint, p_RJ_W, axes);
-      for (int c = 0; c < 3; ++c) Copy3(axes[c], frame.axes[c]);
-    }
-  }
-
-  template <int kAxis>
-  HWY_INLINE void TurnHinge(const GaussNewtonTree::Joint& joint, const V (&p_RJ_W)[3], V (&axes)[3][3]) {
-    const int dof = joint.first_dof + kAxis;
-    V s, c;
-    SineAndCosine(angles_[dof].now, s, c);
-    TurnAxes<kAxis>(s, c, axes);
-    SetScrew(axes[kAxis], p_RJ_W, hinges_[dof].screw);
-  }
-
-  void Linearise() {
-    MissLanes<V> miss{V(0.0), V(0.0), V(0.0)};
-    for (std::size_t e = 0; e < tree_.effectors.size(); ++e) {
-      const GaussNewtonTree::Effector& effector = tree_.effectors[e];
-      const FrameLanes<V>& limb = frames_[effector.joint];
-      V p_WE[3];
-      Mix(limb.axes, effector.p_LE, p_WE);
-      for (int k = 0; k < 3; ++k) p_WE[k] = limb.position[k] + p_WE[k];
-      HWY_NAMESPACE::Linearise(targets_[e], limb.axes, p_WE, frames_[0].position, asked_[e], miss);
-    }
-    registers_[kSquares] = miss.squares;
-    registers_[kSquaredDistance] = miss.squared_distance;
-    registers_[kSquaredChord] = miss.squared_chord;
+    poses_.Load(n, from + 2 * dofs, stride);
   }
 
   /// Asks every lane's course what to do, and does all but the step.
@@ -212,7 +134,8 @@ class GaussNewtonLanes {
   bool Ask(Lane& lane, int n) {
     using enum GaussNewtonCourse::Act;
     const auto is_out_of_reach = [&] { return queue_.IsOutOfReach(lane.problem); };
-    const GaussNewtonCourse::Next next = lane.course.Arrive(At(kSquares, n), IsMet(lane, n), is_out_of_reach);
+    const GaussNewtonCourse::Next next =
+        lane.course.Arrive(GetLane(poses_.miss().squares, n), IsMet(lane, n), is_out_of_reach);
     if (next.act == kStep) {
       At(kKeepsLast, n) = 1;
       At(kKeepsBest, n) = next.is_best;
@@ -243,7 +166,7 @@ class GaussNewtonLanes {
   }
 
   bool IsMet(const Lane& lane, int n) {
-    const double distance = At(kSquaredDistance, n), chord = At(kSquaredChord, n);
+    const double distance = GetLane(poses_.miss().squared_distance, n), chord = GetLane(poses_.miss().squared_chord, n);
     // So that what is no number meets nothing.
     if (!(distance < goals_.squared_distance_missed && chord < goals_.squared_chord_missed)) return false;
     if (distance < goals_.squared_distance_met && chord < goals_.squared_chord_met) return true;
@@ -288,9 +211,9 @@ class GaussNewtonLanes {
       const GaussNewtonTree::Effector& effector = tree_.effectors[e];
       QuadraticLanes<V>& limb = quadratics_[tree_.joints[effector.joint].quadratic];
       if (effector.is_first) {
-        Gather<true>(asked_[e], limb);
+        Gather<true>(poses_.AskedOf(e), limb);
       } else {
-        Gather<false>(asked_[e], limb);
+        Gather<false>(poses_.AskedOf(e), limb);
       }
     }
     for (const int n : tree_.unasked) {
@@ -308,7 +231,11 @@ class GaussNewtonLanes {
         continue;
       }
       QuadraticLanes<V>& parent = quadratics_[tree_.joints[joint.parent].quadratic];
-      for (int i = 0; i < 36; ++i) parent.matrix[i] = parent.matrix[i] + limb.matrix[i];
+      for (int r = 0; r < 6; ++r) {
+        for (int i = 6 * r; i < 6 * r + (kHasUpperTriangle<V> ? 6 : r + 1); ++i) {
+          parent.matrix[i] = parent.matrix[i] + limb.matrix[i];
+        }
+      }
       for (int i = 0; i < 6; ++i) parent.vector[i] = parent.vector[i] + limb.vector[i];
     }
   }
@@ -370,11 +297,9 @@ class GaussNewtonLanes {
   bool is_empty_ = false;  // the queue
   std::vector<Lane> lanes_;
   AlignedList<AngleLanes<V>> angles_;
-  AlignedList<HingeLanes<V>> hinges_;
-  AlignedList<FrameLanes<V>> frames_;  // of each joint's limb
-  AlignedList<Movement> movements_;    // of each joint's limb
-  AlignedList<TargetLanes<V>> targets_;
-  AlignedList<AskedLanes<V>> asked_;
+  LanePoses<T> poses_;
+  AlignedList<HingeLanes<V>>& hinges_;
+  AlignedList<Movement> movements_;  // of each joint's limb
   AlignedList<QuadraticLanes<V>> quadratics_;
   std::vector<double> scratch_;  // angles of one lane
   AlignedList<V> registers_;
