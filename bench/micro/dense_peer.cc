@@ -32,6 +32,16 @@ inline Vector Cross(Vector a, Vector b) {
 }
 Vector From(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
+// Over the rows from a whole vector's begin on: so many sums at once that none waits for another.
+constexpr int kSums = 8;
+inline double DotRows(const double* a, const double* b, int from = 0) {
+  double sums[kSums] = {};
+  for (int r = from & ~(kSums - 1); r < kRows; r += kSums) {
+    for (int k = 0; k < kSums; ++k) sums[k] += a[r + k] * b[r + k];
+  }
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
 struct Frame {
   Vector axes[3], position;
 };
@@ -243,11 +253,10 @@ class DensePeer final : public IkPeer {
         duals_[below] -= share * duals_[r];
       }
     }
-    for (int r = rows_ - 1; r >= 0; --r) {
-      double sum = duals_[r];
-      for (int c = r + 1; c < rows_; ++c) sum -= factor_[r][c] * duals_[c];
-      duals_[r] = sum * inverses_[r];
-    }
+    alignas(
+        64) double found[kRows] = {};  // zero where it is not known yet: what is left of the diagonal does not count
+    for (int r = rows_ - 1; r >= 0; --r) found[r] = (duals_[r] - DotRows(factor_[r], found, r)) * inverses_[r];
+    std::memcpy(duals_, found, sizeof(found));
     return true;
   }
 
@@ -265,8 +274,7 @@ class DensePeer final : public IkPeer {
       if (!SolveDuals(mu)) return 0;
       is_exact = true;
       for (int d = 0; d < dofs_; ++d) {
-        double best = 0;
-        for (int r = 0; r < kRows; ++r) best += jacobian_[d][r] * duals_[r];
+        const double best = DotRows(jacobian_[d], duals_);
         const double lower = lower_[d] - pose_.angles[d], upper = upper_[d] - pose_.angles[d];
         const int side = best < lower ? -1 : best > upper ? 1 : 0;
         is_exact = is_exact && side == sides_[d];

@@ -2,7 +2,7 @@
 // same accuracy. Every round lets every method solve every problem; of each problem the fastest round counts.
 // Whether a problem is solved is judged by our forward kinematics, by every axis of every effector, and the limits.
 //
-//     ik_peers_bench [--trials=50] [--rounds=3] [--only=part of a method's name]
+//     ik_peers_bench [--trials=50] [--rounds=3] [--only=parts of methods' names, commas between]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <ranges>
 #include <string_view>
 
 #include "bench/micro/dense_peer.h"
@@ -287,14 +288,18 @@ int Run(std::span<char* const> arguments) {
     if (argument.starts_with("--only=")) {
       only = argument.substr(7);
     } else if (!Read(argument, "--trials=", trials) && !Read(argument, "--rounds=", rounds)) {
-      fmt::print(stderr, "ik_peers_bench: {}: only --trials=N, --rounds=N, --only=NAME\n", argument);
+      fmt::print(stderr, "ik_peers_bench: {}: only --trials=N, --rounds=N, --only=NAME,NAME\n", argument);
       return 2;
     }
   }
+  const auto is_asked_for = [only](const Method& method) {
+    for (const auto part : std::views::split(only, ',')) {
+      if (method.name.find(std::string_view(part.begin(), part.end())) != std::string::npos) return true;
+    }
+    return only.empty() || method.name == kCompared;
+  };
   std::vector<Method> methods = AllMethods();
-  std::erase_if(methods, [&](const Method& method) {
-    return method.name != kCompared && method.name.find(only) == std::string::npos;
-  });
+  std::erase_if(methods, [&](const Method& method) { return !is_asked_for(method); });
   for (const Condition& condition : AllConditions()) Compare(condition, methods, trials, rounds);
   return 0;
 }
