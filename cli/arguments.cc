@@ -12,6 +12,7 @@
 #include "cli/clip_arguments.h"
 #include "cli/coach_command.h"
 #include "cli/commands.h"
+#include "cli/crowd_command.h"
 #include "cli/sensor_arguments.h"
 #include "cli/stream_arguments.h"
 #include "cli/train_arguments.h"
@@ -311,6 +312,30 @@ void DefineList(CLI::App& app, Action& action) {
   scenarios->callback([=, &action] { action = [=] { return ListCommand(Listing::kScenarios, *folder); }; });
 }
 
+void DefineCrowd(CLI::App& app, Action& action) {
+  auto options = Keep<CrowdCommandOptions>();
+  CLI::App* command = app.add_subcommand("crowd", "Follow a crowd's motions at once, and film it");
+  command->add_option("--characters", options->crowd.characters, "How many, each after a motion of its own")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "How long")
+      ->check(NumberWithin(0.01, 60, "time in s"))
+      ->capture_default_str();
+  command->add_option("--rate", options->crowd.rate_hz, "Frames per second")
+      ->check(NumberWithin(1, 1000, "rate in Hz"))
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "Of gauss-newton, at most, for a character's frame")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->crowd.seed, "Of the motions' dice")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->capture_default_str();
+  command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
+  command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
+  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  command->callback([=, &action] { action = [=] { return CrowdCommand(*options); }; });
+}
+
 }  // namespace
 
 void DefineCommands(CLI::App& app, const std::string& command_line, Action& action) {
@@ -335,6 +360,7 @@ void DefineCommands(CLI::App& app, const std::string& command_line, Action& acti
   DefineCalibrate(app, action);
   DefineCapture(app, action);
   DefineCoach(app, action);
+  DefineCrowd(app, action);
   CLI::App* worker = app.add_subcommand("worker", "What the program starts for itself");
   worker->group("");  // hidden
   worker->callback([&action] { action = [] { return RunWorker(std::cin, std::cout); }; });

@@ -85,8 +85,8 @@ MAY_INCLUDE = {
     "bench/metrics": "engine/base engine/cameras engine/kinematics engine/motion bench/files",
     "bench/micro":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/kinematics/solvers engine/motion "
-        "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator sim/body "
-        "sim/camera sim/character sim/choreography sim/random sim/render sim/sensors sim/stage bench/clips "
+        "engine/recognition engine/transitions/choices engine/transitions/search engine/vision sim/annotator "
+        "sim/camera sim/character sim/choreography sim/random sim/render sim/stage bench/clips "
         "bench/tasks/coach bench/tasks/ik bench/tasks/tracking",
     "bench/model": "engine/base engine/motion bench/files",
     "bench/outside": "engine/base engine/document bench/files bench/model bench/process bench/tasks bench/tasks/base",
@@ -136,8 +136,8 @@ MAY_INCLUDE = {
         "engine/base engine/capture engine/motion engine/recognition sim/random sim/skeleton_sensor bench/keys "
         "bench/tasks/base bench/tasks/capture",
     "bench/tasks/tracking":
-        "engine/base engine/formats engine/kinematics engine/kinematics/solvers engine/motion sim/random bench/clips "
-        "bench/files bench/metrics bench/model bench/tasks/base",
+        "engine/base engine/formats engine/kinematics engine/kinematics/solvers engine/motion sim/choreography "
+        "sim/random bench/clips bench/files bench/metrics bench/model bench/tasks/base",
     "bench/tasks/transition":
         "engine/base engine/formats engine/fuzzy engine/motion engine/transitions engine/transitions/base "
         "engine/transitions/bridge_frames engine/transitions/joins engine/transitions/library sim/choreography "
@@ -154,8 +154,8 @@ MAY_INCLUDE = {
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library bench/files",
     "reports/captures": "engine/base engine/cameras engine/keypoints engine/motion bench/films reports/films",
     "reports/clips":
-        "engine/base engine/motion engine/retargeting engine/transitions/joins sim/body sim/character sim/choreography "
-        "sim/render bench/clips bench/files bench/films reports/films reports/words",
+        "engine/base engine/cameras engine/motion engine/retargeting engine/transitions/joins sim/body sim/character "
+        "sim/choreography sim/render bench/clips bench/files bench/films reports/films reports/words",
     "reports/coach": "engine/base engine/coaching bench/files",
     "reports/films":
         "engine/base engine/cameras engine/formats engine/fuzzy engine/kinematics engine/motion engine/recognition sim/body "

@@ -1,0 +1,140 @@
+#include "cli/crowd_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+
+#include "bench/files/files.h"
+#include "bench/films/encoder.h"
+#include "cli/commands.h"
+#include "cli/interrupt.h"
+#include "engine/kinematics/tree_to_body.h"
+#include "reports/clips/crowd_stage.h"
+
+namespace etude {
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 720;
+constexpr double kFilmRateHz = 30;  // at most: every second frame of 60 Hz
+
+/// A film of every so many frames of the crowd.
+class CrowdFilm {
+ public:
+  static Result<CrowdFilm> Start(const CrowdCommandOptions& options) {
+    ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
+    const int every = std::max(1, static_cast<int>(std::ceil(options.crowd.rate_hz / kFilmRateHz)));
+    const int rate = std::max(1, static_cast<int>(std::lround(options.crowd.rate_hz / every)));
+    ASSIGN_OR_RETURN(auto encoder, Encoder::Start(options.output, kWidth, kHeight, rate));
+    return CrowdFilm(options, every, std::move(renderer), std::move(encoder));
+  }
+
+  Result<void> Add(int frame, const KinematicTree& tree, const Crowd& crowd, int met) {
+    if (frame % every_ != 0) return {};
+    std::vector<CrowdStage::Character> characters;
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+      characters.push_back({ToBodyPose(tree, crowd.StateOf(i)), !crowd.HasMet(i)});
+    }
+    return encoder_.Add(stage_.Draw(
+        characters,
+        fmt::format("{} characters followed at {:g} Hz, each within its joints' limits", crowd.size(), rate_hz_),
+        fmt::format("{:.2f} s: {} meet the targets of all four ends; pale: who does not", frame / rate_hz_, met)));
+  }
+  Result<void> Finish() { return encoder_.Finish(); }
+
+ private:
+  CrowdFilm(const CrowdCommandOptions& options, int every, std::unique_ptr<Renderer> renderer, Encoder encoder)
+      : every_(every),
+        rate_hz_(options.crowd.rate_hz),
+        renderer_(std::move(renderer)),
+        stage_(options.crowd.characters, kWidth, kHeight, *renderer_),
+        encoder_(std::move(encoder)) {}
+
+  int every_;
+  double rate_hz_;
+  std::unique_ptr<Renderer> renderer_;
+  CrowdStage stage_;
+  Encoder encoder_;
+};
+
+double ProcessorTimeMs() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct Told {
+  std::int64_t met = 0, steps = 0;
+  std::vector<double> times_ms;  ///< of each frame
+};
+
+void Tell(const CrowdCommandOptions& options, Told told) {
+  const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
+  fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
+             options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
+  fmt::print("{:.1f} % of all poses meet their targets, after {:.2f} steps\n",
+             100 * static_cast<double>(told.met) / count, static_cast<double>(told.steps) / count);
+  const double first = told.times_ms.front();
+  std::sort(told.times_ms.begin() + 1, told.times_ms.end());
+  const auto at = [&](double share) {
+    return told.times_ms[1 + static_cast<std::size_t>(share * static_cast<double>(told.times_ms.size() - 2))];
+  };
+  fmt::print(
+      "ms of one core a frame, of {:.1f} that there are: median {:.2f}, p99 {:.2f}, largest {:.2f}; the standing "
+      "start {:.2f}\n",
+      1000 / options.crowd.rate_hz, at(0.5), at(0.99), told.times_ms.back(), first);
+}
+
+/// False when Ctrl-C came.
+Result<bool> FollowCrowd(const CrowdCommandOptions& options) {
+  ASSIGN_OR_RETURN(const auto worlds, MakeCrowd(options.crowd));
+  std::optional<CrowdFilm> film;
+  if (!options.output.empty()) {
+    ASSIGN_OR_RETURN(auto started, CrowdFilm::Start(options));
+    film.emplace(std::move(started));
+  }
+  const Interrupt interrupt;
+  Crowd crowd(worlds);
+  Told told;
+  IkOptions ik;
+  ik.max_iterations = options.steps;
+  for (int frame = 0; frame < options.crowd.frames; ++frame) {
+    if (*interrupt.requested()) return false;
+    const double begin = ProcessorTimeMs();
+    const auto [met, steps] = crowd.FollowNext(ik, options.in_float ? Precision::kFloat : Precision::kDouble);
+    told.times_ms.push_back(ProcessorTimeMs() - begin);
+    told.met += met;
+    told.steps += steps;
+    if (film) RETURN_IF_ERROR(film->Add(frame, worlds[0].tree, crowd, met));
+  }
+  if (film) RETURN_IF_ERROR(film->Finish());
+  Tell(options, std::move(told));
+  return true;
+}
+
+}  // namespace
+
+int CrowdCommand(const CrowdCommandOptions& given) {
+  CrowdCommandOptions options = given;
+  options.crowd.frames = static_cast<int>(std::lround(options.seconds * options.crowd.rate_hz));
+  if (options.crowd.frames < kFewestTrackedFrames) {
+    return Complain({{},
+                     fmt::format("--seconds: {:g} s at {:g} Hz are {} frames; allowed: {} or more", options.seconds,
+                                 options.crowd.rate_hz, options.crowd.frames, kFewestTrackedFrames)});
+  }
+  if (!options.output.empty()) {
+    if (std::filesystem::path(options.output).extension() != ".mp4") {
+      return Complain({{options.output, 0, 0}, "is no film's name; allowed: .mp4"});
+    }
+    if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
+  }
+  const auto whole = FollowCrowd(options);
+  if (!whole) return Complain(whole.error());
+  if (!*whole) {
+    Complain({{}, "stopped; nothing is kept"});
+    return kInterrupted;
+  }
+  if (!options.output.empty()) fmt::print("{}\n", options.output);
+  return kSuccess;
+}
+
+}  // namespace etude

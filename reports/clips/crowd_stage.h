@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/base/image.h"
+#include "engine/cameras/camera.h"
+#include "engine/motion/body.h"
+#include "sim/render/renderer.h"
+
+namespace etude {
+
+/// Draws a crowd: so many bodies in rows on a square, each about its own place, all before one camera.
+class CrowdStage {
+ public:
+  /// `width` and `height` in pixels; `renderer` must outlive this.
+  CrowdStage(int characters, int width, int height, Renderer& renderer);
+
+  /// One of them: a pose about the floor's origin, and whether it shall stand out, all of one pale colour.
+  struct Character {
+    BodyPose pose;
+    bool stands_out = false;
+  };
+  /// With a caption of two lines. At most as many as there are places.
+  ColourImage Draw(std::span<const Character> crowd, const std::string& strong, const std::string& soft);
+
+ private:
+  glm::dvec3 PlaceOf(std::size_t character) const;
+
+  int width_, height_;
+  std::size_t side_;  ///< places of a row
+  Camera camera_;
+  Renderer& renderer_;
+};
+
+}  // namespace etude

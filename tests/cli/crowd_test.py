@@ -1,0 +1,57 @@
+"""`etude crowd`: a crowd followed, told of and filmed."""
+import json
+import re
+import subprocess
+import unittest
+
+from etude_case import EtudeCase
+
+FEW = ("--characters", "12", "--seconds", "0.2")
+
+
+class Crowd(EtudeCase):
+    def test_it_tells_how_many_meet_their_targets_and_how_long_frames_take(self):
+        result = self.etude("crowd", *FEW)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stdout.splitlines()
+        self.assertEqual(len(lines), 3, result.stdout)
+        self.assertIn("12 characters, 12 frames at 60 Hz", lines[0])
+        met = float(re.match(r"([\d.]+) % of all poses meet their targets", lines[1])[1])
+        self.assertGreater(met, 50)
+        self.assertLessEqual(met, 100)
+        times = [float(time) for time in re.findall(r"(?:median|p99|largest) ([\d.]+)", lines[2])]
+        self.assertEqual(times, sorted(times))
+        self.assertEqual(self.etude("crowd", *FEW).stdout.splitlines()[1], lines[1], "the same crowd again")
+        other = self.etude("crowd", *FEW, "--seed", "2").stdout.splitlines()
+        self.assertNotEqual(other[1], lines[1], "other dice, other motions")
+
+    def test_the_film_has_every_second_frame_of_sixty_a_second_and_the_same_bytes_again(self):
+        films = []
+        for name in ("a.mp4", "b.mp4"):
+            result = self.etude("crowd", *FEW, "-o", self.folder / name)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            films.append((self.folder / name).read_bytes())
+        self.assertEqual(films[0], films[1])
+        probe = subprocess.run(["ffprobe", "-v", "error", "-of", "json", "-show_entries",
+                                "stream=width,height,r_frame_rate,nb_frames", self.folder / "a.mp4"],
+                               capture_output=True, text=True, timeout=60, check=True)
+        stream = json.loads(probe.stdout)["streams"][0]
+        self.assertEqual((stream["width"], stream["height"], stream["r_frame_rate"], stream["nb_frames"]),
+                         (1280, 720, "30/1", "6"))
+        self.assertEqual(self.etude("crowd", *FEW, "-o", self.folder / "a.mp4").returncode, 2, "a file that is there")
+        self.assertEqual((self.folder / "a.mp4").read_bytes(), films[0])
+
+    def test_refuses_in_one_line(self):
+        for arguments, says in ((("--characters", "0"), "--characters"),
+                                (("--seconds", "0.05"), "--seconds: 0.05 s at 60 Hz are 3 frames; allowed: 4 or more"),
+                                (("--seconds", "nan"), "--seconds"),
+                                (("-o", self.folder / "crowd.gif"), "is no film's name; allowed: .mp4")):
+            result = self.etude("crowd", *arguments)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertEqual(len(result.stderr.strip().splitlines()), 1, result.stderr)
+            self.assertIn(says, result.stderr)
+        self.assertFalse((self.folder / "crowd.gif").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
