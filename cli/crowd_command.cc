@@ -71,7 +71,7 @@ void Tell(const CrowdCommandOptions& options, Told told) {
   const double count = static_cast<double>(options.crowd.characters) * options.crowd.frames;
   fmt::print("{} characters, {} frames at {:g} Hz, gauss-newton in batches of {}\n", options.crowd.characters,
              options.crowd.frames, options.crowd.rate_hz, options.in_float ? "floats" : "doubles");
-  fmt::print("{:.1f} % of all poses meet their targets, after {:.2f} steps\n",
+  fmt::print("{:.2f} % of all poses meet their targets, after {:.2f} steps\n",
              100 * static_cast<double>(told.met) / count, static_cast<double>(told.steps) / count);
   const double first = told.times_ms.front();
   std::sort(told.times_ms.begin() + 1, told.times_ms.end());

@@ -9,7 +9,7 @@ namespace etude {
 struct CrowdCommandOptions {
   CrowdOptions crowd;
   double seconds = 2;
-  int steps = 20;  ///< a frame, at most: what task tracking allows
+  int steps = 100;  ///< a frame, at most: who is lost begins anew with so many
   bool in_float = false;
   std::string output;  ///< a film, "" = only told
   bool overwrite = false;

@@ -16,7 +16,7 @@
 namespace etude {
 namespace {
 
-constexpr int kMostSteps = 20;  // a frame: what task tracking allows
+constexpr int kMostSteps = 100;  // a frame, as etude crowd
 
 double ThreadTimeMs() {
   timespec now{};

@@ -10,7 +10,7 @@ namespace etude {
 namespace {
 
 constexpr double kApart = 1.6;     // metres
-constexpr double kBrightness = 1.5;  // the lamp hangs far from most
+constexpr double kBrightness = 1.8;  // the lamp hangs far from most
 constexpr Rgb8 kPale{250, 240, 190};
 
 // Over the whole square, a little from above; its first row is nearest.

@@ -7,6 +7,7 @@
 
 #include "bench/clips/builtin_clip.h"
 #include "bench/clips/clip_library.h"
+#include "engine/kinematics/body_tree.h"
 #include "engine/kinematics/solvers/gauss_newton_batch.h"
 #include "sim/choreography/move.h"
 
@@ -17,14 +18,15 @@ Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options) {
   for (const std::string& name : BuiltinMoveNames()) references.push_back(std::string(kBuiltinPrefix) + name);
   for (const std::string& name : BuiltinActNames()) references.push_back(std::string(kBuiltinPrefix) + name);
   ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}));
+  const KinematicTree body = MakeBodyTree({});
   const TrackingOptions tracking{.duration_s = options.frames / options.rate_hz, .rate_hz = options.rate_hz};
   constexpr int kTries = 4;  // for each character: acts are short
   std::vector<TrackingWorld> crowd;
   for (int trial = 0; std::ssize(crowd) < options.characters && trial < kTries * options.characters; ++trial) {
     const LibraryClip& clip = library.clips[static_cast<std::size_t>(trial) % library.clips.size()];
-    auto world = MakeTrackingWorld(tracking, clip, {.suite_seed = options.seed, .scenario = "crowd", .trial = trial});
+    auto world =
+        MakeTrackingWorld(body, tracking, clip, {.suite_seed = options.seed, .scenario = "crowd", .trial = trial});
     if (!world || std::ssize(world->truth) != options.frames) continue;
-    if (!crowd.empty()) world->tree = crowd.front().tree;  // theirs but for rounding
     crowd.push_back(*std::move(world));
   }
   if (std::ssize(crowd) == options.characters) return crowd;

@@ -17,8 +17,8 @@ struct CrowdOptions {
   std::uint64_t seed = 1;
 };
 
-/// Motions of `frames` frames for so many bodies of one build: windows, thrown by dice, of the built-in moves and acts,
-/// which one body performs. Fails where these have no windows so long.
+/// Motions of `frames` frames for so many bodies of one build, paper B's: windows, thrown by dice, of the built-in
+/// moves and acts. Fails where these have no windows so long.
 Result<std::vector<TrackingWorld>> MakeCrowd(const CrowdOptions& options);
 
 /// All of them followed at once: each frame is a batch of `gauss-newton`, everybody from their last answer, within the

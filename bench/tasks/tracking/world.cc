@@ -67,12 +67,17 @@ std::vector<double> ChooseFirstAngles(const TrackingOptions& options, const Kine
 }  // namespace
 
 Result<TrackingWorld> MakeTrackingWorld(const TrackingOptions& options, const LibraryClip& clip, const WorldKey& key) {
+  return MakeTrackingWorld(MakeBodyTree(MeasureLimbLengths(clip.motion.poses)), options, clip, key);
+}
+
+Result<TrackingWorld> MakeTrackingWorld(const KinematicTree& body, const TrackingOptions& options,
+                                        const LibraryClip& clip, const WorldKey& key) {
   const std::vector<BodyPose> window = ChooseWindow(options, clip, key);
   if (window.size() < kFewestTrackedFrames) {
     return Fail({}, "too few frames in clip {}: {} at {:g} Hz; tracking needs {}", clip.name, window.size(),
                 options.rate_hz, kFewestTrackedFrames);
   }
-  TrackingWorld world{MakeBodyTree(MeasureLimbLengths(clip.motion.poses)), {}, {}, {}};
+  TrackingWorld world{body, {}, {}, {}};
   RandomStream noise(key, "tracking/target-noise");
   std::vector<AngleRange> ranges = world.tree.limits;
   for (std::size_t k = 0; k < window.size(); ++k) {
