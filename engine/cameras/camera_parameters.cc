@@ -3,31 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/euler.h"
+
 namespace etude {
 namespace {
 
-glm::dmat3 RotationOf(const CameraParameters& p) {
-  const double so = std::sin(p.omega), co = std::cos(p.omega);
-  const double sp = std::sin(p.phi), cp = std::cos(p.phi);
-  const double sk = std::sin(p.kappa), ck = std::cos(p.kappa);
-  // By columns.
-  return {cp * ck,
-          co * sk + so * sp * ck,
-          so * sk - co * sp * ck,  //
-          -cp * sk,
-          co * ck - so * sp * sk,
-          so * ck + co * sp * sk,  //
-          sp,
-          -so * cp,
-          co * cp};
-}
-
-void SetAngles(const glm::dmat3& R, CameraParameters& p) {
-  p.phi = std::atan2(R[2][0], std::hypot(R[0][0], R[1][0]));
-  p.omega = std::atan2(-R[2][1], R[2][2]);
-  // About the axes that ω and φ have turned: exact also where φ is a right angle and ω arbitrary.
-  const double so = std::sin(p.omega), co = std::cos(p.omega);
-  p.kappa = std::atan2(co * R[0][1] + so * R[0][2], co * R[1][1] + so * R[1][2]);
+void SetAngles(const glm::dmat3& R_CW, CameraParameters& p) {
+  const glm::dvec3 angles = AnglesXyz(R_CW);
+  p.omega = angles.x;
+  p.phi = angles.y;
+  p.kappa = angles.z;
 }
 
 }  // namespace
@@ -80,7 +65,7 @@ Camera ToCamera(const CameraParameters& p, int width, int height) {
                        .cx = p.principal_u,
                        .cy = p.principal_v,
                        .skew = -fx * std::cos(p.skew) / sine};
-  camera.R_CW = RotationOf(p);
+  camera.R_CW = RotationXyz({p.omega, p.phi, p.kappa});
   camera.p_WC = -(glm::transpose(camera.R_CW) * p.t);
   return camera;
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/euler.h"
 #include "engine/base/unit_vector.h"
-#include "engine/kinematics/euler.h"
 
 namespace etude {
 namespace {

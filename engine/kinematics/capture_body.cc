@@ -1,7 +1,7 @@
 #include "engine/kinematics/capture_body.h"
 
+#include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/euler.h"
 #include "engine/kinematics/tree_to_body.h"
 
 namespace etude {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "engine/base/angles.h"
+#include "engine/base/euler.h"
 #include "engine/base/unit_vector.h"
 #include "engine/kinematics/capture_body.h"
-#include "engine/kinematics/euler.h"
 
 namespace etude {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "engine/base/euler.h"
 #include "engine/base/unit_vector.h"
-#include "engine/kinematics/euler.h"
 
 namespace etude {
 namespace {

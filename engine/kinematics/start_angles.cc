@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/euler.h"
 
 namespace etude {
 namespace {

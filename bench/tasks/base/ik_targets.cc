@@ -1,7 +1,7 @@
 #include "bench/tasks/base/ik_targets.h"
 
 #include "engine/base/angles.h"
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 
 namespace etude {
 

@@ -1,7 +1,7 @@
 #include "bench/tasks/capture/nearest_poses.h"
 
+#include "engine/base/euler.h"
 #include "engine/capture/fit_pose.h"
-#include "engine/kinematics/euler.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/start_angles.h"
 

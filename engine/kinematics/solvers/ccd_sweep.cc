@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 #include "engine/kinematics/solvers/hinge_gain.h"
 
 namespace etude {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 #include "engine/kinematics/solvers/fabrik_pass.h"
 #include "engine/kinematics/solvers/hinge_gain.h"
 #include "engine/kinematics/solvers/ik_run.h"

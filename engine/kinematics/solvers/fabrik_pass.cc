@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 
 namespace etude {
 namespace {

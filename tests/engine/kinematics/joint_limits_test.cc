@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "engine/base/angles.h"
+#include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/euler.h"
 
 namespace etude {
 namespace {

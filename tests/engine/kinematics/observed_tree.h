@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 #include "engine/kinematics/limb_lengths.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "tests/engine/kinematics/posed_tree.h"

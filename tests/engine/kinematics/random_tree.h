@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 #include "tests/engine/kinematics/posed_tree.h"
 
 namespace etude {

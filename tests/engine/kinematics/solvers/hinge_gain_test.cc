@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "engine/base/euler.h"
 #include "engine/kinematics/body_tree.h"
-#include "engine/kinematics/euler.h"
 #include "engine/kinematics/solvers/ccd_sweep.h"
 #include "tests/engine/kinematics/posed_tree.h"
 

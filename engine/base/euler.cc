@@ -1,4 +1,4 @@
-#include "engine/kinematics/euler.h"
+#include "engine/base/euler.h"
 
 #include <cmath>
 
@@ -31,11 +31,13 @@ glm::dmat3 RotationXyz(const glm::dvec3& angles) {
 }
 
 glm::dvec3 AnglesXyz(const glm::dmat3& rotation) {
+  constexpr double kTold = 1e-6;  // below it, what the first row says of z is lost in rounding
   const double cos_y = std::hypot(rotation[0].x, rotation[1].x);
-  const double y = std::atan2(rotation[2].x, cos_y);
-  // At y = ±π/2 the first row says nothing about z: give the whole turn to x.
-  if (cos_y < 1e-12) return {std::atan2(rotation[1].z, rotation[1].y), y, 0};
-  return {std::atan2(-rotation[2].y, rotation[2].z), y, std::atan2(-rotation[1].x, rotation[0].x)};
+  const double x = std::atan2(-rotation[2].y, rotation[2].z), y = std::atan2(rotation[2].x, cos_y);
+  if (cos_y > kTold) return {x, y, std::atan2(-rotation[1].x, rotation[0].x)};
+  // z from the axes that x has turned: exact whatever x came out as.
+  const double c = std::cos(x), s = std::sin(x);
+  return {x, y, std::atan2(c * rotation[0].y + s * rotation[0].z, c * rotation[1].y + s * rotation[1].z)};
 }
 
 glm::dmat3 SmallestRotation(const glm::dvec3& from, const glm::dvec3& to) {
