@@ -74,16 +74,22 @@ void Synchronise(const CaptureCommandOptions& options, const std::vector<FilmedV
   const int most =
       std::clamp(static_cast<int>(std::lround(options.sync_s * rate)), 1, std::max(1, static_cast<int>(shortest / 2)));
   const SyncOptions clocks{.most_frames = most, .most_px = recover.triangulate.robust.outlier_px};
-  films.offsets = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
+  const std::vector<ClockOffset> found = EstimateOffsets(films.cameras, films.people, {clocks, recover.match.follow});
+  std::string untold;
   fmt::print("clocks, after {}'s:", views.front().camera.name);
   constexpr double kMsPerSecond = 1000;
   for (std::size_t i = 0; i < views.size(); ++i) {
+    films.offsets[i] = found[i].frames;
+    if (!found[i].is_told) untold += (untold.empty() ? "" : ", ") + views[i].camera.name;
     films.people[i] = PeopleInTime(films.people[i], films.offsets[i], frames, recover.match.follow);
     if (i == 0) continue;
     fmt::print("{} {} {:+.2f} frames ({:+.0f} ms)", i == 1 ? "" : ",", views[i].camera.name, films.offsets[i],
                kMsPerSecond * films.offsets[i] / rate);
   }
   fmt::print("\n");
+  if (untold.empty()) return;
+  fmt::print("no keypoints tell the clock of {}: people hardly move, or it is further off than --sync {:g}\n", untold,
+             options.sync_s);
 }
 
 void PrintPeople(const RecoveredPerson& person, const std::vector<FilmedView>& views) {

@@ -1,6 +1,7 @@
 #include "engine/capture/clock_search.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace etude {
 namespace {
@@ -28,22 +29,27 @@ std::optional<Lowest> LowestAbout(const std::function<std::optional<double>(int 
 
 }  // namespace
 
-double FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int most_frames) {
+ClockOffset FindOffset(const std::function<std::optional<double>(int offset)>& misfit, int most_frames) {
   const std::optional<double> assumed = misfit(0);
-  if (!assumed) return 0;
-  int best = 0;
-  double least = *assumed;
+  if (!assumed) return {};
+  int best = 0, asked = 0;
+  double least = *assumed, sum = 0;
   for (int offset = -most_frames; offset <= most_frames; ++offset) {
     const std::optional<double> here = misfit(offset);
-    if (!here || *here >= least) continue;
+    if (!here) continue;
+    sum += *here;
+    ++asked;
+    if (*here >= least) continue;
     least = *here;
     best = offset;
   }
   const Lowest lowest = LowestAbout(misfit, best).value_or(Lowest{});
   // As good as none: nobody moved.
   constexpr double kNoBetter = 0.001, kNothing = 1e-4;  // a share; pixels squared
+  constexpr double kTold = 1.25;                        // noise alone stays below, where 300 distances or more are had
   const bool is_better = *assumed - least + lowest.gain > kNothing + kNoBetter * *assumed;
-  return is_better ? best + lowest.shift : 0;
+  const bool is_told = std::abs(best) < most_frames && sum / asked > kNothing + kTold * (least - lowest.gain);
+  return {is_better ? best + lowest.shift : 0, is_told};
 }
 
 SomePixel PixelBetween(const SomePixel& a, const SomePixel& b, const SomePixel& c, const SomePixel& d, double share) {

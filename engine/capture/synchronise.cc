@@ -72,8 +72,8 @@ std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras,
   for (std::size_t i = 1; i < cameras.size(); ++i) {
     const auto geometry = EpipolarGeometry::Of(cameras[0], cameras[i]);
     if (!geometry) continue;
-    offsets[i] = FindOffset([&](int offset) { return Misfit(*geometry, marks[0], marks[i], options.most_px, offset); },
-                            options.most_frames);
+    const auto misfit = [&](int offset) { return Misfit(*geometry, marks[0], marks[i], options.most_px, offset); };
+    offsets[i] = FindOffset(misfit, options.most_frames).frames;
   }
   return offsets;
 }

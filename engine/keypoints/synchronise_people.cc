@@ -49,7 +49,7 @@ class MovingPerson {
 /// People of one camera, whose clock is known or asked.
 struct Witness {
   std::vector<MovingPerson> people;
-  double offset = 0;
+  ClockOffset offset;
 };
 
 struct Misfit {
@@ -98,7 +98,7 @@ void AddMisfit(const EpipolarGeometry& geometry, const Witness& one, const Witne
   for (const MovingPerson& person : one.people) {
     Misfit best;
     for (const MovingPerson& somebody : other.people) {
-      const Misfit pair = MisfitOf(geometry, person, one.offset, somebody, offset, frames, options);
+      const Misfit pair = MisfitOf(geometry, person, one.offset.frames, somebody, offset, frames, options);
       if (pair.count >= kFewest && (best.count == 0 || pair.mean() < best.mean())) best = pair;
     }
     all.variance += best.variance;
@@ -108,8 +108,8 @@ void AddMisfit(const EpipolarGeometry& geometry, const Witness& one, const Witne
 
 }  // namespace
 
-std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
-                                    const PeopleSyncOptions& options) {
+std::vector<ClockOffset> EstimateOffsets(std::span<const ProjectionMatrix> cameras, std::span<const SeenPeople> people,
+                                         const PeopleSyncOptions& options) {
   std::vector<std::vector<PersonTrack>> tracks;
   std::vector<Witness> witnesses;
   for (const SeenPeople& of_camera : people) tracks.push_back(FollowPeople(of_camera, options.follow));
@@ -117,6 +117,7 @@ std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras, s
     Witness& witness = witnesses.emplace_back();
     for (const PersonTrack& track : tracks[camera]) witness.people.emplace_back(people[camera], track);
   }
+  witnesses.front().offset.is_told = true;
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t camera = 1; camera < cameras.size(); ++camera) {
@@ -132,7 +133,7 @@ std::vector<double> EstimateOffsets(std::span<const ProjectionMatrix> cameras, s
       witnesses[camera].offset = FindOffset(misfit_at, options.clocks.most_frames);
     }
   }
-  std::vector<double> offsets;
+  std::vector<ClockOffset> offsets;
   for (const Witness& witness : witnesses) offsets.push_back(witness.offset);
   return offsets;
 }

@@ -43,18 +43,48 @@ TEST(SynchronisePeople, FindsHowLateEveryCameraIs) {
     const auto found = EstimateOffsets(exact.cameras, exact.people),
                roughly = EstimateOffsets(noisy.cameras, noisy.people);
     for (std::size_t c = 0; c < kOffsets.size(); ++c) {
-      EXPECT_NEAR(found[c], kOffsets[c], 0.04) << persons << " people, camera " << c;
-      EXPECT_NEAR(roughly[c], kOffsets[c], 0.25) << persons << " people, camera " << c;
+      EXPECT_NEAR(found[c].frames, kOffsets[c], 0.04) << persons << " people, camera " << c;
+      EXPECT_NEAR(roughly[c].frames, kOffsets[c], 0.25) << persons << " people, camera " << c;
+      EXPECT_TRUE(found[c].is_told && roughly[c].is_told) << persons << " people, camera " << c;
     }
   }
 }
 
-TEST(SynchronisePeople, LeavesClocksAloneThatNothingTellsOf) {
-  const Session agree = Filmed(1, 0, {0, 0, 0, 0});
-  for (const double offset : EstimateOffsets(agree.cameras, agree.people)) EXPECT_NEAR(offset, 0, 0.1);
-  Session empty = agree;
-  for (SeenPeople& people : empty.people) people.assign(people.size(), {});
-  EXPECT_EQ(EstimateOffsets(empty.cameras, empty.people), std::vector<double>(4, 0.0));
+TEST(SynchronisePeople, TellsClocksThatAgree) {
+  for (const double sigma_px : {0.0, 4.0}) {
+    const Session agree = Filmed(1, sigma_px, {0, 0, 0, 0});
+    for (const ClockOffset& offset : EstimateOffsets(agree.cameras, agree.people)) {
+      EXPECT_NEAR(offset.frames, 0, sigma_px > 0 ? 0.5 : 0.1) << "to the frame";
+      EXPECT_TRUE(offset.is_told);
+    }
+  }
+}
+
+TEST(SynchronisePeople, SaysSoWhereNothingTellsTheTime) {
+  Session session = Filmed(1, 4);
+  for (SeenPeople& people : session.people) {
+    people.assign(people.size(), {});  // nobody
+  }
+  std::vector<ClockOffset> found = EstimateOffsets(session.cameras, session.people);
+  for (std::size_t c = 1; c < found.size(); ++c) {
+    EXPECT_EQ(found[c].frames, 0) << c;
+    EXPECT_FALSE(found[c].is_told) << c;
+  }
+  RandomStream dice = WalkersDice("stands still");
+  for (std::size_t c = 0; c < session.people.size(); ++c) {
+    Camera camera = FourCameras()[c];
+    camera.distortion = {};
+    for (auto& frame : session.people[c]) frame = {Seen(camera, Walker(0, 0, 0), 4, dice)};
+  }
+  found = EstimateOffsets(session.cameras, session.people);
+  for (std::size_t c = 1; c < found.size(); ++c) EXPECT_FALSE(found[c].is_told) << c;
+}
+
+TEST(SynchronisePeople, SaysSoWhereAClockIsFurtherOffThanItLooked) {
+  const Session session = Filmed(1, 0);
+  const auto found = EstimateOffsets(session.cameras, session.people, {.clocks = {.most_frames = 5}, .follow = {}});
+  EXPECT_TRUE(found[1].is_told);
+  EXPECT_FALSE(found[3].is_told) << "11 frames late";
 }
 
 TEST(PeopleInTime, ShowsEverybodyAtTheFirstCamerasTime) {
