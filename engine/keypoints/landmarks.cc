@@ -46,6 +46,9 @@ std::span<const KeypointLayout> KeypointLayouts() {
       {"halpe_26",
        Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
               "RAnkle Head Neck MidHip LBigToe RBigToe LSmallToe RSmallToe LHeel RHeel")},
+      {"halpe_26_hands",
+       Listed("Nose LEye REye LEar REar LShoulder RShoulder LElbow RElbow LWrist RWrist LHip RHip LKnee RKnee LAnkle "
+              "RAnkle Head Neck MidHip LBigToe RBigToe LSmallToe RSmallToe LHeel RHeel LHand RHand")},
   };
   return layouts;
 }

@@ -55,7 +55,8 @@ struct KeypointLayout {
   std::vector<Landmark> landmarks;
 };
 
-/// "coco" (17 points), "body_25" and "body_25b" (25 each, in different orders; OpenPose), "halpe_26".
+/// "coco" (17 points), "body_25" and "body_25b" (25 each, in different orders; OpenPose), "halpe_26"; "halpe_26_hands"
+/// (ours): the same and the finger tips, which are all landmarks, as `etude export` writes marks.
 std::span<const KeypointLayout> KeypointLayouts();
 std::vector<std::string> KeypointLayoutNames();
 /// Null when there is none of that name.

@@ -17,6 +17,10 @@ methods:
 """
 
 
+AS_KEYPOINTS = CAPTURE.replace("duration_s: 0.1", "duration_s: 0.5").replace(
+    "{name: dls, solver: damped-least-squares}", "{name: keypoints, recovery: keypoints}")
+
+
 class DataSets(EtudeCase):
     def export(self, text, name="ik.yaml"):
         """An exported scenario, and its truth turned into a folder of answers."""
@@ -147,6 +151,27 @@ class DataSets(EtudeCase):
         told = "".join(path.read_text() for path in (data / "inputs").rglob("*") if path.is_file())
         self.assertNotIn(json.dumps(truth["angles_deg"][3]), told)
         self.assertNotIn("seed", told)
+
+    def test_an_exported_take_is_captured_as_well_as_in_the_bench(self):
+        scenario, data, answers = self.write("film.yaml", AS_KEYPOINTS), self.folder / "data", self.folder / "answers"
+        result = self.etude("export", scenario, "--films", "-o", data)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        take, marks, rig = data / "inputs/film/all/000", self.folder / "marks", self.folder / "rig.yaml"
+        marks.mkdir()
+        for camera in (1, 2):
+            shutil.copy(take / f"marks-hue-camera-{camera}.coco.json", marks / f"camera-{camera}.coco.json")
+        result = self.etude("calibrate", take / "calibration-points.yaml", "--method", "dlt", "-o", rig)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = self.etude("capture", "--rig", rig, take / "camera-1.mp4", take / "camera-2.mp4", "--keypoints", marks,
+                            "-o", self.folder / "motion.csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.folder / "motion.csv", newline="") as file:
+            poses = [[float(number) for number in row[2:]] for row in list(csv.reader(file))[1:]]
+        (answers / "film/all").mkdir(parents=True)
+        (answers / "film/all/000.json").write_text(json.dumps({"poses": poses}))
+        rows = {row["method"]: row["mpjpe_mm"] for row in self.score(data, answers)}
+        self.assertGreater(rows["keypoints"], 1)
+        self.assertAlmostEqual(rows["predictions"], rows["keypoints"], places=3)
 
     def test_a_film_comes_in_formats_that_others_read(self):
         data, answers = self.export(CAPTURE, "film.yaml")

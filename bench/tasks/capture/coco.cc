@@ -1,31 +1,30 @@
 #include "bench/tasks/capture/coco.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
+#include "engine/keypoints/landmarks.h"
+#include "engine/keypoints/marked_person.h"
 
 namespace etude {
 namespace {
 
-constexpr std::array kNames = {"nose",          "left_eye",       "right_eye",  "left_ear",    "right_ear",
-                               "left_shoulder", "right_shoulder", "left_elbow", "right_elbow", "left_wrist",
-                               "right_wrist",   "left_hip",       "right_hip",  "left_knee",   "right_knee",
-                               "left_ankle",    "right_ankle"};
-static_assert(kNames.size() == kCocoKeypoints);
+/// What COCO and Halpe call the keypoints of the layout "halpe_26_hands".
+constexpr std::array kNames = {
+    "nose",           "left_eye",   "right_eye",    "left_ear",      "right_ear",      "left_shoulder",
+    "right_shoulder", "left_elbow", "right_elbow",  "left_wrist",    "right_wrist",    "left_hip",
+    "right_hip",      "left_knee",  "right_knee",   "left_ankle",    "right_ankle",    "head",
+    "neck",           "hip",        "left_big_toe", "right_big_toe", "left_small_toe", "right_small_toe",
+    "left_heel",      "right_heel", "left_hand",    "right_hand"};
+static_assert(kNames.size() == kLandmarkCount);
 
-/// The joints behind the keypoints from the left shoulder on.
-constexpr std::size_t kFirstJoint = 5;
-constexpr std::array kJoints = {Role::kLeftShoulder, Role::kRightShoulder, Role::kLeftElbow, Role::kRightElbow,
-                                Role::kLeftWrist,    Role::kRightWrist,    Role::kLeftHip,   Role::kRightHip,
-                                Role::kLeftKnee,     Role::kRightKnee,     Role::kLeftAnkle, Role::kRightAnkle};
-static_assert(kFirstJoint + kJoints.size() == kCocoKeypoints);
-
-/// COCO's own list of limbs, keypoints counted from one.
-constexpr int kSkeleton[][2] = {{16, 14}, {14, 12}, {17, 15}, {15, 13}, {12, 13}, {6, 12}, {7, 13},
-                                {6, 7},   {6, 8},   {7, 9},   {8, 10},  {9, 11},  {2, 3},  {1, 2},
-                                {1, 3},   {2, 4},   {3, 5},   {4, 6},   {5, 7}};
+/// COCO's own list of limbs, keypoints counted from one; then the head, the feet and the hands.
+constexpr int kSkeleton[][2] = {{16, 14}, {14, 12}, {17, 15}, {15, 13}, {12, 13}, {6, 12},  {7, 13},  {6, 7},
+                                {6, 8},   {7, 9},   {8, 10},  {9, 11},  {2, 3},   {1, 2},   {1, 3},   {2, 4},
+                                {3, 5},   {4, 6},   {5, 7},   {18, 19}, {16, 21}, {17, 22}, {10, 27}, {11, 28}};
 
 Json Category() {
   Json skeleton = Json::array();
@@ -39,12 +38,13 @@ std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
   Json keypoints = Json::array();
   int marked = 0;
   glm::dvec2 low(1e9), high(-1e9);
-  for (const auto& point : CocoKeypointsOf(marks)) {
-    if (!point) {
+  const SeenPerson person = PersonOf(marks);
+  for (const Landmark landmark : FindKeypointLayout("halpe_26_hands")->landmarks) {
+    if (person[landmark].confidence == 0) {
       for (int i = 0; i < 3; ++i) keypoints.push_back(0);
       continue;
     }
-    const glm::dvec2 pixel = *point - kOurPixelCentre;
+    const glm::dvec2 pixel = person[landmark].pixel - kOurPixelCentre;
     low = glm::min(low, pixel);
     high = glm::max(high, pixel);
     keypoints.push_back(pixel.x);
@@ -65,26 +65,6 @@ std::optional<Json> Annotation(std::size_t frame, const Marks& marks) {
 }
 
 }  // namespace
-
-std::array<std::optional<glm::dvec2>, kCocoKeypoints> CocoKeypointsOf(const Marks& marks) {
-  std::array<std::optional<glm::dvec2>, kCocoKeypoints> keypoints;
-  for (std::size_t i = 0; i < kJoints.size(); ++i) {
-    glm::dvec2 sum(0);
-    int ends = 0;
-    const auto add = [&](Role role, const glm::dvec2& end) {
-      if (role != kJoints[i]) return;
-      sum += end;
-      ++ends;
-    };
-    for (std::size_t s = 0; s < kStrokeCount; ++s) {
-      if (!marks.strokes[s]) continue;
-      add(StrokeMarks()[s].from, marks.strokes[s]->a);
-      add(StrokeMarks()[s].to, marks.strokes[s]->b);
-    }
-    if (ends > 0) keypoints[kFirstJoint + i] = sum / static_cast<double>(ends);
-  }
-  return keypoints;
-}
 
 Result<std::string> WriteCocoKeypoints(const Intrinsics& camera, std::span<const std::string> pictures,
                                        std::span<const Marks> marks) {

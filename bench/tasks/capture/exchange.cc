@@ -35,6 +35,21 @@ Json ToJson(const LimbLengths& lengths) {
           {"hand", lengths.hand}};
 }
 
+/// As `ReadPointPairs` reads them.
+std::string PairsFile(const CaptureWorld& world, const std::vector<std::vector<PointPair>>& pairs) {
+  constexpr double kOurPixelCentre = 0.5;
+  std::string text;
+  for (std::size_t camera = 0; camera < pairs.size(); ++camera) {
+    const Intrinsics& in = world.cameras[camera].intrinsics;
+    text += fmt::format("camera-{}:\n  size: [{}, {}]\n  pairs:\n", camera + 1, in.width, in.height);
+    for (const auto& [p_W, pixel] : pairs[camera]) {
+      text += fmt::format("    - [{}, {}, {}, {}, {}]\n", p_W.x, p_W.y, p_W.z, pixel.x - kOurPixelCentre,
+                          pixel.y - kOurPixelCentre);
+    }
+  }
+  return text;
+}
+
 Json ToJson(const std::vector<PointPair>& pairs) {
   Json list = Json::array();
   for (const PointPair& pair : pairs) list.push_back({{"world_m", ToJson(pair.world)}, {"pixel", ToJson(pair.pixel)}});
@@ -128,6 +143,7 @@ Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey&
   for (const std::vector<PointPair>& pairs : *calibration) {
     cameras.push_back({{"calibration", ToJson(pairs)}, {"background", nullptr}, {"pictures", Json::array()}});
   }
+  problem.files.push_back({"calibration-points.yaml", PairsFile(world, *calibration)});
   const auto keep = [&](std::size_t camera, std::optional<std::size_t> frame, const ColourImage& picture) {
     problem.files.push_back({PictureName(camera, frame, "png"), EncodePng(picture)});
     const std::string& name = problem.files.back().name;

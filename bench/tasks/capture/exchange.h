@@ -35,7 +35,8 @@ Payload DescribeStudio();
 /// marked; by the segmenter's name, then [camera][frame]; null is a frame that the annotator did not see, a mark that
 /// is missing or could not be read. A stroke goes from its limb's `from` to its `to`.
 ///
-/// The same marks lie beside as COCO keypoints, `marks-hue-camera-1.coco.json` and so on (coco.h).
+/// The same marks lie beside as COCO keypoints, `marks-hue-camera-1.coco.json` and so on (coco.h), and the calibration
+/// points as `etude calibrate` reads them, `calibration-points.yaml`.
 ///
 /// Fails when there is no renderer, and for takes of more than kMostPictures pictures.
 Result<Payload> MakeCaptureProblem(const StudioOptions& options, const WorldKey& key, CaptureStages& stages);

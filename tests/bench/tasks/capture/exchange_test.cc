@@ -65,8 +65,8 @@ TEST(CaptureExchange, TellsTheMarksPicturesAndCalibrationPointsThatBuiltInMethod
   ASSERT_EQ(json["frames"], 3);
   ASSERT_EQ(json["cameras"].size(), 2u);
   EXPECT_EQ(json["cameras"][0]["calibration"].size(), 24u);
-  EXPECT_EQ(problem->files.size(), 2u * (1 + 3) + 2u * SegmenterNames().size())
-      << "pictures, and marks as COCO keypoints";
+  EXPECT_EQ(problem->files.size(), 1 + 2u * (1 + 3) + 2u * SegmenterNames().size())
+      << "calibration points, pictures, and marks as COCO keypoints";
   EXPECT_TRUE(Find(*problem, json["cameras"][1]["background"].get<std::string>())->bytes.starts_with("\x89PNG"));
   EXPECT_EQ(json["cameras"][1]["pictures"][2], "camera-2-0002.png");
 
