@@ -7,6 +7,7 @@
 
 #include "engine/silhouettes/moment_fitter.h"
 #include "engine/silhouettes/thickness.h"
+#include "engine/silhouettes/turned_round.h"
 #include "engine/silhouettes/turns.h"
 
 namespace etude {
@@ -15,6 +16,7 @@ namespace {
 using Fits = std::vector<std::optional<SilhouetteFit>>;
 
 constexpr std::size_t kFollowedAnchors = 2;
+constexpr int kTurnedMoments = 5;
 
 double Squared(double x) { return x * x; }
 
@@ -53,6 +55,7 @@ class Tracker {
       is_first = false;
     }
     if (is_first) return {body_, std::move(fits)};
+    fits = EitherWayRound(std::move(fits));
     for (int i = 0; i < options_.thickness_passes; ++i) {
       FitThickness(fits);
       Refit(fits);
@@ -108,15 +111,20 @@ class Tracker {
     return anchors;
   }
 
-  std::vector<Anchor> FindAnchors() {
-    std::vector<std::size_t> shown;
+  // At most so many frames, evenly over those that show somebody.
+  std::vector<std::size_t> MomentsOf(int most) const {
+    std::vector<std::size_t> shown, frames;
     for (std::size_t k = 0; k < frame_count_; ++k) {
       if (Shows(k)) shown.push_back(k);
     }
+    const std::size_t count = std::min<std::size_t>(most, shown.size());
+    for (std::size_t i = 0; i < count; ++i) frames.push_back(shown[(2 * i + 1) * shown.size() / (2 * count)]);
+    return frames;
+  }
+
+  std::vector<Anchor> FindAnchors() {
     std::vector<std::pair<double, Anchor>> tried;
-    const std::size_t count = std::min<std::size_t>(options_.anchors, shown.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t frame = shown[(2 * i + 1) * shown.size() / (2 * count)];
+    for (const std::size_t frame : MomentsOf(options_.anchors)) {
       for (SilhouetteFit& fit : fitter_.Find(views_[frame])) {
         Anchor anchor{frame, std::move(fit)};
         const double cost = TrialCost(anchor);
@@ -148,6 +156,27 @@ class Tracker {
     Follow(anchor.frame, frame_count_ - 1, fits);
     Follow(anchor.frame, 0, fits);
     return fits;
+  }
+
+  // Outlines are much the same of a body that stands the other way round, its left limbs where the right ones are. Such
+  // a body is looked for at a few moments, from where the limbs of this one are, and followed through the take; of both
+  // the better path is kept.
+  Fits EitherWayRound(Fits fits) {
+    std::optional<Anchor> likeliest;
+    double least = 0;
+    for (const std::size_t frame : MomentsOf(kTurnedMoments)) {
+      if (!fits[frame]) continue;
+      const TreeState turned = TurnedRound(body_, fits[frame]->state);
+      Anchor anchor{frame,
+                    fitter_.WithLimbsFound(views_[frame], fitter_.Fit(views_[frame], turned, nullptr, true), nullptr)};
+      const double cost = TrialCost(anchor);
+      if (likeliest && cost >= least) continue;
+      likeliest = std::move(anchor);
+      least = cost;
+    }
+    if (!likeliest) return fits;
+    const Fits turned = FollowBothWays(*likeliest);
+    return Better(fits, Better(turned, Retraced(turned)));
   }
 
   // The same take followed in the other direction of time: from each end to the other.

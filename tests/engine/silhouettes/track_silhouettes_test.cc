@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/silhouettes/turned_round.h"
 #include "tests/engine/silhouettes/swinging_take.h"
 
 namespace etude {
@@ -21,6 +22,35 @@ TEST(TrackSilhouettes, FindsAndFollowsABodyThatNobodyHasShownIt) {
   const SilhouetteTrack track =
       TrackSilhouettes(take.body, {take.matrices, take.silhouettes, std::nullopt}, TrackInSmallPictures());
   EXPECT_LT(MeanErrorOf(take, track), 0.03);
+}
+
+// The control is the turned start itself: followed, and nothing else, it would stay turned.
+TEST(TrackSilhouettes, TurnsABodyRoundThatFacesTheWrongWay) {
+  const SwingingTake take(8);
+  TrackOptions options = TrackInSmallPictures();
+  options.anchors = 0;
+  const TreeState turned = TurnedRound(take.body, take.truth[0]);
+  const SilhouetteTrack track = TrackSilhouettes(take.body, {take.matrices, take.silhouettes, turned}, options);
+  EXPECT_GT(take.MeanErrorOf(0, turned), 0.1);
+  EXPECT_LT(MeanErrorOf(take, track), 0.03);
+}
+
+TEST(TurnedRound, ExchangesLeftAndRightWhereLimbsStayAndLooksBack) {
+  const SwingingTake take(4);
+  for (const TreeState& state : take.truth) {
+    const TreeState turned = TurnedRound(take.body, state);
+    const BodyPose before = ToBodyPose(take.body, state), after = ToBodyPose(take.body, turned);
+    double off = 0;
+    for (const Role role : {Role::kLeftHand, Role::kRightHand, Role::kLeftElbow, Role::kRightKnee, Role::kLeftAnkle}) {
+      off += glm::distance(after[role], before[Mirrored(role)]) / 5;
+    }
+    EXPECT_LT(off, 0.08);
+    EXPECT_LT(glm::dot(Facing(before), Facing(after)), -0.5);
+    for (std::size_t i = 0; i < turned.angles.size(); ++i) {
+      EXPECT_GE(turned.angles[i], take.body.tree.limits[i].lower - 1e-9);
+      EXPECT_LE(turned.angles[i], take.body.tree.limits[i].upper + 1e-9);
+    }
+  }
 }
 
 TEST(TrackSilhouettes, FindsOutHowThickThePersonIs) {
