@@ -17,6 +17,7 @@ using Fits = std::vector<std::optional<SilhouetteFit>>;
 
 constexpr std::size_t kFollowedAnchors = 2;
 constexpr int kTurnedMoments = 5;
+constexpr double kClearlyBetter = 0.95;
 
 double Squared(double x) { return x * x; }
 
@@ -159,8 +160,9 @@ class Tracker {
   }
 
   // Outlines are much the same of a body that stands the other way round, its left limbs where the right ones are. Such
-  // a body is looked for at a few moments, from where the limbs of this one are, and followed through the take; of both
-  // the better path is kept.
+  // a body is looked for at a few moments, from where the limbs of this one are, and followed through the take. It must
+  // explain the take clearly better, with the habits of its joints: neighbouring frames err alike, so that their sum
+  // says less than its size.
   Fits EitherWayRound(Fits fits) {
     std::optional<Anchor> likeliest;
     double least = 0;
@@ -175,8 +177,18 @@ class Tracker {
       least = cost;
     }
     if (!likeliest) return fits;
-    const Fits turned = FollowBothWays(*likeliest);
-    return Better(fits, Better(turned, Retraced(turned)));
+    const Fits followed = FollowBothWays(*likeliest);
+    const Fits turned = Better(followed, Retraced(followed));
+    return OwnCost(turned) < kClearlyBetter * OwnCost(fits) ? Better(fits, turned) : fits;
+  }
+
+  // What all frames cost without a thought of each other.
+  double OwnCost(const Fits& fits) {
+    double sum = 0;
+    for (std::size_t k = 0; k < frame_count_; ++k) {
+      if (fits[k]) sum += CostOf(body_, views_[k], fits[k]->state, nullptr, options_.cost, fitter_.workspace()).cost;
+    }
+    return sum;
   }
 
   // The same take followed in the other direction of time: from each end to the other.
