@@ -30,8 +30,9 @@ struct SilhouetteTrack {
 
 /// Follows a body through a take by its silhouettes alone: found in a few frames by trying headings and postures, or
 /// started from a known pose; fitted from frame to frame forwards, and backwards from the end; of both, the poses are
-/// kept that cost less and move less (Viterbi's shortest path). Then limbs that were lost are looked for, and every
-/// frame is fitted once more with its neighbours in sight.
+/// kept that cost less and move less (Viterbi's shortest path); likewise the other way round (`TurnedRound`), where
+/// that costs clearly less. Then limbs that were lost are looked for, and every frame is fitted once more with its
+/// neighbours in sight.
 SilhouetteTrack TrackSilhouettes(const SilhouetteBody& body, const SilhouetteTake& take,
                                  const TrackOptions& options = {});
 
