@@ -3,6 +3,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 
 #include "reports/films/look.h"
 #include "reports/transitions/transition_facts.h"
@@ -49,6 +52,24 @@ void DrawJoints(Canvas& canvas, const ProjectedJoints& joints) {
     if (!point) continue;
     canvas.DrawDot(*point, 3.6, kBoneShadow);
     canvas.DrawDot(*point, 2.6, IsLeft(role) ? kLeftSide : kRightSide);
+  }
+}
+
+// Lays paint over the masked pixels of a picture; recorded masks have half its size.
+void Tint(const Mask& mask, const Paint& paint, ColourImage& picture) {
+  std::array<std::array<std::uint8_t, 256>, 3> tinted;
+  for (int value = 0; value < 256; ++value) {
+    const auto mix = [&](double over) { return std::lround(std::lerp(value, 255 * over, paint.a)); };
+    tinted[0][value] = static_cast<std::uint8_t>(mix(paint.r));
+    tinted[1][value] = static_cast<std::uint8_t>(mix(paint.g));
+    tinted[2][value] = static_cast<std::uint8_t>(mix(paint.b));
+  }
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      if (mask.At(x * mask.width / picture.width, y * mask.height / picture.height) == 0) continue;
+      Rgb8& pixel = picture.At(x, y);
+      pixel = {tinted[0][pixel.r], tinted[1][pixel.g], tinted[2][pixel.b]};
+    }
   }
 }
 
@@ -176,9 +197,11 @@ void CapturePanel::Draw(Canvas& canvas, Renderer& renderer, std::size_t camera, 
   const double scale = canvas.width() / crop.width;
   const Intrinsics& inside = view.truth.intrinsics;
   const Box panel{-crop.x * scale, -crop.y * scale, inside.width * scale, inside.height * scale};
-  canvas.DrawImage(Seen(renderer, camera, frame, Targets::kColour).colour, panel);
-  canvas.DrawMask(view.masks[k], panel, kMaskTint);
-  canvas.DrawMask(OutlineOf(view.masks[k]), panel, kMaskEdge);
+  // Painted before it is stretched: stretching is what a frame costs most.
+  ColourImage picture = Seen(renderer, camera, frame, Targets::kColour).colour;
+  Tint(view.masks[k], kMaskTint, picture);
+  Tint(OutlineOf(view.masks[k]), kMaskEdge, picture);
+  canvas.DrawImage(picture, panel);
   DrawSkeleton(canvas, recovered_.poses[k], view.truth, panel);
 }
 
