@@ -7,6 +7,7 @@
 #include "bench/files/files.h"
 #include "bench/tasks/base/fuzzy_key.h"
 #include "cli/clip_reading.h"
+#include "cli/progress_bar.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/controls.h"
 #include "sim/choreography/slow_demonstration.h"
@@ -63,7 +64,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options) {
   std::vector<std::string> named = options.clips;
   named.insert(named.end(), wanted.begin(), wanted.end());
   ASSIGN_OR_RETURN(const auto references, ListReferences(named));
-  ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, reading));
+  ASSIGN_OR_RETURN(const auto clips, LoadClips(references, {}, reading, TellOf("clips read")));
 
   std::vector<BodyMotion> motions;
   for (const LibraryClip& clip : clips.clips) {

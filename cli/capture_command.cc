@@ -14,7 +14,8 @@
 namespace etude {
 namespace {
 
-Result<void> Capture(const CaptureCommandOptions& options) {
+/// False when it was interrupted.
+Result<bool> Capture(const CaptureCommandOptions& options) {
   for (const std::string* path : {&options.output, &options.points, &options.film}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
@@ -39,8 +40,11 @@ Result<void> Capture(const CaptureCommandOptions& options) {
 }  // namespace
 
 int CaptureCommand(const CaptureCommandOptions& options) {
-  if (auto done = Capture(options); !done) return Complain(done.error());
-  return kSuccess;
+  const auto is_whole = Capture(options);
+  if (!is_whole) return Complain(is_whole.error());
+  if (*is_whole) return kSuccess;
+  Complain({{options.film}, "stopped; there is no film"});
+  return kInterrupted;
 }
 
 }  // namespace etude

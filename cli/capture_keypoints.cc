@@ -9,6 +9,7 @@
 #include "bench/files/files.h"
 #include "bench/keypoints/read_people.h"
 #include "cli/capture_views.h"
+#include "cli/film_watch.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/recover_person.h"
@@ -155,7 +156,8 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
   return columns;
 }
 
-Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+/// False when it was interrupted.
+Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                        const RecoveredPerson& person, std::size_t chosen, const std::vector<double>& offsets) {
   std::vector<OverlayView> overlays;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -170,10 +172,12 @@ Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
       overlays.back().keypoints.push_back(seen);
     }
   }
-  RETURN_IF_ERROR(
-      WriteOverlayFilm(options.film, overlays, person.motion, [](double share) { ShowProgress("film", share); }));
-  fmt::print("written: {}\n", options.film);
-  return {};
+  const Interrupt interrupt;
+  const auto is_whole = WriteOverlayFilm(options.film, overlays, person.motion, WatchFilms(interrupt));
+  // Ctrl-C reaches ffmpeg, too, whose end may be what is noticed first.
+  if (!is_whole && *interrupt.requested()) return false;
+  if (is_whole && *is_whole) fmt::print("written: {}\n", options.film);
+  return is_whole;
 }
 
 /// The place of the person asked for among all that were found.
@@ -186,7 +190,7 @@ std::size_t ChosenOf(const RecoveredPerson& person, std::size_t number) {
 
 }  // namespace
 
-Result<void> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                               const std::optional<MarkerMotion>& reference) {
   SeenFilms films;
   for (const FilmedView& view : views) {
@@ -213,9 +217,8 @@ Result<void> CaptureKeypoints(const CaptureCommandOptions& options, const std::v
                              options.reference),
                  CompareWithReference(*reference, person, films, recover), views);
   }
-  if (!options.film.empty())
-    RETURN_IF_ERROR(WriteFilm(options, views, person, ChosenOf(person, recover.person), films.offsets));
-  return {};
+  if (options.film.empty()) return true;
+  return WriteFilm(options, views, person, ChosenOf(person, recover.person), films.offsets);
 }
 
 }  // namespace etude

@@ -6,6 +6,8 @@
 
 #include "bench/keypoints/read_people.h"
 #include "cli/capture_views.h"
+#include "cli/film_watch.h"
+#include "cli/progress_bar.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/unmarked/recover_unmarked.h"
 #include "reports/captures/overlay_film.h"
@@ -105,31 +107,36 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
   const MarkerMotion joints = JointsOfReference(reference);
   std::vector<ComparedColumn> columns{CompareColumn("all", JointMarkers(person.motion), joints)};
   const std::vector<CameraPair> pairs = PairsOf(take.cameras.size());
+  const OnProgress tell = TellOf("pairs of cameras");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    ShowProgress("pairs of cameras", static_cast<double>(i) / static_cast<double>(pairs.size()));
+    tell(i, pairs.size());
     const auto pair = Recover(PairOf(take, pairs[i]), options, reference.rate_hz);
     columns.push_back(pair ? CompareColumn(pairs[i].heading, JointMarkers(pair->motion), joints)
                            : ComparedColumn{pairs[i].heading + "!", {}, {}});
   }
-  if (!pairs.empty()) ShowProgress("pairs of cameras", 1);
+  tell(pairs.size(), pairs.size());
   return columns;
 }
 
-Result<void> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+/// False when it was interrupted.
+Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                        const BodyMotion& motion) {
   std::vector<OverlayView> overlays;
   for (const FilmedView& view : views) {
     overlays.push_back({view.camera.name, view.path, view.facts, view.camera.camera, view.fit, 0, {}});
     overlays.back().keypoints.resize(motion.poses.size());
   }
-  RETURN_IF_ERROR(WriteOverlayFilm(options.film, overlays, motion, [](double share) { ShowProgress("film", share); }));
-  fmt::print("written: {}\n", options.film);
-  return {};
+  const Interrupt interrupt;
+  const auto is_whole = WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt));
+  // Ctrl-C reaches ffmpeg, too, whose end may be what is noticed first.
+  if (!is_whole && *interrupt.requested()) return false;
+  if (is_whole && *is_whole) fmt::print("written: {}\n", options.film);
+  return is_whole;
 }
 
 }  // namespace
 
-Result<void> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                              const std::optional<MarkerMotion>& reference) {
   if (!options.points.empty()) return Fail({}, "--points: silhouettes have no keypoints to write");
   ASSIGN_OR_RETURN(const ReducedTake take, ReadTake(options, views));
@@ -138,13 +145,16 @@ Result<void> CaptureUnmarked(const CaptureCommandOptions& options, const std::ve
              options.stature_m > 0 ? "" : ", found from the outlines", person.cost);
   if (person.held > 0) fmt::print("{} frames show nobody to two cameras and hold the last pose\n", person.held);
   RETURN_IF_ERROR(WriteMotion(options.output, person.clip, person.motion));
-  if (!options.film.empty()) RETURN_IF_ERROR(WriteFilm(options, views, person.motion));
-  if (!reference) return {};
+  if (!options.film.empty()) {
+    ASSIGN_OR_RETURN(const bool is_whole, WriteFilm(options, views, person.motion));
+    if (!is_whole) return false;
+  }
+  if (!reference) return true;
   ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options));
   PrintColumns(fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
                            options.reference),
                columns, views);
-  return {};
+  return true;
 }
 
 }  // namespace etude

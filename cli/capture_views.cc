@@ -1,7 +1,6 @@
 #include "cli/capture_views.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -154,11 +153,6 @@ std::vector<CameraPair> PairsOf(std::size_t films) {
     for (std::size_t j = i + 1; j < films; ++j) pairs.push_back({i, j, fmt::format("{}+{}", i + 1, j + 1)});
   }
   return pairs;
-}
-
-void ShowProgress(const std::string& what, double share) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r{} {:3.0f} %{}", what, 100 * share, share >= 1 ? "\n" : "");
 }
 
 }  // namespace etude

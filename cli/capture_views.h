@@ -52,14 +52,11 @@ struct CameraPair {
 /// Every two of more than two films: of two there is nothing to compare.
 std::vector<CameraPair> PairsOf(std::size_t films);
 
-/// Tells how far `what` has come: redrawn on a terminal, else silent.
-void ShowProgress(const std::string& what, double share);
-
 /// What `etude capture` does with films and keypoints or marks, and with films alone: the motion of the only person who
 /// moves in them, by nothing but outlines. `reference`: what to compare it with.
-Result<void> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                               const std::optional<MarkerMotion>& reference);
-Result<void> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
+Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::vector<FilmedView>& views,
                              const std::optional<MarkerMotion>& reference);
 
 }  // namespace etude

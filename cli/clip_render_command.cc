@@ -6,7 +6,7 @@
 #include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
-#include "cli/interrupt.h"
+#include "cli/film_watch.h"
 #include "reports/clips/clip_film.h"
 #include "reports/clips/contact_sheet.h"
 
@@ -85,7 +85,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   }
   ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
   const Interrupt interrupt;
-  const FilmOptions film{ViewNamed(options.view), size.width, size.height, interrupt.requested()};
+  const FilmOptions film{ViewNamed(options.view), size.width, size.height, WatchFilms(interrupt)};
   auto whole = FilmClip(std::move(actors.front()), film, options.output, *renderer);
   // Ctrl-C reaches the encoder, too, whose end may be what is noticed first.
   if (!whole && *interrupt.requested()) return false;

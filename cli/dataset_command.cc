@@ -1,13 +1,7 @@
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <cstdio>
 
 #include "bench/dataset/export.h"
 #include "bench/dataset/score.h"
@@ -17,23 +11,6 @@
 
 namespace etude {
 namespace {
-
-/// "3/80 worlds" on standard error: redrawn on a terminal, else at every tenth of the way.
-class WorldCounter {
- public:
-  void Show(std::size_t done, std::size_t worlds) {
-    const std::string text = fmt::format("{}/{} worlds", done, worlds);
-    if (::isatty(STDERR_FILENO) == 1) {
-      std::fputs(("\r\033[K" + text + (done == worlds ? "\n" : "")).c_str(), stderr);
-    } else if (const std::size_t tenths = worlds == 0 ? 10 : 10 * done / worlds; tenths >= next_) {
-      next_ = tenths + 1;
-      std::fputs((text + "\n").c_str(), stderr);
-    }
-  }
-
- private:
-  std::size_t next_ = 0;
-};
 
 void PrintFaults(const char* what, const std::vector<std::string>& faults) {
   constexpr std::size_t kMost = 20;
@@ -63,8 +40,7 @@ int ExportCommand(const ExportOptions& given) {
   const Interrupt interrupt;
   ExportOptions options = given;
   options.stop = interrupt.requested();
-  WorldCounter counter;
-  const auto outcome = ExportSuite(options, [&](std::size_t done, std::size_t worlds) { counter.Show(done, worlds); });
+  const auto outcome = ExportSuite(options, TellOf("worlds"));
   if (!outcome) return Complain(outcome.error());
   if (outcome->stopped) {
     Complain({{}, "stopped; nothing is kept"});

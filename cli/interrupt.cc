@@ -1,6 +1,11 @@
 #include "cli/interrupt.h"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
+
+#include "cli/commands.h"
 
 namespace etude {
 namespace {
@@ -12,14 +17,26 @@ void RequestStop(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-}  // namespace
-
-Interrupt::Interrupt() : piped_(std::signal(SIGPIPE, SIG_IGN)) {
-  std::signal(SIGINT, RequestStop);
-  std::signal(SIGTERM, RequestStop);
+/// Only system calls are safe in here.
+void End(int) {
+  constexpr std::string_view kLine = "etude: stopped; nothing half done is kept\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kLine.data(), kLine.size());
+  ::_exit(kInterrupted);
 }
 
+void OnInterrupt(void (*handler)(int)) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
+}
+
+}  // namespace
+
+void EndWhenInterrupted() { OnInterrupt(End); }
+
+Interrupt::Interrupt() : piped_(std::signal(SIGPIPE, SIG_IGN)) { OnInterrupt(RequestStop); }
+
 Interrupt::~Interrupt() {
+  OnInterrupt(End);
   std::signal(SIGPIPE, piped_);  // whoever closes our output from now on has read enough
 }
 

@@ -4,6 +4,10 @@
 
 namespace etude {
 
+/// From now on Ctrl-C (and SIGTERM) ends the program at once, with a line that says so and exit code 130. For work that
+/// leaves nothing anywhere until it is done; other work has an Interrupt.
+void EndWhenInterrupted();
+
 /// While it lives, Ctrl-C (and SIGTERM) asks to stop instead of ending the program, the second one ends it at once,
 /// and a child that died is no reason to die ourselves.
 class Interrupt {

@@ -11,6 +11,7 @@
 #include "bench/process/pinned_environment.h"
 #include "cli/arguments.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -104,6 +105,7 @@ int Main(int argc, char** argv) {
   if (!DrawsForPeople(app)) {
     if (auto pinned = EnterPinnedEnvironment(); !pinned) return Complain(pinned.error());
   }
+  EndWhenInterrupted();
   return action();
 }
 

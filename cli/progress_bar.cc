@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string>
 
+#include "bench/run/clock.h"
+
 namespace etude {
 namespace {
 
@@ -43,6 +45,17 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
     tenths_shown_ = tenths;
     Print(fmt::format("{:3d} %  {}\n", tenths * 10, what));
   }
+}
+
+OnProgress TellOf(std::string what) {
+  constexpr double kSoonS = 0.3, kLongS = 5;
+  const double patience_s = ::isatty(STDERR_FILENO) == 1 ? kSoonS : kLongS;
+  return [=, bar = ProgressBar(), began = Clock::now(), is_shown = false](std::size_t done, std::size_t all) mutable {
+    const bool is_done = done >= all;
+    if (is_done ? !is_shown : SecondsSince(began) < patience_s) return;
+    is_shown = true;
+    bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all), fmt::format("{}/{} {}", done, all, what));
+  };
 }
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bench/run/run.h"
+#include "engine/base/progress.h"
 
 namespace etude {
 
@@ -19,5 +20,9 @@ class ProgressBar {
   bool is_terminal_;
   int tenths_shown_ = -1;
 };
+
+/// Tells how far some work has come ("12/300 clips"): on a terminal soon, else where it takes so long that somebody may
+/// look into a log.
+OnProgress TellOf(std::string what);
 
 }  // namespace etude

@@ -6,17 +6,25 @@
 
 #include "bench/results/folder.h"
 #include "cli/commands.h"
+#include "cli/film_watch.h"
 #include "reports/report.h"
 
 namespace etude {
 
-int ReportCommand(const std::string& folder, const ReportOptions& options, Sealing sealing) {
+int ReportCommand(const std::string& folder, const ReportOptions& given, Sealing sealing) {
   const auto run = LoadRun(folder, sealing);
   if (!run) return Complain(run.error());
   TellUnsealed(*run);
   if (auto whole = CheckRowsAgainstSummary(folder, *run); !whole) return Complain(whole.error());
+  const Interrupt interrupt;
+  ReportOptions options = given;
+  options.watch = WatchFilms(interrupt);
   const auto written = WriteReport(*run, folder, options);
   if (!written) return Complain(written.error());
+  if (!*written) {
+    Complain({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
+    return kInterrupted;
+  }
   fmt::print("{}/report/index.html\n", folder);
   return kSuccess;
 }

@@ -13,6 +13,7 @@
 #include "bench/training/tuning.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/progress_bar.h"
 #include "engine/base/names.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/random/stream.h"
@@ -64,7 +65,7 @@ Result<std::vector<bool>> ChooseHeldOut(const std::vector<std::string>& names, c
 Result<Split> LoadSplit(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
-  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading));
+  ASSIGN_OR_RETURN(auto library, LoadClips(references, {}, reading, TellOf("clips read")));
   std::vector<std::string> names;
   std::vector<BodyMotion> motions;
   for (LibraryClip& clip : library.clips) {

@@ -9,6 +9,7 @@
 #include "bench/tasks/detection/train_recogniser.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/progress_bar.h"
 #include "cli/train_command.h"
 #include "engine/base/named.h"
 #include "engine/base/names.h"
@@ -29,19 +30,19 @@ constexpr const char* kHeader =
 Result<Trained> TrainLearnt(const TrainOptions& options) {
   ASSIGN_OR_RETURN(const auto references, ExpandAll(options.clips));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
-  ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading));
+  ASSIGN_OR_RETURN(const ClipLibrary library, LoadClips(references, {}, reading, TellOf("clips read")));
   const Repertoire repertoire = RepertoireOf(library);
   if (repertoire.taught.size() < 2) {
     return Fail({}, "{} labelled clips; a recogniser learns from two at least", repertoire.taught.size());
   }
-  RecogniserTraining training{.seed = options.seed};
+  RecogniserTraining training{.seed = options.seed, .progress = TellOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
   return Trained{TrainRecogniser(repertoire, training), fmt::format(kHeader, "learnt", "recogniser", training.sessions,
                                                                     training.seed, Join(NamesOf(repertoire.taught)))};
 }
 
 Result<Trained> TrainCoachedOf(const TrainOptions& options) {
-  CoachedTraining training{.seed = options.seed};
+  CoachedTraining training{.seed = options.seed, .progress = TellOf("sessions")};
   training.sessions = options.sessions.value_or(training.sessions);
   ASSIGN_OR_RETURN(LearntModel model, TrainCoached(options.clips, training));
   return Trained{std::move(model),

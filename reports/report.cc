@@ -50,27 +50,24 @@ Result<void> WriteMotions(const RunData& run, const std::filesystem::path& folde
 
 }  // namespace
 
-Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
+Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options) {
   const std::filesystem::path folder = run_folder / "report";
   // The cheap texts first, so that they are there even when rendering the film fails.
-  auto written = WriteFileAtomically(folder / "summary.md", WriteMarkdown(run));
-  if (!written) return written;
-  written = WriteFileAtomically(folder / "junit.xml", WriteJunit(run));
-  if (!written) return written;
-  written = WriteTables(run, folder / "tables");
-  if (!written) return written;
-
-  written = WriteMotions(run, folder / "motions");
-  if (!written) return written;
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "summary.md", WriteMarkdown(run)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "junit.xml", WriteJunit(run)));
+  RETURN_IF_ERROR(WriteTables(run, folder / "tables"));
+  RETURN_IF_ERROR(WriteMotions(run, folder / "motions"));
 
   Media media;
   if (options.pictures) {
     media = MakeMedia(run, {.films = run_folder / "video", .pictures = folder / "pictures"},
-                      {.whole_sessions = options.whole_sessions});
+                      {.whole_sessions = options.whole_sessions, .watch = options.watch});
+    if (options.watch.IsStopped()) return false;
   } else {
     media.film.why_not = "There is no film: none was asked for.";
   }
-  return WriteFileAtomically(folder / "index.html", WritePage(run, media));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "index.html", WritePage(run, media)));
+  return true;
 }
 
 }  // namespace etude

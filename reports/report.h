@@ -4,6 +4,7 @@
 
 #include "bench/model/run_data.h"
 #include "engine/base/result.h"
+#include "reports/films/film_watch.h"
 
 namespace etude {
 
@@ -13,12 +14,14 @@ struct ReportOptions {
   bool pictures = true;
   /// Films show coached sessions from their first frame to their last, not around a correction.
   bool whole_sessions = false;
+  FilmWatch watch = {};
 };
 
 /// Writes what people and other programs read of a run: `report/index.html` (self-contained),
 /// `report/summary.md`, `report/junit.xml`, `report/tables/*.{csv,tex}`, and, as far as the run kept recordings,
 /// `report/motions/*.bvh`, `report/pictures/*.exr` and `video/*.mp4`. Each file appears whole or not at all. Fails,
 /// naming the path, when a file cannot be written; a film that cannot be made is no failure: the page says why.
-Result<void> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
+/// False when whoever waits for films had enough: there is no new page then.
+Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_folder, const ReportOptions& options);
 
 }  // namespace etude

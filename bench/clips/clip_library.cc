@@ -42,9 +42,11 @@ std::string CollectionOf(const LibraryClip& clip) {
 }
 
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
-                              const OpenOptions& options) {
+                              const OpenOptions& options, const OnProgress& on_progress) {
   ClipLibrary library;
+  std::size_t done = 0;
   for (const std::string& reference : references) {
+    if (on_progress) on_progress(done++, references.size());
     ASSIGN_OR_RETURN(const auto expanded, ExpandReference(reference, place));
     for (const std::string& one : expanded) {
       RETURN_IF_ERROR(one.starts_with(kBuiltinPrefix) ? AddBuiltin(one, place, library)
@@ -52,6 +54,7 @@ Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const 
       if (library.clips.size() > kMostClips) return Fail(place, "more than {} clips", kMostClips);
     }
   }
+  if (on_progress) on_progress(done, references.size());
   return library;
 }
 

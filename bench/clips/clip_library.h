@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/clips/open_clip.h"
+#include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/motion/body.h"
 #include "engine/motion/rest_body.h"
@@ -36,8 +37,8 @@ std::string CollectionOf(const LibraryClip& clip);
 
 /// Loads every reference, in order: what ExpandReference knows; every animation of a glTF file is a clip of its own.
 /// Fails with the name of what cannot be found, read or understood. `place` is where the reference stands, for
-/// complaints.
+/// complaints. `on_progress` is told of references.
 Result<ClipLibrary> LoadClips(const std::vector<std::string>& references, const Place& place,
-                              const OpenOptions& options = {});
+                              const OpenOptions& options = {}, const OnProgress& on_progress = {});
 
 }  // namespace etude

@@ -147,8 +147,7 @@ class Exporter {
 
 }  // namespace
 
-Result<ExportOutcome> ExportSuite(const ExportOptions& options,
-                                  const std::function<void(std::size_t, std::size_t)>& on_progress) {
+Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress) {
   RunOptions run;
   run.scenarios = options.scenarios;
   run.seed = options.seed;

@@ -2,11 +2,11 @@
 
 #include <atomic>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/base/result.h"
 
 namespace etude {
@@ -40,7 +40,7 @@ struct ExportOutcome {
 ///
 /// Whole or not at all. Refused, before anything is written: a folder that holds something. The process is to be in
 /// the pinned environment, which makes the pictures the same on every machine.
-Result<ExportOutcome> ExportSuite(const ExportOptions& options,
-                                  const std::function<void(std::size_t done, std::size_t worlds)>& on_progress);
+/// `on_progress` is told of worlds.
+Result<ExportOutcome> ExportSuite(const ExportOptions& options, const OnProgress& on_progress);
 
 }  // namespace etude

@@ -48,13 +48,13 @@ bool IsWhy(std::optional<int> why, const MetricValue& metric, const Row& row, co
 
 template <typename Number>
 Result<void> NpyColumns<Number>::Put(std::size_t row, const std::string& name, Number number) {
-  auto column = columns_.find(name);
-  if (column == columns_.end()) {
+  NpyWriter* column = columns_.Find(name);
+  if (column == nullptr) {
     ASSIGN_OR_RETURN(auto writer, NpyWriter::Begin(ColumnFile(folder_, name), kNpyType<Number>));
-    column = columns_.emplace(name, std::move(writer)).first;
+    column = &columns_.Add(name, std::move(writer));
   }
-  RETURN_IF_ERROR(FillUp(row, column->second));
-  return column->second.Add(number);
+  RETURN_IF_ERROR(FillUp(row, *column));
+  return column->Add(number);
 }
 
 template <typename Number>
@@ -144,16 +144,16 @@ Result<void> ColumnWriter::Add(const Row& row, const CellUsage& usage) {
 }
 
 Result<void> ColumnWriter::AddSeries(const Series& series) {
-  auto curve = curves_.find(series.name);
-  if (curve == curves_.end()) {
+  Curve* curve = curves_.Find(series.name);
+  if (curve == nullptr) {
     ASSIGN_OR_RETURN(auto values, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name), kNpyType<double>));
     ASSIGN_OR_RETURN(auto ends, NpyWriter::Begin(ColumnFile(folder_ / kSeriesFolder, series.name + kCurveEnds),
                                                  kNpyType<std::uint64_t>));
-    curve = curves_.emplace(series.name, Curve{std::move(values), std::move(ends)}).first;
+    curve = &curves_.Add(series.name, {std::move(values), std::move(ends)});
   }
-  RETURN_IF_ERROR(curve->second.FillUp(rows_));
-  for (double value : series.values) RETURN_IF_ERROR(curve->second.values.Add(value));
-  return curve->second.ends.Add(curve->second.values.count());
+  RETURN_IF_ERROR(curve->FillUp(rows_));
+  for (double value : series.values) RETURN_IF_ERROR(curve->values.Add(value));
+  return curve->ends.Add(curve->values.count());
 }
 
 Result<void> ColumnWriter::Curve::FillUp(std::size_t rows) {

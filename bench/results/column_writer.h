@@ -11,6 +11,7 @@
 #include "bench/model/study.h"
 #include "bench/results/column_index.h"
 #include "bench/results/npy.h"
+#include "engine/base/in_turn.h"
 
 namespace etude {
 
@@ -27,7 +28,7 @@ class NpyColumns {
 
   std::filesystem::path folder_;
   Number fill_;
-  std::map<std::string, NpyWriter> columns_;
+  InTurn<NpyWriter> columns_;
 };
 
 /// Writes the rows of one scenario as columns of numbers, one file each, that NumPy reads (docs/results.md). The arrays
@@ -62,7 +63,7 @@ class ColumnWriter {
   NpyColumns<std::uint32_t> places_;  ///< of texts and kinds
   NpyColumns<std::uint8_t> statuses_;
   NpyColumns<float> times_;
-  std::map<std::string, Curve> curves_;
+  InTurn<Curve> curves_;
 };
 
 }  // namespace etude

@@ -97,10 +97,21 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   const Plan plan(prepared.scenarios);
   CellTable cells(plan.cell_count());
   Json hosts = Json::array();
-  std::size_t cells_ok = 0;
+  RunOutcome outcome{.folder = options.output, .cells = cells.size()};
+  // Half of the way is reading what there is, half writing it; `rows` are those of both.
+  const auto goes_on = [&](std::size_t rows) {
+    on_progress(static_cast<double>(rows) / static_cast<double>(2 * cells.size()));
+    return options.stop == nullptr || !*options.stop;
+  };
+  std::size_t read = 0;
   for (const auto& [index, folder] : shards.folders) {
+    if (!goes_on(read)) {
+      outcome.stopped = true;
+      return outcome;
+    }
     ASSIGN_OR_RETURN(const auto journal, ReadJournal(folder, plan, cells));
-    cells_ok += journal.cells_ok;
+    read += journal.cells;
+    outcome.cells_ok += journal.cells_ok;
     const std::string what = WhatLacks(plan, journal.head.shard, folder, cells);
     if (!what.empty()) shards.missing.push_back(what);
     ASSIGN_OR_RETURN(const auto host, what.empty() ? ReadHost(folder) : Json());
@@ -116,14 +127,10 @@ Result<RunOutcome> Merge(const MergeOptions& options, const std::function<void(d
   }
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(options.output, false));
   RETURN_IF_ERROR(WriteFileAtomically(fs::path(options.output) / "manifest.json", shards.manifest));
-  RunOutcome outcome{.folder = options.output, .cells = cells.size(), .cells_ok = cells_ok};
   Json host = DescribeHost(options.command_line, 0, 0);
   host["shards"] = std::move(hosts);
-  const auto goes_on = [&](std::size_t rows) {
-    on_progress(static_cast<double>(rows) / static_cast<double>(cells.size()));
-    return options.stop == nullptr || !*options.stop;
-  };
-  ASSIGN_OR_RETURN(const bool is_whole, FinishRun(options.output, plan, cells, host, WorkerCount(0), goes_on));
+  const auto has_written = [&](std::size_t rows) { return goes_on(read + rows); };
+  ASSIGN_OR_RETURN(const bool is_whole, FinishRun(options.output, plan, cells, host, WorkerCount(0), has_written));
   outcome.stopped = !is_whole;
   outcome.seconds = SecondsSince(start);
   if (is_whole) claimed.Keep();

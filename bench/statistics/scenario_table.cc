@@ -6,34 +6,36 @@
 #include <limits>
 
 namespace etude {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
 
 void MethodColumns::Add(const Row& row) {
   const auto trial = static_cast<std::size_t>(row.trial);
   statuses_[trial] = row.result.status;
   for (const MetricValue& metric : row.result.metrics) {
-    std::vector<double>& column = values_[metric.id];
-    if (column.empty()) column.assign(statuses_.size(), std::numeric_limits<double>::quiet_NaN());
-    if (metric.value) column[trial] = *metric.value;
+    std::vector<double>* column = values_.Find(metric.id);
+    if (column == nullptr) column = &values_.Add(metric.id, std::vector<double>(statuses_.size(), kNone));
+    if (metric.value) (*column)[trial] = *metric.value;
   }
 }
 
 std::optional<double> MethodColumns::ValueAt(const std::string& metric, int trial) const {
-  const auto column = values_.find(metric);
-  if (column == values_.end()) return std::nullopt;
-  const double value = column->second[static_cast<std::size_t>(trial)];
+  const std::vector<double>* column = values_.Find(metric);
+  const double value = column == nullptr ? kNone : (*column)[static_cast<std::size_t>(trial)];
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 std::vector<double> MethodColumns::ValuesOf(const std::string& metric, int& missing) const {
+  const std::vector<double>* column = values_.Find(metric);
   missing = 0;
   std::vector<double> values;
-  for (int trial = 0; trial < static_cast<int>(statuses_.size()); ++trial) {
-    if (!StatusAt(trial)) continue;
-    if (const auto value = ValueAt(metric, trial)) {
-      values.push_back(*value);
-    } else {
-      ++missing;
-    }
+  for (std::size_t trial = 0; trial < statuses_.size(); ++trial) {
+    if (!statuses_[trial]) continue;
+    const double value = column == nullptr ? kNone : (*column)[trial];
+    std::isnan(value) ? static_cast<void>(++missing) : values.push_back(value);
   }
   return values;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/model/study.h"
+#include "engine/base/in_turn.h"
 
 namespace etude {
 
@@ -26,12 +26,12 @@ class MethodColumns {
   /// All values of a metric in the order of trials; `missing` counts the cells without one.
   std::vector<double> ValuesOf(const std::string& metric, int& missing) const;
   /// Whether some cell says anything of the metric, a value or why there is none.
-  bool Reports(const std::string& metric) const { return values_.contains(metric); }
+  bool Reports(const std::string& metric) const { return values_.Find(metric) != nullptr; }
 
  private:
   std::string name_;
-  std::vector<std::optional<Status>> statuses_;        ///< by trial
-  std::map<std::string, std::vector<double>> values_;  ///< by metric and trial; NaN = none
+  std::vector<std::optional<Status>> statuses_;  ///< by trial
+  InTurn<std::vector<double>> values_;           ///< by metric and trial; NaN = none
 };
 
 /// Everything measured under one condition.

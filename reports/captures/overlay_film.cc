@@ -103,8 +103,8 @@ class FilmRoll {
 
 }  // namespace
 
-Result<void> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
-                              const BodyMotion& motion, const std::function<void(double share)>& progress) {
+Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
+                              const BodyMotion& motion, const FilmWatch& watch) {
   int width = 0, height = 0;
   const std::vector<Box> boxes = Layout(views, width, height);
   std::vector<ViewPainter> painters;
@@ -117,15 +117,17 @@ Result<void> WriteOverlayFilm(const std::filesystem::path& path, std::span<const
   const int rate = std::max(1, static_cast<int>(std::lround(motion.rate_hz)));
   ASSIGN_OR_RETURN(Encoder encoder, Encoder::Start(path, width, height, rate));
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
+    if (watch.IsStopped()) return false;
     Canvas canvas(width, height);
     for (std::size_t i = 0; i < views.size(); ++i) {
       ASSIGN_OR_RETURN(const ColourImage* picture, rolls[i].At(frame));
       painters[i].Draw(canvas, *picture, motion.poses[frame], frame);
     }
     RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
-    progress(static_cast<double>(frame + 1) / static_cast<double>(motion.poses.size()));
+    watch.Tell(path, frame + 1, motion.poses.size());
   }
-  return encoder.Finish();
+  RETURN_IF_ERROR(encoder.Finish());
+  return true;
 }
 
 }  // namespace etude

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "engine/keypoints/pixel_fit.h"
 #include "engine/motion/body.h"
 #include "reports/films/decoder.h"
+#include "reports/films/film_watch.h"
 
 namespace etude {
 
@@ -28,7 +28,8 @@ struct OverlayView {
 
 /// Writes the films side by side, each with the skeleton as its camera would show it (lines) and the keypoints that it
 /// was made of (dots). As many frames as `motion` has. Fails when a film cannot be read or ffmpeg cannot be started.
-Result<void> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
-                              const BodyMotion& motion, const std::function<void(double share)>& progress);
+/// False when it was stopped; there is no file then.
+Result<bool> WriteOverlayFilm(const std::filesystem::path& path, std::span<const OverlayView> views,
+                              const BodyMotion& motion, const FilmWatch& watch);
 
 }  // namespace etude

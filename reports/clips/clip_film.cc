@@ -31,13 +31,14 @@ Result<bool> FilmClip(ClipActor actor, const FilmOptions& options, const std::fi
   ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, options.width, options.height, rate));
   const Box whole{0, 0, static_cast<double>(options.width), static_cast<double>(options.height)};
   for (int frame = 0; frame < shot.Frames(); ++frame) {
-    if (options.stop != nullptr && *options.stop) return false;
+    if (options.watch.IsStopped()) return false;
     Canvas canvas(options.width, options.height);
     shot.Draw(canvas, whole, studio, renderer, frame);
     DrawTag(canvas, whole, fmt::format("{:.2f} s", shot.SecondsAt(frame)));
     DrawLegend(canvas, whole.width - 16, 29);
     DrawCaption(canvas, whole, facts.name, FactsAsLine(facts));
     RETURN_IF_ERROR(encoder.Add(canvas.Pixels()));
+    options.watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(shot.Frames()));
   }
   RETURN_IF_ERROR(encoder.Finish());
   return true;

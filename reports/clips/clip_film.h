@@ -1,10 +1,10 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 
 #include "engine/base/result.h"
 #include "reports/clips/shot.h"
+#include "reports/films/film_watch.h"
 #include "sim/render/renderer.h"
 
 namespace etude {
@@ -13,7 +13,7 @@ struct FilmOptions {
   Viewpoint from = Viewpoint::kThreeQuarter;
   int width = 720;  ///< even numbers
   int height = 720;
-  const std::atomic<bool>* stop = nullptr;  ///< ends the film early, and leaves no file
+  FilmWatch watch = {};  ///< stopped early, it leaves no file
 };
 
 /// Films a clip from its first to its last frame as an MP4; the camera follows. False when it was stopped.

@@ -39,12 +39,14 @@ class SoundFile {
   std::filesystem::path path_;
 };
 
-Result<std::string> Encode(Scene& scene, const std::filesystem::path& path) {
+Result<std::string> Encode(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
   RETURN_IF_ERROR(MakeFolder(path.parent_path()));
   ASSIGN_OR_RETURN(const SoundFile sound, SoundFile::Make(scene, path));
   ASSIGN_OR_RETURN(auto encoder, Encoder::Start(path, kFilmWidth, kFilmHeight, kFilmRate, sound.path()));
   for (int frame = 0; frame < scene.Frames(); ++frame) {
+    if (watch.IsStopped()) return Fail({}, "it was stopped");
     RETURN_IF_ERROR(encoder.Add(scene.Draw(frame).Pixels()));
+    watch.Tell(path, static_cast<std::size_t>(frame + 1), static_cast<std::size_t>(scene.Frames()));
   }
   RETURN_IF_ERROR(encoder.Finish());
   return ReadWholeFile(path);
@@ -64,11 +66,11 @@ Picture PictureOf(const Canvas& canvas, std::string caption) {
   return {canvas.Png(), canvas.width(), canvas.height(), std::move(caption)};
 }
 
-Film Shoot(Scene& scene, const std::filesystem::path& path) {
+Film Shoot(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch) {
   Film film;
   film.file = path.filename().string();
   film.poster = PictureOf(scene.Draw(scene.PosterFrame()), scene.Words());
-  if (auto mp4 = Encode(scene, path)) {
+  if (auto mp4 = Encode(scene, path, watch)) {
     film.mp4 = std::move(*mp4);
   } else {
     film.why_not = "There is no film, only this picture: " + ToString(mp4.error());

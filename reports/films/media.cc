@@ -39,7 +39,8 @@ class LazyRenderer {
   std::optional<Result<std::unique_ptr<Renderer>>> made_;
 };
 
-void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& lazy, Media& media) {
+void MakeStageFilm(const RunData& run, const MediaPaths& paths, const FilmWatch& watch, LazyRenderer& lazy,
+                   Media& media) {
   const auto has_pictures = [](const ScenarioSummary& scenario) {
     return scenario.task == "transition" || scenario.task == "capture";
   };
@@ -82,7 +83,7 @@ void MakeStageFilm(const RunData& run, const MediaPaths& paths, LazyRenderer& la
   }
   if (!coach && !capture) return;
   StageScene scene(**renderer, std::move(coach), std::move(capture));
-  Film film = Shoot(scene, paths.films / "etude.mp4");
+  Film film = Shoot(scene, paths.films / "etude.mp4", watch);
   if (!film.why_not.empty()) Note(why, film.why_not);
   film.why_not = why;
   media.film = std::move(film);
@@ -105,7 +106,7 @@ void MakePlates(const RunData& run, LazyRenderer& lazy, Media& media) {
 /// Methods side by side in one world; or, in words, why there is no film of `what`.
 template <typename SideBySide, typename Race>
 Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::string_view what,
-                       const std::filesystem::path& path, LazyRenderer& lazy) {
+                       const std::filesystem::path& path, const FilmWatch& watch, LazyRenderer& lazy) {
   Film film;
   film.file = path.filename().string();
   if (!race) {
@@ -118,7 +119,7 @@ Film MakeComparingFilm(Result<Race> race, const std::string& scenario, std::stri
     return film;
   }
   SideBySide scene(std::move(*race), scenario, **renderer);
-  return Shoot(scene, path);
+  return Shoot(scene, path, watch);
 }
 
 /// "convergence.mp4", or, of several scenarios of one task, "convergence-SCENARIO.mp4".
@@ -128,9 +129,9 @@ std::string FilmName(const RunData& run, std::size_t index, std::string_view wha
   return alone ? fmt::format("{}.mp4", what) : fmt::format("{}-{}.mp4", what, FileNameOf(scenario.name, index));
 }
 
-/// A coached session of at most so many frames, around a correction; or, in words, why there is no film of it.
+/// A coached session, around a correction unless whole ones are wanted; or, in words, why there is no film of it.
 Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& which, const std::filesystem::path& path,
-                     int longest, LazyRenderer& lazy) {
+                     const MediaOptions& options, LazyRenderer& lazy) {
   Film film;
   film.file = path.filename().string();
   if (!cell) {
@@ -143,18 +144,18 @@ Film MakeSessionFilm(const std::optional<CastCell>& cell, const std::string& whi
     film.why_not = "There is no film of a session: " + ToString(facts ? renderer.error() : facts.error());
     return film;
   }
+  const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 12 * kFilmRate;
   CoachedScene scene(std::move(*facts), fmt::format("{} · {} · {}", cell->scenario->name, cell->row->method, which),
                      longest, **renderer);
-  return Shoot(scene, path);
+  return Shoot(scene, path, options.watch);
 }
 
 /// A typical session, and the worst where that is another learner's or another coach's.
 void MakeSessionFilms(const RunData& run, std::size_t index, const MediaPaths& paths, const MediaOptions& options,
                       LazyRenderer& lazy, Media& media) {
   const ScenarioSummary& scenario = run.scenarios[index];
-  const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 12 * kFilmRate;
   const auto add = [&](const std::optional<CastCell>& cell, const std::string& which, std::string_view file) {
-    Film film = MakeSessionFilm(cell, which, paths.films / FilmName(run, index, file), longest, lazy);
+    Film film = MakeSessionFilm(cell, which, paths.films / FilmName(run, index, file), options, lazy);
     media.scenario_films.push_back({scenario.name, std::move(film)});
   };
   const auto typical = ChooseCell(run, scenario, "coach"), worst = ChooseWorstSession(run, scenario);
@@ -182,7 +183,7 @@ std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const 
   }
   const int longest = options.whole_sessions ? std::numeric_limits<int>::max() : 24 * kFilmRate;
   JudgedScene scene(std::move(*facts), fmt::format("{} · trial {}", scenario.name, cell->row->trial), longest);
-  return Shoot(scene, path);
+  return Shoot(scene, path, options.watch);
 }
 
 }  // namespace
@@ -190,17 +191,17 @@ std::optional<Film> MakeJudgedFilm(const RunData& run, std::size_t index, const 
 Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions& options) {
   Media media;
   LazyRenderer renderer;
-  MakeStageFilm(run, paths, renderer, media);
+  MakeStageFilm(run, paths, options.watch, renderer, media);
   MakePlates(run, renderer, media);
-  for (std::size_t i = 0; i < run.scenarios.size(); ++i) {
+  for (std::size_t i = 0; i < run.scenarios.size() && !options.watch.IsStopped(); ++i) {
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;
     if (scenario.task == "ik") {
       film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
-                                                 paths.films / FilmName(run, i, "convergence"), renderer);
+                                                 paths.films / FilmName(run, i, "convergence"), options.watch, renderer);
     } else if (auto race = FindTransitionRace(run, scenario)) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
-                                                paths.films / FilmName(run, i, "transitions"), renderer);
+                                                paths.films / FilmName(run, i, "transitions"), options.watch, renderer);
     } else if (scenario.task == "coach") {
       MakeSessionFilms(run, i, paths, options, renderer, media);
       continue;

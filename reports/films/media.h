@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/model/run_data.h"
+#include "reports/films/film_watch.h"
 
 namespace etude {
 
@@ -61,6 +62,7 @@ struct MediaPaths {
 
 struct MediaOptions {
   bool whole_sessions = false;  ///< sessions are not cut: coached ones around a correction, judged ones to 24 s
+  FilmWatch watch = {};
 };
 
 /// Draws what the recordings of a run show: the films, their posters, the strip and the pictures behind it.

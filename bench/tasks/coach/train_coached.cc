@@ -79,6 +79,7 @@ Result<LearntModel> TrainCoached(std::span<const std::string> songs, const Coach
     ASSIGN_OR_RETURN(const SessionLog log, RunMethod(lesson.coach, condition, lesson.stage, world, nullptr));
     const bool weighs = index / lessons.size() % 2 == 1;
     AddSession(lesson, log, weighs ? Weighting::kAdaptive : Weighting::kFixed, bags);
+    if (training.progress) training.progress(index + 1, training.sessions);
   }
   return LearntModel{.asked = FitBoostedTrees(bags, training.boosting), .spotted = {}};
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "engine/base/progress.h"
 #include "engine/base/result.h"
 #include "engine/recognition/learnt_model.h"
 
@@ -13,6 +14,7 @@ struct CoachedTraining {
   int sessions = 300;  ///< every one of another person, three minutes each
   std::uint64_t seed = 1;
   BoostingOptions boosting{.trees = 200, .rate = 0.08};
+  OnProgress progress = {};  ///< told of sessions
 };
 
 /// What `coached` knows: simulated people of all kinds and skills dance these songs along with a coach who never

@@ -126,6 +126,7 @@ LearntModel TrainRecogniser(const Repertoire& repertoire, const RecogniserTraini
     const DetectionWorld world = MakeDetectionWorld(repertoire, ThrowCondition(key), key);
     const SightWeights weights{.weighting = session % 2 == 0 ? Weighting::kFixed : Weighting::kAdaptive};
     AddSession(world, repertoire, MeasureSession(world, repertoire, weights), asked, spotted);
+    if (training.progress) training.progress(static_cast<std::size_t>(session + 1), training.sessions);
   }
   return {.asked = FitBoostedTrees(asked, training.boosting), .spotted = FitBoostedTrees(spotted, training.boosting)};
 }

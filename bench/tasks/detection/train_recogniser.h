@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "bench/tasks/detection/world.h"
+#include "engine/base/progress.h"
 #include "engine/recognition/learnt_model.h"
 
 namespace etude {
@@ -11,6 +12,7 @@ struct RecogniserTraining {
   int sessions = 400;  ///< every one of another person, 16 performances each
   std::uint64_t seed = 1;
   BoostingOptions boosting{};
+  OnProgress progress = {};  ///< told of sessions
 };
 
 /// What `learnt` knows: simulated people perform the repertoire's moves before both sensors, at many noises, turns and

@@ -124,9 +124,9 @@ HWY_INLINE Four NextAxes(const Four& a) {
 
 HWY_INLINE void Transpose(Four& a, Four& b, Four& c, Four& d) {
   using Two = Four::Two;
-  constexpr Two::Tag kTag;
-  const auto lower = [](const Two& x, const Two& y) HWY_ATTR { return Two(hn::InterleaveLower(kTag, x.v, y.v)); };
-  const auto upper = [](const Two& x, const Two& y) HWY_ATTR { return Two(hn::InterleaveUpper(kTag, x.v, y.v)); };
+  using Tag = Two::Tag;
+  const auto lower = [](const Two& x, const Two& y) HWY_ATTR { return Two(hn::InterleaveLower(Tag(), x.v, y.v)); };
+  const auto upper = [](const Two& x, const Two& y) HWY_ATTR { return Two(hn::InterleaveUpper(Tag(), x.v, y.v)); };
   const Four first{lower(a.low, b.low), lower(c.low, d.low)}, second{upper(a.low, b.low), upper(c.low, d.low)};
   const Four third{lower(a.high, b.high), lower(c.high, d.high)}, last{upper(a.high, b.high), upper(c.high, d.high)};
   a = first;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace etude {
+
+/// Few things by name, which are asked for in the same order again and again: the one behind the last is tried first.
+template <typename T>
+class InTurn {
+ public:
+  /// Null when there is none of that name.
+  T* Find(std::string_view name) {
+    for (std::size_t tried = 0; tried < items_.size(); ++tried, ++next_) {
+      if (next_ >= items_.size()) next_ = 0;
+      if (items_[next_].first == name) return &items_[next_++].second;
+    }
+    return nullptr;
+  }
+  const T* Find(std::string_view name) const {
+    for (const auto& [own, item] : items_) {
+      if (own == name) return &item;
+    }
+    return nullptr;
+  }
+  /// One of a new name.
+  T& Add(std::string name, T item) { return items_.emplace_back(std::move(name), std::move(item)).second; }
+
+  auto begin() { return items_.begin(); }
+  auto end() { return items_.end(); }
+
+ private:
+  std::vector<std::pair<std::string, T>> items_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace etude

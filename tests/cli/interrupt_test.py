@@ -1,0 +1,106 @@
+"""Ctrl-C, wherever it comes: one line, exit code 130, nothing half done; and long work that tells how far it is."""
+import os
+import pathlib
+import pty
+import re
+import signal
+import subprocess
+import time
+import unittest
+
+from etude_case import ETUDE, EtudeCase, IK
+
+WALK = "/usr/share/assimp/models/BVH/01_01.bvh"
+AT_ONCE = "etude: stopped; nothing half done is kept\n"
+
+
+class Interrupts(EtudeCase):
+    def interrupt(self, arguments, is_begun, sent=signal.SIGINT):
+        """What the program says when it is interrupted once it `is_begun`."""
+        program = subprocess.Popen([ETUDE, *map(str, arguments)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 60
+        while not is_begun(program):
+            self.assertIsNone(program.poll(), "it came to its end before it could be interrupted")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.002)
+        program.send_signal(sent)
+        said = program.communicate(timeout=60)[1]
+        self.assertEqual(program.returncode, 130, said)
+        return said
+
+    def left(self):
+        """All files of the scratch folder that somebody has begun and not finished."""
+        return [path for path in self.folder.rglob("*") if ".partial" in path.name]
+
+    def test_work_that_leaves_nothing_ends_at_once(self):
+        def listens(program):
+            status = pathlib.Path(f"/proc/{program.pid}/status").read_text()
+            return int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16) >> (signal.SIGTERM - 1) & 1
+
+        model = self.folder / "learnt.yaml"
+        for arguments in (["train", "builtin:*", "-o", model, "--recogniser"], ["coach", "groove", "--stream", "-"],
+                          ["gate", "--self-test"]):
+            for sent in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest(arguments=arguments, sent=sent):
+                    self.assertEqual(self.interrupt(arguments, listens, sent), AT_ONCE)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_film_that_is_interrupted_leaves_nothing_and_an_old_page_as_it_was(self):
+        self.run_suite(self.write("ik.yaml", IK + "video: {compare: [fixed, least-squares], trials: [1]}\n"))
+        page, video = self.out / "report" / "index.html", self.out / "video"
+
+        def is_filming(_):
+            return list(video.glob("*.partial.mp4")) if video.exists() else []
+
+        self.assertIn("stopped; the tables are written, the page is not", self.interrupt(["report", self.out], is_filming))
+        self.assertFalse(page.exists())
+        self.assertEqual((self.left(), list(video.iterdir())), ([], []))
+        self.assertEqual(self.etude("report", self.out).returncode, 0)
+        before = page.read_bytes(), (video / "convergence.mp4").read_bytes()
+        self.interrupt(["report", self.out], is_filming)
+        self.assertEqual(before, (page.read_bytes(), (video / "convergence.mp4").read_bytes()))
+        self.assertEqual(self.left(), [])
+
+    def test_a_clip_s_film_likewise(self):
+        film = self.folder / "clip.mp4"
+        said = self.interrupt(["clip", "render", WALK, "-o", film], lambda _: self.left())
+        self.assertEqual(said, "etude: stopped; nothing is kept\n")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_an_export_likewise(self):
+        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 3000"))
+        self.interrupt(["export", many, "-o", self.out], lambda _: self.left())
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["many.yaml"])
+
+    def test_a_run_interrupted_in_its_last_writing_goes_on_to_the_same_bytes(self):
+        many = self.write("many.yaml", IK.replace("trials: 4", "trials: 1500").replace("ccd, weights: fixed", "gauss-newton")
+                          .replace("damped-least-squares", "gauss-newton"))
+        whole = self.folder / "whole"
+        self.run_suite(many, out=whole)
+        said = self.interrupt(["run", many, "-o", self.out], lambda _: (self.out / "cells.partial.jsonl").exists())
+        self.assertIn("stopped; 6000 cells are kept", said)
+        self.assertFalse((self.out / "cells.jsonl").exists())
+        self.run_suite(many, "--resume")
+        self.assert_same_results(whole, self.out)
+
+    def test_on_a_terminal_long_work_tells_how_far_it_is(self):
+        terminal, program_s = pty.openpty()
+        report = subprocess.Popen([ETUDE, "clip", "render", WALK, "--trim", "0:4", "--size", "64x64", "-o",
+                                   self.folder / "clip.mp4"],
+                                  stdout=subprocess.DEVNULL, stderr=program_s)
+        os.close(program_s)
+        said = b""
+        try:
+            while chunk := os.read(terminal, 4096):
+                said += chunk
+        except OSError:  # how the end of a terminal is told
+            pass
+        os.close(terminal)
+        self.assertEqual(report.wait(timeout=60), 0)
+        self.assertRegex(said.decode(), r"\[#+\.+\] \d+/\d+ frames of clip.mp4")
+        self.assertRegex(said.decode(), r"\[#{32}\] (\d+)/\1 frames of clip.mp4\r?\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
