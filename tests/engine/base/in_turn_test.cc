@@ -1,0 +1,41 @@
+#include "engine/base/in_turn.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "tests/support/random_clip.h"
+
+namespace etude {
+namespace {
+
+TEST(InTurn, FindsWhatAMapFindsInWhateverOrderItIsAsked) {
+  InTurn<int> things;
+  std::map<std::string, int> oracle;
+  testing::Dice dice(1);
+  int found = 0, missed = 0;
+  for (int i = 0; i < 5000; ++i) {
+    // In turn, with jumps, and now and then something new.
+    const std::string name = "n" + std::to_string(dice.Below(10) == 0 ? dice.Below(40) : i % 12);
+    int* const thing = things.Find(name);
+    const auto known = oracle.find(name);
+    ASSERT_EQ(thing != nullptr, known != oracle.end()) << name;
+    ASSERT_EQ(thing == nullptr, std::as_const(things).Find(name) == nullptr);
+    if (thing == nullptr) {
+      things.Add(name, i);
+      oracle[name] = i;
+      ++missed;
+    } else {
+      ASSERT_EQ(*thing, known->second);
+      ++*thing, ++known->second;
+      ++found;
+    }
+  }
+  EXPECT_EQ(missed, 40);
+  EXPECT_EQ(found, 5000 - missed);
+  EXPECT_EQ(std::distance(things.begin(), things.end()), 40);
+}
+
+}  // namespace
+}  // namespace etude
