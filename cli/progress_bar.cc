@@ -54,7 +54,8 @@ OnProgress TellOf(std::string what) {
     const bool is_done = done >= all;
     if (is_done ? !is_shown : SecondsSince(began) < patience_s) return;
     is_shown = true;
-    bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all), fmt::format("{}/{} {}", done, all, what));
+    bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all),
+             fmt::format("{}/{} {}", done, all, what));
   };
 }
 

@@ -6,7 +6,7 @@
 
 namespace etude {
 
-Check NumberWithin(double low, double high, std::string kind) {
+Check NumberWithin(double low, double high, const std::string& kind) {
   return [=](const std::string& text) -> std::string {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

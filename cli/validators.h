@@ -9,6 +9,6 @@ namespace etude {
 using Check = std::function<std::string(const std::string& text)>;
 
 /// A number from `low` to `high`; CLI::Range would let NaN through. `kind` is what the number is: "rate".
-Check NumberWithin(double low, double high, std::string kind);
+Check NumberWithin(double low, double high, const std::string& kind);
 
 }  // namespace etude

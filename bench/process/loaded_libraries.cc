@@ -35,6 +35,7 @@ int AddLibrary(dl_phdr_info* object, std::size_t, void* list) {
   std::string build;
   for (const ElfW(Phdr) & part : std::span(object->dlpi_phdr, object->dlpi_phnum)) {
     if (part.p_type != PT_NOTE || !build.empty()) continue;
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
     build = BuildIdIn({reinterpret_cast<const unsigned char*>(object->dlpi_addr + part.p_vaddr), part.p_memsz});
   }
   static_cast<Libraries*>(list)->emplace_back(name, std::move(build));
@@ -49,10 +50,10 @@ Libraries Loaded() {
 }
 
 // Before main: what libraries load later, as they come to need it, is no choice of the build's.
-const Libraries at_start = Loaded();
+const Libraries kAtStart = Loaded();
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> LoadedLibraries() { return at_start; }
+std::vector<std::pair<std::string, std::string>> LoadedLibraries() { return kAtStart; }
 
 }  // namespace etude

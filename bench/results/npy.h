@@ -13,7 +13,7 @@ namespace etude {
 
 /// The kinds of number that columns hold, as NumPy names them.
 template <typename Number>
-constexpr std::string_view kNpyType = "";
+constexpr std::string_view kNpyType = {};
 template <>
 inline constexpr std::string_view kNpyType<double> = "<f8";
 template <>

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
@@ -98,17 +99,20 @@ class Supervisor {
   void HandOut(Worker& worker) {
     double ahead_s = 0;
     for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
+    std::string lines;
     while (!orders_.empty() && (worker.orders.empty() || ahead_s < kAheadS)) {
       const Order& next = orders_.front();
       const World& world = plan_.world(next.world);
-      worker.process.Send(fmt::format(R"({{"world":[{},{},{}],"first_cell":{},"methods":[{}]}})", world.scenario,
-                                      world.condition, world.trial, plan_.CellAt(next.world, 0),
-                                      fmt::join(next.methods, ",")));
+      if (!lines.empty()) lines += '\n';
+      fmt::format_to(std::back_inserter(lines), R"({{"world":[{},{},{}],"first_cell":{},"methods":[{}]}})",
+                     world.scenario, world.condition, world.trial, plan_.CellAt(next.world, 0),
+                     fmt::join(next.methods, ","));
       ahead_s += PaceOf(next).SecondsPerWorld().value_or(kAheadS);
       worker.orders.push_back(std::move(orders_.front()));
       orders_.pop_front();
       if (worker.orders.size() == 1) BeginWorld(worker);
     }
+    if (!lines.empty()) worker.process.Send(lines);
     if (!worker.orders.empty()) return;
     worker.process.Finish(kShutdownGraceMs);
     worker.dismissed = true;

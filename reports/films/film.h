@@ -32,8 +32,8 @@ Canvas BeginFrame(const std::string& heading);
 
 Picture PictureOf(const Canvas& canvas, std::string caption);
 
-/// Draws the poster and encodes all frames into `path`. Without an encoder the film is its poster, and says why; so it is
-/// when whoever waits wants no more of it.
+/// Draws the poster and encodes all frames into `path`. Without an encoder the film is its poster, and says why; so it
+/// is when whoever waits wants no more of it.
 Film Shoot(Scene& scene, const std::filesystem::path& path, const FilmWatch& watch = {});
 
 }  // namespace etude

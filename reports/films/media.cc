@@ -197,8 +197,9 @@ Media MakeMedia(const RunData& run, const MediaPaths& paths, const MediaOptions&
     const ScenarioSummary& scenario = run.scenarios[i];
     Film film;
     if (scenario.task == "ik") {
-      film = MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
-                                                 paths.films / FilmName(run, i, "convergence"), options.watch, renderer);
+      film =
+          MakeComparingFilm<ConvergenceScene>(FindIkRace(run, scenario), scenario.name, "two methods settling",
+                                              paths.films / FilmName(run, i, "convergence"), options.watch, renderer);
     } else if (auto race = FindTransitionRace(run, scenario)) {
       film = MakeComparingFilm<TransitionScene>(std::move(race), scenario.name, "transitions of several methods",
                                                 paths.films / FilmName(run, i, "transitions"), options.watch, renderer);

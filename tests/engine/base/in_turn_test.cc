@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <random>
 #include <string>
-
-#include "tests/support/random_clip.h"
 
 namespace etude {
 namespace {
@@ -13,11 +12,11 @@ namespace {
 TEST(InTurn, FindsWhatAMapFindsInWhateverOrderItIsAsked) {
   InTurn<int> things;
   std::map<std::string, int> oracle;
-  testing::Dice dice(1);
+  std::minstd_rand dice(1);
   int found = 0, missed = 0;
   for (int i = 0; i < 5000; ++i) {
     // In turn, with jumps, and now and then something new.
-    const std::string name = "n" + std::to_string(dice.Below(10) == 0 ? dice.Below(40) : i % 12);
+    const std::string name = "n" + std::to_string(dice() % 10 == 0 ? dice() % 40 : static_cast<unsigned>(i) % 12);
     int* const thing = things.Find(name);
     const auto known = oracle.find(name);
     ASSERT_EQ(thing != nullptr, known != oracle.end()) << name;
