@@ -102,7 +102,7 @@ MAY_INCLUDE = {
         "bench/tasks/base",
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
-    "bench/statistics": "sim/random bench/metrics bench/model",
+    "bench/statistics": "engine/base sim/random bench/metrics bench/model",
     "bench/streams":
         "engine/base engine/recognition engine/streams engine/teaching bench/clips bench/files bench/metrics",
     "bench/tasks":
