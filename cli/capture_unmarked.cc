@@ -127,7 +127,7 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
     overlays.back().keypoints.resize(motion.poses.size());
   }
   const Interrupt interrupt;
-  const auto is_whole = WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt));
+  auto is_whole = WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt));
   // Ctrl-C reaches ffmpeg, too, whose end may be what is noticed first.
   if (!is_whole && *interrupt.requested()) return false;
   if (is_whole && *is_whole) fmt::print("written: {}\n", options.film);

@@ -179,6 +179,9 @@ Result<TaughtMove> ReadMove(const Node& node) {
   if (move.name.empty() || move.name.size() > kLongestName) {
     return Fail(node.place, "a name of {} bytes; allowed: 1 to {}", move.name.size(), kLongestName);
   }
+  if (std::ranges::any_of(move.name, [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
+    return Fail(node.place, "a name with a line break or another control character");
+  }
   if (poses != nullptr) {
     if (poses->kind != Node::Kind::kSequence)
       return Fail(poses->place, "a list of key poses, found {}", Describe(*poses));

@@ -49,7 +49,7 @@ class Reader:
         environment = dict(os.environ, TMPDIR="/dev/shm" if Path("/dev/shm").is_dir() else "/tmp")
         log = self.folder / "log"
         with log.open("wb") as file:
-            subprocess.run(command, cwd=ROOT, env=environment, stdout=file, stderr=file, preexec_fn=lambda: os.nice(10))
+            subprocess.run(command, cwd=ROOT, env=environment, stdout=file, stderr=file, preexec_fn=lambda: os.nice(5))
         self.count(log.read_text(errors="replace"))
         return sorted(path for path in (self.folder / "found").iterdir() if path not in known and FOUND.match(path.name))
 

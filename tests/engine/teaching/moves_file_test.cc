@@ -67,6 +67,8 @@ TEST(MovesFile, RefusalsSayWhere) {
       << MovesComplaint(head + "    speed: 3\n");
   EXPECT_EQ(MovesComplaint(head + "    key_poses: [{RX: 3}]\n").find("m.yaml:3:18: unknown feature 'RX'"), 0u);
   EXPECT_EQ(MovesComplaint(head + "    key_poses: [{RH: 3}]\n").find("m.yaml:3:18: no tolerance_deg"), 0u);
+  EXPECT_EQ(MovesComplaint("moves:\n  - name: 'a\n\n      b'\n    span_s: 3\n"),
+            "m.yaml:2:5: a name with a line break or another control character");
   EXPECT_EQ(MovesComplaint(head + "  - name: a\n").find("m.yaml:3:5: a second move called 'a'"), 0u);
   EXPECT_EQ(MovesComplaint(head + "    span_s: .nan\n").find("m.yaml:3:13: "), 0u);
   const std::string frames = head + "    right:\n      - rate_hz: 30\n        frames: |\n          ";
