@@ -6,8 +6,6 @@
 #include <cstdio>
 #include <string>
 
-#include "bench/run/clock.h"
-
 namespace etude {
 namespace {
 
@@ -25,7 +23,13 @@ void Print(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
 
-ProgressBar::ProgressBar() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(Begins begins) : is_terminal_(::isatty(STDERR_FILENO) == 1), begins_(begins) {}
+
+bool ProgressBar::IsTooSoon(double share) const {
+  if (begins_ == Begins::kAtOnce || is_shown_) return false;
+  constexpr double kSoonS = 0.3, kLongS = 5;
+  return share >= 1 || SecondsSince(began_) < (is_terminal_ ? kSoonS : kLongS);
+}
 
 void ProgressBar::Show(const Progress& progress) {
   const double share =
@@ -37,6 +41,8 @@ void ProgressBar::Show(const Progress& progress) {
 }
 
 void ProgressBar::Show(double share, const std::string& what, const std::string& remaining) {
+  if (IsTooSoon(share)) return;
+  is_shown_ = true;
   if (is_terminal_) {
     const int filled = static_cast<int>(share * kWidth);
     const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
@@ -48,12 +54,7 @@ void ProgressBar::Show(double share, const std::string& what, const std::string&
 }
 
 OnProgress TellOf(std::string what) {
-  constexpr double kSoonS = 0.3, kLongS = 5;
-  const double patience_s = ::isatty(STDERR_FILENO) == 1 ? kSoonS : kLongS;
-  return [=, bar = ProgressBar(), began = Clock::now(), is_shown = false](std::size_t done, std::size_t all) mutable {
-    const bool is_done = done >= all;
-    if (is_done ? !is_shown : SecondsSince(began) < patience_s) return;
-    is_shown = true;
+  return [=, bar = ProgressBar(ProgressBar::Begins::kWhenItTakesLong)](std::size_t done, std::size_t all) mutable {
     bar.Show(all == 0 ? 1 : static_cast<double>(done) / static_cast<double>(all),
              fmt::format("{}/{} {}", done, all, what));
   };

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "bench/run/clock.h"
 #include "bench/run/run.h"
 #include "engine/base/progress.h"
 
@@ -11,18 +12,26 @@ namespace etude {
 /// at every tenth of the way.
 class ProgressBar {
  public:
-  ProgressBar();
+  enum class Begins {
+    kAtOnce,
+    kWhenItTakesLong,  ///< on a terminal soon, else where it takes so long that somebody may look into a log
+  };
+  explicit ProgressBar(Begins begins = Begins::kAtOnce);
   void Show(const Progress& progress);
   /// `share` of the way, 0 … 1; `remaining` is told where there is somebody who waits.
   void Show(double share, const std::string& what, const std::string& remaining = "");
 
  private:
+  bool IsTooSoon(double share) const;
+
   bool is_terminal_;
+  Begins begins_;
+  Clock::time_point began_ = Clock::now();
+  bool is_shown_ = false;
   int tenths_shown_ = -1;
 };
 
-/// Tells how far some work has come ("12/300 clips"): on a terminal soon, else where it takes so long that somebody may
-/// look into a log.
+/// Tells how far some work has come ("12/300 clips"), when it takes long.
 OnProgress TellOf(std::string what);
 
 }  // namespace etude

@@ -131,8 +131,9 @@ int MergeCommand(const MergeOptions& given) {
   MergeOptions options = given;
   std::optional<Interrupt> interrupt(std::in_place);
   options.stop = interrupt->requested();
-  ProgressBar bar;
-  const auto outcome = Merge(options, [&](double share) { bar.Show(share, "merged"); });
+  // The first half is reading, in which shards that do not belong together are found: a complaint stands alone.
+  ProgressBar reading(ProgressBar::Begins::kWhenItTakesLong), writing;
+  const auto outcome = Merge(options, [&](double share) { (share < 0.5 ? reading : writing).Show(share, "merged"); });
   interrupt.reset();
   if (!outcome) return Complain(outcome.error());
   if (!outcome->stopped) return ShowOutcome(*outcome);
