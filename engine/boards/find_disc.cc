@@ -131,6 +131,10 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
 
 std::optional<glm::dvec2> FindDisc(const GreyImage& picture, const glm::dvec2& pointer, double reach_px,
                                    double widest_px) {
+  const glm::dvec2 size(picture.width, picture.height);
+  const bool is_near =
+      glm::all(glm::greaterThan(pointer, glm::dvec2(-reach_px))) && glm::all(glm::lessThan(pointer, size + reach_px));
+  if (!is_near) return std::nullopt;  // NaN, too
   const auto darkest = FindDarkest(picture, pointer, reach_px);
   if (!darkest) return std::nullopt;
   const Window window(picture, MiddleOf(darkest->x, darkest->y), widest_px);
