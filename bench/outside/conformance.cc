@@ -26,13 +26,13 @@ class WordierProgram final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
   bool Begin(const Payload& session) override {
-    Payload shown = PayloadOf(*session.json);
+    Payload shown = PayloadOf(*session.json, session.files);
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
     return SeatedProgram::Begin(shown);
   }
-  JsonPtr Step(const Json& step) override {
-    Json shown = step;
-    shown["of_a_later_version"] = true;
+  JsonPtr Step(const Payload& step) override {
+    Payload shown = PayloadOf(*step.json, step.files);
+    (*shown.json)["of_a_later_version"] = true;
     return SeatedProgram::Step(shown);
   }
 };

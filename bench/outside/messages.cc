@@ -44,11 +44,10 @@ Result<Json> ReadMessageOfType(const std::string& line, std::string_view type) {
   return message;
 }
 
-Result<std::string> LinePayload(const char* type, const std::string& id, const Json& content,
-                                const std::string& files) {
+Json Message(const char* type, const std::string& id, const Json& content, const std::string& files) {
   Json message{{"type", type}, {"id", id}, {type, content}};
   if (!files.empty()) message["files"] = files;
-  return WriteJson(message);
+  return message;
 }
 
 }  // namespace
@@ -58,19 +57,21 @@ Result<std::string> HelloLine(const std::string& task, const Json& options) {
 }
 
 Result<std::string> SettingLine(const std::string& id, const Json& content, const std::string& files) {
-  return LinePayload("setting", id, content, files);
+  return WriteJson(Message("setting", id, content, files));
 }
 
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files) {
-  return LinePayload("problem", id, content, files);
+  return WriteJson(Message("problem", id, content, files));
 }
 
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files) {
-  return LinePayload("begin", id, content, files);
+  return WriteJson(Message("begin", id, content, files));
 }
 
-Result<std::string> StepLine(const std::string& id, int number, const Json& content) {
-  return WriteJson({{"type", "step"}, {"id", id}, {"number", number}, {"step", content}});
+Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files) {
+  Json message = Message("step", id, content, files);
+  message["number"] = number;
+  return WriteJson(message);
 }
 
 Result<HelloReply> ReadHello(const std::string& line) {

@@ -19,7 +19,7 @@ Result<std::string> SettingLine(const std::string& id, const Json& content, cons
 Result<std::string> ProblemLine(const std::string& id, const Json& content, const std::string& files);
 /// A session that goes on step by step: its beginning, and step `number` of it.
 Result<std::string> BeginLine(const std::string& id, const Json& content, const std::string& files);
-Result<std::string> StepLine(const std::string& id, int number, const Json& content);
+Result<std::string> StepLine(const std::string& id, int number, const Json& content, const std::string& files);
 
 /// The lines that a program may say in reply. Each fails on anything else, with what was found: a line that is not
 /// JSON, of another type, about another problem, without a field or with one of the wrong type. Fields that are not

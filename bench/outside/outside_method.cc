@@ -61,7 +61,7 @@ struct OutsideMethod::State {
                          const Payload& problem);
   Outcome<void> Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
                       const Payload& begin);
-  Outcome<Json> Step(const Json& step);
+  Outcome<Json> Step(const Payload& step);
   OutsideReply ReplyOf(Outcome<Json> said);
   Outcome<void> Start();
   Outcome<void> TellSetting(const std::string& id, const Payload& setting);
@@ -148,9 +148,11 @@ Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const P
   return {};
 }
 
-Outcome<Json> OutsideMethod::State::Step(const Json& step) {
+Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
   const int number = session->steps++;
-  const auto line = StepLine(session->id, number, step);
+  const auto files = AttachmentFolder::Write(desk->path(), step.files);
+  if (!files) return Unspeakable(files.error());
+  const auto line = StepLine(session->id, number, *step.json, files->path());
   if (!line) return Unspeakable(line.error());
   const auto read = [&](const std::string& said) -> Result<Json> {
     auto answer = ReadStepAnswer(said, session->id, number);
@@ -346,7 +348,7 @@ OutsideReply OutsideMethod::Begin(const std::string& setting_id, const Payload& 
   return reply;
 }
 
-OutsideReply OutsideMethod::Step(const Json& step) {
+OutsideReply OutsideMethod::Step(const Payload& step) {
   assert(state_->session.has_value());
   OutsideReply reply = state_->ReplyOf(state_->Step(step));
   if (reply.status == Status::kOk) return reply;

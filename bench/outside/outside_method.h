@@ -60,7 +60,7 @@ class OutsideMethod {
                      const Payload& session);
   /// The next step of the session. Any reply but kOk ends it, and the program is started anew for the next one, unless
   /// it merely gave no answer (kUnsolved). Only while a session goes on.
-  OutsideReply Step(const Json& step);
+  OutsideReply Step(const Payload& step);
 
   /// What the program calls itself: "name version"; "" before its first handshake.
   std::string CalledItself() const;

@@ -25,7 +25,7 @@ bool SeatedProgram::Begin(const Payload& session) {
   return Note(method_.Begin(setting_id_, setting_, id, session)).status == Status::kOk;
 }
 
-JsonPtr SeatedProgram::Step(const Json& step) {
+JsonPtr SeatedProgram::Step(const Payload& step) {
   if (failure_) return nullptr;
   OutsideReply reply = Note(method_.Step(step));
   if (reply.answer != nullptr) answers_.Add(std::string_view(reply.answer->dump()));

@@ -16,7 +16,7 @@ class SeatedProgram : public LiveProgram {
   SeatedProgram(OutsideMethod& method, std::string setting_id, const Payload& setting, std::string id);
 
   bool Begin(const Payload& session) override;
-  JsonPtr Step(const Json& step) override;
+  JsonPtr Step(const Payload& step) override;
 
   /// How it failed, if it has.
   const std::optional<CellResult>& failure() const { return failure_; }

@@ -75,8 +75,10 @@ Result<std::vector<Specimen>> MakeSpecimens(const std::string& task, const std::
   const TaskKind* kind = FindTaskKind(task);
   if (kind == nullptr) return Fail({}, "{}", UnknownName("task", task, known));
   if (kind->seats.empty() && !seat.empty()) return Fail({}, "task {} has no seats", task);
-  if (!kind->seats.empty() && std::ranges::find(kind->seats, seat) == kind->seats.end()) {
-    if (seat.empty()) return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
+  if (seat.empty() && !kind->has_problems) {
+    return Fail({}, "task {} needs a seat: {}", task, fmt::join(kind->seats, ", "));
+  }
+  if (!seat.empty() && std::ranges::find(kind->seats, seat) == kind->seats.end()) {
     return Fail({}, "{}", UnknownName("seat", seat, kind->seats));
   }
   std::vector<Specimen> specimens;

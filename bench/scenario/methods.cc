@@ -70,9 +70,13 @@ Result<MethodEntry> ReadSeated(const Node& node, const TaskKind& kind) {
   return entry;
 }
 
+bool IsSeated(const Node& node, const TaskKind& kind) {
+  return !kind.has_problems || (!kind.seats.empty() && node.Find("seat") != nullptr);
+}
+
 Result<MethodEntry> ReadMethod(const Node& node, const TaskKind& kind) {
   auto entry = node.Find("exec") == nullptr ? ReadBuiltIn(node, kind)
-               : !kind.seats.empty()        ? ReadSeated(node, kind)
+               : IsSeated(node, kind)       ? ReadSeated(node, kind)
                                             : ReadMapping(node, "a method with 'exec'", OutsideMethodFields());
   if (!entry) return entry;
   if (entry->exec.empty() && node.Find("seat") != nullptr) {

@@ -62,8 +62,10 @@ Json MethodSchema(const TaskKind& kind) {
     if (!kind.seats.empty() || common.key == "name" || common.key == "against") keys.push_back(common);
   }
   keys.insert(keys.end(), kind.method_keys.begin(), kind.method_keys.end());
-  if (!kind.seats.empty()) return MappingSchema(keys);
-  return {{"if", Has("exec")}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
+  if (!kind.has_problems) return MappingSchema(keys);
+  Json asked_whole = Has("exec");
+  if (!kind.seats.empty()) asked_whole["not"] = Has("seat");
+  return {{"if", std::move(asked_whole)}, {"then", Ref("outside-method")}, {"else", MappingSchema(keys)}};
 }
 
 /// What a scenario of this task says beside the keys of every scenario.

@@ -25,6 +25,14 @@ Chroma ChromaOrPureRed(Rgb8 colour) {
 
 }  // namespace
 
+Mask PersonAmong(Mask changed, const PersonOptions& options) {
+  if (options.pieces == PersonPieces::kLarge) {
+    return FillHoles(LargeComponents(changed, options.smallest_piece, options.piece_reach), options.largest_hole);
+  }
+  KeepPerson(changed, options.largest_hole);
+  return changed;
+}
+
 PersonFinder::PersonFinder(const ColourImage& background, const PersonOptions& options)
     : options_(options), background_(background) {
   if (options.segmenter != Segmenter::kHue) return;
@@ -36,14 +44,7 @@ PersonFinder::PersonFinder(const ColourImage& background, const PersonOptions& o
   }
 }
 
-Mask PersonFinder::Find(const ColourImage& picture) {
-  Mask mask = Detect(picture);
-  if (options_.pieces == PersonPieces::kLarge) {
-    return FillHoles(LargeComponents(mask, options_.smallest_piece, options_.piece_reach), options_.largest_hole);
-  }
-  KeepPerson(mask, options_.largest_hole);
-  return mask;
-}
+Mask PersonFinder::Find(const ColourImage& picture) { return PersonAmong(Detect(picture), options_); }
 
 Mask PersonFinder::Detect(const ColourImage& picture) {
   assert(picture.width == background_.width && picture.height == background_.height);

@@ -8,6 +8,9 @@
 
 namespace etude {
 
+/// The person among the pixels that changed: the pieces that `options` names, and their small holes.
+Mask PersonAmong(Mask changed, const PersonOptions& options);
+
 /// Cuts the person out of one camera's pictures, one after the other: what `ExtractPerson` does, pixel by pixel the
 /// same, with what depends on the background alone computed once; and `kRunning`, which remembers.
 class PersonFinder {

@@ -13,7 +13,7 @@ def prepare(setting, options, files):
     return setting["joints"]
 
 
-def begin(joints, session):
+def begin(joints, session, files):
     return {"joints": joints, "past": deque(maxlen=LAG), "shown": set(), "slow": None}
 
 
@@ -28,7 +28,7 @@ def hanging(pose, joints):
     return pose
 
 
-def step(memory, told):
+def step(memory, told, files):
     if "test" in told:
         return {"right": told["test"]["move"] in memory["shown"]}
     if told["clip"].startswith("slow_"):

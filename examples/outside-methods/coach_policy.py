@@ -8,11 +8,11 @@ ENOUGH = 2
 REST = 3
 
 
-def begin(kept, session):
+def begin(kept, session, files):
     return {"wrong": {}, "rest": 0}
 
 
-def step(memory, shown):
+def step(memory, shown, files):
     corrects = False
     for verdict in shown["verdicts"]:
         memory["rest"] = max(0, memory["rest"] - 1)

@@ -15,11 +15,11 @@ def prepare(setting, options, files):
     return setting["joints"], taught
 
 
-def begin(kept, session):
+def begin(kept, session, files):
     return {"kept": kept, "frame": 0, "rows": [], "move": None, "asked": 0.0}
 
 
-def step(memory, seen):
+def step(memory, seen, files):
     joints, taught = memory["kept"]
     if "ask" in seen:
         memory.update(move=seen["ask"]["move"], frame=0, rows=[], asked=0.0)

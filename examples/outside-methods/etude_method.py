@@ -6,8 +6,8 @@ A program that takes a seat in a loop is spoken to step by step:
 
     run_seat("my-policy", "1.0", prepare, begin, step)
 
-begin(kept, session) is called when a session begins, and gives what the method wants to remember during it;
-step(memory, step) gives the answer to one step.
+begin(kept, session, files) is called when a session begins, and gives what the method wants to remember during it;
+step(memory, step, files) gives the answer to one step, or raises NoAnswer.
 
 prepare(setting, options, files) is called when a setting is told, and gives what the method wants to keep of it.
 `options` are those of the scenario. answer(kept, problem, files) gives the answer, or raises NoAnswer. `files` is a
@@ -34,10 +34,11 @@ def run_seat(name, version, prepare, begin, step):
     memory = {}
 
     def begin_session(kept, message):
-        memory["session"] = begin(kept, message["begin"])
+        memory["session"] = begin(kept, message["begin"], message.get("files"))
 
     converse(name, version, prepare, {"begin": begin_session,
-                                      "step": lambda kept, message: step(memory["session"], message["step"])})
+                                      "step": lambda kept, message: step(memory["session"], message["step"],
+                                                                         message.get("files"))})
 
 
 def converse(name, version, prepare, replies):

@@ -237,6 +237,12 @@ std::string EncodePng(const Mask& mask) {
   return EncodePixels(grey.pixels.data(), grey.width, grey.height, PNG_FORMAT_GRAY);
 }
 
+std::string EncodePpm(const ColourImage& image) {
+  static_assert(sizeof(Rgb8) == 3, "a picture's bytes are its colours");
+  std::string bytes = fmt::format("P6\n{} {}\n255\n", image.width, image.height);
+  return bytes.append(reinterpret_cast<const char*>(image.pixels.data()), 3 * image.pixels.size());
+}
+
 Result<void> SavePng(const ColourImage& image, const std::string& path) { return WriteBytes(EncodePng(image), path); }
 Result<void> SavePng(const Mask& mask, const std::string& path) { return WriteBytes(EncodePng(mask), path); }
 

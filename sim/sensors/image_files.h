@@ -20,6 +20,9 @@ std::string EncodePng(const ColourImage& image);
 /// As grey: 0 black, anything else white.
 std::string EncodePng(const Mask& mask);
 
+/// The bytes of a binary PPM file (P6), which every picture library reads, and which costs no time.
+std::string EncodePpm(const ColourImage& image);
+
 Result<void> SavePng(const ColourImage& image, const std::string& path);
 Result<void> SavePng(const Mask& mask, const std::string& path);
 

@@ -183,6 +183,11 @@ void AnswerFields::Complain(std::string_view key, const std::string& message) {
   if (!error_) error_ = Error{{}, fmt::format("{}: {}", where, message)};
 }
 
+Result<int> ReadInteger(const Json& json, const std::string& path, int lowest, int highest) {
+  if (const auto complaint = IntegerComplaint(json, lowest, highest)) return Fail({}, "{}: {}", path, *complaint);
+  return json.get<int>();
+}
+
 Result<std::vector<double>> ReadNumbers(const Json& json, const std::string& path, std::size_t count, Range range) {
   if (!json.is_array()) return Fail({}, "{}: {} is not a list of {} numbers", path, ShowJson(json), count);
   if (json.size() != count) return Fail({}, "{}: {} numbers, not {}", path, json.size(), count);

@@ -60,6 +60,8 @@ class AnswerFields {
 /// How complaints show a value of an answer: its JSON, shortened.
 std::string ShowJson(const Json& json);
 
+/// Refused, naming `path`: whatever is not a whole number in range.
+Result<int> ReadInteger(const Json& json, const std::string& path, int lowest, int highest);
 /// The numbers of an array, all within `range`. Refused, naming `path`: another count than `count`, whatever is not
 /// a finite number in range.
 Result<std::vector<double>> ReadNumbers(const Json& json, const std::string& path, std::size_t count, Range range);

@@ -29,7 +29,7 @@ class LiveProgram {
   virtual bool Begin(const Payload& session) = 0;
   /// What it answers to the next step: an object whose numbers are finite. Null when it has failed, or gave no answer:
   /// then the session is over, and whoever called the world's Run knows why.
-  virtual JsonPtr Step(const Json& step) = 0;
+  virtual JsonPtr Step(const Payload& step) = 0;
 };
 
 /// One world, built once, in which methods run one after the other. What a method answers depends on the
@@ -113,8 +113,9 @@ struct TaskKind {
   std::vector<KeyInfo> condition_keys;  ///< its keys of a scenario
   std::vector<KeyInfo> method_keys;     ///< its keys of a method, beside `name`
   /// The seats of a loop that a program may take, named by its method's key `seat`; then it is spoken to step by step,
-  /// and the method has the task's keys for all else. None: programs are asked one question a world.
+  /// and the method has the task's keys for all else.
   std::vector<std::string> seats = {};
+  bool has_problems = true;      ///< whether a program may also be asked one question a world, without a seat
   bool uses_clips = true;        ///< whether its worlds are made of a scenario's `clips`
   bool uses_recordings = false;  ///< … or of its `streams`
   /// What its worlds are drawn from, and what else a scenario may say they are; at least one.

@@ -8,6 +8,7 @@
 #include "bench/tasks/capture/own_cameras.h"
 #include "bench/tasks/capture/run.h"
 #include "bench/tasks/capture/score.h"
+#include "bench/tasks/capture/seated_segmenter.h"
 #include "bench/tasks/capture/sensor_sheet.h"
 #include "bench/tasks/capture/stages.h"
 #include "sim/render/renderer.h"
@@ -19,7 +20,8 @@ namespace {
 struct CaptureStudy {
   StudioOptions options;
   std::vector<CaptureMethod> methods;
-  std::vector<PersonSource> sources;  ///< of all methods, each once: those that cut out alike see the same marks
+  std::vector<PersonSource>
+      sources;  ///< of all built-in methods, each once: those that cut out alike see the same marks
   ClipLibrary clips;
 };
 
@@ -37,13 +39,28 @@ class CaptureTaskWorld : public TaskWorld {
         stages_(study.options, MakeCaptureWorld(study.options, clip, key), key, study.sources, keeps_motion),
         keeps_motion_(keeps_motion) {}
 
-  void PrepareShared() override { (void)stages_.GetTake(); }  // a failure is told by every cell
+  void PrepareShared() override {
+    if (!study_.sources.empty()) (void)stages_.GetTake();  // a failure is told by every cell
+  }
 
   CellResult Run(std::size_t method) override {
     if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
     const auto run = RunCapture(stages_, study_.methods[method]);
     if (!run) return CellResult::Ended(Status::kFailed, run.error().message);
     return ScoreCaptureRun(stages_.world(), *run, keeps_motion_, study_.options.moments);
+  }
+
+  Result<CellResult> RunWith(LiveProgram& program, std::size_t method) override {
+    if (const auto reason = WhyUnjudged(stages_.world())) return CellResult::Ended(Status::kSkipped, *reason);
+    SeatedSegmenter segmenter(program);
+    CaptureMethod seated = study_.methods[method];
+    seated.program = &segmenter;
+    const std::vector<PersonSource> sources = {PersonSourceOf(seated)};
+    CaptureStages stages(study_.options, stages_.world(), key_, sources, keeps_motion_);
+    const auto run = RunCapture(stages, seated);
+    RETURN_IF_ERROR(segmenter.complaint());
+    if (!run) return CellResult::Ended(Status::kFailed, run.error().message);
+    return ScoreCaptureRun(stages.world(), *run, keeps_motion_, study_.options.moments);
   }
 
   Result<Payload> MakeProblem() override { return MakeCaptureProblem(study_.options, key_, stages_); }
@@ -102,13 +119,15 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   CaptureStudy study;
   CaptureConditionFields().Read(input.condition, study.options);
   RETURN_IF_ERROR(OpenOwnCameras(input, study.options));
-  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", CaptureMethodFields()));
+  ASSIGN_OR_RETURN(auto methods, ReadMethods(input, "capture", SeatedCaptureMethodFields()));
   if (input.clips.clips.empty()) {
     return Fail(input.condition.node().place, "a capture scenario needs clips, e.g. clips: ['builtin:boxing']");
   }
   if (study.options.figure == PerformerFigure::kOwn) RETURN_IF_ERROR(CheckFigures(input));
   study.methods = std::move(methods);
-  for (const CaptureMethod& method : study.methods) AddSource(PersonSourceOf(method), study.sources);
+  for (const CaptureMethod& method : study.methods) {
+    if (method.seat == CaptureSeat::kNone) AddSource(PersonSourceOf(method), study.sources);
+  }
   study.clips = input.clips;
   return std::make_unique<CaptureTask>(std::move(study));
 }
@@ -123,7 +142,8 @@ TaskKind MakeCaptureTaskKind() {
           .metrics = CaptureMetrics(),
           .make = MakeCaptureTask,
           .condition_keys = CaptureConditionFields().Describe(),
-          .method_keys = CaptureMethodFields().Describe(),
+          .method_keys = SeatedCaptureMethodFields().Describe(),
+          .seats = CaptureSeatNames(),
           .units = {SamplingUnit::kClip, SamplingUnit::kLibrary, SamplingUnit::kWorld},
           .platform = RendererVersion};
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/files/json.h"
+#include "bench/tasks/base/answer_fields.h"
 #include "engine/keypoints/landmarks.h"
 #include "engine/keypoints/marked_person.h"
 
@@ -78,6 +79,28 @@ Result<std::string> WriteCocoKeypoints(const Intrinsics& camera, std::span<const
   const Json file = {
       {"images", std::move(images)}, {"annotations", std::move(annotations)}, {"categories", {Category()}}};
   return WriteJson(file);
+}
+
+Result<Mask> ReadCocoMask(const Json& json, const std::string& path, int width, int height) {
+  Mask mask(width, height);
+  const int pixels = width * height;
+  AnswerFields fields(json, path);
+  const Json& size = fields.List("size", 2, 2);
+  const Json& counts = fields.List("counts", 1, mask.pixels.size() + 1);
+  RETURN_IF_ERROR(fields.Finish());
+  if (size != Json{height, width}) {
+    return Fail({}, "{}: {}; allowed: [{}, {}], the picture's height and width", fields.PathOf("size"), size.dump(),
+                height, width);
+  }
+  int done = 0;
+  bool is_person = false;
+  for (std::size_t run = 0; run < counts.size(); ++run, is_person = !is_person) {
+    // What is left of the picture is the most that a run may be.
+    ASSIGN_OR_RETURN(const int count, ReadInteger(counts[run], fields.PathOf("counts", run), 0, pixels - done));
+    for (const int end = done + count; done < end; ++done) mask.At(done / height, done % height) = is_person;
+  }
+  if (done == pixels) return mask;
+  return Fail({}, "{}: {} pixels in all; the picture has {}", fields.PathOf("counts"), done, pixels);
 }
 
 }  // namespace etude

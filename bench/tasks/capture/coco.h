@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include "bench/files/json.h"
+#include "engine/base/image.h"
 #include "engine/base/result.h"
 #include "engine/cameras/camera.h"
 #include "engine/vision/strokes.h"
@@ -19,5 +21,10 @@ namespace etude {
 /// @param marks of each frame
 Result<std::string> WriteCocoKeypoints(const Intrinsics& camera, std::span<const std::string> pictures,
                                        std::span<const Marks> marks);
+
+/// A mask as COCO's uncompressed run lengths, {"size": [height, width], "counts": [...]}: column by column, how many
+/// pixels are background, then person, and so on. `path` is where it stands in the answer. Refused: another size than
+/// this, counts that are no whole numbers or do not add up to it.
+Result<Mask> ReadCocoMask(const Json& json, const std::string& path, int width, int height);
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/tasks/capture/seated_segmenter.h"
 #include "sim/body/shape.h"
 
 namespace etude {
@@ -12,6 +13,10 @@ Mask MaskWhere(const LabelImage& labels, Belongs belongs) {
   Mask mask(labels.width, labels.height);
   std::transform(labels.pixels.begin(), labels.pixels.end(), mask.pixels.begin(), belongs);
   return mask;
+}
+
+PersonOptions OptionsOf(const PersonSource& source) {
+  return {.segmenter = source.segmenter, .change = {}, .pieces = source.pieces};
 }
 
 }  // namespace
@@ -29,9 +34,16 @@ Crew::Crew(const CaptureWorld& world, const StudioOptions& options, const WorldK
 
 Crew::Station::Station(Crew& crew, std::size_t camera) : crew_(crew), camera_(camera) {
   for (const PersonSource& source : crew.sources_) {
-    finders_.emplace_back(crew.backgrounds_[camera],
-                          PersonOptions{.segmenter = source.segmenter, .change = {}, .pieces = source.pieces});
+    if (source.program != nullptr) source.program->Begin(camera, crew.backgrounds_[camera]);
+    finders_.emplace_back(crew.backgrounds_[camera], OptionsOf(source));
   }
+}
+
+Mask Crew::Station::Find(std::size_t source, const Picture& picture) {
+  const PersonSource& by = crew_.sources_[source];
+  if (by.is_truth) return picture.person;
+  if (by.program == nullptr) return finders_[source].Find(picture.colour);
+  return PersonAmong(by.program->Detect(picture.colour), OptionsOf(by));
 }
 
 Marks Crew::Station::Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture) {
@@ -51,7 +63,7 @@ Crew::Picture Crew::Station::See(std::size_t frame) {
                   .found = {},
                   .marks = {}};
   for (std::size_t i = 0; i < finders_.size(); ++i) {
-    picture.found.push_back(crew_.sources_[i].is_truth ? picture.person : finders_[i].Find(picture.colour));
+    picture.found.push_back(Find(i, picture));
     picture.marks.push_back(Mark(i, frame, {view.labels, picture.colour, picture.found.back()}));
   }
   return picture;

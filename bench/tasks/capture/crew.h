@@ -40,6 +40,7 @@ class Crew {
    private:
     friend class Crew;
     Station(Crew& crew, std::size_t camera);
+    Mask Find(std::size_t source, const Picture& picture);
     Marks Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture);
 
     Crew& crew_;

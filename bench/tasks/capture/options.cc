@@ -126,6 +126,17 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
                   "only 'recovery: ik' has the stages directions, points, start and ik: others see the pictures alone");
 }
 
+void CheckSeatedMethod(Fields& fields, CaptureMethod& method) {
+  CheckMethod(fields, method);
+  if (method.seat != CaptureSeat::kSegmenter) return;
+  if (const Node* segmenter = fields.node().Find("segmenter")) {
+    fields.Complain(segmenter->place, "'segmenter' is what the program in that seat does");
+  }
+  if (method.oracle.segmentation) {
+    fields.Complain(fields.Raw("oracle")->place, "segmentation is what the program in that seat does");
+  }
+}
+
 }  // namespace
 
 const FieldTable<StudioOptions>& CaptureConditionFields() {
@@ -194,6 +205,25 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
     std::vector<Key> solver = IkSolverFields(&Method::solver, &Method::ik);
     solver.front() = solver.front().With("recovery", {"ik"});
     made.fields.insert(made.fields.end(), solver.begin(), solver.end());
+    return made;
+  }();
+  return table;
+}
+
+const std::vector<std::string>& CaptureSeatNames() {
+  static const std::vector<std::string> names = {"segmenter"};
+  return names;
+}
+
+const FieldTable<CaptureMethod>& SeatedCaptureMethodFields() {
+  static const FieldTable<CaptureMethod> table = [] {
+    FieldTable<CaptureMethod> made = CaptureMethodFields();
+    made.fields.push_back(Field<CaptureMethod>::Name("seat", &CaptureMethod::seat,
+                                                     {{CaptureSeatNames()[0], CaptureSeat::kSegmenter}},
+                                                     "What the program of `exec` does: it cuts out the person.")
+                              .WhenAbsent("(the whole capture, where there is an `exec`)")
+                              .And("with `exec`"));
+    made.check = CheckSeatedMethod;
     return made;
   }();
   return table;

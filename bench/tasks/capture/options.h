@@ -124,9 +124,20 @@ enum class SilhouetteStart {
   kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
 };
 
+/// What a program does of a method's work.
+enum class CaptureSeat {
+  kNone,
+  kSegmenter,  ///< "segmenter": it cuts the person out of the pictures
+};
+const std::vector<std::string>& CaptureSeatNames();
+
+class SeatedSegmenter;
+
 /// A pipeline with its settings.
 struct CaptureMethod {
   std::string name;
+  CaptureSeat seat = CaptureSeat::kNone;
+  SeatedSegmenter* program = nullptr;  ///< in that seat, while it is there
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces =
       PersonPieces::kLargest;  ///< of methods that read silhouettes all large ones, whatever stands here
@@ -149,5 +160,7 @@ struct CaptureMethod {
 
 const FieldTable<StudioOptions>& CaptureConditionFields();
 const FieldTable<CaptureMethod>& CaptureMethodFields();
+/// The same with `seat`: where the pictures are the task's own, and no sensor of another's.
+const FieldTable<CaptureMethod>& SeatedCaptureMethodFields();
 
 }  // namespace etude

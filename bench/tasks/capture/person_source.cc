@@ -10,6 +10,7 @@ PersonSource PersonSourceOf(const CaptureMethod& method) {
                       .pieces = for_silhouettes ? PersonPieces::kLarge : method.pieces,
                       .is_truth = false,
                       .for_silhouettes = for_silhouettes,
+                      .program = method.program,
                       .has_true_marks = method.oracle.marks};
   if (method.oracle.segmentation) {
     source.segmenter = Segmenter::kHue;

@@ -15,6 +15,7 @@ struct PersonSource {
   bool is_truth = false;
   /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
   bool for_silhouettes = false;
+  SeatedSegmenter* program = nullptr;  ///< cuts out in the segmenter's place
   bool has_true_marks = false;  ///< drawn by someone who knows where the joints are, where the picture shows them
   auto operator<=>(const PersonSource&) const = default;
 };

@@ -150,6 +150,7 @@ TaskKind MakeCoachTaskKind() {
           .condition_keys = CoachConditionFields().Describe(),
           .method_keys = CoachMethodFields().Describe(),
           .seats = SeatNames(),
+          .has_problems = false,
           .uses_clips = false,
           .units = {SamplingUnit::kPerson}};
 }

@@ -50,7 +50,7 @@ class SeatedFollower final : public MoveFollower {
                  {"body_seen", frame.skeleton.body_seen}};
     if (ask_) step["ask"] = *std::exchange(ask_, std::nullopt);
     if (complaint_.error()) return {0, spotted_};
-    if (const JsonPtr answer = program_.Step(step)) complaint_.Note(Read(*answer));
+    if (const JsonPtr answer = program_.Step(PayloadOf(std::move(step)))) complaint_.Note(Read(*answer));
     return {asked_, spotted_};
   }
 
@@ -104,7 +104,7 @@ class SeatedPolicy final : public MomentSource {
                                   {"evidence", record.evidence}});
     }
     if (complaint_.error()) return false;
-    const JsonPtr answer = program_.Step(step);
+    const JsonPtr answer = program_.Step(PayloadOf(std::move(step)));
     if (answer == nullptr) return false;
     AnswerFields fields(*answer);
     const bool corrects = fields.Boolean("correct", false);
@@ -136,7 +136,8 @@ class SeatedLearner final : public Player {
     step["events"] = Json::array();
     for (const CoachRecord& record : shown.records) step["events"].push_back(EventName(record.event));
     if (complaint_.error()) return pose_;
-    if (const JsonPtr answer = program_.Step(step)) complaint_.Note(Read(*answer, shown.repetition));
+    if (const JsonPtr answer = program_.Step(PayloadOf(std::move(step))))
+      complaint_.Note(Read(*answer, shown.repetition));
     return pose_;
   }
 
@@ -151,7 +152,7 @@ class SeatedLearner final : public Player {
     std::vector<double> right;
     for (const Move& move : stage_.moves) {
       if (complaint_.error()) break;
-      const JsonPtr answer = program_.Step({{"test", {{"move", move.name}, {"after", performances_later}}}});
+      const JsonPtr answer = program_.Step(PayloadOf({{"test", {{"move", move.name}, {"after", performances_later}}}}));
       if (answer == nullptr) break;
       AnswerFields fields(*answer);
       const PerformanceTruth truth = TruthIn(fields);

@@ -48,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Example{"ik", "ik_dls.py"}, Example{"tracking", "tracking_dls.py"},
                       Example{"transition", "transition_nearest.py"}, Example{"detection", "detection_correlation.py"},
                       Example{"search", "search_loop.py"}, Example{"coach", "coach_recogniser.py", "recogniser"},
-                      Example{"coach", "coach_policy.py", "policy"}, Example{"coach", "coach_learner.py", "learner"}),
+                      Example{"coach", "coach_policy.py", "policy"}, Example{"coach", "coach_learner.py", "learner"},
+                      Example{"capture", "capture_segmenter.py", "segmenter"}),
     [](const auto& tested) { return tested.param.task + tested.param.seat; });
 
 TEST(Conformance, KnowsEveryTask) {

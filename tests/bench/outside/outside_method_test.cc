@@ -266,7 +266,7 @@ TEST(LiveSession, GoesOnStepByStepInOneLife) {
   for (const char* id : {"first", "second"}) {
     ASSERT_EQ(Begin(method, id).status, Status::kOk);
     for (int i = 0; i < 200; ++i) {
-      const OutsideReply reply = method.Step({{"pose", i}});
+      const OutsideReply reply = method.Step(PayloadOf({{"pose", i}}));
       ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
       EXPECT_EQ(reply.answer->dump(), R"({"number":1})");
     }
@@ -280,7 +280,7 @@ TEST(LiveSession, AStepAnsweredAgainIsPassedOver) {
   for (const char* id : {"first", "second"}) {
     ASSERT_EQ(Begin(method, id).status, Status::kOk);
     for (int i = 0; i < 5; ++i) {
-      const OutsideReply reply = method.Step(Json::object());
+      const OutsideReply reply = method.Step(PayloadOf(Json::object()));
       ASSERT_EQ(reply.status, Status::kOk) << reply.reason;
       EXPECT_EQ(reply.repeated, i == 3 ? 1 : 0);
     }
@@ -296,8 +296,8 @@ TEST_P(HostileInASession, EndsTheSessionAndTheNextOneBeginsAnew) {
   OutsideMethod method(options);
   for (int session = 0; session < 2; ++session) {
     ASSERT_EQ(Begin(method).status, Status::kOk);
-    for (int i = 0; i < 2; ++i) ASSERT_EQ(method.Step(Json::object()).status, Status::kOk);
-    const OutsideReply reply = method.Step(Json::object());
+    for (int i = 0; i < 2; ++i) ASSERT_EQ(method.Step(PayloadOf(Json::object())).status, Status::kOk);
+    const OutsideReply reply = method.Step(PayloadOf(Json::object()));
     EXPECT_EQ(StatusName(reply.status), StatusName(hostility.status));
     EXPECT_THAT(reply.reason, StartsWith(hostility.reason));
     EXPECT_EQ(reply.answer, nullptr);
@@ -319,7 +319,7 @@ INSTANTIATE_TEST_SUITE_P(OutsideMethod, HostileInASession,
 TEST(LiveSession, AnswersAreToSayTheirStep) {
   OutsideMethod method(Behaving("says_no_number"));
   ASSERT_EQ(Begin(method).status, Status::kOk);
-  const OutsideReply reply = method.Step(Json::object());
+  const OutsideReply reply = method.Step(PayloadOf(Json::object()));
   EXPECT_EQ(reply.status, Status::kBadOutput);
   EXPECT_THAT(reply.reason, StartsWith("at step 0: answered another step than 0: "));
 }

@@ -24,9 +24,9 @@ class Imagined final : public LiveProgram {
     seat = (*session.json)["seat"].get<std::string>();
     return true;
   }
-  JsonPtr Step(const Json& step) override {
+  JsonPtr Step(const Payload& step) override {
     ++steps;
-    const Json answer = answer_(step);
+    const Json answer = answer_(*step.json);
     return answer.is_null() ? nullptr : JsonPtr(new Json(answer));
   }
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "bench/tasks/base/task.h"
+#include "engine/base/image.h"
+
+namespace etude {
+
+/// A program that finds the person in the pictures of a take (docs/outside-methods.md): a session for every camera, a
+/// step for every picture.
+class SeatedSegmenter {
+ public:
+  /// `program` must outlive this.
+  explicit SeatedSegmenter(LiveProgram& program) : program_(program) {}
+
+  /// The next pictures are this camera's, of that empty room.
+  void Begin(std::size_t camera, const ColourImage& background);
+  /// What the program says has changed in the next one. All zero when it has failed, or complained: then nothing more
+  /// is asked.
+  Mask Detect(const ColourImage& picture);
+
+  /// What was wrong with an answer; success when nothing was.
+  const Result<void>& complaint() const { return complaint_; }
+
+ private:
+  LiveProgram& program_;
+  Result<void> complaint_;
+  bool goes_on_ = true;
+  std::size_t camera_ = 0, frame_ = 0;
+};
+
+}  // namespace etude

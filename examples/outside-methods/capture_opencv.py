@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+"""OpenCV's background subtractors in the seat of capture's segmenter, at their own settings.
+
+Options: `subtractor`, "mog2" (Zivkovic 2004) or "knn" (Zivkovic and van der Heijden 2006); `empty_room`, whether it is
+shown the empty room first (true); `history`, how many pictures its memory holds (500, OpenCV's own). Shadows, which both
+tell apart, are no part of the person.
+
+There is one picture of the empty room. MOG2 takes it for its background at once, with the variance that it assumes of
+what is new: shown the same picture again and again, it would learn that nothing ever varies. KNN assumes a variance
+throughout, and is shown the picture for a second, which fills its samples.
+"""
+import os
+
+import cv2
+import numpy
+
+from etude_method import run_seat
+
+SUBTRACTORS = {"mog2": cv2.createBackgroundSubtractorMOG2, "knn": cv2.createBackgroundSubtractorKNN}
+HISTORY = 500
+SECOND = 30  # pictures
+PERSON = 255  # shadows are 127
+
+
+def prepare(setting, options, files):
+    cv2.setNumThreads(1)
+    return options
+
+
+def begin(options, session, files):
+    cv2.setRNGSeed(1)  # the same for every camera: KNN throws dice
+    kind, history = options.get("subtractor", "mog2"), options.get("history", HISTORY)
+    subtractor = SUBTRACTORS[kind](history=history)
+    if not options.get("empty_room", True):
+        return subtractor, -1  # learns fast at first
+    background = cv2.imread(os.path.join(files, session["background"]))
+    subtractor.apply(background, learningRate=1)
+    if kind == "knn":
+        for _ in range(SECOND):
+            subtractor.apply(background)
+    return subtractor, 1 / history
+
+
+def step(memory, seen, files):
+    subtractor, rate = memory
+    found = subtractor.apply(cv2.imread(os.path.join(files, seen["picture"])), learningRate=rate)
+    pixels = (found == PERSON).ravel(order="F")
+    ends = numpy.flatnonzero(numpy.diff(pixels)) + 1
+    runs = numpy.diff(ends, prepend=0, append=pixels.size).tolist()
+    return {"mask": {"size": list(found.shape), "counts": [0] * int(pixels[0]) + runs}}
+
+
+if __name__ == "__main__":
+    run_seat("opencv-subtractor", cv2.__version__, prepare, begin, step)

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""Finds the person in a picture: wherever the green differs by more than 24 levels from the empty room's."""
+import os
+import re
+from operator import sub
+
+from etude_method import run_seat
+
+MOST = 24
+CHANGED = bytes(abs(difference - 255) > MOST for difference in range(511))  # from -255 on
+
+
+def read_green(path):
+    with open(path, "rb") as file:
+        _, width, height, _, pixels = re.split(rb"\s", file.read(), maxsplit=4)
+    return int(width), int(height), pixels[1::3]
+
+
+def prepare(setting, options, files):
+    return None
+
+
+def begin(kept, session, files):
+    return read_green(os.path.join(files, session["background"]))
+
+
+def step(background, seen, files):
+    width, height, empty = background
+    _, _, green = read_green(os.path.join(files, seen["picture"]))
+    changed = bytes(CHANGED[difference + 255] for difference in map(sub, green, empty))
+    columns = b"".join(changed[x::width] for x in range(width))
+    runs = [run.end() - run.start() for run in re.finditer(rb"\x00+|\x01+", columns)]
+    return {"mask": {"size": [height, width], "counts": [0] * columns[0] + runs}}
+
+
+if __name__ == "__main__":
+    run_seat("green-difference-python", "1.0", prepare, begin, step)
