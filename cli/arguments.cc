@@ -131,11 +131,14 @@ void DefineReport(CLI::App& app, Action& action) {
   command->add_option("folder", *folder, "A result folder")->required();
   command->add_flag("--no-video", *no_video, "Leave the video out");
   command->add_flag("--whole-sessions", *whole_sessions, "Film coached sessions whole, not around a correction");
+  auto real = Keep<std::vector<std::string>>();
+  command->add_option("--real", *real,
+                      "Beside it, captures of real films: files that `etude capture --distances` wrote");
   auto sealing = Keep<Sealing>();
   AddUnsealed(*command, *sealing);
   command->callback([=, &action] {
     action = [=] {
-      return ReportCommand(*folder, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing);
+      return ReportCommand(*folder, *real, {.pictures = !*no_video, .whole_sessions = *whole_sessions}, *sealing);
     };
   });
 }

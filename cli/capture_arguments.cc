@@ -67,8 +67,11 @@ void DefineCapture(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "The motion to write: .bvh, .glb, .trc or .csv")->required();
   command->add_option("--points", options->points, "Write the triangulated keypoints, too (.trc)");
   command->add_option("--film", options->film, "Write the skeleton drawn over the films, too (.mp4)");
-  command->add_option("--reference", options->reference,
-                      "Compare the triangulated keypoints with these markers (.trc)");
+  auto* reference = command->add_option("--reference", options->reference,
+                                        "Compare the triangulated keypoints with these markers (.trc)");
+  command
+      ->add_option("--distances", options->distances, "Write that comparison, too, for `etude report --real` (.json)")
+      ->needs(reference);
   command->add_option("--fit", options->fit, "How films of another size than the rig's came of its pictures")
       ->check(CLI::IsMember({"none", "letterbox", "stretch", "crop"}))
       ->capture_default_str();

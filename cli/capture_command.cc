@@ -16,7 +16,7 @@ namespace {
 
 /// False when it was interrupted.
 Result<bool> Capture(const CaptureCommandOptions& options) {
-  for (const std::string* path : {&options.output, &options.points, &options.film}) {
+  for (const std::string* path : {&options.output, &options.points, &options.film, &options.distances}) {
     if (!path->empty()) RETURN_IF_ERROR(CheckOutput(*path, options.overwrite));
   }
   RETURN_IF_ERROR(FormatOfName(options.output));

@@ -19,6 +19,7 @@ struct CaptureCommandOptions {
   std::string points;                ///< a TRC of the triangulated keypoints, "" = none
   std::string film;                  ///< an MP4 of the skeleton over the films, "" = none
   std::string reference;             ///< a TRC to compare the triangulated keypoints with, "" = none
+  std::string distances;             ///< a file of these comparisons, "" = none
   std::string layout;                ///< a name of KeypointLayouts(), "" = by the count
   std::string fit = "none";          ///< letterbox, stretch, crop
   std::vector<std::string> cameras;  ///< of the rig, one for each film; empty: by the films' names

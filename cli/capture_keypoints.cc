@@ -151,7 +151,7 @@ std::vector<ComparedColumn> CompareWithReference(const MarkerMotion& reference, 
     const std::array cameras = {films.cameras[pair.first], films.cameras[pair.second]};
     const std::array people = {films.people[pair.first], films.people[pair.second]};
     const auto recovered = RecoverPerson(cameras, people, options);
-    columns.push_back(recovered ? column(pair.heading, *recovered) : ComparedColumn{pair.heading + "!", {}, {}});
+    columns.push_back(recovered ? column(pair.heading, *recovered) : ComparedColumn{pair.heading + kLost, {}, {}});
   }
   return columns;
 }
@@ -212,10 +212,11 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::v
     fmt::print("written: {}\n", options.points);
   }
   if (reference) {
-    PrintColumns(fmt::format("Distance of the triangulated keypoints to {}, median, mm. Where it was made of the same "
-                             "keypoints,\nthis is agreement, not error.",
-                             options.reference),
-                 CompareWithReference(*reference, person, films, recover), views);
+    RETURN_IF_ERROR(TellColumns(
+        fmt::format("Distance of the triangulated keypoints to {}, median, mm. Where it was made of the same "
+                    "keypoints,\nthis is agreement, not error.",
+                    options.reference),
+        CompareWithReference(*reference, person, films, recover), views, options));
   }
   if (options.film.empty()) return true;
   return WriteFilm(options, views, person, ChosenOf(person, recover.person), films.offsets);

@@ -112,7 +112,7 @@ Result<std::vector<ComparedColumn>> CompareWithReference(const MarkerMotion& ref
     tell(i, pairs.size());
     const auto pair = Recover(PairOf(take, pairs[i]), options, reference.rate_hz);
     columns.push_back(pair ? CompareColumn(pairs[i].heading, JointMarkers(pair->motion), joints)
-                           : ComparedColumn{pairs[i].heading + "!", {}, {}});
+                           : ComparedColumn{pairs[i].heading + kLost, {}, {}});
   }
   tell(pairs.size(), pairs.size());
   return columns;
@@ -151,9 +151,10 @@ Result<bool> CaptureUnmarked(const CaptureCommandOptions& options, const std::ve
   }
   if (!reference) return true;
   ASSIGN_OR_RETURN(const auto columns, CompareWithReference(*reference, person, take, options));
-  PrintColumns(fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
-                           options.reference),
-               columns, views);
+  RETURN_IF_ERROR(TellColumns(
+      fmt::format("Distance of the joints to {}, median, mm: error, as far as the reference itself is right.",
+                  options.reference),
+      columns, views, options));
   return true;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bench/files/files.h"
+#include "bench/real_takes/real_take.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
@@ -122,6 +123,8 @@ ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, c
   return {std::move(heading), CompareMarkers(markers, reference), CompareAllMarkers(markers, reference)};
 }
 
+namespace {
+
 void PrintColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
                   const std::vector<FilmedView>& views) {
   fmt::print("\n{} Cameras:", words);
@@ -145,6 +148,37 @@ void PrintColumns(const std::string& words, const std::vector<ComparedColumn>& c
       fmt::print("{:>8}", column.all.frames > 0 ? fmt::format("{:.1f}", column.all.*member) : "-");
     fmt::print("\n");
   }
+}
+
+RealTake RealTakeOf(const std::vector<ComparedColumn>& columns, const std::vector<FilmedView>& views,
+                    const CaptureCommandOptions& options) {
+  RealTake take{.name = fs::path(options.output).stem().string(),
+                .recovery = options.silhouettes         ? "silhouettes"
+                            : options.keypoints.empty() ? "marks"
+                                                        : "keypoints",
+                .reference = fs::path(options.reference).filename().string(),
+                .frames = static_cast<int>(views.front().facts.frames),
+                .rate_hz = views.front().facts.rate_hz};
+  for (const FilmedView& view : views) take.films.push_back(view.path.filename().string());
+  for (const ComparedColumn& column : columns) {
+    const std::string cameras = column.heading.substr(0, column.heading.find(kLost));
+    RealDistance& distance = take.distances.emplace_back(RealDistance{.cameras = cameras});
+    if (column.all.frames == 0) continue;
+    distance.median_mm = column.all.median_mm;
+    distance.p95_mm = column.all.p95_mm;
+  }
+  return take;
+}
+
+}  // namespace
+
+Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
+                         const std::vector<FilmedView>& views, const CaptureCommandOptions& options) {
+  PrintColumns(words, columns, views);
+  if (options.distances.empty()) return {};
+  RETURN_IF_ERROR(WriteFileAtomically(options.distances, WriteRealTake(RealTakeOf(columns, views, options))));
+  fmt::print("written: {}\n", options.distances);
+  return {};
 }
 
 std::vector<CameraPair> PairsOf(std::size_t films) {

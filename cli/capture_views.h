@@ -32,17 +32,20 @@ Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options);
 /// Writes a clip, and the same as twenty joints, in the format that the file's name tells.
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion);
 
+constexpr char kLost = '!';
+
 /// Some cameras' column of a table: how near what they tell comes to a reference.
 struct ComparedColumn {
-  std::string heading;
+  std::string heading;  ///< the cameras, and `kLost` where they gave no motion
   std::vector<MarkerAgreement> markers;
   MarkerAgreement all;
 };
 ComparedColumn CompareColumn(std::string heading, const MarkerMotion& markers, const MarkerMotion& reference);
 
 /// Medians, a row for each marker of the first column, one for all, and their 95th percentile. `words` say what it is.
-void PrintColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
-                  const std::vector<FilmedView>& views);
+/// Then the file of `--distances`, if there shall be one.
+Result<void> TellColumns(const std::string& words, const std::vector<ComparedColumn>& columns,
+                         const std::vector<FilmedView>& views, const CaptureCommandOptions& options);
 
 /// Two of the films, and what a column of theirs is called.
 struct CameraPair {

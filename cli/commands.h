@@ -59,7 +59,9 @@ int ScoreCommand(const ScoreOptions& options);
 /// `etude rows DIR`: writes the rows as lines of text into `file`, "" = to standard output.
 int RowsCommand(const std::string& folder, const std::string& file, Sealing sealing);
 /// `etude report DIR`: writes DIR/report and DIR/video.
-int ReportCommand(const std::string& folder, const ReportOptions& options, Sealing sealing);
+/// `real`: files that `etude capture --distances` wrote.
+int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& options,
+                  Sealing sealing);
 
 enum class Listing { kMethods, kScenarios, kClips };
 /// `etude list …`: what can be named in a scenario.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "bench/files/files.h"
 #include "bench/results/folder.h"
 #include "cli/commands.h"
 #include "cli/film_watch.h"
@@ -11,7 +12,23 @@
 
 namespace etude {
 
-int ReportCommand(const std::string& folder, const ReportOptions& given, Sealing sealing) {
+namespace {
+
+Result<std::vector<RealTake>> ReadRealTakes(const std::vector<std::string>& files) {
+  std::vector<RealTake> takes;
+  for (const std::string& file : files) {
+    ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
+    ASSIGN_OR_RETURN(takes.emplace_back(), ReadRealTake(text, file));
+  }
+  return takes;
+}
+
+}  // namespace
+
+int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& given,
+                  Sealing sealing) {
+  auto takes = ReadRealTakes(real);
+  if (!takes) return Complain(takes.error());
   const auto run = LoadRun(folder, sealing);
   if (!run) return Complain(run.error());
   TellUnsealed(*run);
@@ -19,6 +36,7 @@ int ReportCommand(const std::string& folder, const ReportOptions& given, Sealing
   const Interrupt interrupt;
   ReportOptions options = given;
   options.watch = WatchFilms(interrupt);
+  options.real = std::move(*takes);
   const auto written = WriteReport(*run, folder, options);
   if (!written) return Complain(written.error());
   if (!*written) {

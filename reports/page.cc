@@ -11,6 +11,7 @@
 #include "reports/paper/paper_a_section.h"
 #include "reports/paper/paper_b_section.h"
 #include "reports/plots/marks.h"
+#include "reports/real_takes_section.h"
 #include "reports/scenario_card.h"
 #include "reports/transitions/recorded_requests.h"
 #include "reports/words/escape.h"
@@ -99,7 +100,7 @@ std::string Footer(const RunData& run) {
 
 }  // namespace
 
-std::string WritePage(const RunData& run, const Media& media) {
+std::string WritePage(const RunData& run, const Media& media, std::span<const RealTake> real) {
   std::vector<ScenarioFindings> findings;
   for (const ScenarioSummary& scenario : run.scenarios) findings.push_back(FindingsOf(run, scenario));
 
@@ -112,6 +113,7 @@ std::string WritePage(const RunData& run, const Media& media) {
   html += FilmElement(media.film, true);
   html += Contents(run, findings);
   for (std::size_t i = 0; i < run.scenarios.size(); ++i) html += WriteScenarioCard(run, i, findings[i], media);
+  html += RealTakesSection(run, real);
   html += kHowToRead;
   html += Footer(run);
   html += "</main><script>";

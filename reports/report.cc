@@ -66,7 +66,7 @@ Result<bool> WriteReport(const RunData& run, const std::filesystem::path& run_fo
   } else {
     media.film.why_not = "There is no film: none was asked for.";
   }
-  RETURN_IF_ERROR(WriteFileAtomically(folder / "index.html", WritePage(run, media)));
+  RETURN_IF_ERROR(WriteFileAtomically(folder / "index.html", WritePage(run, media, options.real)));
   return true;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "bench/model/run_data.h"
+#include "bench/real_takes/real_take.h"
 #include "engine/base/result.h"
 #include "reports/films/film_watch.h"
 
@@ -15,6 +17,7 @@ struct ReportOptions {
   /// Films show coached sessions from their first frame to their last, not around a correction.
   bool whole_sessions = false;
   FilmWatch watch = {};
+  std::vector<RealTake> real = {};  ///< captures of real films, shown beside the run's own
 };
 
 /// Writes what people and other programs read of a run: `report/index.html` (self-contained),

@@ -141,9 +141,17 @@ class Capture(EtudeCase):
             self.assertEqual(result.returncode, 0, result.stderr)
         info = self.etude("clip", "info", self.folder / "m.bvh", self.folder / "m.glb").stdout
         self.assertEqual(info.count("20 frames at 30 Hz"), 2, info)
-        beside = self.etude(*self.capture("-o", self.folder / "n.csv", "--reference", trc)).stdout
+        distances = self.folder / "real.json"
+        beside = self.etude(*self.capture("-o", self.folder / "n.csv", "--reference", trc, "--distances", distances)).stdout
         self.assertRegex(beside, r"LWrist +0\.0 +0\.0 +0\.0 +0\.0\n")
         self.assertIn("agreement, not error", beside)
+        told = json.loads(distances.read_text())
+        self.assertEqual((told["name"], told["recovery"], told["reference"], told["frames"]),
+                         ("n", "keypoints", "points.trc", FRAMES))
+        self.assertEqual([column["cameras"] for column in told["distances"]], ["all", "1+2", "1+3", "2+3"])
+        self.assertLess(max(column["p95_mm"] for column in told["distances"]), 0.1)
+        self.assertIn("--distances requires --reference", self.refusal(
+            *self.capture("-o", self.folder / "o.csv", "--distances", self.folder / "o.json")))
 
         # On exact keypoints of a body that keeps its lengths the skeleton's joints lie on their points.
         self.assertRegex(result.stdout, r"left_knee +0\.0 +0\.0\n")

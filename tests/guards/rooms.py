@@ -100,6 +100,7 @@ MAY_INCLUDE = {
     "bench/scenario":
         "engine/base engine/document engine/streams bench/files bench/keys bench/metrics bench/model bench/tasks "
         "bench/tasks/base",
+    "bench/real_takes": "engine/base engine/document",
     "bench/sensor_fit":
         "engine/base engine/document engine/formats engine/recognition sim/random sim/skeleton_sensor",
     "bench/statistics": "engine/base sim/random bench/metrics bench/model",
@@ -147,7 +148,7 @@ MAY_INCLUDE = {
         "bench/metrics",
     # reports/
     "reports":
-        "engine/base bench/files bench/gate bench/model bench/recordings reports/assets reports/films reports/growth "
+        "engine/base bench/files bench/gate bench/model bench/real_takes bench/recordings reports/assets reports/films reports/growth "
         "reports/paper reports/plots reports/transitions reports/words",
     "reports/assets": "",
     "reports/bridges":

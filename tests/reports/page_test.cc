@@ -51,6 +51,33 @@ std::vector<std::string> IslandsOf(const std::string& page) {
   return islands;
 }
 
+TEST(Page, ShowsRealTakesBesideSimulatedOnes) {
+  EXPECT_THAT(WritePage(ExampleRun(), {}), Not(HasSubstr("On real films")));
+  const std::vector<RealTake> real = {
+      {.name = "beam <1>",
+       .recovery = "silhouettes",
+       .reference = "r.trc",
+       .films = {"a.mp4", "b.mp4", "c.mp4"},
+       .frames = 100,
+       .rate_hz = 60,
+       .distances = {{"all", 60.25, 143.0}, {"1+2", std::nullopt, std::nullopt}}},
+      {.name = "other", .recovery = "keypoints", .reference = "r.trc", .frames = 1, .distances = {{"all", 9.0, 10.0}}}};
+  RunData run = ExampleRun();
+  run.scenarios.front().task = "capture";
+  ConditionSummary& condition = run.scenarios.front().conditions.front();
+  condition.methods.front().metrics.front().id = "mpjpe_mm";
+  condition.methods.front().metrics.front().median = 19.5;
+  const std::string page = WritePage(run, {}, real);
+  const std::size_t section = page.find("On real films");
+  ASSERT_NE(section, std::string::npos);
+  const std::string shown = page.substr(section, page.find("</section>", section) - section);
+  EXPECT_THAT(shown, HasSubstr("<td>real: beam &lt;1&gt;, 100 frames</td><td>silhouettes (error)</td><td>all 3</td>"
+                               "<td class=\"n\">60.2</td><td class=\"n\">143</td>"));
+  EXPECT_THAT(shown, HasSubstr("<td>1+2</td><td class=\"n\">—</td><td class=\"n\">—</td>"));
+  EXPECT_THAT(shown, HasSubstr("keypoints (agreement)"));
+  EXPECT_THAT(shown, HasSubstr("<td class=\"n\">19.5</td>"));
+}
+
 TEST(Page, TellsEveryScenarioItsAnswerAndEveryFailuresReason) {
   const RunData run = ExampleRun();
   const std::string page = WritePage(run, {});
