@@ -95,9 +95,9 @@ std::vector<std::string> WhyNotComparable(const SnapshotScenario& before, const 
     reasons.push_back(
         fmt::format("{}: the worlds of condition {} are made from other parameters or clips", before.name, condition));
   }
-  for (const auto& [id, version] : before.metrics) {
-    const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == id; });
-    if (other != nullptr) differ(id + " in versions", version, other->second);
+  for (const auto& metric : before.metrics) {
+    const auto* other = FindIn(after.metrics, [&](const auto& pair) { return pair.first == metric.first; });
+    if (other != nullptr) differ(metric.first + " in versions", metric.second, other->second);
   }
   return reasons;
 }

@@ -25,15 +25,16 @@ std::vector<TargetView> Views() {
   RandomStream dice(WorldKey{.suite_seed = 1, .scenario = "calibration-bench", .trial = 0}, "views");
   std::vector<TargetView> views;
   for (std::size_t v = 0; v < 15; ++v) {
-    const glm::dmat3 R = glm::mat3_cast(glm::angleAxis(dice.Uniform(-0.7, 0.7), glm::dvec3(0, 1, 0)) *
-                                        glm::angleAxis(dice.Uniform(-0.7, 0.7), glm::dvec3(1, 0, 0)) *
-                                        glm::angleAxis(dice.Uniform(-0.4, 0.4), glm::dvec3(0, 0, 1)));
-    const glm::dvec3 t(dice.Uniform(-0.5, 0.1), dice.Uniform(-0.35, 0.05), dice.Uniform(1, 1.6));
+    const double yaw = dice.Uniform(-0.7, 0.7), pitch = dice.Uniform(-0.7, 0.7), roll = dice.Uniform(-0.4, 0.4);
+    const glm::dmat3 R =
+        glm::mat3_cast(glm::angleAxis(yaw, glm::dvec3(0, 1, 0)) * glm::angleAxis(pitch, glm::dvec3(1, 0, 0)) *
+                       glm::angleAxis(roll, glm::dvec3(0, 0, 1)));
+    const glm::dvec3 t{dice.Uniform(-0.5, 0.1), dice.Uniform(-0.35, 0.05), dice.Uniform(1, 1.6)};
     TargetView view{0, v, {}};
     for (int i = 0; i < 49; ++i) {
       const glm::dvec3 place(0.06 * (i % 7), 0.06 * (i / 7), 0);
       const auto pixel = Project(camera, R * place + t);
-      if (pixel) view.pairs.push_back({place, *pixel + 0.2 * glm::dvec2(dice.Normal(), dice.Normal())});
+      if (pixel) view.pairs.push_back({place, *pixel + 0.2 * glm::dvec2{dice.Normal(), dice.Normal()}});
     }
     views.push_back(std::move(view));
   }

@@ -113,8 +113,8 @@ std::optional<LimbObservation> CompleteObservation(const LimbObservation& seen, 
     return std::ranges::find(roles, true) != roles.end();
   };
   if (!lacks(seen.lacks_end) && !lacks(seen.lacks_direction)) return seen;
-  constexpr std::array kEnds = {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead};
-  const bool is_seen = std::ranges::any_of(kEnds, [&](Role end) { return !seen.lacks_end[Index(end)]; });
+  constexpr std::array kLimbEnds = {kLeftFoot, kRightFoot, kLeftHand, kRightHand, kHead};
+  const bool is_seen = std::ranges::any_of(kLimbEnds, [&](Role end) { return !seen.lacks_end[Index(end)]; });
   if (!is_seen && !is_placed) return std::nullopt;
   return Completer(seen, lengths, like).Complete();
 }

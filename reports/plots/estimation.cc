@@ -34,7 +34,6 @@ class Plot {
  public:
   Plot(const ScenarioSummary& scenario, const Judged& judged, const PairedDots& pairs)
       : scenario_(scenario),
-        judged_(judged),
         c_(*judged.comparison),
         pairs_(pairs),
         words_(WordsFor(c_.metric)),
@@ -158,7 +157,6 @@ class Plot {
   }
 
   const ScenarioSummary& scenario_;
-  const Judged& judged_;
   const Comparison& c_;
   const PairedDots& pairs_;
   MetricWords words_;

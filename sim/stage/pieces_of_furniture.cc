@@ -39,7 +39,8 @@ SurfacePaint WithGrain(const Hsv& colour, Pattern pattern, double size) {
 }
 
 SurfacePaint DrawWood(RandomStream& random, double share) {
-  return WithGrain(DrawMixed(random, share), Pattern::kPlanks, random.Uniform(0.09, 0.2));
+  const double width = random.Uniform(0.09, 0.2);
+  return WithGrain(DrawMixed(random, share), Pattern::kPlanks, width);
 }
 
 SurfacePaint DrawFabric(RandomStream& random, double share) {
@@ -148,7 +149,8 @@ std::vector<FurnitureBox> MakePile(RandomStream& random, double share, const glm
   double y = 0, half = random.Uniform(0.26, 0.36);
   for (int i = 0; i < 3; ++i) {
     const double height = random.Uniform(0.2, 0.36), x = random.Uniform(-0.08, 0.08);
-    const SurfacePaint board = WithGrain(DrawMixed(random, share), Pattern::kTwoTone, random.Uniform(-0.05, 0.05));
+    const double grain = random.Uniform(-0.05, 0.05);
+    const SurfacePaint board = WithGrain(DrawMixed(random, share), Pattern::kTwoTone, grain);
     joiner.Add({x - half, y, 0.05}, {x + half, y + height, 0.05 + 1.5 * half}, board);
     y += height;
     half *= random.Uniform(0.7, 0.95);

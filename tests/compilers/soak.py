@@ -55,11 +55,9 @@ def first_difference(line, other):
     if line == other:
         return None
     row, changed = json.loads(line), json.loads(other)
-    digests, changed_digests = row.pop("digests", {}), changed.pop("digests", {})
-    for stage, digest in digests.items():
-        if changed_digests.get(stage) != digest:
-            return stage
-    return next((key for key in row if row[key] != changed.get(key)), "more values")
+    differing = [key for key in row if row[key] != changed.get(key)]
+    stages = [key.removeprefix("digest_") for key in differing if key.startswith("digest_")]
+    return next(iter(stages + differing), "more values")
 
 
 def compare(rows, other):

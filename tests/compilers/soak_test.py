@@ -8,7 +8,7 @@ import soak
 
 
 def line(scenario="a", error=0.5, world="01", solver="02"):
-    return json.dumps({"scenario": scenario, "error_cm": error, "digests": {"world": world, "solver": solver}})
+    return json.dumps({"scenario": scenario, "error_cm": error, "digest_world": world, "digest_solver": solver})
 
 
 class Comparison(unittest.TestCase):

@@ -70,6 +70,9 @@ BANNED_BELOW = [
     (("engine",), r"std::(i|o)?fstream\b|\bfopen\(", "engine reads bytes, not files"),
 ]
 
+DRAW = re.compile(r"\b(\w+)\.(?:Bits|Chance|IndexBelow|Normal3?|Uniform)(?=\()|(?<=[(, ])(random|dice)(?=[,)])")
+INNERMOST = re.compile(r"([({\[])([^(){}\[\]]*)[)}\]]")
+
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 
 
@@ -201,7 +204,35 @@ def check_doors(relative, path):
             yield number, f"{target} in a header: third-party headers stay in .cc files"
 
 
+def statements(path):
+    """The statements of a file, each with the number of its last line."""
+    text = ""
+    for number, line in code_lines(path):
+        text += " " + line.strip()
+        if line.rstrip().endswith((";", "{", "}", ":")):
+            yield number, text
+            text = ""
+
+
+def draws_in_any_order(statement):
+    """The dice that two arguments of one call throw, or both sides of a sum or product: a compiler begins with either."""
+    text = DRAW.sub(r"\1\2!", statement)  # dice! throws them
+    while True:
+        if mixed := re.search(r"(\w+)!(?!\()[^,;?&|=<>]*[-+*/][^,;?&|=<>]*\b\1!", INNERMOST.sub("", text)):
+            return mixed[1]
+        if not (group := INNERMOST.search(text)):
+            return None
+        thrown = [set(re.findall(r"(\w+)!", argument)) for argument in group[2].split(",")]
+        twice = [dice for dice in set().union(*thrown) if sum(dice in one for one in thrown) > 1]
+        if twice and group[1] == "(":
+            return twice[0]
+        text = text[: group.start()] + "".join(f" {dice}!" for dice in sorted(set().union(*thrown))) + text[group.end() :]
+
+
 def check_determinism(relative, path):
+    for number, statement in statements(path) if path.suffix in (".cc", ".h") else ():
+        if dice := draws_in_any_order(statement):
+            yield number, f"'{dice}' is thrown twice in no order; a variable for each"
     for number, line in code_lines(path):
         for pattern, why in BANNED:
             if re.search(pattern, line):

@@ -14,6 +14,12 @@ namespace {
 
 constexpr double kMetresPerMm = 0.001;
 
+/// How far a click is off, in deviations. Upwards is thrown first.
+glm::dvec2 ThrowMiss(RandomStream& hand) {
+  const double y = hand.Normal(), x = hand.Normal();
+  return {x, y};
+}
+
 std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& camera, std::size_t index,
                                  const glm::dvec3& middle, const WorldKey& key) {
   RandomStream random(key, fmt::format("capture/camera-{}/calibration", index));
@@ -27,7 +33,7 @@ std::vector<PointPair> ClickedBy(const StudioOptions& options, const Camera& cam
     constexpr int kWalls[] = {2, 0, 1};
     const int wall = kWalls[i % 3];
     point[wall] = low[wall];
-    const glm::dvec2 click(random.Normal(), random.Normal());
+    const glm::dvec2 click = ThrowMiss(random);
     const glm::dvec3 measured = point + options.calibration_measure_mm * kMetresPerMm * tape.Normal3();
     const auto pixel = Project(camera, point);
     if (pixel) pairs.push_back({measured, *pixel + options.calibration_noise_px * click});
@@ -71,7 +77,7 @@ CalibrationPairs FoundMarks(const StudioOptions& options, const CaptureWorld& wo
     RandomStream hand(key, fmt::format("capture/camera-{}/calibration-marks", camera));
     std::vector<PointPair>& found = pairs.emplace_back();
     for (std::size_t i = 0; i < cube.discs.size(); ++i) {
-      const glm::dvec2 off = options.calibration_noise_px * glm::dvec2(hand.Normal(), hand.Normal());
+      const glm::dvec2 off = options.calibration_noise_px * ThrowMiss(hand);
       const auto pixel = FindPointedAt(cube.discs[i], world.cameras[camera], grey, off);
       if (pixel) found.push_back({measured[i], *pixel});
     }

@@ -50,7 +50,8 @@ DetectionOptions ThrowCondition(const WorldKey& key) {
   DetectionOptions options;
   options.session.events = 16;
   options.noise = kNoises[dice.IndexBelow(kNoises.size())];
-  options.turn_deg = kTurns[dice.IndexBelow(kTurns.size())] * (dice.Chance(0.5) ? 1 : -1);
+  const double turn_deg = kTurns[dice.IndexBelow(kTurns.size())];
+  options.turn_deg = dice.Chance(0.5) ? turn_deg : -turn_deg;
   if (dice.Chance(0.5)) options.sensor = SensorV1();
   if (dice.Chance(0.25)) options.distance_m = dice.Uniform(1.5, 4.5);
   return options;
