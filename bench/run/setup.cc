@@ -115,15 +115,27 @@ Json EncodeSetup(const SuiteSetup& setup) {
   return json;
 }
 
+namespace {
+
+Result<int> TrialsOf(const Json& scenario, const Place& place) {
+  const Json& trials = scenario.at("trials");
+  if (trials.is_number_integer() && trials >= 1 && trials <= kMostCells) return trials.get<int>();
+  return Fail(place, "'trials' must be a whole number from 1 to {}, found {}", kMostCells, trials.dump());
+}
+
+}  // namespace
+
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place) {
   SuiteSetup setup;
   try {
     setup.suite = json.at("suite").get<std::string>();
     setup.seed = json.at("seed").get<std::uint64_t>();
     for (const auto& [file, text] : json.at("sources").items()) setup.sources[file] = text.get<std::string>();
+    if (json.at("scenarios").empty()) return Fail(place, "names no scenario");
     for (const Json& scenario : json.at("scenarios")) {
+      ASSIGN_OR_RETURN(const int trials, TrialsOf(scenario, place));
       setup.scenarios.push_back({scenario.at("file").get<std::string>(), scenario.at("name").get<std::string>(),
-                                 scenario.at("seed").get<std::uint64_t>(), scenario.at("trials").get<int>(),
+                                 scenario.at("seed").get<std::uint64_t>(), trials,
                                  scenario.at("clips").get<std::vector<std::string>>(), scenario.value("joint_map", ""),
                                  scenario.at("digest").get<std::string>()});
       setup.scenarios.back().streams = scenario.value("streams", std::vector<std::string>{});
@@ -217,8 +229,12 @@ Result<PreparedScenario> Prepare(const SuiteSetup& suite, const ScenarioSetup& s
 
 Result<std::vector<PreparedScenario>> PrepareAll(const SuiteSetup& suite) {
   std::vector<PreparedScenario> scenarios;
+  std::size_t cells = 0;
   for (const ScenarioSetup& setup : suite.scenarios) {
     ASSIGN_OR_RETURN(auto prepared, Prepare(suite, setup));
+    const Scenario& scenario = prepared.scenario();
+    cells += scenario.conditions.size() * scenario.methods.size() * static_cast<std::size_t>(setup.trials);
+    if (cells > kMostCells) return Fail({setup.file, 0, 0}, "makes more than {} cells in one run", kMostCells);
     scenarios.push_back(std::move(prepared));
   }
   return scenarios;

@@ -13,6 +13,9 @@
 
 namespace etude {
 
+/// Of one run: where their rows stand is held in memory.
+inline constexpr std::size_t kMostCells = 10'000'000;
+
 /// All that is needed to make a scenario's worlds again, anywhere, beside the texts it stands in.
 struct ScenarioSetup {
   std::string file;  ///< a key of SuiteSetup::sources
@@ -46,6 +49,7 @@ struct SuiteSetup {
 };
 
 Json EncodeSetup(const SuiteSetup& setup);
+/// Complains of what is no set-up, names no scenario, or asks for no trials or too many.
 Result<SuiteSetup> DecodeSetup(const Json& json, const Place& place);
 
 /// A scenario with its clips loaded and its tasks made: ready to run any of its worlds.

@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCells = 10'000'000;  // their rows are held in memory
-
 std::string SuiteName(const std::vector<std::string>& paths) {
   if (paths.size() != 1) return "suite";
   std::error_code error;

@@ -1,4 +1,5 @@
 """Bad input gives one message that says where and what is allowed, exit code 2, and writes nothing."""
+import json
 import subprocess
 import unittest
 
@@ -102,6 +103,21 @@ class Errors(EtudeCase):
         many = IK.replace("[2, 5]", "[1, 2, 3, 4, 5, 6]")
         self.refuses("run", self.write("s.yaml", many), "--trials", "1000000", "-o", self.out,
                      says=["6 conditions × 2 methods × 1000000 trials make more than 10000000 cells"])
+
+    def test_a_manifest_of_nothing_or_of_too_much(self):
+        whole = self.folder / "whole"
+        self.run_suite(self.write("s.yaml", IK), "--trials", "1", out=whole)
+        manifest = json.loads((whole / "manifest.json").read_text())
+        for trials in (0, -3, 1.5, "3", 2**40):
+            manifest["scenarios"][0]["trials"] = trials
+            self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
+                         says=["m.json: 'trials' must be a whole number from 1 to 10000000, found " + json.dumps(trials)])
+        manifest["scenarios"][0]["trials"] = 10_000_000
+        self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
+                     says=["makes more than 10000000 cells"])
+        manifest["scenarios"] = []
+        self.refuses("run", "--from", self.write("m.json", json.dumps(manifest)), "-o", self.out,
+                     says=["m.json: names no scenario"])
 
     def test_a_full_output_is_told(self):
         with open("/dev/full", "w") as full:
