@@ -1,13 +1,7 @@
 #pragma once
 
-#include <array>
-#include <glm/glm.hpp>
-#include <optional>
-
 #include "engine/base/image.h"
-#include "engine/cameras/limb_direction.h"
-#include "engine/motion/body.h"
-#include "engine/vision/strokes.h"
+#include "engine/vision/limb_evidence.h"
 
 namespace etude {
 
@@ -18,50 +12,16 @@ struct AnnotatedPicture {
   const Mask& person;          ///< what the segmenter cut out; the rest is not seen
 };
 
-/// What a picture shows of one limb.
-struct LimbEvidence {
-  PixelSegment line;      ///< from the inner to the outer end, pixels; where an end is hidden, as far as is seen
-  double seen_share = 1;  ///< of the pixels that a limb as wide would have, seen whole and from aside: in (0, 1]
-  double contrast = 0;    ///< `Region::contrast`
-  double half_width = 0;  ///< pixels
-};
-
-struct PictureEvidence {
-  /// By stroke; nothing where too little of the limb is seen to tell where it runs.
-  std::array<std::optional<LimbEvidence>, kStrokeCount> limbs;
-  /// Where joint centres seem to be: where a visible limb touches the part it hangs from, and at the tips.
-  std::array<std::optional<glm::dvec2>, kRoleCount> joints;
-};
-
-/// What the performer looks like, and so where joints lie in what is seen of a limb; anyone knows it who looks.
-enum class FigureKind {
-  kCapsules,  ///< paper B's studio: round limbs, of which the thicker one ends about the joint; trunk joints are
-              ///< outside
-  kDressed,   ///< limbs are cut across at their joints (sim/character)
-};
-
+/// What the annotator looks with.
 struct EvidenceOptions {
-  FigureKind figure = FigureKind::kCapsules;
+  FigureKind figure = FigureKind::kCapsules;  ///< `FigureLook::figure`
   /// A pixel this close to the extracted person still counts as on it: extraction frays edges by a pixel or two.
   int margin_px = 3;
-  /// Which point of the head is meant: how far it lies below the crown, in half widths of the head. Files end the head
-  /// at its middle or at its top; like limb lengths, this is agreed on before the take.
-  double head_below_crown = 1.3;
+  double head_below_crown = 1.3;  ///< `FigureLook::head_below_crown`
 };
 
-/// What the annotator can know from one picture and from anatomy; nothing else enters. The middle line of each limb is
-/// that of its visible pixels (`FindMiddleLine`). Joint centres, from what anyone knows of bodies:
-/// - capsules end round: a joint lies half a width inside the end of the limb that covers the other one there. Which
-/// one
-///   covers shows in their common border, whose ends bend back towards it. Hips, shoulders and the neck lie inside the
-///   trunk: beyond the border, along the limb, by a share of the border's breadth that is the joint's own;
-/// - the limbs of people in clothes are cut across at their joints: a joint lies at that border or, of arms, near the
-///   limb's inner end; a shoulder half an arm's width inside the arm, a hip above the crotch;
-/// - a tip lies about half a width inside the limb's outer end; the head's point some way below the crown.
-/// All these shares are *ours*: what each kind of figure shows at rest, from aside.
-/// A limb that is cut off, by another one or the picture's edge, ends where it is cut off; one of which neither both
-/// ends nor a quarter in a clearly long piece is seen is left out, and so is one that touches nothing known, because
-/// nothing tells which end is which. What these rules cost in exact joint centres: README.md, by joint.
+/// What the annotator can know from one picture and from anatomy (`FindLimbEvidence`); nothing else enters. What these
+/// rules cost in exact joint centres: README.md, by joint.
 PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options = {});
 
 }  // namespace etude

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/image.h"
-#include "engine/vision/strokes.h"
+#include "engine/vision/limb_regions.h"
 #include "sim/body/shape.h"
 
 namespace etude {
@@ -31,22 +31,6 @@ constexpr std::array<LimbParts, kStrokeCount> kLimbParts = {{
     {Part::kRightHand, Part::kRightForearm},
     {Part::kHead, Part::kTrunk},
 }};
-
-/// Neighbouring pixels of one row: x0 ≤ x < x1.
-struct PixelRun {
-  int y, x0, x1;
-};
-
-/// The pixels of one part that the annotator sees.
-struct Region {
-  std::vector<PixelRun> runs;  ///< from the top, each row from the left
-  int pixels = 0;
-  glm::dvec2 middle{0};  ///< mean of the pixels' centres
-  bool is_cut = false;   ///< some of its pixels lie at the picture's edge
-  /// How far its colours stand apart from what lies beside it, other than the limbs that it hangs together with: mean
-  /// over the left and right ends of its rows of the distance in RGB between pixels 2 px inside and outside, counts.
-  double contrast = 0;
-};
 
 /// What an annotator can tell apart in one picture.
 struct Regions {

@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-#include "sim/annotator/regions.h"
+#include "engine/vision/limb_regions.h"
 
 namespace etude {
 

@@ -1,4 +1,4 @@
-#include "sim/annotator/middle_line.h"
+#include "engine/vision/middle_line.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,230 @@
+#include "engine/vision/limb_colours.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+
+#include "engine/vision/components.h"
+
+namespace etude {
+namespace {
+
+/// What each pixel shows: 0 nothing of the suit, then the trunk, then the limb of each stroke.
+using LimbImage = Image<std::uint8_t>;
+constexpr std::uint8_t kTrunk = 1, kFirstLimb = 2;
+constexpr std::size_t kLabels = kFirstLimb + kStrokeCount;
+
+constexpr std::uint8_t LabelOf(std::size_t stroke) { return static_cast<std::uint8_t>(kFirstLimb + stroke); }
+
+/// The stroke that begins where two labels meet; none for most pairs.
+constexpr std::uint8_t kNoStroke = 255;
+constexpr auto kStrokeBetween = [] {
+  std::array<std::array<std::uint8_t, kLabels>, kLabels> table{};
+  for (auto& row : table) row.fill(kNoStroke);
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    const std::uint8_t inner = HangsFromTrunk(i) ? kTrunk : LabelOf(i - 1);
+    table[LabelOf(i)][inner] = table[inner][LabelOf(i)] = static_cast<std::uint8_t>(i);
+  }
+  return table;
+}();
+
+/// Pixels low ≤ (x, y) < high; empty where nothing is.
+struct Box {
+  glm::ivec2 low{std::numeric_limits<int>::max()}, high{0};
+
+  void Add(int x, int y) {
+    low = glm::min(low, glm::ivec2(x, y));
+    high = glm::max(high, glm::ivec2(x + 1, y + 1));
+  }
+  bool IsEmpty() const { return low.x >= high.x; }
+};
+
+template <typename Pixel>
+Box BoxOf(const Image<Pixel>& image) {
+  Box box;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (image.At(x, y) != 0) box.Add(x, y);
+    }
+  }
+  return box;
+}
+
+/// `box`, so much larger on every side, within the image.
+template <typename Pixel>
+Box Grown(Box box, int by, const Image<Pixel>& image) {
+  if (box.IsEmpty()) return box;
+  box.low = glm::max(box.low - by, glm::ivec2(0));
+  box.high = glm::min(box.high + by, glm::ivec2(image.width, image.height));
+  return box;
+}
+
+bool IsNear(const Mask& person, int x, int y, int margin) {
+  if (person.At(x, y) != 0) return true;
+  for (int v = std::max(0, y - margin); v <= std::min(person.height - 1, y + margin); ++v) {
+    for (int u = std::max(0, x - margin); u <= std::min(person.width - 1, x + margin); ++u) {
+      if (person.At(u, v) != 0) return true;
+    }
+  }
+  return false;
+}
+
+glm::dvec2 ChromaticityOf(Rgb8 colour) {
+  const double sum = colour.r + colour.g + colour.b;
+  return sum > 0 ? glm::dvec2(colour.r, colour.g) / sum : glm::dvec2(1.0 / 3);
+}
+
+/// Which of a suit's colours a pixel has.
+class Palette {
+ public:
+  Palette(const LimbColours& suit, const LimbColourOptions& options) : options_(options) {
+    colours_[kTrunk] = ChromaticityOf(suit.trunk);
+    for (std::size_t i = 0; i < kStrokeCount; ++i) colours_[LabelOf(i)] = ChromaticityOf(suit.limbs[i]);
+  }
+
+  std::uint8_t LabelAt(Rgb8 pixel) const {
+    if (pixel.r + pixel.g + pixel.b < options_.darkest) return 0;
+    const glm::dvec2 seen = ChromaticityOf(pixel);
+    double nearest = options_.reach * options_.reach;
+    std::uint8_t label = 0;
+    for (std::uint8_t i = kTrunk; i < kLabels; ++i) {
+      // In the plane of chromaticities, where blue's share is what red and green leave.
+      const glm::dvec2 off = seen - colours_[i];
+      const double distance = glm::dot(off, off) + (off.x + off.y) * (off.x + off.y);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      label = i;
+    }
+    return label;
+  }
+
+ private:
+  const LimbColourOptions& options_;
+  std::array<glm::dvec2, kLabels> colours_{};
+};
+
+LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbColours& suit,
+                     const LimbColourOptions& options) {
+  const Palette palette(suit, options);
+  const Box box = Grown(BoxOf(person), options.margin_px, picture);
+  LimbImage limbs(picture.width, picture.height);
+  for (int y = box.low.y; y < box.high.y; ++y) {
+    for (int x = box.low.x; x < box.high.x; ++x) {
+      if (const std::uint8_t label = palette.LabelAt(picture.At(x, y));
+          label != 0 && IsNear(person, x, y, options.margin_px)) {
+        limbs.At(x, y) = label;
+      }
+    }
+  }
+  return limbs;
+}
+
+/// What most of the nine pixels about each show: noise goes, and so do lines of mixed colours along edges.
+LimbImage Voted(const LimbImage& limbs) {
+  constexpr int kMost = 5;
+  LimbImage voted(limbs.width, limbs.height);
+  const Box box = Grown(BoxOf(limbs), 1, limbs);
+  for (int y = box.low.y; y < box.high.y; ++y) {
+    for (int x = box.low.x; x < box.high.x; ++x) {
+      std::array<std::uint8_t, kLabels> votes{};
+      for (int v = std::max(0, y - 1); v <= std::min(limbs.height - 1, y + 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(limbs.width - 1, x + 1); ++u) ++votes[limbs.At(u, v)];
+      }
+      const auto most = std::ranges::max_element(votes);
+      if (*most >= kMost) voted.At(x, y) = static_cast<std::uint8_t>(most - votes.begin());
+    }
+  }
+  return voted;
+}
+
+/// The pieces of one colour that are a limb, and not another one's edge.
+Region RegionOf(const LimbImage& limbs, std::uint8_t label, const Box& box, const LimbColourOptions& options) {
+  Region region;
+  if (box.IsEmpty()) return region;
+  Mask crop(box.high.x - box.low.x, box.high.y - box.low.y);
+  for (int y = 0; y < crop.height; ++y) {
+    for (int x = 0; x < crop.width; ++x) crop.At(x, y) = limbs.At(box.low.x + x, box.low.y + y) == label;
+  }
+  const Components found = LabelComponents(crop);
+  int largest = 0;
+  for (const Components::Piece& piece : found.pieces) largest = piece.set ? std::max(largest, piece.size) : largest;
+  const double smallest = std::max<double>(options.smallest_piece, options.piece_share * largest);
+  for (const Components::Run& in_crop : found.runs) {
+    const Components::Piece& piece = found.pieces[in_crop.piece];
+    if (!piece.set || piece.size < smallest) continue;
+    const PixelRun run{in_crop.row + box.low.y, in_crop.begin + box.low.x, in_crop.end + box.low.x};
+    const int count = run.x1 - run.x0;
+    region.runs.push_back(run);
+    region.pixels += count;
+    region.is_cut |= run.x0 == 0 || run.x1 == limbs.width || run.y == 0 || run.y == limbs.height - 1;
+    region.middle += static_cast<double>(count) * glm::dvec2(0.5 * (run.x0 + run.x1), run.y + 0.5);
+  }
+  if (region.pixels > 0) region.middle /= region.pixels;
+  return region;
+}
+
+void Paint(const Region& region, std::uint8_t label, LimbImage& limbs) {
+  for (const PixelRun& run : region.runs) {
+    for (int x = run.x0; x < run.x1; ++x) limbs.At(x, run.y) = label;
+  }
+}
+
+/// Where limbs meet: between the last pixel of one and the first of the next, to the right of it and below.
+void AddBorders(const LimbImage& limbs, int seam_px, LimbRegions& regions) {
+  const auto look = [&](int x, int y, int step_x, int step_y) {
+    const std::uint8_t label = limbs.At(x, y);
+    for (int d = 1; d <= seam_px + 1 && limbs.Contains(x + d * step_x, y + d * step_y); ++d) {
+      const std::uint8_t other = limbs.At(x + d * step_x, y + d * step_y);
+      if (other == 0) continue;
+      const std::uint8_t stroke = kStrokeBetween[label][other];
+      if (stroke != kNoStroke) {
+        regions.borders[stroke].push_back({x + 0.5 + 0.5 * d * step_x, y + 0.5 + 0.5 * d * step_y});
+      }
+      return;
+    }
+  };
+  const Box box = BoxOf(limbs);
+  for (int y = box.low.y; y < box.high.y; ++y) {
+    for (int x = box.low.x; x < box.high.x; ++x) {
+      if (limbs.At(x, y) == 0) continue;
+      look(x, y, 1, 0);
+      look(x, y, 0, 1);
+    }
+  }
+}
+
+}  // namespace
+
+LimbRegions FindColouredLimbs(const ColourImage& picture, const Mask& person, const LimbColours& suit,
+                              const LimbColourOptions& options) {
+  assert(picture.pixels.size() == person.pixels.size());
+  const LimbImage voted = Voted(Classified(picture, person, suit, options));
+  std::array<Box, kLabels> boxes;
+  for (int y = 0; y < voted.height; ++y) {
+    for (int x = 0; x < voted.width; ++x) boxes[voted.At(x, y)].Add(x, y);
+  }
+  LimbRegions regions{.width = picture.width, .height = picture.height, .trunk = {}, .limbs = {}, .borders = {}};
+  LimbImage kept(picture.width, picture.height);
+  regions.trunk = RegionOf(voted, kTrunk, boxes[kTrunk], options);
+  Paint(regions.trunk, kTrunk, kept);
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    regions.limbs[i] = RegionOf(voted, LabelOf(i), boxes[LabelOf(i)], options);
+    Paint(regions.limbs[i], LabelOf(i), kept);
+  }
+  AddBorders(kept, options.seam_px, regions);
+  return regions;
+}
+
+Marks ReadLimbColours(const ColourImage& picture, const Mask& person, const LimbColours& suit,
+                      const LimbColourOptions& options) {
+  const PictureEvidence seen = FindLimbEvidence(FindColouredLimbs(picture, person, suit, options), options.look);
+  Marks marks;
+  for (std::size_t i = 0; i < kStrokeCount; ++i) {
+    if (seen.limbs[i]) marks.strokes[i] = seen.limbs[i]->line;
+  }
+  for (std::size_t i = 0; i < kEffectorCount; ++i) marks.effectors[i] = seen.joints[Index(EffectorMarks()[i].role)];
+  return marks;
+}
+
+}  // namespace etude

@@ -1,0 +1,331 @@
+#include "engine/vision/limb_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/angles.h"
+#include "engine/vision/middle_line.h"
+
+namespace etude {
+namespace {
+
+/// What in the picture tells where a limb's inner joint is.
+enum class Landmark {
+  kBorder,     ///< the middle of its border with the part it hangs from
+  kBorderEnd,  ///< the end of that border that lies farthest along the limb: of a thigh, the crotch
+  kInnerEnd,   ///< where the limb is seen to begin
+};
+
+/// What is known of each limb *(ours)*; shares are of half the limb's width.
+struct Anatomy {
+  double length;   ///< of its bone, when seen from aside
+  double joint;    ///< how far outwards from the landmark its inner joint lies
+  double tip = 1;  ///< how far its outer end's point lies before where the limb is seen to end
+  Landmark landmark = Landmark::kBorder;
+};
+using Body = std::array<Anatomy, kStrokeCount>;
+
+constexpr Body BodyOf(Anatomy thigh, Anatomy shank, Anatomy foot, Anatomy upper_arm, Anatomy forearm, Anatomy hand,
+                      Anatomy head) {
+  return {thigh, shank, foot, thigh, shank, foot, upper_arm, forearm, hand, upper_arm, forearm, hand, head};
+}
+
+/// Of capsules only trunk joints are told by the limb that begins there, others by the round end of the one before.
+constexpr Body kCapsules = BodyOf({6, -0.94}, {8, 0}, {6, 0}, {6.5, -1.04}, {7, 0}, {5.5, 0}, {1, -0.35});
+constexpr Body kDressed =
+    BodyOf({6, -1.55, 1, Landmark::kBorderEnd}, {8, -0.5}, {6, 0, 0.62}, {6.5, 0.97, 1, Landmark::kInnerEnd},
+           {7, 0.28, 1, Landmark::kInnerEnd}, {5.5, 0.43, 0.76}, {1, -0.1});
+
+constexpr const Body& BodyOf(FigureKind kind) { return kind == FigureKind::kDressed ? kDressed : kCapsules; }
+constexpr std::size_t kHeadStroke = kStrokeCount - 1;
+constexpr std::size_t kFewestPixels = 6;     // less is a speck
+constexpr std::size_t kSmallestBorder = 3;   // pixel sides
+constexpr double kSmallestSeenShare = 0.25;  // of a limb whose ends are not both seen
+
+/// The common border of a limb and the part it hangs from.
+struct Border {
+  glm::dvec2 middle{0};
+  double half_breadth = 0;
+  bool limb_covers = false;  ///< the limb stands before the part it hangs from
+};
+
+Border MeasureBorder(const std::vector<glm::dvec2>& points, const glm::dvec2& limb_middle) {
+  Border border;
+  for (const glm::dvec2& p : points) border.middle += p / static_cast<double>(points.size());
+  double xx = 0, xy = 0, yy = 0;
+  for (const glm::dvec2& p : points) {
+    const glm::dvec2 d = p - border.middle;
+    xx += d.x * d.x;
+    xy += d.x * d.y;
+    yy += d.y * d.y;
+  }
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  const glm::dvec2 along(std::cos(angle), std::sin(angle));
+  glm::dvec2 to_limb(-along.y, along.x);
+  if (glm::dot(limb_middle - border.middle, to_limb) < 0) to_limb = -to_limb;
+  const double mean_square =
+      (0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy)) / static_cast<double>(points.size());  // along the border
+  double bend = 0, low = 0, high = 0;
+  for (const glm::dvec2& p : points) {
+    const glm::dvec2 d = p - border.middle;
+    const double s = glm::dot(d, along);
+    low = std::min(low, s);
+    high = std::max(high, s);
+    bend += (s * s - mean_square) * glm::dot(d, to_limb);
+  }
+  border.half_breadth = 0.5 * (high - low + 1);
+  border.limb_covers = bend > 0;
+  return border;
+}
+
+class Looker {
+ public:
+  Looker(const LimbRegions& regions, const FigureLook& look)
+      : regions_(regions), look_(look), body_(BodyOf(look.figure)) {
+    for (std::size_t i = 0; i < kStrokeCount; ++i) Look(i);
+  }
+
+  PictureEvidence Tell() {
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      if (limbs_[i]) PutInnerJoint(i);
+    }
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      if (limbs_[i]) PutTip(i);
+    }
+    for (std::size_t i = 0; i < kStrokeCount; ++i) {
+      if (limbs_[i]) evidence_.limbs[i] = LayLine(i);
+    }
+    return evidence_;
+  }
+
+ private:
+  struct Limb {
+    const Region* region;
+    MiddleLine line;              ///< `along` leads outwards
+    std::optional<Border> inner;  ///< with the part it hangs from
+    std::optional<Border> outer;  ///< with the part that hangs from it
+  };
+
+  static bool HasOuterLimb(std::size_t i) { return i != kHeadStroke && i % 3 != 2; }
+
+  void Look(std::size_t i) {
+    const Region& region = regions_.limbs[i];
+    if (region.pixels < static_cast<int>(kFewestPixels)) return;
+    Limb limb{&region, FindMiddleLine(region), BorderOf(i), std::nullopt};
+    if (HasOuterLimb(i)) limb.outer = BorderOf(i + 1);
+    if (!TurnOutwards(i, limb)) return;
+    limbs_[i] = limb;
+  }
+
+  std::optional<Border> BorderOf(std::size_t i) const {
+    const auto& points = regions_.borders[i];
+    if (points.size() < kSmallestBorder) return std::nullopt;
+    return MeasureBorder(points, regions_.limbs[i].middle);
+  }
+
+  // Whether anything tells which end is the outer one.
+  bool TurnOutwards(std::size_t i, Limb& limb) const {
+    glm::dvec2 outwards(0);
+    const Region& inner_part = HangsFromTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
+    const Region& trunk = regions_.trunk;
+    if (EndsAt(limb, limb.outer)) {
+      outwards = limb.outer->middle - limb.region->middle;
+    } else if (const auto from_neck = AwayFromNeck(i, limb)) {
+      outwards = *from_neck;
+    } else if (limb.outer && (!limb.inner || RunsAlong(limb))) {
+      outwards = limb.outer->middle - limb.region->middle;
+    } else if (limb.inner && limb.outer) {
+      outwards = limb.outer->middle - limb.inner->middle;
+    } else if (limb.inner) {
+      outwards = limb.region->middle - limb.inner->middle;
+    } else if (inner_part.pixels > 0) {
+      outwards = limb.region->middle - inner_part.middle;
+    } else if (HasOuterLimb(i) && regions_.limbs[i + 1].pixels > 0) {
+      outwards = regions_.limbs[i + 1].middle - limb.region->middle;
+    } else if (trunk.pixels > 0) {
+      outwards = limb.region->middle - trunk.middle;
+    } else {
+      return false;
+    }
+    if (i == kHeadStroke && limb.inner && glm::length(outwards) > 1) {
+      // A skull is too round to have a direction of its own.
+      const double half_width = limb.line.half_width;
+      limb.line = AlongFrom(*limb.region, limb.inner->middle, outwards);
+      limb.line.half_width = half_width;
+      return true;
+    }
+    if (glm::dot(outwards, limb.line.along) < 0) {
+      limb.line.along = -limb.line.along;
+      limb.line = {limb.line.origin, limb.line.along, -limb.line.high, -limb.line.low, limb.line.half_width};
+    }
+    return true;
+  }
+
+  static MiddleLine AlongFrom(const Region& region, const glm::dvec2& from, const glm::dvec2& direction) {
+    MiddleLine line{.origin = from, .along = glm::normalize(direction), .low = 1e9, .high = -1e9};
+    for (const PixelRun& run : region.runs) {
+      for (const double x : {run.x0 + 0.5, run.x1 - 0.5}) {
+        const double s = line.Where({x, run.y + 0.5});
+        line.low = std::min(line.low, s - 0.5);
+        line.high = std::max(line.high, s + 0.5);
+      }
+    }
+    return line;
+  }
+
+  // Whether the picture's edge cuts off the limb's outer end.
+  bool IsCutOff(const Limb& limb) const {
+    if (!limb.region->is_cut) return false;
+    const glm::dvec2 end = limb.line.At(limb.line.high);
+    const double reach = limb.line.half_width + 1;
+    return end.x < reach || end.y < reach || end.x > regions_.width - reach || end.y > regions_.height - reach;
+  }
+
+  // An upper arm's borders may run along it, where it hangs by the flank or the forearm is folded over it: of its ends,
+  // the shoulder is nearer to the neck.
+  std::optional<glm::dvec2> AwayFromNeck(std::size_t i, const Limb& limb) const {
+    const bool is_upper_arm =
+        StrokeMarks()[i].from == Role::kLeftShoulder || StrokeMarks()[i].from == Role::kRightShoulder;
+    const auto& neck_border = regions_.borders[kHeadStroke];
+    if (!is_upper_arm || neck_border.empty() || !limb.line.IsLong()) return std::nullopt;
+    const glm::dvec2 neck = neck_border[neck_border.size() / 2];
+    const double to_low = glm::distance(neck, limb.line.At(limb.line.low));
+    const double to_high = glm::distance(neck, limb.line.At(limb.line.high));
+    if (std::abs(to_low - to_high) < limb.line.half_width) return std::nullopt;
+    return to_low < to_high ? limb.line.along : -limb.line.along;
+  }
+
+  // Whether the border lies across one end of the limb.
+  static bool EndsAt(const Limb& limb, const std::optional<Border>& border) {
+    constexpr double kNearEnd = 0.3, kAcross = 1.5;
+    const double middle = 0.5 * (limb.line.low + limb.line.high);
+    return border && limb.line.IsLong() && border->half_breadth < kAcross * limb.line.half_width &&
+           std::abs(limb.line.Where(border->middle) - middle) > kNearEnd * (limb.line.high - limb.line.low);
+  }
+
+  // Whether the limb touches the part it hangs from with its side, as a hanging arm does the flank.
+  static bool RunsAlong(const Limb& limb) {
+    constexpr double kSide = 1.5;
+    return limb.line.IsLong() && limb.inner->half_breadth > kSide * limb.line.half_width;
+  }
+
+  // The centre of the limb's round outer end, which begins `inset` before the limb ends.
+  static glm::dvec2 RoundEnd(const MiddleLine& line, double inset) {
+    return line.At(std::max(0.5 * (line.low + line.high), line.high - inset));
+  }
+
+  // How far a limb's round end is seen to reach beyond its centre, where a thinner limb grows out of it at an angle in
+  // the picture: as far as the ball of radius R goes beside the other limb's strip of half width r.
+  static double ReachBeyondJoint(const MiddleLine& limb, const MiddleLine& next) {
+    if (!next.IsLong()) return limb.half_width;
+    const double between = std::acos(std::clamp(glm::dot(limb.along, next.along), -1.0, 1.0));
+    const double strip = std::asin(std::min(1.0, next.half_width / limb.half_width));
+    return between >= strip ? limb.half_width : limb.half_width * std::cos(strip - between);
+  }
+
+  void PutInnerJoint(std::size_t i) {
+    const Limb& limb = *limbs_[i];
+    if (!limb.inner) return;
+    std::optional<glm::dvec2>& joint = evidence_.joints[Index(StrokeMarks()[i].from)];
+    if (i == kHeadStroke) {
+      joint = limb.inner->middle + body_[i].joint * limb.inner->half_breadth * limb.line.along;
+    } else if (look_.figure == FigureKind::kDressed) {
+      joint = DressedJoint(i, limb);
+    } else {
+      joint = CapsuleJoint(i, limb);
+    }
+  }
+
+  std::optional<glm::dvec2> CapsuleJoint(std::size_t i, const Limb& limb) const {
+    const Border& border = *limb.inner;
+    const double beyond = body_[i].joint * limb.line.half_width;
+    if (border.limb_covers && !limb.line.IsLong()) return MiddleOf(limb.line);  // seen end on
+    if (HangsFromTrunk(i)) {
+      if (RunsAlong(limb)) return limb.line.At(limb.line.low + beyond);
+      const glm::dvec2 outwards = limb.line.IsLong() ? limb.line.along : Unit(limb.region->middle - border.middle);
+      return border.middle + beyond * outwards;
+    }
+    if (!limbs_[i - 1]) return std::nullopt;
+    const MiddleLine& before = limbs_[i - 1]->line;
+    return RoundEnd(before, ReachBeyondJoint(before, limb.line));
+  }
+
+  glm::dvec2 DressedJoint(std::size_t i, const Limb& limb) const {
+    if (!limb.line.IsLong()) return limb.inner->middle;
+    const double beyond = body_[i].joint * limb.line.half_width;
+    switch (body_[i].landmark) {
+      case Landmark::kBorderEnd:
+        return limb.line.At(BorderEnd(i, limb.line) + beyond);
+      case Landmark::kInnerEnd:
+        return limb.line.At(limb.line.low + beyond);
+      case Landmark::kBorder:
+        // A limb that is folded over the one before it has a border along it, which tells of no end.
+        return RunsAlong(limb) ? limb.line.At(limb.line.low) : limb.inner->middle + beyond * limb.line.along;
+    }
+    return limb.inner->middle;
+  }
+
+  double BorderEnd(std::size_t i, const MiddleLine& line) const {
+    double farthest = line.low;
+    for (const glm::dvec2& p : regions_.borders[i]) farthest = std::max(farthest, line.Where(p));
+    return farthest;
+  }
+
+  static glm::dvec2 MiddleOf(const MiddleLine& line) { return line.At(0.5 * (line.low + line.high)); }
+
+  void PutTip(std::size_t i) {
+    if (HasOuterLimb(i)) return;
+    const Limb& limb = *limbs_[i];
+    if (IsCutOff(limb)) return;
+    std::optional<glm::dvec2>& tip = evidence_.joints[Index(StrokeMarks()[i].to)];
+    tip = i == kHeadStroke ? limb.line.At(limb.line.high - look_.head_below_crown * limb.line.half_width)
+                           : RoundEnd(limb.line, body_[i].tip * limb.line.half_width);
+  }
+
+  std::optional<LimbEvidence> LayLine(std::size_t i) const {
+    const Limb& limb = *limbs_[i];
+    const auto& inner = evidence_.joints[Index(StrokeMarks()[i].from)];
+    const auto& outer = evidence_.joints[Index(StrokeMarks()[i].to)];
+    LimbEvidence seen;
+    seen.contrast = limb.region->contrast;
+    seen.half_width = limb.line.half_width;
+    const double half_width = LikelyHalfWidth(i);
+    const double whole = half_width * half_width * (2 * body_[i].length + kPi);
+    seen.seen_share = std::min(1.0, limb.region->pixels / whole);
+    const bool is_long = limb.line.high - limb.line.low > 3 * half_width;
+    if (!(inner && outer) && (seen.seen_share < kSmallestSeenShare || !is_long)) return std::nullopt;
+    // Only a border that this limb has itself tells of its own end: the other limb of the joint may be seen alone.
+    seen.line.a = inner && limb.inner ? *inner : limb.line.At(limb.line.low);
+    seen.line.b = outer && (limb.outer || !HasOuterLimb(i)) ? *outer : limb.line.At(limb.line.high);
+    return seen;
+  }
+
+  // Half of a limb may be hidden along its whole length; its neighbours tell how wide it is at least.
+  double LikelyHalfWidth(std::size_t i) const {
+    constexpr double kThinner = 0.55;  // a foot against its shank, the largest step along a limb
+    double half_width = limbs_[i]->line.half_width;
+    if (HasOuterLimb(i) && limbs_[i + 1]) half_width = std::max(half_width, limbs_[i + 1]->line.half_width);
+    if (!HangsFromTrunk(i) && limbs_[i - 1])
+      half_width = std::max(half_width, kThinner * limbs_[i - 1]->line.half_width);
+    return half_width;
+  }
+
+  static glm::dvec2 Unit(const glm::dvec2& v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : glm::dvec2(0, 1);
+  }
+
+  const LimbRegions& regions_;
+  const FigureLook& look_;
+  const Body& body_;
+  std::array<std::optional<Limb>, kStrokeCount> limbs_;
+  PictureEvidence evidence_;
+};
+
+}  // namespace
+
+PictureEvidence FindLimbEvidence(const LimbRegions& regions, const FigureLook& look) {
+  return Looker(regions, look).Tell();
+}
+
+}  // namespace etude
