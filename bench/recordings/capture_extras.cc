@@ -108,6 +108,7 @@ Result<CaptureExtras> ToExtras(const Json& json) {
     extras.stage_seed = stage.at("seed");
     extras.scene = stage.at("scene");
     extras.wears_everyday = stage.at("everyday");
+    extras.wears_coded = stage.value("coded", false);
   }
   for (std::size_t i = 0; i < extras.colours.size(); ++i) {
     const Json& colour = json.at("colours").at(i);
@@ -149,6 +150,7 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
                {"bvh", extras.bvh}};
   if (extras.scene > 0) {
     json["stage"] = {{"seed", extras.stage_seed}, {"scene", extras.scene}, {"everyday", extras.wears_everyday}};
+    if (extras.wears_coded) json["stage"]["coded"] = true;
   }
   if (!extras.moments.empty()) {
     Json moments = Json::array();

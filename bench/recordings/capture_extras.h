@@ -24,7 +24,8 @@ namespace etude {
 ///     {"format": "etude-capture", "version": 1,
 ///      "room": {"texture_seed": 7, "casts_shadows": true},
 ///      "colours": [[r, g, b], …],                          sixteen, by Part: Figure::colours
-///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    of what sim/stage is made; absent in the studio
+///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    of what sim/stage is made; absent in the studio;
+///                                                                  "coded": true of a performer in that suit
 ///      "brightness": [1.0, 1.01, …],                       one per frame
 ///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,
 ///                   "R_CW": [nine numbers, row by row], "p_WC": [x, y, z],
@@ -59,6 +60,7 @@ struct CaptureExtras {
   std::uint64_t stage_seed = 0;    ///< of what stands and moves in the room (sim/stage); with `scene` > 0
   double scene = 0;                ///< 0 = the studio
   bool wears_everyday = false;     ///< the performer's wardrobe on that stage
+  bool wears_coded = false;        ///< likewise
   std::array<Rgb8, 16> colours{};  ///< of the performer, by Part
   std::vector<double> brightness;  ///< one per frame
   std::vector<View> views;

@@ -30,7 +30,7 @@ constexpr auto kStrokeBetween = [] {
 }();
 
 /// Pixels low ≤ (x, y) < high; empty where nothing is.
-struct Box {
+struct PixelBox {
   glm::ivec2 low{std::numeric_limits<int>::max()}, high{0};
 
   void Add(int x, int y) {
@@ -41,8 +41,8 @@ struct Box {
 };
 
 template <typename Pixel>
-Box BoxOf(const Image<Pixel>& image) {
-  Box box;
+PixelBox BoxOf(const Image<Pixel>& image) {
+  PixelBox box;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       if (image.At(x, y) != 0) box.Add(x, y);
@@ -53,7 +53,7 @@ Box BoxOf(const Image<Pixel>& image) {
 
 /// `box`, so much larger on every side, within the image.
 template <typename Pixel>
-Box Grown(Box box, int by, const Image<Pixel>& image) {
+PixelBox Grown(PixelBox box, int by, const Image<Pixel>& image) {
   if (box.IsEmpty()) return box;
   box.low = glm::max(box.low - by, glm::ivec2(0));
   box.high = glm::min(box.high + by, glm::ivec2(image.width, image.height));
@@ -107,7 +107,7 @@ class Palette {
 LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbColours& suit,
                      const LimbColourOptions& options) {
   const Palette palette(suit, options);
-  const Box box = Grown(BoxOf(person), options.margin_px, picture);
+  const PixelBox box = Grown(BoxOf(person), options.margin_px, picture);
   LimbImage limbs(picture.width, picture.height);
   for (int y = box.low.y; y < box.high.y; ++y) {
     for (int x = box.low.x; x < box.high.x; ++x) {
@@ -124,7 +124,7 @@ LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbC
 LimbImage Voted(const LimbImage& limbs) {
   constexpr int kMost = 5;
   LimbImage voted(limbs.width, limbs.height);
-  const Box box = Grown(BoxOf(limbs), 1, limbs);
+  const PixelBox box = Grown(BoxOf(limbs), 1, limbs);
   for (int y = box.low.y; y < box.high.y; ++y) {
     for (int x = box.low.x; x < box.high.x; ++x) {
       std::array<std::uint8_t, kLabels> votes{};
@@ -139,7 +139,7 @@ LimbImage Voted(const LimbImage& limbs) {
 }
 
 /// The pieces of one colour that are a limb, and not another one's edge.
-Region RegionOf(const LimbImage& limbs, std::uint8_t label, const Box& box, const LimbColourOptions& options) {
+Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box, const LimbColourOptions& options) {
   Region region;
   if (box.IsEmpty()) return region;
   Mask crop(box.high.x - box.low.x, box.high.y - box.low.y);
@@ -184,7 +184,7 @@ void AddBorders(const LimbImage& limbs, int seam_px, LimbRegions& regions) {
       return;
     }
   };
-  const Box box = BoxOf(limbs);
+  const PixelBox box = BoxOf(limbs);
   for (int y = box.low.y; y < box.high.y; ++y) {
     for (int x = box.low.x; x < box.high.x; ++x) {
       if (limbs.At(x, y) == 0) continue;
@@ -200,7 +200,7 @@ LimbRegions FindColouredLimbs(const ColourImage& picture, const Mask& person, co
                               const LimbColourOptions& options) {
   assert(picture.pixels.size() == person.pixels.size());
   const LimbImage voted = Voted(Classified(picture, person, suit, options));
-  std::array<Box, kLabels> boxes;
+  std::array<PixelBox, kLabels> boxes;
   for (int y = 0; y < voted.height; ++y) {
     for (int x = 0; x < voted.width; ++x) boxes[voted.At(x, y)].Add(x, y);
   }

@@ -95,7 +95,9 @@ Box CropAround(const BodyMotion& motion, const Camera& camera) {
 StagedRoom StageOf(const CaptureExtras& extras, const BodyMotion& truth) {
   std::vector<Camera> cameras;
   for (const CaptureExtras::View& view : extras.views) cameras.push_back(view.truth);
-  const Wardrobe wardrobe = extras.wears_everyday ? Wardrobe::kEveryday : Wardrobe::kStudio;
+  const Wardrobe wardrobe = extras.wears_coded      ? Wardrobe::kCoded
+                            : extras.wears_everyday ? Wardrobe::kEveryday
+                                                    : Wardrobe::kStudio;
   return StagedRoom({.seed = extras.stage_seed, .scene = extras.scene, .wardrobe = wardrobe}, truth.poses, cameras);
 }
 

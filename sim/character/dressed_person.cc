@@ -40,8 +40,10 @@ DressedPerson::DressedPerson(const Outfit& outfit) {
   still_ = StillSurfaces(character_, PartsOfJoints(character_.skeleton));
   for (std::size_t i = 0; i < all.size(); ++i) {
     Surface& surface = still_[i];
-    surface.paint = all[i].paint;
     surface.is_closed = true;
+    surface.by_part = outfit.suit;
+    if (outfit.suit) continue;
+    surface.paint = all[i].paint;
     for (const SkinnedMesh::Vertex& vertex : character_.meshes[i].vertices) surface.rest.emplace_back(vertex.position);
   }
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "sim/render/renderer.h"
 #include "sim/render/surface_paint.h"
 
 namespace etude {
@@ -16,6 +19,8 @@ struct Outfit {
   bool is_skirt = false;  ///< in place of trousers
   double skirt_cm = 40;   ///< from the hips down
   bool has_long_hair = false;
+  /// A suit from the crown to the toes in place of all that: every part of the body in a plain colour of its own.
+  std::optional<PartColours> suit = {};
 };
 
 }  // namespace etude

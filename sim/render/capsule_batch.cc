@@ -47,7 +47,7 @@ bool IsFinite(const glm::dvec3& point) {
 }
 
 void AddInstances(const Figure& figure, const glm::dvec3& eye, std::vector<CapsuleInstance>& instances) {
-  const Face face = PlaceFace(figure.shape);
+  const Face face = figure.is_hooded ? Face{} : PlaceFace(figure.shape);
   for (const Capsule& capsule : figure.shape) {
     if (!IsFinite(capsule.a) || !IsFinite(capsule.b) || !(capsule.radius > 0)) continue;
     const Rgb8 paint = figure.colours[static_cast<std::size_t>(capsule.part)];

@@ -30,11 +30,12 @@ struct Surface {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
   std::vector<Part> parts;                              ///< one per triangle: its number in label images
   Rgb8 colour;
-  std::optional<SurfacePaint> paint{};  ///< in place of `colour`
-  bool is_closed = false;               ///< no back of it is ever in sight: drawn faster
-  std::vector<glm::vec3> rest{};        ///< with `paint`, one per position: where it is on the body at rest, metres
-  SharedTexture texture{};              ///< in place of `colour`, where there is no paint
-  std::vector<glm::vec2> on_texture{};  ///< with `texture`, one per position
+  std::optional<PartColours> by_part{};  ///< in place of `colour`: each triangle has its part's
+  std::optional<SurfacePaint> paint{};   ///< in place of `colour`
+  bool is_closed = false;                ///< no back of it is ever in sight: drawn faster
+  std::vector<glm::vec3> rest{};         ///< with `paint`, one per position: where it is on the body at rest, metres
+  SharedTexture texture{};               ///< in place of `colour`, where there is no paint
+  std::vector<glm::vec2> on_texture{};   ///< with `texture`, one per position
 };
 
 /// A person or a moving thing in the scene: capsules and the colour of each part, or surfaces, or both.
@@ -46,6 +47,7 @@ struct Figure {
   std::vector<Capsule> shadow{};
   /// What all its pixels are labelled, in place of its parts: kBystander, kClutter.
   std::optional<Part> seen_as{};
+  bool is_hooded = false;  ///< neither hair nor a face is drawn on its capsules' head
 };
 
 /// The most painted surfaces that one picture shows.

@@ -19,14 +19,19 @@ bool IsSound(const SurfaceCorner& corner) {
   return IsWithin(corner.place, kFarthestCorner) && IsWithin(corner.normal, 2);
 }
 
+glm::vec3 ColourOf(const Surface& surface, Part part) {
+  const Rgb8 colour = surface.by_part ? (*surface.by_part)[static_cast<std::size_t>(part)] : surface.colour;
+  return glm::vec3(colour.r, colour.g, colour.b) / 255.0f;
+}
+
 void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, const glm::dvec3& eye,
                 std::vector<SurfaceCorner>& corners) {
   assert(surface.normals.size() == surface.positions.size() && surface.parts.size() == surface.triangles.size());
   assert(!surface.paint || surface.rest.size() == surface.positions.size());
   assert(surface.paint || !surface.texture || surface.on_texture.size() == surface.positions.size());
-  const glm::vec3 colour = glm::vec3(surface.colour.r, surface.colour.g, surface.colour.b) / 255.0f;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-    const glm::vec4 paint_and_label(colour, static_cast<std::uint32_t>(seen_as.value_or(surface.parts[i])));
+    const glm::vec4 paint_and_label(ColourOf(surface, surface.parts[i]),
+                                    static_cast<std::uint32_t>(seen_as.value_or(surface.parts[i])));
     std::array<SurfaceCorner, 3> triangle{};
     std::ranges::transform(surface.triangles[i], triangle.begin(), [&](std::uint32_t vertex) {
       const glm::vec3 rest = surface.paint     ? surface.rest[vertex]

@@ -36,6 +36,7 @@ double ColourShare(double scene) {
 }
 
 StagedRoom::StagedRoom(const StageOptions& options, std::span<const BodyPose> poses, std::span<const Camera> cameras) {
+  is_hooded_ = options.wardrobe == Wardrobe::kCoded;
   if (!(options.scene > 0)) return;
   const double share = ColourShare(options.scene);
   const FreeFloor free = FloorOf(poses);
@@ -48,7 +49,10 @@ StagedRoom::StagedRoom(const StageOptions& options, std::span<const BodyPose> po
 }
 
 Figure StagedRoom::PerformerAt(const BodyPose& pose, const PartColours& studio) const {
-  return performer_ ? performer_->At(pose) : Figure{BodyCapsules(pose), studio};
+  if (performer_) return performer_->At(pose);
+  Figure capsules{BodyCapsules(pose), studio};
+  capsules.is_hooded = is_hooded_;
+  return capsules;
 }
 
 std::vector<Figure> StagedRoom::MoversAt(double seconds) const {

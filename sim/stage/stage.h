@@ -50,6 +50,7 @@ class StagedRoom {
   std::optional<FurnishedRoom> furnished_;
   std::optional<Movers> movers_;
   std::optional<DressedPerson> performer_;
+  bool is_hooded_ = false;
   double flicker_ = 0, flicker_phase_ = 0;
 };
 

@@ -81,7 +81,29 @@ void DressEveryday(Outfit& outfit) {
   outfit.shoes = {.first = {50, 45, 45}, .second = {50, 45, 45}};
 }
 
+void DressCoded(Outfit& outfit) {
+  outfit.sleeve_cm = 55;
+  outfit.leg_cm = 83;
+  outfit.is_skirt = outfit.has_long_hair = false;
+  outfit.suit = CodedSuit();
+}
+
 }  // namespace
+
+PartColours CodedSuit() {
+  using enum Part;
+  constexpr std::array kOrder = {kTrunk,       kLeftThigh,     kLeftShank,    kLeftFoot,   kLeftUpperArm,
+                                 kLeftForearm, kLeftHand,      kHead,         kRightThigh, kRightShank,
+                                 kRightFoot,   kRightUpperArm, kRightForearm, kRightHand};
+  constexpr double kFirstHue = 250, kHues = 240;  // degrees: to 130
+  constexpr std::size_t kStep = 5;                // from limb to limb, hues
+  PartColours suit{};
+  for (std::size_t i = 0; i < kOrder.size(); ++i) {
+    const auto place = static_cast<double>(kStep * i % kOrder.size());
+    suit[static_cast<std::size_t>(kOrder[i])] = ToRgb({kFirstHue + kHues * place / (kOrder.size() - 1), 1, 0.82});
+  }
+  return suit;
+}
 
 Outfit MakeOutfit(std::uint64_t seed, const std::string& who, Wardrobe wardrobe, double colour_share) {
   const WorldKey key{seed, "stage", 0};
@@ -103,6 +125,7 @@ Outfit MakeOutfit(std::uint64_t seed, const std::string& who, Wardrobe wardrobe,
   outfit.bottom = DrawBottom(bottom, colour_share);
   outfit.shoes = Plain(DrawDye(shoes, kStudioShoes, colour_share).first);
   if (wardrobe == Wardrobe::kEveryday) DressEveryday(outfit);
+  if (wardrobe == Wardrobe::kCoded) DressCoded(outfit);
   return outfit;
 }
 

@@ -125,8 +125,9 @@ Result<std::unique_ptr<Task>> MakeCaptureTask(TaskInput& input) {
   }
   if (study.options.figure == PerformerFigure::kOwn) RETURN_IF_ERROR(CheckFigures(input));
   study.methods = std::move(methods);
-  for (const CaptureMethod& method : study.methods) {
-    if (method.seat == CaptureSeat::kNone) AddSource(PersonSourceOf(method), study.sources);
+  for (std::size_t i = 0; i < study.methods.size(); ++i) {
+    RETURN_IF_ERROR(CheckMarks(study.options, study.methods[i], input.methods[i].place));
+    if (study.methods[i].seat == CaptureSeat::kNone) AddSource(PersonSourceOf(study.methods[i]), study.sources);
   }
   study.clips = input.clips;
   return std::make_unique<CaptureTask>(std::move(study));

@@ -49,6 +49,7 @@ Mask Crew::Station::Find(std::size_t source, const Picture& picture) {
 Marks Crew::Station::Mark(std::size_t source, std::size_t frame, const AnnotatedPicture& picture) {
   Marking& marking = crew_.marking_[source];
   if (crew_.sources_[source].for_silhouettes) return {};
+  if (crew_.sources_[source].has_coloured_marks) return marking.ReadColours(frame, picture);
   if (!crew_.sources_[source].has_true_marks) return marking.Mark(camera_, frame, picture);
   return marking.MarkTrueJoints(frame, picture, crew_.world_.cameras[camera_],
                                 crew_.shooting_.SeenPose(camera_, frame));

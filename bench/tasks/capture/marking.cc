@@ -6,6 +6,7 @@
 #include "bench/tasks/capture/shooting.h"
 #include "engine/base/unit_vector.h"
 #include "sim/annotator/drawing.h"
+#include "sim/annotator/regions.h"
 #include "sim/body/shape.h"
 
 namespace etude {
@@ -41,6 +42,14 @@ std::array<std::optional<glm::dvec2>, kRoleCount> JointsOf(const Marks& marks) {
 std::optional<glm::dvec2> MiddleOf(const std::optional<PixelSegment>& stroke) {
   if (!stroke) return std::nullopt;
   return 0.5 * (stroke->a + stroke->b);
+}
+
+/// What the performer wears, by stroke.
+LimbColours SuitOf(const PartColours& colours) {
+  const auto of = [&](Part part) { return colours[static_cast<std::size_t>(part)]; };
+  LimbColours suit{.trunk = of(Part::kTrunk), .limbs = {}};
+  for (std::size_t i = 0; i < kStrokeCount; ++i) suit.limbs[i] = of(kLimbParts[i].limb);
+  return suit;
 }
 
 }  // namespace
@@ -91,6 +100,7 @@ Marking::Marking(const StudioOptions& options, const CaptureWorld& world, const 
   const PersonErrors errors{.error_px = options.annotation_error_px};
   const BodyPose& body = world.truth.front();
   eye_.figure = world.own || world.stage.IsPerformerDressed() ? FigureKind::kDressed : FigureKind::kCapsules;
+  suit_ = SuitOf(world.colours);
   eye_.head_below_crown = HeadBelowCrown(PerformerAt(world, 0), body);
   for (std::size_t camera = 0; camera < annotators_.size(); ++camera) {
     for (int annotator = 0; annotator < options.annotators; ++annotator) {
@@ -114,6 +124,13 @@ Marks Marking::MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture
     if (seen.joints[Index(role)]) marks.effectors[i] = Project(camera, pose[role]);
   }
   return marks;
+}
+
+Marks Marking::ReadColours(std::size_t frame, const AnnotatedPicture& picture) const {
+  if (frame % mark_every_ != 0) return {};
+  return ReadLimbColours(
+      picture.colours, picture.person, suit_,
+      {.look = {.figure = eye_.figure, .head_below_crown = eye_.head_below_crown}, .margin_px = eye_.margin_px});
 }
 
 Marks Marking::Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture) {

@@ -7,6 +7,7 @@
 #include "bench/tasks/capture/world.h"
 #include "engine/cameras/camera.h"
 #include "engine/motion/body.h"
+#include "engine/vision/limb_colours.h"
 #include "engine/vision/strokes.h"
 #include "sim/annotator/annotator.h"
 #include "sim/random/stream.h"
@@ -30,6 +31,9 @@ class Marking {
   Marks MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture, const Camera& camera,
                        const BodyPose& pose) const;
 
+  /// What the suit's colours tell, of a performer who wears the coded one. Throws no dice.
+  Marks ReadColours(std::size_t frame, const AnnotatedPicture& picture) const;
+
   /// What two annotators made of each joint and each limb of all pictures marked so far; empty when one marks alone.
   const std::vector<MarkedTwice>& joints() const { return joints_; }
   const std::vector<MarkedTwice>& limbs() const { return limbs_; }
@@ -39,6 +43,7 @@ class Marking {
 
   std::size_t mark_every_;
   EvidenceOptions eye_;
+  LimbColours suit_;
   std::vector<std::vector<Annotator>> annotators_;  // [camera][annotator]
   std::vector<MarkedTwice> joints_, limbs_;
 };

@@ -59,10 +59,10 @@ FieldTable<StudioOptions> MakeConditionFields() {
        Key::Name(
            "figure", &Options::figure, {{"staged", PerformerFigure::kStaged}, {"own", PerformerFigure::kOwn}},
            "Who is drawn: the stage's own people, or the meshes and textures that the clips' files bring (glTF)."),
-       Key::Name("clothes", &Options::clothes, {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}},
-                 "Of the stage's people: colours that stand apart from the room's, or a grey shirt and trousers of the "
-                 "floor's "
-                 "hue."),
+       Key::Name("clothes", &Options::clothes,
+                 {{"studio", Clothes::kStudio}, {"everyday", Clothes::kEveryday}, {"coded", Clothes::kCoded}},
+                 "Of the stage's people: colours that stand apart from the room's; a grey shirt and trousers of the "
+                 "floor's hue; or a suit of which every limb has a colour of its own."),
        Key::Number(
            "scene", &Options::scene, {0, 1},
            "How much a room people live in: 0 = the studio, 1 = furniture, clutter, a second person, hues alike."),
@@ -106,6 +106,10 @@ void CheckMethod(Fields& fields, CaptureMethod& method) {
     method.lengths = LengthSource::kMeasured;  // it knows of no others
     if (oracle.lengths)
       fields.Complain(fields.Raw("oracle")->place, "'recovery: keypoints' measures the lengths itself");
+  }
+  if (method.marks == MarkSource::kColours && oracle.marks) {
+    fields.Complain(fields.Raw("oracle")->place,
+                    "the oracle marks and 'marks: colours' do not go together: both say who marks the pictures");
   }
   if (method.recovery == Recovery::kSilhouettes) {
     if (oracle.marks || method.lengths == LengthSource::kMeasured) {
@@ -154,6 +158,10 @@ const FieldTable<CaptureMethod>& CaptureMethodFields() {
          Key::Name("pieces", &Method::pieces, {{"largest", PersonPieces::kLargest}, {"large", PersonPieces::kLarge}},
                    "Which pieces of what changed are the person: the largest alone (paper B), or every one of some "
                    "size beside it, too.")
+             .With("recovery", {"ik", "ends", "bundle", "keypoints"}),
+         Key::Name("marks", &Method::marks, {{"annotator", MarkSource::kAnnotator}, {"colours", MarkSource::kColours}},
+                   "Who marks the limbs: the annotator, or nobody: the colours of a suit tell them apart. Colours need "
+                   "`clothes: coded`.")
              .With("recovery", {"ik", "ends", "bundle", "keypoints"}),
          Key::Name("calibration", &Method::calibration, CalibrationNames(), CalibrationNamed,
                    "How a camera is computed from its calibration points."),
@@ -227,6 +235,15 @@ const FieldTable<CaptureMethod>& SeatedCaptureMethodFields() {
     return made;
   }();
   return table;
+}
+
+Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place) {
+  if (method.marks != MarkSource::kColours) return {};
+  if (options.figure == PerformerFigure::kOwn) {
+    return Fail(place, "'marks: colours' cannot read 'figure: own', whose clothes are the file's");
+  }
+  if (options.clothes == Clothes::kCoded) return {};
+  return Fail(place, "'marks: colours' reads the colours of a suit; allowed with clothes: coded");
 }
 
 }  // namespace etude

@@ -14,6 +14,7 @@ namespace etude {
 enum class Clothes {
   kStudio,    ///< "studio": colours that stand apart from the room's, as one would dress for it
   kEveryday,  ///< "everyday": a grey shirt and dark blue trousers, in a room with a bluish floor
+  kCoded,     ///< "coded": a suit of which every limb has a colour of its own
 };
 
 /// Who is drawn.
@@ -124,6 +125,12 @@ enum class SilhouetteStart {
   kNear,  ///< "near": the first frame's true pose, every angle wrong by up to 10°: as if agreed on beforehand
 };
 
+/// Who marks the pictures.
+enum class MarkSource {
+  kAnnotator,  ///< "annotator": a person, by hand (paper B)
+  kColours,    ///< "colours": nobody; limbs are told by the colours of a coded suit (engine/vision/limb_colours)
+};
+
 /// What a program does of a method's work.
 enum class CaptureSeat {
   kNone,
@@ -141,6 +148,7 @@ struct CaptureMethod {
   Segmenter segmenter = Segmenter::kHue;
   PersonPieces pieces =
       PersonPieces::kLargest;  ///< of methods that read silhouettes all large ones, whatever stands here
+  MarkSource marks = MarkSource::kAnnotator;
   Calibration calibration = Calibration::kDlt;
   Sync sync = Sync::kAssumed;
   OutlierRule outliers = OutlierRule::kKeep;
@@ -162,5 +170,8 @@ const FieldTable<StudioOptions>& CaptureConditionFields();
 const FieldTable<CaptureMethod>& CaptureMethodFields();
 /// The same with `seat`: where the pictures are the task's own, and no sensor of another's.
 const FieldTable<CaptureMethod>& SeatedCaptureMethodFields();
+
+/// Refuses a method, written at `place`, that reads colours which nobody wears in this studio.
+Result<void> CheckMarks(const StudioOptions& options, const CaptureMethod& method, const Place& place);
 
 }  // namespace etude

@@ -11,7 +11,8 @@ PersonSource PersonSourceOf(const CaptureMethod& method) {
                       .is_truth = false,
                       .for_silhouettes = for_silhouettes,
                       .program = method.program,
-                      .has_true_marks = method.oracle.marks};
+                      .has_true_marks = method.oracle.marks,
+                      .has_coloured_marks = method.marks == MarkSource::kColours};
   if (method.oracle.segmentation) {
     source.segmenter = Segmenter::kHue;
     source.pieces = PersonPieces::kLargest;

@@ -16,7 +16,8 @@ struct PersonSource {
   /// Cut out for methods that read silhouettes alone: masks are kept, and nobody marks the pictures.
   bool for_silhouettes = false;
   SeatedSegmenter* program = nullptr;  ///< cuts out in the segmenter's place
-  bool has_true_marks = false;  ///< drawn by someone who knows where the joints are, where the picture shows them
+  bool has_true_marks = false;      ///< drawn by someone who knows where the joints are, where the picture shows them
+  bool has_coloured_marks = false;  ///< nobody marks: the colours of the suit tell limbs apart
   auto operator<=>(const PersonSource&) const = default;
 };
 

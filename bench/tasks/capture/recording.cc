@@ -16,6 +16,7 @@ CaptureExtras DescribeStage(const CaptureWorld& world) {
   extras.stage_seed = world.stage_options.seed;
   extras.scene = world.stage_options.scene;
   extras.wears_everyday = world.stage_options.wardrobe == Wardrobe::kEveryday;
+  extras.wears_coded = world.stage_options.wardrobe == Wardrobe::kCoded;
   extras.colours = world.colours;
   extras.brightness = world.brightness;
   return extras;

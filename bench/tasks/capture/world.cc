@@ -60,6 +60,7 @@ Window ChooseWindow(const StudioOptions& options, const LibraryClip& clip, const
 }
 
 std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
+  if (clothes == Clothes::kCoded) return CodedSuit();
   std::array<Rgb8, 16> colours = PerformerColours();
   if (clothes == Clothes::kStudio) return colours;
   auto dress = [&](std::initializer_list<Part> parts, Rgb8 colour) {
@@ -71,12 +72,21 @@ std::array<Rgb8, 16> ColoursOf(Clothes clothes) {
   return colours;
 }
 
+Wardrobe WardrobeOf(Clothes clothes) {
+  switch (clothes) {
+    case Clothes::kStudio:
+      break;
+    case Clothes::kEveryday:
+      return Wardrobe::kEveryday;
+    case Clothes::kCoded:
+      return Wardrobe::kCoded;
+  }
+  return Wardrobe::kStudio;
+}
+
 StageOptions StageOptionsOf(const StudioOptions& options, const WorldKey& key) {
   RandomStream random(key, "capture/stage");
-  const bool everyday = options.clothes == Clothes::kEveryday;
-  return {.seed = random.IndexBelow(1u << 30),
-          .scene = options.scene,
-          .wardrobe = everyday ? Wardrobe::kEveryday : Wardrobe::kStudio};
+  return {.seed = random.IndexBelow(1u << 30), .scene = options.scene, .wardrobe = WardrobeOf(options.clothes)};
 }
 
 // The lamp waxes and wanes slowly about the brightness of the background pictures.

@@ -99,7 +99,9 @@ Result<void> BookCameras(const TaskInput& input, const Methods& methods, Sight s
     if (method.capture && !options.has_cameras) {
       return Fail(input.methods[i].place, "'capture' needs cameras; allowed with {}: {}", kSensorKey, kCameraSensor);
     }
-    if (options.has_cameras) AddSource(PersonSourceOf(method.Capture()), options.cameras.sources);
+    if (!options.has_cameras) continue;
+    RETURN_IF_ERROR(CheckMarks(options.cameras.studio, method.Capture(), input.methods[i].place));
+    AddSource(PersonSourceOf(method.Capture()), options.cameras.sources);
   }
   return {};
 }
