@@ -148,7 +148,7 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
                {"brightness", extras.brightness},
                {"cameras", std::move(cameras)},
                {"bvh", extras.bvh}};
-  if (extras.scene > 0) {
+  if (extras.scene > 0 || extras.wears_coded) {
     json["stage"] = {{"seed", extras.stage_seed}, {"scene", extras.scene}, {"everyday", extras.wears_everyday}};
     if (extras.wears_coded) json["stage"]["coded"] = true;
   }

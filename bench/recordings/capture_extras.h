@@ -24,7 +24,8 @@ namespace etude {
 ///     {"format": "etude-capture", "version": 1,
 ///      "room": {"texture_seed": 7, "casts_shadows": true},
 ///      "colours": [[r, g, b], …],                          sixteen, by Part: Figure::colours
-///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    of what sim/stage is made; absent in the studio;
+///      "stage": {"seed": 7, "scene": 0.5, "everyday": false},    of what sim/stage is made; absent in the studio
+///                                                                  of people in usual clothes;
 ///                                                                  "coded": true of a performer in that suit
 ///      "brightness": [1.0, 1.01, …],                       one per frame
 ///      "cameras": [{"width": 640, "height": 480, "fx": …, "fy": …, "cx": …, "cy": …, "skew": 0,

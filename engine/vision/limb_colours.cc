@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "engine/vision/components.h"
 
@@ -138,6 +139,24 @@ LimbImage Voted(const LimbImage& limbs) {
   return voted;
 }
 
+/// Of each piece, whether it holds a square of `side` pixels a side.
+std::vector<bool> HaveSquares(const Components& found, const Mask& mask, int side) {
+  std::vector<bool> have(found.pieces.size());
+  const auto is_square = [&](int left, int top) {
+    for (int y = top; y < top + side; ++y) {
+      for (int x = left; x < left + side; ++x) {
+        if (mask.At(x, y) == 0) return false;
+      }
+    }
+    return true;
+  };
+  for (const Components::Run& run : found.runs) {
+    if (!found.pieces[run.piece].set || have[run.piece] || run.row + side > mask.height) continue;
+    for (int x = run.begin; x + side <= run.end && !have[run.piece]; ++x) have[run.piece] = is_square(x, run.row);
+  }
+  return have;
+}
+
 /// The pieces of one colour that are a limb, and not another one's edge.
 Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box, const LimbColourOptions& options) {
   Region region;
@@ -147,12 +166,13 @@ Region RegionOf(const LimbImage& limbs, std::uint8_t label, const PixelBox& box,
     for (int x = 0; x < crop.width; ++x) crop.At(x, y) = limbs.At(box.low.x + x, box.low.y + y) == label;
   }
   const Components found = LabelComponents(crop);
+  const std::vector<bool> is_thick = HaveSquares(found, crop, options.least_side_px);
   int largest = 0;
-  for (const Components::Piece& piece : found.pieces) largest = piece.set ? std::max(largest, piece.size) : largest;
+  for (std::size_t i = 0; i < is_thick.size(); ++i)
+    largest = is_thick[i] ? std::max(largest, found.pieces[i].size) : largest;
   const double smallest = std::max<double>(options.smallest_piece, options.piece_share * largest);
   for (const Components::Run& in_crop : found.runs) {
-    const Components::Piece& piece = found.pieces[in_crop.piece];
-    if (!piece.set || piece.size < smallest) continue;
+    if (!is_thick[in_crop.piece] || found.pieces[in_crop.piece].size < smallest) continue;
     const PixelRun run{in_crop.row + box.low.y, in_crop.begin + box.low.x, in_crop.end + box.low.x};
     const int count = run.x1 - run.x0;
     region.runs.push_back(run);

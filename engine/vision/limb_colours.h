@@ -24,10 +24,12 @@ struct LimbColourOptions {
   /// the nearest two of 14 hues that share two thirds of the circle, and lamps that are tinted, must stay below; what
   /// people live with is less colourful than a suit by twice as much.
   double reach = 0.1;
-  int darkest = 45;         ///< R + G + B below which noise decides about a chromaticity
-  int smallest_piece = 20;  ///< pixels; of a hand four metres away in a picture of 640 × 480 there are some 80
-  /// A limb that others cross is seen in pieces; smaller ones, as shares of its largest, are other colours' edges.
+  int darkest = 45;  ///< R + G + B below which noise decides about a chromaticity
+  /// A limb that others cross is seen in pieces; smaller ones, as shares of its largest, are none.
   double piece_share = 0.2;
+  int smallest_piece = 20;  ///< pixels; of a hand four metres away in a picture of 640 × 480 there are some 80
+  /// Nor is a piece that holds no square of so many pixels a side: along edges two colours mix to a third.
+  int least_side_px = 4;
   int seam_px = 3;  ///< so many pixels between two limbs may show neither: both colours mix there
 };
 

@@ -100,6 +100,16 @@ TEST(CaptureExtras, RefuseWhatIsNotOne) {
   EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(torn)));
 }
 
+TEST(CaptureExtras, KnowACodedSuitInTheStudioToo) {
+  CaptureExtras extras = Sample();
+  extras.wears_coded = true;
+  const auto read = ReadCaptureExtras(WriteCaptureExtras(extras));
+  ASSERT_TRUE(read) << ToString(read.error());
+  EXPECT_TRUE(read->wears_coded);
+  EXPECT_EQ(read->scene, 0);
+  EXPECT_FALSE(ReadCaptureExtras(WriteCaptureExtras(Sample()))->wears_coded);
+}
+
 TEST(EncodeMask, IsUndoneByDecodeMask) {
   for (std::uint32_t seed = 0; seed < 50; ++seed) {
     const Mask mask = Pattern(7 + static_cast<int>(seed % 5), 6, seed);

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/choreography/move.h"
 #include "sim/choreography/stance.h"
 #include "sim/stage/occluders.h"
+#include "sim/stage/palette.h"
 #include "tests/support/gtest_printers.h"
 
 namespace etude {
@@ -121,6 +123,56 @@ TEST(StagedRoom, FurnitureLeavesThePerformersFloorFree) {
   EXPECT_GT(checked, 1000u);
 }
 
+double HueApart(double a, double b) { return std::abs(std::remainder(a - b, 360.0)); }
+
+TEST(CodedSuit, HasAHueForEveryLimbFarFromItsNeighboursAndTheStudio) {
+  using enum Part;
+  const PartColours suit = CodedSuit();
+  const auto hue = [&](Part part) { return ToHsv(suit[static_cast<std::size_t>(part)]).hue; };
+  constexpr auto kLast = static_cast<std::uint32_t>(kRightFoot);
+  int pairs = 0;
+  for (std::uint32_t a = kFirstBodyPart; a <= kLast; ++a) {
+    const double own = hue(static_cast<Part>(a));
+    EXPECT_GT(HueApart(own, 190), 40 + 19) << "the studio's hues are 150 to 230 degrees";
+    EXPECT_GT(ToHsv(suit[a]).saturation, 0.98) << "furnished rooms have none above 0.62";
+    for (std::uint32_t b = kFirstBodyPart; b < a; ++b, ++pairs) {
+      EXPECT_GT(HueApart(own, hue(static_cast<Part>(b))), 18) << a << ", " << b;
+    }
+  }
+  EXPECT_EQ(pairs, 14 * 13 / 2);
+  const std::array<std::array<Part, 2>, 13> joined = {{{kTrunk, kHead},
+                                                       {kTrunk, kLeftUpperArm},
+                                                       {kLeftUpperArm, kLeftForearm},
+                                                       {kLeftForearm, kLeftHand},
+                                                       {kTrunk, kRightUpperArm},
+                                                       {kRightUpperArm, kRightForearm},
+                                                       {kRightForearm, kRightHand},
+                                                       {kTrunk, kLeftThigh},
+                                                       {kLeftThigh, kLeftShank},
+                                                       {kLeftShank, kLeftFoot},
+                                                       {kTrunk, kRightThigh},
+                                                       {kRightThigh, kRightShank},
+                                                       {kRightShank, kRightFoot}}};
+  for (const auto& [a, b] : joined) EXPECT_GT(HueApart(hue(a), hue(b)), 91);
+  for (const auto& [left, right] : {std::pair{kLeftUpperArm, kRightUpperArm}, std::pair{kLeftForearm, kRightForearm},
+                                    std::pair{kLeftHand, kRightHand}, std::pair{kLeftThigh, kRightThigh},
+                                    std::pair{kLeftShank, kRightShank}, std::pair{kLeftFoot, kRightFoot}}) {
+    EXPECT_GT(HueApart(hue(left), hue(right)), 120);
+  }
+}
+
+TEST(CodedSuit, DoesNotGiveWayAsTheRoomIsFurnished) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Outfit little = MakeOutfit(seed, "performer", Wardrobe::kCoded, 0.1);
+    const Outfit much = MakeOutfit(seed, "performer", Wardrobe::kCoded, 1);
+    ASSERT_TRUE(little.suit && much.suit);
+    EXPECT_EQ(*little.suit, *much.suit);
+    EXPECT_FALSE(much.is_skirt || much.has_long_hair);
+    EXPECT_EQ(much.build, MakeOutfit(seed, "performer", Wardrobe::kStudio, 1).build) << "the same people";
+    EXPECT_FALSE(MakeOutfit(seed, "performer", Wardrobe::kStudio, 1).suit);
+  }
+}
+
 class RenderedStage : public testing::Test {
  protected:
   void SetUp() override {
@@ -169,6 +221,33 @@ TEST_F(RenderedStage, OccludersAreTheFurnitureThatIsDrawn) {
   }
   EXPECT_GT(checked, 500);
   EXPECT_GE(agree, checked - checked / 500) << "but for pixels whose centres are on an edge";
+}
+
+// What a program that knows the paints sees: each pixel of a limb has the chromaticity of that limb's paint, in light
+// and shade, of capsules and of dressed people, but for rounding and a lamp that is tinted.
+TEST_F(RenderedStage, ACodedSuitShowsTheChromaticityOfEachLimb) {
+  const PartColours suit = CodedSuit();
+  const std::vector<BodyPose> poses = {StandingPose()};
+  for (const double scene : {0.0, 0.5, 1.0}) {
+    const StagedRoom stage({.seed = 3, .scene = scene, .wardrobe = Wardrobe::kCoded}, poses, Cameras());
+    std::array<int, 16> pixels{}, right{};
+    for (const Camera& camera : Cameras()) {
+      const View view = renderer_->Render({.interior = stage.interior()}, {stage.PerformerAt(StandingPose(), suit)},
+                                          camera, Targets::kAll);
+      for (std::size_t i = 0; i < view.labels.pixels.size(); ++i) {
+        const std::uint32_t part = view.labels.pixels[i];
+        if (!IsPerformer(part)) continue;
+        const Rgb8 seen = view.colour.pixels[i];
+        if (seen.r + seen.g + seen.b < 60) continue;
+        ++pixels[part];
+        right[part] += HueApart(ToHsv(seen).hue, ToHsv(suit[part]).hue) < 9 && ToHsv(seen).saturation > 0.85;
+      }
+    }
+    for (std::uint32_t part = kFirstBodyPart; part <= static_cast<std::uint32_t>(Part::kRightFoot); ++part) {
+      EXPECT_GT(pixels[part], 60) << scene << ", " << part;
+      EXPECT_GT(right[part], 0.98 * pixels[part]) << scene << ", " << part;
+    }
+  }
 }
 
 TEST_F(RenderedStage, JointsLieInTheDressedBody) {

@@ -291,6 +291,31 @@ TEST(CaptureTask, FilmsWithOnesOwnCameras) {
   EXPECT_THAT(ToString(nameless.error()), HasSubstr("needs 'rig_file'"));
 }
 
+// Nobody marks: dice of a hand have no part in it, and what the picture shows is all that counts.
+TEST(CaptureTask, ReadsTheColoursOfASuitWhateverAnAnnotatorWouldErr) {
+  const std::string methods =
+      "methods:\n- {name: colours, segmenter: rgb, pieces: large, marks: colours}\n"
+      "- {name: human, segmenter: rgb, pieces: large}\n"
+      "- {name: live, segmenter: rgb, pieces: large, marks: colours, causal: true}\n";
+  for (const char* scene : {"0", "0.5"}) {
+    const std::string studio = fmt::format("duration_s: 0.1\nclothes: coded\nscene: {}\n", scene);
+    const auto steady = Make(studio + methods), shaky = Make(studio + "annotation_error_px: 8\n" + methods);
+    ASSERT_TRUE(steady) << ToString(steady.error());
+    ASSERT_TRUE(shaky) << ToString(shaky.error());
+    const auto cells = RunWorld(**steady, kKey, 3), others = RunWorld(**shaky, kKey, 3);
+    for (const std::size_t coloured : {0u, 2u}) {
+      EXPECT_EQ(cells[coloured].status, Status::kOk) << cells[coloured].reason;
+      EXPECT_EQ(DigestOf(cells[coloured], "marks"), DigestOf(others[coloured], "marks"));
+    }
+    EXPECT_EQ(DigestOf(cells[0], "masks"), DigestOf(cells[1], "masks"));
+    EXPECT_NE(DigestOf(cells[0], "marks"), DigestOf(cells[1], "marks"));
+    EXPECT_NE(DigestOf(cells[1], "marks"), DigestOf(others[1], "marks")) << "the control";
+    EXPECT_LT(*ValueOf(cells[0], "limb_direction_error_deg"), 6) << scene;
+    EXPECT_LT(*ValueOf(cells[0], "triangulation_error_mm"), 20) << scene;
+    EXPECT_GT(*ValueOf(others[1], "limb_direction_error_deg"), 10) << scene;
+  }
+}
+
 TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
   struct Case {
     const char* yaml;
@@ -307,6 +332,10 @@ TEST(CaptureTask, RefusesWhatItDoesNotKnowAndSaysWhatItDoes) {
            Case{"camera_angles_deg: [0]\nmethods: [{name: a}]", "it needs 2 to 8"},
            Case{"figure: own\nmethods: [{name: a}]", "test.yaml:1:9: 'figure: own' needs clips with meshes (glTF)"},
            Case{"duration_s: -1\nmethods: [{name: a}]", "duration_s"},
+           Case{"methods: [{name: a}, {name: b, marks: colours}]",
+                "test.yaml:1:22: 'marks: colours' reads the colours of a suit; allowed with clothes: coded"},
+           Case{"clothes: coded\nmethods: [{name: a, marks: colours, oracle: [marks]}]", "both say who marks"},
+           Case{"clothes: coded\nmethods: [{name: a, marks: colours, recovery: silhouettes}]", "has no 'marks'"},
        }) {
     const auto task = Make(c.yaml);
     ASSERT_FALSE(task) << c.yaml;

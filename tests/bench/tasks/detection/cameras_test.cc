@@ -61,6 +61,8 @@ TEST_F(DetectionCameras, HaveKeysThatNoOtherSensorHasAndTheOtherWayRound) {
   EXPECT_THAT(ComplaintAbout(std::string("sensor: v1\ncamera_angles_deg: [0, 40]\n") + kTruth), HasSubstr("cameras"));
   EXPECT_THAT(ComplaintAbout(std::string("sensor: cameras\nnoise: 2\n") + kTruth), HasSubstr("skeleton sensors"));
   EXPECT_THAT(ComplaintAbout("methods: [{name: a, capture: {causal: true}}]\n"), HasSubstr("needs cameras"));
+  EXPECT_THAT(ComplaintAbout("sensor: cameras\nmethods: [{name: a, capture: {marks: colours}}]\n"),
+              HasSubstr("allowed with clothes: coded"));
   EXPECT_THAT(ComplaintAbout("sensor: cameras\nmethods: [{name: a, capture: {recovery: bundle, causal: true}}]\n"),
               HasSubstr("causal"));
   EXPECT_THAT(ComplaintAbout("sensor: cameras\ncamera_heights_m: [1]\n" + std::string(kTruth)), HasSubstr("heights"));
