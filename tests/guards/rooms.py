@@ -53,7 +53,7 @@ MAY_INCLUDE = {
         "engine/base engine/cameras engine/capture engine/kinematics engine/motion engine/silhouettes engine/vision",
     "engine/vision": "engine/base engine/cameras engine/motion",
     # sim/
-    "sim/annotator": "engine/base engine/cameras engine/motion engine/vision sim/body sim/random",
+    "sim/annotator": "engine/base engine/motion engine/vision sim/body sim/random",
     "sim/body": "engine/motion",
     "sim/camera": "engine/base engine/cameras sim/random sim/render",
     "sim/character": "engine/base engine/motion engine/retargeting sim/body sim/choreography sim/render",
