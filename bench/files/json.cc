@@ -81,6 +81,8 @@ int NestingOf(std::string_view text) {
 
 Result<Json> ReadJson(const std::string& text, const std::string& file, int line) {
   if (NestingOf(text) > kDeepest) return Fail({file, line, 0}, "nested more than {} deep", kDeepest);
+  // The parser takes a zero byte for the end, and whatever follows for nothing.
+  if (text.find('\0') != std::string::npos) return Fail({file, line, 0}, "not valid JSON: a zero byte");
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {

@@ -104,7 +104,10 @@ class LineReader {
     const std::string_view inside(begin, static_cast<std::size_t>(at_ - begin));
     Expect("\"");
     if (!good_) return "";
-    return plain ? std::string(inside) : Json::parse("\"" + std::string(inside) + "\"").get<std::string>();
+    if (plain) return std::string(inside);
+    const Json text = Json::parse("\"" + std::string(inside) + "\"", nullptr, false);
+    if (!text.is_string()) Refuse();
+    return good_ ? text.get<std::string>() : "";
   }
   /// The other side of LineWriter::AddList.
   template <typename ReadOne>

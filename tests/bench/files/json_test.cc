@@ -32,6 +32,13 @@ TEST(Json, CountsOnlyBracketsOutsideOfTexts) {
   EXPECT_EQ(NestingOf("[[["), 3);
 }
 
+TEST(Json, DoesNotEndAtAZeroByte) {
+  using namespace std::string_literals;
+  EXPECT_TRUE(ReadJson("5 \n", "f"));
+  EXPECT_FALSE(ReadJson("5\0"s, "f"));
+  EXPECT_FALSE(ReadJson("5\0garbage"s, "f"));
+}
+
 TEST(Json, RefusesDeepNestingBeforeItTakesTheStack) {
   const std::string deep(1'000'000, '[');
   EXPECT_THAT(ToString(ReadJson(deep, "a.json", 7).error()), HasSubstr("a.json:7: nested more than 100 deep"));

@@ -110,6 +110,12 @@ TEST(CellLine, ThatIsNotAsItWasWrittenIsNone) {
   }
 }
 
+TEST(CellLine, WhoseStatusIsNoTextIsNone) {
+  EXPECT_TRUE(ReadCellLineHead(WithSum(R"({"cell":1,"status":"o\u006b"})"))) << "the control";
+  EXPECT_FALSE(ReadCellLineHead(WithSum(R"({"cell":1,"status":"o\q"})")));
+  EXPECT_FALSE(ReadCellLineHead(WithSum("{\"cell\":1,\"status\":\"\xC2\\n\"}")));
+}
+
 TEST(CellLine, WithAValueThatIsNotFiniteIsBadOutput) {
   for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     FinishedCell metric = SampleCell(), series = SampleCell(), recording = SampleCell();
