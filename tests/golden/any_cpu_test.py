@@ -32,6 +32,7 @@ WORLDS = [  # scenario, condition, trial
     ("every-switch", 0, 5),
     ("every-distance", 0, 0),
     ("every-capture", 0, 0),
+    ("furnished-capture", 0, 0),
 ]
 EVERY_SOLVER = """defaults: {seed: 1, methods: [METHODS]}
 scenarios:
@@ -59,6 +60,11 @@ scenarios:
                {name: ends, segmenter: rgb, recovery: ends, smoothing: rts}, {name: bundle, recovery: bundle},
                {name: lengths, segmenter: running, recovery: bundle, lengths: measured, smoothing: rts},
                {name: silhouettes, segmenter: hue-gated, recovery: silhouettes}]}
+  - {scenario: furnished-capture, task: capture, duration_s: 0.1, clips: ['builtin:boxing'], scene: 0.5, clothes: coded,
+     calibration_target: marks, metrics: [mpjpe_mm], question: 'Same bytes?',
+     methods: [{name: annotator, segmenter: rgb, pieces: large}, {name: colours, segmenter: rgb, pieces: large, marks: colours},
+               {name: bundle, segmenter: rgb, pieces: large, marks: colours, recovery: bundle},
+               {name: live, segmenter: rgb, marks: colours, causal: true}]}
 """
 
 
