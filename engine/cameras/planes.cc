@@ -143,7 +143,7 @@ Result<Intrinsics> IntrinsicsFromPlanes(std::span<const glm::dmat3> homographies
     rhs[row++] = h[1].z * h[1].z - h[0].z * h[0].z;
   }
   // Two unknowns where the planes tell both apart, else square pixels.
-  const Eigen::JacobiSVD<Eigen::MatrixX2d> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   constexpr double kTellsApart = 0.02;
   Eigen::Vector2d ab = svd.solve(rhs);
   if (!(svd.singularValues()[1] > kTellsApart * svd.singularValues()[0]) || !(ab.minCoeff() > 0)) {

@@ -1,7 +1,9 @@
 #include "engine/keypoints/synchronise_people.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/engine/keypoints/walkers.h"
@@ -19,8 +21,8 @@ struct Session {
 
 /// One or two people before four cameras whose clocks are off, in an order that changes; the second one unseen by the
 /// last camera. The films have different lengths.
-Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets = kOffsets) {
-  RandomStream dice = WalkersDice("clocks");
+Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets = kOffsets, int luck = 0) {
+  RandomStream dice = WalkersDice(fmt::format("clocks {}", luck).c_str());
   Session session;
   std::vector<Camera> cameras = FourCameras();
   for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -39,14 +41,33 @@ Session Filmed(int persons, double sigma_px, const std::vector<double>& offsets 
 
 TEST(SynchronisePeople, FindsHowLateEveryCameraIs) {
   for (const int persons : {1, 2}) {
-    const Session exact = Filmed(persons, 0), noisy = Filmed(persons, 4);
-    const auto found = EstimateOffsets(exact.cameras, exact.people),
-               roughly = EstimateOffsets(noisy.cameras, noisy.people);
+    const Session exact = Filmed(persons, 0);
+    const auto found = EstimateOffsets(exact.cameras, exact.people);
     for (std::size_t c = 0; c < kOffsets.size(); ++c) {
       EXPECT_NEAR(found[c].frames, kOffsets[c], 0.04) << persons << " people, camera " << c;
-      EXPECT_NEAR(roughly[c].frames, kOffsets[c], 0.25) << persons << " people, camera " << c;
-      EXPECT_TRUE(found[c].is_told && roughly[c].is_told) << persons << " people, camera " << c;
+      EXPECT_TRUE(found[c].is_told) << persons << " people, camera " << c;
     }
+  }
+}
+
+// One throw of the dice may flatter: eight are judged together.
+TEST(SynchronisePeople, FindsItRoughlyFromKeypointsThatErr) {
+  constexpr int kThrows = 8;
+  for (const int persons : {1, 2}) {
+    double squares = 0, worst = 0;
+    for (int luck = 0; luck < kThrows; ++luck) {
+      const Session noisy = Filmed(persons, 4, kOffsets, luck);
+      const auto roughly = EstimateOffsets(noisy.cameras, noisy.people);
+      for (std::size_t c = 1; c < kOffsets.size(); ++c) {
+        const double off = roughly[c].frames - kOffsets[c];
+        EXPECT_TRUE(roughly[c].is_told) << persons << " people, camera " << c;
+        squares += off * off;
+        worst = std::max(worst, std::abs(off));
+      }
+    }
+    const double rms = std::sqrt(squares / (kThrows * static_cast<double>(kOffsets.size() - 1)));
+    EXPECT_LT(rms, persons == 1 ? 0.3 : 0.15);
+    EXPECT_LT(worst, 0.6);
   }
 }
 

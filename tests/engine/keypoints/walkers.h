@@ -56,8 +56,8 @@ inline SeenPerson Seen(const Camera& camera, const LandmarkPlaces& places, doubl
   SeenPerson person;
   for (std::size_t i = 0; i < kLandmarkCount; ++i) {
     const auto pixel = places[i] ? Project(camera, *places[i]) : std::nullopt;
-    const glm::dvec2 error(dice.Normal(), dice.Normal());
-    if (pixel) person.keypoints[i] = {*pixel + sigma_px * error, 0.8};
+    const double v = dice.Normal(), u = dice.Normal();
+    if (pixel) person.keypoints[i] = {*pixel + sigma_px * glm::dvec2(u, v), 0.8};
   }
   return person;
 }
