@@ -17,6 +17,7 @@ void DampedInverse::Build(const LinearTargets& linear) {
   jacobian_.assign(linear.jacobian().begin(), linear.jacobian().end());
   residuals_.assign(linear.residuals().begin(), linear.residuals().end());
   gram_.assign(static_cast<std::size_t>(rows_) * rows_, 0.0);
+  if (rows_ == 0) return;  // Eigen would look at what is not there
   const Eigen::Map<const Eigen::MatrixXd> jacobian(jacobian_.data(), rows_, columns_);
   Eigen::Map<Eigen::MatrixXd>(gram_.data(), rows_, rows_).selfadjointView<Eigen::Lower>().rankUpdate(jacobian);
 }
