@@ -8,6 +8,7 @@
 #include "reports/words/escape.h"
 #include "reports/words/figures.h"
 #include "reports/words/findings.h"
+#include "reports/words/left_out.h"
 
 namespace etude {
 namespace {
@@ -38,12 +39,14 @@ std::string RealRows(const RealTake& take) {
   return html;
 }
 
-std::string SimulatedRows(const ScenarioSummary& scenario) {
+/// `rows` counts on from scenario to scenario.
+std::string SimulatedRows(const ScenarioSummary& scenario, std::size_t& rows) {
   std::string html;
   for (const ConditionSummary& condition : scenario.conditions) {
     for (const MethodSummary& method : condition.methods) {
       const auto metric = std::ranges::find(method.metrics, kMetric, &MetricSummary::id);
       if (metric == method.metrics.end() || !metric->median) continue;
+      if (++rows > kMostTableRows) continue;
       const std::string label = ConditionLabel(condition.condition);
       html +=
           Row(" class=\"quiet\"", {fmt::format("simulated: {}{}{}", scenario.name, label.empty() ? "" : ", ", label),
@@ -69,10 +72,12 @@ std::string RealTakesSection(const RunData& run, std::span<const RealTake> takes
       "Recovery</th><th scope=\"col\">Cameras</th><th scope=\"col\" class=\"n\">Median, mm</th><th scope=\"col\" "
       "class=\"n\">95 %, mm</th></tr></thead><tbody>";
   for (const RealTake& take : takes) html += RealRows(take);
+  std::size_t rows = 0;
   for (const ScenarioSummary& scenario : run.scenarios) {
-    if (scenario.task == "capture") html += SimulatedRows(scenario);
+    if (scenario.task == "capture") html += SimulatedRows(scenario, rows);
   }
-  return html + "</tbody></table></div></section>\n";
+  return html + "</tbody></table></div>" + LeftOutHtml(rows, kMostTableRows, "rows", "the CSV files in report/tables") +
+         "</section>\n";
 }
 
 }  // namespace etude
