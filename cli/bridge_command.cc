@@ -6,6 +6,7 @@
 #include "cli/bridge_library.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/compare_tags.h"
 #include "engine/transitions/tags_file/tags_file.h"
 #include "reports/bridges/bridge_summary.h"
@@ -81,7 +82,7 @@ int BridgeCommand(const BridgeCommandOptions& options) {
   if (!options.output.empty()) {
     if (auto written = WriteTags(*loaded, options.output); !written) return Complain(written.error());
   }
-  const Coverage coverage(loaded->library.tagged, loaded->match_rules, options.wait_s);
+  const Coverage coverage(loaded->library.tagged, loaded->match_rules, options.wait_s, TellOf("comparisons of a clip"));
   if (!options.as_json) {
     fmt::print("{}", BridgeSummaryAsText(*loaded, coverage, options.wait_s));
     return kSuccess;

@@ -15,6 +15,7 @@ Result<Json> ReadMessage(const std::string& line) {
   if (NestingOf(line) > kDeepestReply) {
     return Fail({}, "said something nested more than {} deep: {}", kDeepestReply, Printable(line));
   }
+  if (line.find('\0') != std::string::npos) return Fail({}, "said something that is not JSON: a zero byte");
   Json message;
   try {
     message = Json::parse(line);

@@ -161,6 +161,7 @@ std::string WriteCaptureExtras(const CaptureExtras& extras) {
 }
 
 Result<CaptureExtras> ReadCaptureExtras(std::string_view text) {
+  if (text.find('\0') != std::string_view::npos) return Fail({}, "no readable capture recording: a zero byte");
   try {
     return ToExtras(Json::parse(text));
   } catch (const Json::exception& error) {

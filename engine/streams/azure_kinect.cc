@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/names.h"
+#include "engine/formats/json/json_text.h"
 #include "engine/streams/bodies.h"
 #include "engine/streams/format_readers.h"
 
@@ -16,15 +17,6 @@ constexpr std::size_t kAzureJoints = 32;
 constexpr std::array<std::size_t, kRoleCount> kJointOfRole = {0,  1,  3,  26,                  // trunk and head
                                                               5,  6,  7,  8,  12, 13, 14, 15,  // arms
                                                               18, 19, 20, 21, 22, 23, 24, 25};
-
-/// Where a byte stands.
-Place PlaceOfByte(std::string_view text, std::size_t byte, const std::string& file) {
-  const std::string_view before = text.substr(0, std::min(byte == 0 ? 0 : byte - 1, text.size()));
-  const auto line = 1 + std::ranges::count(before, '\n');
-  const std::size_t start = before.rfind('\n');
-  const std::size_t column = before.size() - (start == std::string_view::npos ? 0 : start + 1) + 1;
-  return {file, static_cast<int>(line), static_cast<int>(column)};
-}
 
 /// A number of a list, or nothing.
 std::optional<double> NumberAt(const Json& list, std::size_t i) {
@@ -116,11 +108,9 @@ class AzureReader {
 }  // namespace
 
 Result<StreamRecording> ReadAzureKinect(std::string_view text, const std::string& file, const StreamReading& reading) {
+  ASSIGN_OR_RETURN(const Json root, ParseJsonText(text, file));
   try {
-    const Json root = Json::parse(text);
     return AzureReader(root, file).Read(reading);
-  } catch (const Json::parse_error& error) {
-    return Fail(PlaceOfByte(text, error.byte, file), "no JSON from here on");
   } catch (const Json::exception& error) {
     return Fail({file}, "JSON of another shape than the offline processor's: {}", error.what());
   }

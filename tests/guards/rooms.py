@@ -19,8 +19,9 @@ MAY_INCLUDE = {
         "engine/transitions/joins engine/transitions/library",
     "engine/document": "engine/base",
     "engine/formats": "engine/base engine/motion",
-    "engine/formats/deepmimic": "engine/base engine/motion",
+    "engine/formats/deepmimic": "engine/base engine/formats/json engine/motion",
     "engine/formats/gltf": "engine/base engine/formats engine/motion",
+    "engine/formats/json": "engine/base",
     "engine/fuzzy": "engine/base engine/document engine/motion",
     "engine/keypoints":
         "engine/base engine/cameras engine/capture engine/formats engine/kinematics engine/motion engine/vision",
@@ -31,7 +32,7 @@ MAY_INCLUDE = {
     "engine/retargeting": "engine/base engine/document engine/motion",
     "engine/silhouettes": "engine/base engine/cameras engine/kinematics engine/motion",
     "engine/smoothing": "",
-    "engine/streams": "engine/base engine/formats engine/recognition",
+    "engine/streams": "engine/base engine/formats engine/formats/json engine/recognition",
     "engine/teaching": "engine/base engine/document engine/recognition",
     "engine/transitions": "engine/transitions/choices engine/transitions/joins",
     "engine/transitions/base": "engine/fuzzy engine/motion",
@@ -46,7 +47,7 @@ MAY_INCLUDE = {
     "engine/transitions/joins": "engine/base engine/motion engine/transitions/base",
     "engine/transitions/library":
         "engine/fuzzy engine/motion engine/transitions/bridge_frames engine/transitions/in_betweens",
-    "engine/transitions/search": "engine/fuzzy engine/transitions/base",
+    "engine/transitions/search": "engine/base engine/fuzzy engine/transitions/base",
     "engine/transitions/tags_file":
         "engine/base engine/fuzzy engine/transitions/bridge_frames engine/transitions/library",
     "engine/unmarked":

@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/formats/json/json_text.h"
+
 namespace etude {
 namespace {
 
@@ -47,12 +49,6 @@ const std::array<HumanoidJoint, 18> kHumanoid = {{
 
 constexpr std::size_t kNumbers = 44;
 constexpr std::size_t kLargestText = 64u << 20;
-
-Place PlaceOfByte(std::string_view text, std::size_t byte, const std::string& file) {
-  const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
-  const std::size_t start = before.rfind('\n') + 1;  // 0 when there is none
-  return {file, static_cast<int>(1 + std::ranges::count(before, '\n')), static_cast<int>(before.size() - start + 1)};
-}
 
 Skeleton HumanoidSkeleton() {
   Skeleton skeleton;
@@ -143,12 +139,7 @@ Result<Clip> ReadDeepMimicMotion(std::string_view text, const std::string& file)
   if (text.size() > kLargestText) {
     return Fail({file, 0, 0}, "{} MiB; allowed: {} MiB", text.size() >> 20, kLargestText >> 20);
   }
-  Json motion;
-  try {
-    motion = Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    return Fail(PlaceOfByte(text, error.byte, file), "is no JSON from here on");
-  }
+  ASSIGN_OR_RETURN(const Json motion, ParseJsonText(text, file));
   const auto frames = motion.find("Frames");
   if (frames == motion.end() || !frames->is_array() || frames->empty()) {
     return Fail({file, 0, 0}, "no frames; allowed: a list of them under \"Frames\"");

@@ -28,7 +28,8 @@ int CountLate(std::span<const FrameMatches> frames, const TaggedClip& clip, doub
 
 }  // namespace
 
-Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s)
+Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s,
+                   const OnProgress& on_progress)
     : clip_count_(static_cast<int>(clips.size())), pairs_(clips.size() * clips.size()) {
   std::vector<MatchClip> all_frames, bridge_frames;
   for (const TaggedClip& clip : clips) {
@@ -37,8 +38,13 @@ Coverage::Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, d
   }
   const MatchRules partner_rules{
       .weights = rules.weights, .threshold = rules.threshold, .within_class = rules.within_class};
-  const MatchTable of_all = FindMatches(all_frames, partner_rules);
-  const MatchTable of_bridges = FindMatches(bridge_frames, partner_rules);
+  const auto tell_from = [&](std::size_t first) {
+    return [&, first](std::size_t done, std::size_t all) {
+      if (on_progress) on_progress(first + done, 2 * all);
+    };
+  };
+  const MatchTable of_all = FindMatches(all_frames, partner_rules, nullptr, tell_from(0));
+  const MatchTable of_bridges = FindMatches(bridge_frames, partner_rules, nullptr, tell_from(clips.size()));
   for (int from = 0; from < clip_count_; ++from) {
     for (int to = 0; to < clip_count_; ++to) {
       if (from == to || clips[from].FrameCount() == 0) continue;

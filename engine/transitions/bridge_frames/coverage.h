@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/transitions/bridge_frames/bridge_frames.h"
 #include "engine/transitions/bridge_frames/transition_points.h"
 
@@ -21,10 +22,12 @@ struct PairCoverage {
   double in_between_share = 0;
 };
 
-/// The same of every pair of clips of a library.
+/// The same of every pair of clips of a library. `on_progress` is told of the clips whose frames are compared, each
+/// counted twice: with all frames, and with the bridge frames.
 class Coverage {
  public:
-  Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s);
+  Coverage(std::span<const TaggedClip> clips, const MatchRules& rules, double budget_s,
+           const OnProgress& on_progress = {});
 
   int ClipCount() const { return clip_count_; }
   /// From one clip into another one.

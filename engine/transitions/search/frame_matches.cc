@@ -169,7 +169,8 @@ double MatchTable::Share(int from, int to) const {
   return asked == 0 ? 0 : static_cast<double>(Of(from, to).size()) / asked;
 }
 
-MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work) {
+MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work,
+                       const OnProgress& on_progress) {
   MatchTable table;
   std::vector<ReadyClip> ready;
   for (const MatchClip& clip : clips) {
@@ -185,6 +186,7 @@ MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules
       if (a == b) continue;
       table.found_[a * clips.size() + b] = PairSearch(metric, rules, ready[a], ready[b]).Run(done);
     }
+    if (on_progress) on_progress(a + 1, clips.size());
   }
   if (work) {
     work->distances += done.distances;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/progress.h"
 #include "engine/transitions/base/match_rules.h"
 #include "engine/transitions/search/grade_index.h"
 
@@ -38,7 +39,8 @@ class MatchTable {
   double Share(int from, int to) const;
 
  private:
-  friend MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work);
+  friend MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules, SearchWork* work,
+                                const OnProgress& on_progress);
   std::size_t Pair(int from, int to) const { return static_cast<std::size_t>(from) * asked_.size() + to; }
 
   std::vector<int> asked_;
@@ -46,7 +48,8 @@ class MatchTable {
 };
 
 /// Compares every clip's frames with those of every other clip; `rules.pick` plays no part. The last frame of a clip is
-/// never a match: nothing would follow it. Exact, as GradeIndex is.
-MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules = {}, SearchWork* work = nullptr);
+/// never a match: nothing would follow it. Exact, as GradeIndex is. `on_progress` is told of the clips that are done.
+MatchTable FindMatches(std::span<const MatchClip> clips, const MatchRules& rules = {}, SearchWork* work = nullptr,
+                       const OnProgress& on_progress = {});
 
 }  // namespace etude

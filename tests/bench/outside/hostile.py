@@ -64,6 +64,11 @@ def answers_bytes(problem):
     sys.stdout.flush()
 
 
+def answers_behind_a_zero_byte(problem):
+    line = json.dumps({"type": "answer", "id": problem["id"], "answer": ANSWER})
+    write(line + "\0 and whatever else\n")
+
+
 def answers_without_end(problem):
     while True:
         write("x" * 65536)

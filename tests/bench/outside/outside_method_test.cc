@@ -104,6 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Hostility{"answers_beyond_doubles", Status::kBadOutput, "said a number that is too large: '"},
                       Hostility{"answers_deeply", Status::kBadOutput, "said something nested more than 32 deep: '[[[["},
                       Hostility{"answers_bytes", Status::kBadOutput, "said something that is not JSON: "},
+                      Hostility{"answers_behind_a_zero_byte", Status::kBadOutput,
+                                "said something that is not JSON: a zero byte"},
                       Hostility{"answers_without_end", Status::kBadOutput, "said a line of more than 16 MiB: 'xxx"},
                       Hostility{"answers_another_question", Status::kBadOutput, "answered 'another' when asked 'p'"},
                       Hostility{"answers_a_list", Status::kBadOutput, "its 'answer' has no object \"answer\": "},
