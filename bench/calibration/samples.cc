@@ -12,7 +12,10 @@ namespace {
 
 constexpr double kUntied = 0.4;
 /// Of the logarithm of a cost: seven of ten lie below.
-const double kLogLimit = NormalQuantile(0.7);
+double LogLimit() {
+  static const double limit = NormalQuantile(0.7);
+  return limit;
+}
 
 /// Of t₃, scaled to a standard deviation of one.
 double HeavyTailed(RandomStream& dice) {
@@ -34,14 +37,14 @@ double CoinsDiffer(double effect, RandomStream& dice) {
   return throw_of_dice < 0.25 - effect / 2 ? -1 : throw_of_dice >= 0.75 - effect / 2 ? 1 : 0;
 }
 
-double PenalisedCost(double log_cost) { return log_cost > kLogLimit ? 2 * std::exp(kLogLimit) : std::exp(log_cost); }
+double PenalisedCost(double log_cost) { return log_cost > LogLimit() ? 2 * std::exp(LogLimit()) : std::exp(log_cost); }
 
 /// Expectations of a penalised cost whose logarithm is normal around `shift`, and of its square.
 double MeanCost(double shift) {
-  const double below = kLogLimit - shift;
-  return std::exp(shift + 0.5) * NormalCdf(below - 1) + 2 * std::exp(kLogLimit) * NormalCdf(-below);
+  const double below = LogLimit() - shift;
+  return std::exp(shift + 0.5) * NormalCdf(below - 1) + 2 * std::exp(LogLimit()) * NormalCdf(-below);
 }
-double MeanSquaredCost() { return std::exp(2.0) * NormalCdf(kLogLimit - 2) + 4 * std::exp(2 * kLogLimit) * 0.3; }
+double MeanSquaredCost() { return std::exp(2.0) * NormalCdf(LogLimit() - 2) + 4 * std::exp(2 * LogLimit()) * 0.3; }
 
 /// The shift of the logarithm that changes the mean cost by `effect`, by bisection.
 double ShiftFor(double effect) {

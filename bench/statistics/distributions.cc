@@ -4,17 +4,12 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <numbers>
 
 namespace etude {
-namespace {
+double NormalCdf(double x) { return 0.5 * boost::math::erfc(-x / std::numbers::sqrt2); }
 
-const double kRootTwo = std::sqrt(2.0);
-
-}  // namespace
-
-double NormalCdf(double x) { return 0.5 * boost::math::erfc(-x / kRootTwo); }
-
-double NormalQuantile(double p) { return -kRootTwo * boost::math::erfc_inv(2 * p); }
+double NormalQuantile(double p) { return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p); }
 
 double StudentQuantile(double p, int freedom) {
   return boost::math::quantile(boost::math::students_t_distribution<double>(freedom), p);
