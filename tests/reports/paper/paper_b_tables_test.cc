@@ -81,9 +81,10 @@ TEST(PaperBTables, OfHiddenAnglesHaveTheJointsOfThePaperAndNoAxisThatAJointLacks
   const PaperTable table = Tables()[0].sets[0].angles[2];
   EXPECT_THAT(table.caption, StartsWith("(h) adaptive: "));
   ASSERT_EQ(table.rows.size(), 14u);
+  const auto tree = MakeBodyTree({});
   int dofs = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const TreeJoint& joint = MakeBodyTree({}).joints[kPaperBJoints[i].joint];
+    const TreeJoint& joint = tree.joints[kPaperBJoints[i].joint];
     for (int axis = 0; axis < 3; ++axis) {
       const auto& value = table.rows[i].values[axis];
       EXPECT_EQ(value.has_value(), axis < joint.dof_count);

@@ -26,7 +26,7 @@ inline NormalisedClip Normalised(const std::vector<BodyPose>& poses) {
 }
 
 /// Metres, root mean square over the joints.
-inline double PoseGap(const BodyPose& a, const BodyPose& b) {
+inline double RmsGap(const BodyPose& a, const BodyPose& b) {
   double square = 0;
   for (Role role : AllRoles()) {
     const glm::dvec3 gap = a[role] - b[role];
@@ -48,7 +48,7 @@ inline double WarpedDistanceCm(const NormalisedClip& a, const NormalisedClip& b)
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const Path best =
           std::min({before[j - 1], before[j], now[j - 1]}, [](const Path& x, const Path& y) { return x.sum < y.sum; });
-      now[j] = {best.sum + PoseGap(pose, b[j - 1]), best.steps + 1};
+      now[j] = {best.sum + RmsGap(pose, b[j - 1]), best.steps + 1};
     }
     std::swap(before, now);
   }

@@ -63,7 +63,8 @@ TEST(TrackingExchange, TheTruthIsAPerfectAnswer) {
 }
 
 TEST(TrackingExchange, TheTruthMissesDisturbedTargets) {
-  const auto world = MakeTask("{duration_s: 0.5, target_noise_cm: 1}")->MakeWorld(kExchangeWorld, false);
+  const auto task = MakeTask("{duration_s: 0.5, target_noise_cm: 1}");
+  const auto world = task->MakeWorld(kExchangeWorld, false);
   const auto cell = world->Judge(*world->MakeTruth()->json);
   EXPECT_EQ(cell->status, Status::kUnsolved);
   EXPECT_NEAR(*ValueOf(*cell, "position_error_cm"), std::sqrt(8 / kPi), 0.3) << "mean of a three-dimensional normal";

@@ -198,10 +198,12 @@ TEST_F(TransitionExchange, ScoresAWorseAnswerWorse) {
 
   Json stay = soon, leap = soon;  // the frame left is held for a frame; or the whole body leaps five metres to the side
   BodyPose pose = *ReadPose(clip[request], "");
-  stay["between"] = {EncodePose(pose)};
+  stay["between"] = Json::array({EncodePose(pose)});
   for (glm::dvec3& joint : pose.joints) joint.x += 5;
-  leap["between"] = {EncodePose(pose)};
+  leap["between"] = Json::array({EncodePose(pose)});
   const auto calm = world->Judge(stay), wild = world->Judge(leap);
+  ASSERT_TRUE(calm) << ToString(calm.error());
+  ASSERT_TRUE(wild) << ToString(wild.error());
   EXPECT_GT(ValueOf(*wild, "jump_cm"), ValueOf(*calm, "jump_cm") + 50);
   EXPECT_GT(ValueOf(*wild, "pose_gap_cm"), ValueOf(*calm, "pose_gap_cm") + 50);
   Json rush = stay;  // five metres within a frame
