@@ -7,6 +7,7 @@
 #include <numbers>
 
 namespace etude {
+
 double NormalCdf(double x) { return 0.5 * boost::math::erfc(-x / std::numbers::sqrt2); }
 
 double NormalQuantile(double p) { return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p); }
