@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "sim/sensors/image_files.h"
 
@@ -17,7 +18,9 @@ constexpr Rgb8 kRed{200, 30, 20}, kBlue{20, 60, 210}, kGreen{0, 255, 0};
 ColourImage Drawn(const SensorSheet& sheet) {
   const auto png = DrawSensorSheet(sheet);
   EXPECT_TRUE(png) << ToString(png.error());
-  const auto path = std::filesystem::path(testing::TempDir()) / "etude-sensor-sheet.png";
+  // Of the test's own: others run beside it.
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const auto path = std::filesystem::path(testing::TempDir()) / ("etude-sensor-sheet-" + test + ".png");
   std::ofstream(path, std::ios::binary) << *png;
   auto picture = LoadColourPng(path.string());
   EXPECT_TRUE(picture);
