@@ -16,6 +16,7 @@ for argument; do case $argument in
   -artifact_prefix=*) found=${argument#-artifact_prefix=} ;;
 esac; done
 echo new > $corpus/$seed
+echo "$@" > ${0%/*}/arguments
 case $1 in
   --target=good) echo "#100 DONE cov: 42 ft: 1 corp: 1"; echo "stat::number_of_executed_units: 100" ;;
   --target=bad) echo "#7 NEW cov: 5 ft: 1"; echo broken > ${found}crash-$seed; exit 77 ;;
@@ -43,7 +44,8 @@ class Soak(unittest.TestCase):
         self.assertEqual(self.run_soak(), ["crash-1"])
         self.assertEqual(self.run_soak("--rounds", "2"), ["crash-2", "crash-3"])
         readers = self.figure()["readers"]
-        self.assertEqual(readers["good"], {"executions": 300, "rounds": 3, "edges": 42, "corpus": 3, "findings_mended": 0})
+        self.assertEqual(readers["good"], {"executions": 300, "fast_executions": 0, "rounds": 3, "edges": 42, "corpus": 3,
+                                           "findings_mended": 0})
         self.assertEqual(readers["bad"]["executions"], 21)
         self.assertEqual(self.figure()["all"]["fewest_executions"], 21)
 
@@ -52,6 +54,18 @@ class Soak(unittest.TestCase):
         self.assertEqual(self.figure()["readers"]["bad"]["rounds"], 0)
         with self.assertRaisesRegex(SystemExit, "no reader 'ugly'; allowed: good, bad"):
             self.run_soak("--only", "ugly")
+
+    def test_rounds_go_on_until_so_many_executions_several_readers_at_once(self):
+        self.run_soak("--until", "250", "--only", "good", "--fast")
+        self.assertEqual(self.figure()["readers"]["good"]["executions"], 300)
+        self.assertEqual(self.figure()["all"]["fast_executions"], 300)
+        self.run_soak("--until", "250", "--jobs", "2")
+        self.assertEqual(self.figure()["readers"]["good"]["rounds"], 3)
+        self.assertEqual(self.figure()["readers"]["bad"]["executions"], 252)
+
+    def test_inputs_that_were_kept_are_checked_once(self):
+        self.run_soak("--check", "--only", "good")
+        self.assertIn("-runs=0", (self.folder / "arguments").read_text())
 
 
 if __name__ == "__main__":
