@@ -12,8 +12,11 @@ namespace etude {
 
 /// How a cell (world × method) ended. Every cell becomes a row with one of these.
 enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
+constexpr int kStatusCount = static_cast<int>(Status::kSkipped) + 1;
 
 std::string_view StatusName(Status status);
+/// Nothing when no status is called so.
+std::optional<Status> FindStatus(std::string_view name);
 
 /// One measured value of a cell; a missing value says why, and never counts as zero.
 struct MetricValue {

@@ -30,7 +30,7 @@ Json Encode(const ColumnIndex& index) {
     }
     kinds.push_back({{"metrics", kind.metrics}, {"why", why}, {"stages", kind.stages}, {"series", curves}});
   }
-  for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
+  for (int i = 0; i < kStatusCount; ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
   return {{"format", "etude-columns"},
           {"version", kColumnsVersion},
           {"scenario", index.scenario},
