@@ -16,6 +16,10 @@ struct FinishedCell {
   CellUsage usage;
 };
 
+/// Scores an answer that did not come from a built-in method; its fingerprint stands among the digests of the cell.
+/// Fails as TaskWorld::Judge.
+Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
+
 /// Runs the cells of one world after the other, as a worker does: the world is built once, methods outside
 /// stay alive from world to world.
 class CellRunner {
