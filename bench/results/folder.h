@@ -22,7 +22,7 @@ constexpr int kResultSchema = 3;
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
 
-/// Runs of more cells than this keep them as columns (columns.h) instead of lines of text.
+/// Runs of more cells than this keep them as columns (column_writer.h) instead of lines of text.
 constexpr std::size_t kMostRowsAsText = 100'000;
 /// Of such runs LoadRun holds about so many rows.
 constexpr std::size_t kMostRowsHeld = 20'000;
