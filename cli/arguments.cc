@@ -76,8 +76,7 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   const auto world_options = AddWorldOptions(*command, *options);
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
-  CLI::Option* overwrite =
-      AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
   AddOutsideRules(*command, options->outside);

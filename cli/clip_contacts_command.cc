@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
 #include "cli/clip_commands.h"

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "bench/files/files.h"

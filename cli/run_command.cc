@@ -118,11 +118,10 @@ int RunCommand(const RunOptions& given) {
   }
   if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
   if (outcome->stopped) {
-    return TellStopped(
-        {{},
-         outcome->cells == 0
-             ? "stopped before any cell ended; nothing is kept"
-             : fmt::format("stopped; {} cells are kept in {}, --resume goes on", outcome->cells, folder)});
+    return TellStopped({{},
+                        outcome->cells == 0 ? "stopped before any cell ended; nothing is kept"
+                                            : fmt::format("stopped; {} cells are kept in {}, --resume goes on",
+                                                          outcome->cells, folder)});
   }
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",

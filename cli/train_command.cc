@@ -74,7 +74,8 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     motions.push_back(std::move(clip.motion));
   }
   if (names.size() > kMostClipsToTrainOn) {
-    return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(), kMostClipsToTrainOn);
+    return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(),
+                kMostClipsToTrainOn);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
