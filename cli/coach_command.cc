@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bench/files/files.h"
+#include "bench/process/clock.h"
 #include "bench/tasks/detection/world.h"
 #include "cli/commands.h"
 #include "cli/output_file.h"
@@ -28,8 +29,6 @@
 
 namespace etude {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The dance, and the moves that recognisers are taught, in its order.
 struct Lesson {

@@ -1,10 +1,11 @@
 #include "bench/dataset/score.h"
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
+#include "bench/files/save_json.h"
+#include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
 #include "bench/run/finish.h"
 #include "bench/run/manifest.h"
@@ -110,13 +111,13 @@ class Meter {
   void Count(Status status) {
     ++progress_.cells_done;
     progress_.cells_ok += status == Status::kOk ? 1 : 0;
-    progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
   }
   const Progress& progress() const { return progress_; }
 
  private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Clock::time_point start_ = Clock::now();
   const std::function<void(const Progress&)>& on_progress_;
   Progress progress_;
 };

@@ -30,7 +30,7 @@ struct Series {
   std::string name;  ///< e.g. "mpjpe_mm"
   std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
-  std::vector<std::string> names = {};  ///< of what values count from 0, where they do
+  std::vector<std::string> names = {};  ///< of categories, where `values` are indices into them
 };
 
 /// What one method did in one world.

@@ -4,6 +4,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
+#include "bench/files/save_json.h"
 
 namespace etude {
 namespace {
@@ -87,8 +88,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
 }  // namespace
 
 Result<void> WriteColumnIndex(const fs::path& folder, const ColumnIndex& index) {
-  ASSIGN_OR_RETURN(const auto text, WriteJson(Encode(index)));
-  return WriteFileAtomically(folder / kIndexFile, text + "\n");
+  return SaveJson(folder / kIndexFile, Encode(index));
 }
 
 Result<ColumnIndex> ReadColumnIndex(const fs::path& folder) {

@@ -54,10 +54,6 @@ class ResultWriter {
   std::optional<ColumnWriter> columns_;
 };
 
-/// The same of rows that are all there, as text, without their times.
-Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
-                         const std::vector<ScenarioSummary>& scenarios);
-
 /// What a reader does about a folder whose seal does not hold (seal.h).
 enum class Sealing {
   kRequired,  ///< refuses it

@@ -6,7 +6,7 @@
 
 #include "bench/model/cell_usage.h"
 #include "bench/outside/outside_method.h"
-#include "bench/run/clock.h"
+#include "bench/process/clock.h"
 #include "bench/run/setup.h"
 
 namespace etude {
