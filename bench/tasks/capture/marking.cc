@@ -128,9 +128,7 @@ Marks Marking::MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture
 
 Marks Marking::ReadColours(std::size_t frame, const AnnotatedPicture& picture) const {
   if (frame % mark_every_ != 0) return {};
-  return ReadLimbColours(
-      picture.colours, picture.person, suit_,
-      {.look = eye_.look, .margin_px = eye_.margin_px});
+  return ReadLimbColours(picture.colours, picture.person, suit_, {.look = eye_.look, .margin_px = eye_.margin_px});
 }
 
 Marks Marking::Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture) {
