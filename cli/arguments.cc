@@ -1,22 +1,27 @@
 #include "cli/arguments.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <array>
 #include <iostream>
 #include <memory>
 
 #include "bench/run/worker.h"
+#include "bench/tasks/registry.h"
 #include "cli/bridge_arguments.h"
 #include "cli/calibrate_command.h"
 #include "cli/capture_command.h"
 #include "cli/clip_arguments.h"
 #include "cli/coach_command.h"
 #include "cli/commands.h"
+#include "cli/common_arguments.h"
 #include "cli/crowd_command.h"
 #include "cli/sensor_arguments.h"
 #include "cli/stream_arguments.h"
 #include "cli/train_arguments.h"
 #include "cli/validators.h"
+#include "engine/base/names.h"
 
 namespace etude {
 namespace {
@@ -39,8 +44,7 @@ void RefuseEmptyValues(CLI::App& command) {
 /// --seed, --trials, --clips and --joint-map, of every command that makes worlds of scenarios.
 template <typename Options>
 std::array<CLI::Option*, 4> AddWorldOptions(CLI::App& command, Options& options) {
-  return {command.add_option("--seed", options.seed, "Seed of all worlds (default: the scenario's, else 1)")
-              ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53)),
+  return {AddSeed(command, options.seed, "Seed of all worlds (default: the scenario's, else 1)"),
           command.add_option("--trials", options.trials, "Trials per condition (default: the scenario's)")
               ->check(CLI::Range(1, 1000000)),
           command.add_option("--clips", options.clips,
@@ -68,13 +72,11 @@ void DefineRun(CLI::App& app, const std::string& command_line, Action& action) {
   CLI::App* command = app.add_subcommand("run", "Run scenarios into a result folder");
   command->add_option("scenarios", options->scenarios, "Scenario files, or folders of them");
   command->add_option("-o,--output", options->output, "Result folder (default: out/<suite>-<seed>)");
-  command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
-      ->check(CLI::Range(1, 1024));
+  AddJobs(*command, options->jobs);
   const auto world_options = AddWorldOptions(*command, *options);
   CLI::Option* shard_option =
       command->add_option("--shard", *shard, "Run part i of n, as i/n; etude merge makes one run of all parts");
-  CLI::Option* overwrite =
-      command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
+  CLI::Option* overwrite = AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   CLI::Option* resume =
       command->add_flag("--resume", options->resume, "Go on with the run that the folder holds")->excludes(overwrite);
   AddOutsideRules(*command, options->outside);
@@ -119,7 +121,7 @@ void DefineMerge(CLI::App& app, const std::string& command_line, Action& action)
   CLI::App* command = app.add_subcommand("merge", "Make one run of its shards");
   command->add_option("folders", options->folders, "The folders of all shards, in any order")->required();
   command->add_option("-o,--output", options->output, "Result folder")->required();
-  command->add_flag("--overwrite", options->overwrite, "Replace a folder that already holds a run");
+  AddOverwrite(*command, options->overwrite, "Replace a folder that already holds a run");
   command->callback([=, &action] { action = [=] { return MergeCommand(*options); }; });
 }
 
@@ -150,19 +152,13 @@ void DefineRows(CLI::App& app, Action& action) {
   command->add_option("-o,--output", *file, "Into this file (default: to standard output)");
   auto sealing = Keep<Sealing>();
   AddUnsealed(*command, *sealing);
-  command->callback([=, &action] { action = [=] { return RowsCommand(*folder, *file, *sealing); }; });
+  auto overwrite = Keep<bool>(false);
+  AddOverwrite(*command, *overwrite);
+  command->callback([=, &action] { action = [=] { return RowsCommand(*folder, *file, *overwrite, *sealing); }; });
 }
 
 void DefineReplay(CLI::App& app, Action& action) {
-  struct Options {
-    std::string target, pack_file;
-    std::vector<std::string> cells;
-    std::size_t sample = 0;
-    int jobs = 0;
-    OutsideRules outside;
-    Sealing sealing = Sealing::kRequired;
-  };
-  auto options = Keep<Options>();
+  auto options = Keep<ReplayCommandOptions>();
   CLI::App* command = app.add_subcommand("replay", "Run cells again and compare them stage by stage");
   command->add_option("target", options->target, "A result folder, or a file that --pack has written")->required();
   CLI::Option* cell = command->add_option("--cell", options->cells, "These cells, as cells.jsonl names them");
@@ -172,14 +168,9 @@ void DefineReplay(CLI::App& app, Action& action) {
   AddUnsealed(*command, options->sealing);
   AddOutsideRules(*command, options->outside);
   command->add_option("--pack", options->pack_file, "Write the cell, with its scenario and clips, into this one file");
-  command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
-      ->check(CLI::Range(1, 1024));
-  command->callback([=, &action] {
-    action = [=] {
-      return ReplayCommand(options->target, options->cells, options->sample, options->pack_file, options->jobs,
-                           options->outside, options->sealing);
-    };
-  });
+  AddOverwrite(*command, options->overwrite);
+  AddJobs(*command, options->jobs);
+  command->callback([=, &action] { action = [=] { return ReplayCommand(*options); }; });
 }
 
 void DefineGate(CLI::App& app, Action& action) {
@@ -243,8 +234,7 @@ void DefineScore(CLI::App& app, const std::string& command_line, Action& action)
   AddOutsideRules(*command, options->outside);
   command->add_flag("--alone", options->alone, "Do not run the scenarios' own methods beside it");
   command->add_flag("--allow-missing", options->allow_missing, "A world without answer is a failed cell");
-  command->add_option("-j,--jobs", options->jobs, "Worker processes (default: one per processor)")
-      ->check(CLI::Range(1, 1024));
+  AddJobs(*command, options->jobs);
   AddWorldOptions(*command, *options);
   command->callback([=, &action] { action = [=] { return ScoreCommand(*options); }; });
 }
@@ -259,11 +249,13 @@ void DefineCheckMethod(CLI::App& app, Action& action) {
   auto options = Keep<Options>();
   CLI::App* command = app.add_subcommand("check-method", "Test whether a program speaks the protocol of methods");
   command->add_option("command", options->command, "The program and its arguments, after --")->required();
-  command
-      ->add_option("--task", options->task,
-                   "ik, tracking, transition, detection, capture, pose-distance, search or coach")
-      ->required();
-  command->add_option("--seat", options->seat, "Of task coach: recogniser, policy or learner");
+  std::vector<std::string> tasks, seats;
+  for (const TaskKind& kind : AllTaskKinds()) {
+    tasks.push_back(kind.name);
+    if (!kind.seats.empty()) seats.push_back(fmt::format("of task {}: {}", kind.name, Join(kind.seats)));
+  }
+  command->add_option("--task", options->task, "One of: " + Join(tasks))->required();
+  command->add_option("--seat", options->seat, "The program's place in a loop: " + Join(seats, "; "));
   command->add_option("--time", options->time_s, "Seconds per problem, or per step of a session")
       ->check(NumberWithin(0.001, 1e6, "time in seconds"))
       ->capture_default_str();
@@ -330,12 +322,10 @@ void DefineCrowd(CLI::App& app, Action& action) {
   command->add_option("--steps", options->steps, "Of gauss-newton, at most, for a character's frame")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  command->add_option("--seed", options->crowd.seed, "Of the motions' dice")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-      ->capture_default_str();
+  AddSeed(*command, options->crowd.seed, "Of the motions' dice");
   command->add_flag("--float", options->in_float, "Batches of floats, not of doubles");
   command->add_option("-o,--output", options->output, "A film of the crowd (.mp4)");
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return CrowdCommand(*options); }; });
 }
 

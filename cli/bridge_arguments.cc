@@ -5,6 +5,7 @@
 
 #include "cli/bridge_command.h"
 #include "cli/clip_arguments.h"
+#include "cli/common_arguments.h"
 #include "cli/validators.h"
 
 namespace etude {
@@ -53,8 +54,8 @@ void DefineBridge(CLI::App& app, Action& action) {
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file (default: builtin:paper)");
   add(command->add_flag("--json", options->as_json,
                         "The summary for programs (docs/schemas/bridge-summary.schema.json)"));
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
   command->footer(kBridgeExamples);
   command->callback([=, &action] { action = [=] { return BridgeCommand(*options); }; });
 }

@@ -4,8 +4,8 @@
 
 #include "bench/files/files.h"
 #include "cli/bridge_library.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/transitions/tags_file/compare_tags.h"
 #include "engine/transitions/tags_file/tags_file.h"
@@ -83,13 +83,14 @@ int BridgeCommand(const BridgeCommandOptions& options) {
     if (auto written = WriteTags(*loaded, options.output); !written) return Complain(written.error());
   }
   const Coverage coverage(loaded->library.tagged, loaded->match_rules, options.wait_s, TellOf("comparisons of a clip"));
-  if (!options.as_json) {
+  if (options.as_json) {
+    const auto json = BridgeSummaryAsJson(*loaded, coverage, options.wait_s);
+    if (!json) return Complain(json.error());
+    fmt::print("{}\n", *json);
+  } else {
     fmt::print("{}", BridgeSummaryAsText(*loaded, coverage, options.wait_s));
-    return kSuccess;
   }
-  const auto json = BridgeSummaryAsJson(*loaded, coverage, options.wait_s);
-  if (!json) return Complain(json.error());
-  fmt::print("{}\n", *json);
+  if (!options.output.empty()) TellWritten(options.output, options.as_json ? stderr : stdout);
   return kSuccess;
 }
 

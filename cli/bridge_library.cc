@@ -4,23 +4,13 @@
 #include <set>
 
 #include "bench/clips/clip_library.h"
-#include "bench/files/files.h"
-#include "bench/tasks/base/fuzzy_key.h"
+#include "bench/tasks/transition/stage.h"
 #include "cli/clip_reading.h"
 #include "cli/progress_bar.h"
-#include "sim/choreography/canonical_body.h"
-#include "sim/choreography/controls.h"
 #include "sim/choreography/slow_demonstration.h"
 
 namespace etude {
 namespace {
-
-constexpr double kJudgedHipHeight = 0.90;  // docs/metrics.md
-
-Result<FuzzySystem> LoadFuzzySystem(const std::string& reference) {
-  if (reference.empty()) return FuzzySystem{};
-  return OpenFuzzySystem(reference, {"--fuzzy", 0, 0}, [](const std::string& file) { return ReadWholeFile(file); });
-}
 
 /// Paper A, section 3.3: shaking the head, waving, a slow demonstration; and the puzzled act.
 bool IsCorrective(const std::string& source) {
@@ -57,8 +47,7 @@ std::vector<std::string> UniqueNames(const std::vector<LibraryClip>& clips) {
 
 Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options) {
   BridgeLibrary loaded;
-  ASSIGN_OR_RETURN(auto system, LoadFuzzySystem(options.fuzzy));
-  loaded.system = std::move(system);
+  ASSIGN_OR_RETURN(loaded.system, ReadFuzzy(options.fuzzy));
   ASSIGN_OR_RETURN(const auto reading, ReadOptions(options.reading));
   ASSIGN_OR_RETURN(const auto wanted, ListReferences(options.to));
   std::vector<std::string> named = options.clips;
@@ -83,8 +72,7 @@ Result<BridgeLibrary> LoadBridgeLibrary(const BridgeCommandOptions& options) {
                         .threshold = options.threshold,
                         .pick = Pick::kFirst,
                         .within_class = options.within_class};
-  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions,
-                               MakeBodyProportions(PoseOf(Controls{}), kJudgedHipHeight), loaded.tag_rules);
+  loaded.library = MakeLibrary(UniqueNames(clips.clips), motions, JudgedProportions(), loaded.tag_rules);
   loaded.library.in_betweens = BuildInBetweens(
       loaded.library.tagged, {.weights = loaded.system.weights, .threshold = options.threshold, .tween = {}});
   return loaded;

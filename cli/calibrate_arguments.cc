@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/calibrate_command.h"
+#include "cli/common_arguments.h"
 #include "engine/cameras/dlt.h"
 
 namespace etude {
@@ -60,7 +61,7 @@ void DefineCalibrate(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_option("--print", options->print, "Write the board as a picture (PNG) to be printed, and nothing else");
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddOverwrite(*command, options->overwrite);
   command->footer(kCalibrateExamples);
   command->callback([=, &action] { action = [=] { return CalibrateCommand(*options); }; });
 }

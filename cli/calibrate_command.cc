@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "bench/files/files.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "engine/base/angles.h"
 #include "engine/boards/board.h"
 #include "engine/cameras/camera_parameters.h"
@@ -289,8 +289,9 @@ Result<void> PrintBoard(const CalibrateOptions& options) {
     }
   }
   RETURN_IF_ERROR(WriteFileAtomically(options.print, EncodePng(picture)));
-  fmt::print("{}: {} x {} squares; print it so that one is {:g} mm, glue it flat, measure it again\n", options.print,
-             board.columns, board.rows, 1000 * board.square);
+  TellWritten(options.print);
+  fmt::print("{} x {} squares; print it so that one is {:g} mm, glue it flat, measure it again\n", board.columns,
+             board.rows, 1000 * board.square);
   return {};
 }
 
@@ -305,7 +306,8 @@ Result<void> Calibrate(const CalibrateOptions& options) {
   ASSIGN_OR_RETURN(const Calibrated rig, is_pairs ? FromPairs(options) : FromPictures(options));
   Print(rig);
   RETURN_IF_ERROR(WriteFileAtomically(options.output, WriteRig(rig.cameras)));
-  fmt::print("\nwritten: {}\n", options.output);
+  fmt::print("\n");
+  TellWritten(options.output);
   return {};
 }
 

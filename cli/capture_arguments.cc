@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/capture_command.h"
+#include "cli/common_arguments.h"
 #include "cli/validators.h"
 #include "engine/keypoints/landmarks.h"
 
@@ -95,7 +96,7 @@ void DefineCapture(CLI::App& app, Action& action) {
       ->excludes(silhouettes)
       ->check(NumberWithin(0, 60, "time in s"))
       ->capture_default_str();
-  command->add_flag("--overwrite", options->overwrite, "Replace files that are there");
+  AddOverwrite(*command, options->overwrite, "Replace files that are there");
   command->footer(kCaptureExamples);
   command->callback([=, &action] { action = [=] { return CaptureCommand(*options); }; });
 }

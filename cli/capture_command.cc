@@ -9,6 +9,7 @@
 #include "cli/capture_views.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "engine/formats/trc.h"
 
 namespace etude {
@@ -42,9 +43,7 @@ Result<bool> Capture(const CaptureCommandOptions& options) {
 int CaptureCommand(const CaptureCommandOptions& options) {
   const auto is_whole = Capture(options);
   if (!is_whole) return Complain(is_whole.error());
-  if (*is_whole) return kSuccess;
-  Complain({{options.film}, "stopped; there is no film"});
-  return kInterrupted;
+  return *is_whole ? kSuccess : TellStopped({{options.film}, "stopped; there is no film"});
 }
 
 }  // namespace etude

@@ -10,6 +10,7 @@
 #include "bench/keypoints/read_people.h"
 #include "cli/capture_views.h"
 #include "cli/film_watch.h"
+#include "cli/output_file.h"
 #include "engine/formats/trc.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/keypoints/recover_person.h"
@@ -173,10 +174,9 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
     }
   }
   const Interrupt interrupt;
-  auto is_whole = WriteOverlayFilm(options.film, overlays, person.motion, WatchFilms(interrupt));
-  // Ctrl-C reaches ffmpeg, too, whose end may be what is noticed first.
-  if (!is_whole && *interrupt.requested()) return false;
-  if (is_whole && *is_whole) fmt::print("written: {}\n", options.film);
+  const auto is_whole =
+      UnlessInterrupted(WriteOverlayFilm(options.film, overlays, person.motion, WatchFilms(interrupt)), interrupt);
+  if (is_whole && *is_whole) TellWritten(options.film);
   return is_whole;
 }
 
@@ -209,7 +209,7 @@ Result<bool> CaptureKeypoints(const CaptureCommandOptions& options, const std::v
   if (!options.points.empty()) {
     const std::string name = fs::path(options.output).stem().string();
     RETURN_IF_ERROR(WriteFileAtomically(options.points, WriteTrc(ToMarkers(person.landmarks, recover.rate_hz), name)));
-    fmt::print("written: {}\n", options.points);
+    TellWritten(options.points);
   }
   if (reference) {
     RETURN_IF_ERROR(TellColumns(

@@ -7,6 +7,7 @@
 #include "bench/keypoints/read_people.h"
 #include "cli/capture_views.h"
 #include "cli/film_watch.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/keypoints/agreement.h"
 #include "engine/unmarked/recover_unmarked.h"
@@ -127,10 +128,9 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
     overlays.back().keypoints.resize(motion.poses.size());
   }
   const Interrupt interrupt;
-  auto is_whole = WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt));
-  // Ctrl-C reaches ffmpeg, too, whose end may be what is noticed first.
-  if (!is_whole && *interrupt.requested()) return false;
-  if (is_whole && *is_whole) fmt::print("written: {}\n", options.film);
+  const auto is_whole =
+      UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
+  if (is_whole && *is_whole) TellWritten(options.film);
   return is_whole;
 }
 

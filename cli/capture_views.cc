@@ -8,6 +8,7 @@
 
 #include "bench/files/files.h"
 #include "bench/real_takes/real_take.h"
+#include "cli/output_file.h"
 #include "engine/formats/bvh.h"
 #include "engine/formats/gltf/gltf.h"
 #include "engine/formats/joint_csv.h"
@@ -86,7 +87,8 @@ Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) 
   ASSIGN_OR_RETURN(const auto rig, ReadRig(text, options.rig));
   constexpr std::size_t kMostFilms = 64;
   if (options.films.size() < 2 || options.films.size() > kMostFilms) {
-    return Fail({}, "{} film; allowed: 2 to {}, one of each camera", options.films.size(), kMostFilms);
+    return Fail({}, "{} film{}; allowed: 2 to {}, one of each camera", options.films.size(),
+                options.films.size() == 1 ? "" : "s", kMostFilms);
   }
   if (!options.cameras.empty() && options.cameras.size() != options.films.size()) {
     return Fail({}, "--cameras names {} cameras for {} films", options.cameras.size(), options.films.size());
@@ -115,7 +117,7 @@ Result<std::vector<FilmedView>> OpenFilms(const CaptureCommandOptions& options) 
 Result<void> WriteMotion(const std::string& path, Clip clip, const BodyMotion& motion) {
   ASSIGN_OR_RETURN(const MotionFormat format, FormatOfName(path));
   RETURN_IF_ERROR(WriteFileAtomically(path, BytesOf(std::move(clip), motion, format, fs::path(path).stem().string())));
-  fmt::print("written: {}\n", path);
+  TellWritten(path);
   return {};
 }
 
@@ -177,7 +179,7 @@ Result<void> TellColumns(const std::string& words, const std::vector<ComparedCol
   PrintColumns(words, columns, views);
   if (options.distances.empty()) return {};
   RETURN_IF_ERROR(WriteFileAtomically(options.distances, WriteRealTake(RealTakeOf(columns, views, options))));
-  fmt::print("written: {}\n", options.distances);
+  TellWritten(options.distances);
   return {};
 }
 

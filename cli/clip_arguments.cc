@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/clip_commands.h"
+#include "cli/common_arguments.h"
 #include "cli/validators.h"
 
 namespace etude {
@@ -27,7 +28,7 @@ void DefineInfo(CLI::App& clip, Action& action) {
   CLI::App* command = clip.add_subcommand("info", "Frames, joints, roles, unit, speeds, foot slide");
   command->add_option("clips", options->clips, "Clips")->required();
   command->add_flag("--json", options->as_json, "For programs (docs/schemas/clip-info.schema.json)");
-  AddReading(*command, options->reading);
+  AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return ClipInfoCommand(*options); }; });
 }
 
@@ -46,8 +47,8 @@ void DefineConvert(CLI::App& clip, Action& action) {
       ->add_option("--character", options->character,
                    "Put on the bear or the mannequin, retargeted (GLB only); none leaves the file's meshes out")
       ->check(CLI::IsMember({"bear", "mannequin", "none"}));
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
   command->footer(
       "\nWithout --ground, --retarget or --character a file keeps its own skeleton, unit and axes (GLB: metres, Y "
       "up).\n"
@@ -73,8 +74,8 @@ void DefineRender(CLI::App& clip, Action& action) {
       ->check(CLI::Range(1, 1000));
   command->add_option("--columns", options->columns, "Sheet: pictures beside each other")->check(CLI::Range(1, 100));
   command->add_option("--trim", options->trim, "Only this part, seconds: FROM:TO, such as 1.5:4 or 2:");
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return ClipRenderCommand(*options); }; });
 }
 
@@ -85,8 +86,8 @@ void DefineGrades(CLI::App& clip, Action& action) {
   command->add_option("clips", options->clips, "Clips")->required();
   command->add_option("-o,--output", options->output, "A table (.csv) of one clip, a line per frame");
   command->add_option("--fuzzy", options->fuzzy, "Fuzzy system: builtin:NAME or a file")->capture_default_str();
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return ClipGradesCommand(*options); }; });
 }
 
@@ -95,8 +96,8 @@ void DefineContacts(CLI::App& clip, Action& action) {
   CLI::App* command = clip.add_subcommand("contacts", "When the feet stand: their heights, speeds and contacts (SVG)");
   command->add_option("clip", options->clip, "A clip")->required();
   command->add_option("-o,--output", options->output, "The picture: .svg")->required();
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return ClipContactsCommand(*options); }; });
 }
 
@@ -107,13 +108,13 @@ void DefineMap(CLI::App& clip, Action& action) {
   command->add_option("-o,--output", options->output,
                       "Write it as a joint-map file, to be edited; also when roles are missing");
   command->add_option("--joint-map", options->joint_map, "Roles that are taught already");
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddOverwrite(*command, options->overwrite);
   command->callback([=, &action] { action = [=] { return ClipMapCommand(*options); }; });
 }
 
 }  // namespace
 
-void AddReading(CLI::App& command, ClipReading& reading) {
+void AddClipReading(CLI::App& command, ClipReading& reading) {
   command.add_option("--joint-map", reading.joint_map, "Which joints play which roles (etude clip map writes one)");
   command.add_option("--unit", reading.unit,
                      "Unit of the file: m, cm, mm, in, ft, cmu, or metres per unit (default: found by the stature)");

@@ -6,7 +6,7 @@
 namespace etude {
 
 /// --joint-map, --unit and --up, of every command that opens clips by themselves.
-void AddReading(CLI::App& command, ClipReading& reading);
+void AddClipReading(CLI::App& command, ClipReading& reading);
 
 /// Defines `etude clip` and its subcommands.
 void DefineClip(CLI::App& app, Action& action);

@@ -1,10 +1,9 @@
-#include <fmt/core.h>
-
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
 #include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "reports/clips/contact_index.h"
 
 namespace etude {
@@ -26,7 +25,7 @@ Result<void> WriteContacts(const ClipContactsOptions& options) {
 int ClipContactsCommand(const ClipContactsOptions& options) {
   const auto written = WriteContacts(options);
   if (!written) return Complain(written.error());
-  fmt::print("{}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
 }
 

@@ -5,6 +5,7 @@
 #include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 
 namespace etude {
 namespace {
@@ -44,7 +45,8 @@ Result<std::string> Convert(const ClipConvertOptions& given) {
 int ClipConvertCommand(const ClipConvertOptions& options) {
   const auto note = Convert(options);
   if (!note) return Complain(note.error());
-  fmt::print("{} ({})\n", options.output, *note);
+  fmt::print("{}\n", *note);
+  TellWritten(options.output);
   return kSuccess;
 }
 

@@ -4,10 +4,10 @@
 
 #include "bench/clips/clip_library.h"
 #include "bench/files/files.h"
-#include "bench/tasks/base/fuzzy_key.h"
 #include "cli/clip_commands.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "engine/fuzzy/fuzzy_motion.h"
 #include "engine/fuzzy/motion_similarity.h"
 
@@ -65,8 +65,7 @@ int ClipGradesCommand(const ClipGradesOptions& options) {
   if (!options.output.empty()) {
     if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
   }
-  const auto system =
-      OpenFuzzySystem(options.fuzzy, {"--fuzzy", 0, 0}, [](const std::string& file) { return ReadWholeFile(file); });
+  const auto system = ReadFuzzy(options.fuzzy);
   if (!system) return Complain(system.error());
   const auto reading = ReadOptions(options.reading);
   if (!reading) return Complain(reading.error());
@@ -87,7 +86,7 @@ int ClipGradesCommand(const ClipGradesOptions& options) {
   if (auto saved = WriteFileAtomically(options.output, GradesCsv(motions.front())); !saved) {
     return Complain(saved.error());
   }
-  fmt::print("{}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
 }
 

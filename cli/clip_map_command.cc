@@ -7,6 +7,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/move_table.h"
+#include "cli/output_file.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -61,14 +62,15 @@ int ClipMapCommand(const ClipMapOptions& options) {
     // Who has a map already mends that one, which may be the very file that would be written.
     if (options.joint_map.empty() && !options.output.empty()) {
       if (auto saved = Save(options, EmptyMapFile(skeleton)); !saved) return Complain(saved.error());
-      fmt::print("{}: to be filled in\n", options.output);
+      TellWritten(options.output);
+      fmt::print("Next: fill it in, then --joint-map {}\n", options.output);
     }
     return Complain(map.error());
   }
   PrintRoles(skeleton, *map);
   PrintList("joints without a role:", UnusedJoints(skeleton, *map));
   if (auto saved = Save(options, WriteJointMapFile(skeleton, *map)); !saved) return Complain(saved.error());
-  if (!options.output.empty()) fmt::print("{}\n", options.output);
+  if (!options.output.empty()) TellWritten(options.output);
   return kSuccess;
 }
 

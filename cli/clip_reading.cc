@@ -1,11 +1,11 @@
 #include "cli/clip_reading.h"
 
 #include <charconv>
-#include <filesystem>
 #include <utility>
 
 #include "bench/clips/references.h"
 #include "bench/files/files.h"
+#include "bench/tasks/base/fuzzy_key.h"
 #include "engine/base/names.h"
 
 namespace etude {
@@ -61,16 +61,9 @@ Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& refer
   return all;
 }
 
-Result<void> CheckOutput(const std::string& path, bool overwrite) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::file_status there = fs::symlink_status(path, ignored);
-  if (!fs::exists(there)) return {};
-  if (fs::is_directory(path, ignored)) return Fail({path, 0, 0}, "is a folder; the name of a file is needed");
-  // A device or a pipe would be replaced, not written to.
-  if (!fs::is_regular_file(there) && !fs::is_symlink(there)) return Fail({path, 0, 0}, "is there, and is no file");
-  if (overwrite) return {};
-  return Fail({path, 0, 0}, "is there already; --overwrite replaces it");
+Result<FuzzySystem> ReadFuzzy(const std::string& reference) {
+  if (reference.empty()) return FuzzySystem{};
+  return OpenFuzzySystem(reference, {"--fuzzy", 0, 0}, [](const std::string& file) { return ReadWholeFile(file); });
 }
 
 }  // namespace etude

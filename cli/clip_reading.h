@@ -8,6 +8,7 @@
 #include "bench/clips/open_clip.h"
 #include "cli/clip_commands.h"
 #include "engine/base/result.h"
+#include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {
 
@@ -20,7 +21,7 @@ Result<std::optional<TimeSpan>> ReadTrim(const std::string& text);
 /// What all references stand for, in order.
 Result<std::vector<std::string>> ExpandAll(const std::vector<std::string>& references);
 
-/// Refuses to write over what is there already.
-Result<void> CheckOutput(const std::string& path, bool overwrite);
+/// --fuzzy: builtin:NAME or a file; "" = paper A's.
+Result<FuzzySystem> ReadFuzzy(const std::string& reference);
 
 }  // namespace etude

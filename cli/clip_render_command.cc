@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "bench/files/files.h"
@@ -7,6 +5,7 @@
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
 #include "cli/film_watch.h"
+#include "cli/output_file.h"
 #include "reports/clips/clip_film.h"
 #include "reports/clips/contact_sheet.h"
 
@@ -86,10 +85,7 @@ Result<bool> WriteFilm(const ClipRenderOptions& options) {
   ASSIGN_OR_RETURN(auto renderer, Renderer::Create());
   const Interrupt interrupt;
   const FilmOptions film{ViewNamed(options.view), size.width, size.height, WatchFilms(interrupt)};
-  auto whole = FilmClip(std::move(actors.front()), film, options.output, *renderer);
-  // Ctrl-C reaches the encoder, too, whose end may be what is noticed first.
-  if (!whole && *interrupt.requested()) return false;
-  return whole;
+  return UnlessInterrupted(FilmClip(std::move(actors.front()), film, options.output, *renderer), interrupt);
 }
 
 }  // namespace
@@ -105,12 +101,9 @@ int ClipRenderCommand(const ClipRenderOptions& options) {
   } else {
     const auto whole = WriteFilm(options);
     if (!whole) return Complain(whole.error());
-    if (!*whole) {
-      Complain({{}, "stopped; nothing is kept"});
-      return kInterrupted;
-    }
+    if (!*whole) return TellStopped();
   }
-  fmt::print("{}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
 }
 

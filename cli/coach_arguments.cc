@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "cli/coach_command.h"
+#include "cli/common_arguments.h"
 #include "cli/validators.h"
 #include "engine/coaching/policy.h"
 #include "engine/recognition/filters.h"
@@ -53,7 +54,7 @@ void DefineCoach(CLI::App& app, Action& action) {
                    "From which evidence on a performance is right (default: the recogniser's own)")
       ->check(NumberWithin(0.001, 1, "evidence"));
   command->add_option("--policy", options->policy, "When the coach interrupts")
-      ->check(CLI::IsMember({"at-first-mistake", "never", "after-n", "confidence", "fading"}))
+      ->check(CLI::IsMember(LivePolicyNames()))
       ->capture_default_str();
   command->add_option("--choice", options->choice, "Where clips are left and entered")
       ->check(CLI::IsMember(ChoiceNames()))
@@ -73,7 +74,7 @@ void DefineCoach(CLI::App& app, Action& action) {
   command->add_option("--rate", options->rate_hz, "Of a stream without a clock, Hz (default: 30)")
       ->check(NumberWithin(1, 1000, "rate in Hz"));
   command->add_flag("--reflect", options->reflect, "The stream's X axis runs the other way");
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddOverwrite(*command, options->overwrite);
   command->footer(kCoachExamples);
   command->callback([=, &action] { action = [=] { return CoachCommand(*options); }; });
 }

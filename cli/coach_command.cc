@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "bench/files/files.h"
+#include "bench/process/clock.h"
 #include "bench/tasks/detection/world.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "engine/coaching/session.h"
 #include "engine/formats/wav.h"
 #include "engine/recognition/recognisers.h"
@@ -28,8 +29,6 @@
 
 namespace etude {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The dance, and the moves that recognisers are taught, in its order.
 struct Lesson {
@@ -84,7 +83,9 @@ Result<void> WriteClicks(const CoachCommandOptions& options, const Dance& dance)
   RETURN_IF_ERROR(CheckOutput(options.click, options.overwrite));
   constexpr int kRate = 44100;
   const std::vector<double>& beats = dance.beats_s;
-  return WriteFileAtomically(options.click, WriteWav(ClickTrack(beats, beats.back() + 1, kRate), kRate));
+  RETURN_IF_ERROR(WriteFileAtomically(options.click, WriteWav(ClickTrack(beats, beats.back() + 1, kRate), kRate)));
+  TellWritten(options.click, stderr);
+  return {};
 }
 
 /// Where the music is: as a line '#music 12.34' of the stream tells, else as it was told to play.

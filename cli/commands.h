@@ -27,10 +27,19 @@ int RunCommand(const RunOptions& options);
 int DryRunCommand(const RunOptions& options);
 /// `etude merge DIR… -o DIR`: makes one run of its shards.
 int MergeCommand(const MergeOptions& options);
-/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or
-/// packs one into `pack_file`.
-int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
-                  const std::string& pack_file, int jobs, const OutsideRules& outside, Sealing sealing);
+/// What `etude replay` is asked.
+struct ReplayCommandOptions {
+  std::string target;              ///< a result folder, or a packed cell
+  std::vector<std::string> cells;  ///< by name; none: all
+  std::size_t sample = 0;          ///< this many of them, drawn by the run's seed; 0 = all
+  std::string pack_file;           ///< into which the one cell is packed instead, "" = none
+  bool overwrite = false;
+  int jobs = 0;
+  OutsideRules outside;
+  Sealing sealing = Sealing::kRequired;
+};
+/// `etude replay DIR|FILE`: runs cells again and compares them stage by stage (exit 1 when one differs), or packs one.
+int ReplayCommand(const ReplayCommandOptions& options);
 /// What `etude gate` is asked.
 struct GateOptions {
   std::string target;         ///< a result folder; of a self-test a scenario file, "" = the built-in one
@@ -57,7 +66,7 @@ int ExportCommand(const ExportOptions& options);
 /// `etude score`: scores a folder of answers into a result folder.
 int ScoreCommand(const ScoreOptions& options);
 /// `etude rows DIR`: writes the rows as lines of text into `file`, "" = to standard output.
-int RowsCommand(const std::string& folder, const std::string& file, Sealing sealing);
+int RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing);
 /// `etude report DIR`: writes DIR/report and DIR/video.
 /// `real`: files that `etude capture --distances` wrote.
 int ReportCommand(const std::string& folder, const std::vector<std::string>& real, const ReportOptions& options,
@@ -88,5 +97,7 @@ void TellUnsealed(const RunData& run);
 
 /// Prints a complaint the one way Etude does, and gives kUnusableInput.
 int Complain(const Error& error);
+/// Says that Ctrl-C came and what it left, and gives kInterrupted.
+int TellStopped(const Error& what_is_left = {{}, "stopped; nothing is kept"});
 
 }  // namespace etude

@@ -12,6 +12,7 @@
 #include "bench/films/encoder.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 #include "engine/kinematics/tree_to_body.h"
 #include "reports/clips/crowd_stage.h"
 
@@ -129,11 +130,8 @@ int CrowdCommand(const CrowdCommandOptions& given) {
   }
   const auto whole = FollowCrowd(options);
   if (!whole) return Complain(whole.error());
-  if (!*whole) {
-    Complain({{}, "stopped; nothing is kept"});
-    return kInterrupted;
-  }
-  if (!options.output.empty()) fmt::print("{}\n", options.output);
+  if (!*whole) return TellStopped();
+  if (!options.output.empty()) TellWritten(options.output);
   return kSuccess;
 }
 

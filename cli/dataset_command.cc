@@ -42,10 +42,7 @@ int ExportCommand(const ExportOptions& given) {
   options.stop = interrupt.requested();
   const auto outcome = ExportSuite(options, TellOf("worlds"));
   if (!outcome) return Complain(outcome.error());
-  if (outcome->stopped) {
-    Complain({{}, "stopped; nothing is kept"});
-    return kInterrupted;
-  }
+  if (outcome->stopped) return TellStopped();
   fmt::print("{} problems in {}{}\nNext: give away {}/inputs, then etude score {} PREDICTIONS -o RESULT\n",
              outcome->problems, options.output,
              outcome->skipped > 0 ? fmt::format(" ({} worlds skipped, see inputs/index.csv)", outcome->skipped) : "",
@@ -60,10 +57,7 @@ int ScoreCommand(const ScoreOptions& given) {
   ProgressBar bar;
   const auto outcome = ScorePredictions(options, [&](const Progress& progress) { bar.Show(progress); });
   if (!outcome) return Complain(outcome.error());
-  if (outcome->run.stopped) {
-    Complain({{}, "stopped; nothing is kept"});
-    return kInterrupted;
-  }
+  if (outcome->run.stopped) return TellStopped();
   if (!outcome->faults.empty()) return ComplainOfFaults(options, outcome->faults);
   fmt::print("{} of {} cells ok in {:.1f} s: {}\nNext: etude report {}\n", outcome->run.cells_ok, outcome->run.cells,
              outcome->run.seconds, options.output, options.output);

@@ -42,4 +42,9 @@ Interrupt::~Interrupt() {
 
 const std::atomic<bool>* Interrupt::requested() const { return &stop_requested; }
 
+Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt) {
+  if (!is_whole && *interrupt.requested()) return false;
+  return is_whole;
+}
+
 }  // namespace etude

@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include "engine/base/result.h"
+
 namespace etude {
 
 /// From now on Ctrl-C (and SIGTERM) ends the program at once, with a line that says so and exit code 130. For work that
@@ -22,5 +24,9 @@ class Interrupt {
  private:
   void (*piped_)(int);
 };
+
+/// What came of writing a film: false when Ctrl-C came, whichever was noticed first, that or the end of the encoder,
+/// which it reaches, too.
+Result<bool> UnlessInterrupted(Result<bool> is_whole, const Interrupt& interrupt);
 
 }  // namespace etude

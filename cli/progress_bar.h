@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bench/run/clock.h"
+#include "bench/process/clock.h"
 #include "bench/run/run.h"
 #include "engine/base/progress.h"
 

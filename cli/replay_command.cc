@@ -6,6 +6,7 @@
 #include "bench/replay/replay.h"
 #include "cli/commands.h"
 #include "cli/interrupt.h"
+#include "cli/output_file.h"
 
 namespace etude {
 namespace {
@@ -25,30 +26,34 @@ int ReplayFile(const std::string& file, const OutsideRules& outside) {
   return kSuccess;
 }
 
+int Pack(const ReplayCommandOptions& options) {
+  if (options.cells.size() != 1) return Complain({{}, "--pack packs one cell: name it with --cell"});
+  if (auto free = CheckOutput(options.pack_file, options.overwrite); !free) return Complain(free.error());
+  const auto packed = PackCell(options.target, options.cells.front(), options.pack_file, options.sealing);
+  if (!packed) return Complain(packed.error());
+  TellWritten(options.pack_file);
+  fmt::print("Next, anywhere: etude replay {}\n", options.pack_file);
+  return kSuccess;
+}
+
 }  // namespace
 
-int ReplayCommand(const std::string& target, const std::vector<std::string>& cells, std::size_t sample,
-                  const std::string& pack_file, int jobs, const OutsideRules& outside, Sealing sealing) {
+int ReplayCommand(const ReplayCommandOptions& options) {
   const Interrupt interrupt;
   std::error_code error;
-  if (!std::filesystem::is_directory(target, error)) {
-    if (!cells.empty() || !pack_file.empty() || sample > 0) {
-      return Complain({{target, 0, 0}, "is no result folder; --cell, --sample and --pack need one"});
+  if (!std::filesystem::is_directory(options.target, error)) {
+    if (!options.cells.empty() || !options.pack_file.empty() || options.sample > 0) {
+      return Complain({{options.target, 0, 0}, "is no result folder; --cell, --sample and --pack need one"});
     }
-    return ReplayFile(target, outside);
+    return ReplayFile(options.target, options.outside);
   }
-  if (!pack_file.empty()) {
-    if (cells.size() != 1) return Complain({{}, "--pack packs one cell: name it with --cell"});
-    if (auto packed = PackCell(target, cells.front(), pack_file, sealing); !packed) return Complain(packed.error());
-    fmt::print("Packed into {}\nNext, anywhere: etude replay {}\n", pack_file, pack_file);
-    return kSuccess;
-  }
-  const auto checks = ReplayRun({.folder = target,
-                                 .cells = cells,
-                                 .sample = sample,
-                                 .jobs = jobs,
-                                 .outside = outside,
-                                 .sealing = sealing,
+  if (!options.pack_file.empty()) return Pack(options);
+  const auto checks = ReplayRun({.folder = options.target,
+                                 .cells = options.cells,
+                                 .sample = options.sample,
+                                 .jobs = options.jobs,
+                                 .outside = options.outside,
+                                 .sealing = options.sealing,
                                  .stop = interrupt.requested()});
   if (!checks) return Complain(checks.error());
   const auto same = std::count_if(checks->begin(), checks->end(), [](const CellCheck& check) { return check.same; });

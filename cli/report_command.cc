@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,6 +6,7 @@
 #include "bench/results/folder.h"
 #include "cli/commands.h"
 #include "cli/film_watch.h"
+#include "cli/output_file.h"
 #include "reports/report.h"
 
 namespace etude {
@@ -39,15 +38,12 @@ int ReportCommand(const std::string& folder, const std::vector<std::string>& rea
   options.real = std::move(*takes);
   const auto written = WriteReport(*run, folder, options);
   if (!written) return Complain(written.error());
-  if (!*written) {
-    Complain({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
-    return kInterrupted;
-  }
-  fmt::print("{}/report/index.html\n", folder);
+  if (!*written) return TellStopped({{folder, 0, 0}, "stopped; the tables are written, the page is not"});
+  TellWritten(folder + "/report/index.html");
   return kSuccess;
 }
 
-int RowsCommand(const std::string& folder, const std::string& file, Sealing sealing) {
+int RowsCommand(const std::string& folder, const std::string& file, bool overwrite, Sealing sealing) {
   if (file.empty()) {
     const auto written = WriteRows(folder, sealing, [](std::string_view line) -> Result<void> {
       if (std::fwrite(line.data(), 1, line.size(), stdout) == line.size()) return {};
@@ -56,12 +52,14 @@ int RowsCommand(const std::string& folder, const std::string& file, Sealing seal
     return written ? kSuccess : Complain(written.error());
   }
   const auto write = [&]() -> Result<void> {
+    RETURN_IF_ERROR(CheckOutput(file, overwrite));
     ASSIGN_OR_RETURN(auto out, AtomicFile::Begin(file));
     RETURN_IF_ERROR(WriteRows(folder, sealing, [&](std::string_view line) { return out.Write(line); }));
     return out.Finish();
   };
-  const auto written = write();
-  return written ? kSuccess : Complain(written.error());
+  if (const auto written = write(); !written) return Complain(written.error());
+  TellWritten(file);
+  return kSuccess;
 }
 
 }  // namespace etude

@@ -94,6 +94,11 @@ int Complain(const Error& error) {
   return kUnusableInput;
 }
 
+int TellStopped(const Error& what_is_left) {
+  Complain(what_is_left);
+  return kInterrupted;
+}
+
 void TellUnsealed(const RunData& run) {
   if (!run.unsealed.empty()) std::fputs(("etude: read unsealed: " + run.unsealed + "\n").c_str(), stderr);
 }
@@ -113,11 +118,10 @@ int RunCommand(const RunOptions& given) {
   }
   if (outcome->fence.starts_with("none")) Complain({{}, "methods outside ran in no fence: " + outcome->fence});
   if (outcome->stopped) {
-    Complain({{},
-              outcome->cells == 0
-                  ? "stopped before any cell ended; nothing is kept"
-                  : fmt::format("stopped; {} cells are kept in {}, --resume goes on", outcome->cells, folder)});
-    return kInterrupted;
+    return TellStopped({{},
+                        outcome->cells == 0 ? "stopped before any cell ended; nothing is kept"
+                                            : fmt::format("stopped; {} cells are kept in {}, --resume goes on",
+                                                          outcome->cells, folder)});
   }
   if (!options.shard.IsWhole()) {
     fmt::print("Shard {}: {} of {} cells ok in {:.1f} s: {}\nNext, when all shards are done: etude merge DIR… -o DIR\n",
@@ -137,8 +141,7 @@ int MergeCommand(const MergeOptions& given) {
   interrupt.reset();
   if (!outcome) return Complain(outcome.error());
   if (!outcome->stopped) return ShowOutcome(*outcome);
-  Complain({{}, "stopped; the shards are as they were, and there is no merged run"});
-  return kInterrupted;
+  return TellStopped({{}, "stopped; the shards are as they were, and there is no merged run"});
 }
 
 }  // namespace etude

@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "cli/common_arguments.h"
 #include "cli/sensor_commands.h"
-#include "cli/sensor_sheet_command.h"
 #include "cli/validators.h"
 
 namespace etude {
@@ -57,9 +57,21 @@ void DefineFit(CLI::App& sensor, Action& action) {
   command->add_option("--steps", options->steps, "Steps of simulate, compare, correct")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
+  AddOverwrite(*command, options->overwrite);
   AddSensorReading(*command, options->reading);
   command->callback([=, &action] { action = [=] { return SensorFitCommand(*options); }; });
+}
+
+void DefineSheet(CLI::App& sensor, Action& action) {
+  auto options = std::make_shared<SensorSheetOptions>();
+  CLI::App* command = sensor.add_subcommand(
+      "sheet", "A contact sheet of the first world: both cameras, every effect at three strengths");
+  command->add_option("scenario", options->scenario, "A scenario file")->required();
+  command->add_option("-o,--output", options->output, "The picture to write (.png)")->required();
+  AddSeed(*command, options->seed, "Seed of the world (default: the scenario's, else 1)");
+  command->add_option("--clips", options->clips, "Clips instead of the scenario's own");
+  AddOverwrite(*command, options->overwrite);
+  command->callback([=, &action] { action = [=] { return SensorSheetCommand(*options); }; });
 }
 
 }  // namespace
@@ -70,7 +82,7 @@ void DefineSensor(CLI::App& app, Action& action) {
   sensor->footer(kSensorExamples);
   DefineStats(*sensor, action);
   DefineFit(*sensor, action);
-  DefineSensorSheet(*sensor, action);
+  DefineSheet(*sensor, action);
 }
 
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,5 +33,14 @@ struct SensorFitCommandOptions {
 };
 /// `etude sensor fit`: a sensor file whose simulated recordings have a real one's statistics.
 int SensorFitCommand(const SensorFitCommandOptions& options);
+
+struct SensorSheetOptions {
+  std::string scenario, output;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> clips;  ///< replaces the scenario's when not empty
+  bool overwrite = false;
+};
+/// `etude sensor sheet`: a contact sheet of the scenario's first world.
+int SensorSheetCommand(const SensorSheetOptions& options);
 
 }  // namespace etude

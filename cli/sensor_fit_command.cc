@@ -3,8 +3,8 @@
 #include "bench/files/files.h"
 #include "bench/sensor_fit/fit.h"
 #include "bench/sensor_fit/table.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/sensor_commands.h"
 #include "cli/sensor_reading.h"
 #include "sim/skeleton_sensor/sensor_file.h"
@@ -63,7 +63,8 @@ int SensorFitCommand(const SensorFitCommandOptions& options) {
   if (auto written = WriteFileAtomically(options.output, text); !written) return Complain(written.error());
   PrintComparison("Fitted to all of it, compared with other dice:", "real", *real, sensor);
   PrintHalves(*real, fit);
-  fmt::print("\nwritten: {}\n", options.output);
+  fmt::print("\n");
+  TellWritten(options.output);
   return kSuccess;
 }
 

@@ -16,7 +16,7 @@ Result<RealRecording> LoadRealRecording(const std::string& path, const SensorRea
 /// "v1", "v2" or a sensor file.
 Result<SkeletonSensorOptions> LoadSensor(const std::string& reference);
 
-/// "197 frames at 30 Hz, 6.6 s; joints missing in 0.0 % of frames"
+/// "197 frames at 30 Hz, 6.6 s; 0.0 % of the joints missing"
 std::string DescribeRecording(const JointRecording& recording);
 /// "390 frames at 60 Hz, 6.5 s; …": the reference, and how the two lie to each other.
 std::string DescribeMatch(const RealRecording& real);

@@ -1,14 +1,8 @@
-#include "cli/sensor_sheet_command.h"
-
-#include <fmt/core.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
-
 #include "bench/files/files.h"
 #include "bench/run/suite.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
+#include "cli/sensor_commands.h"
 #include "reports/sensors/sensor_sheet.h"
 
 namespace etude {
@@ -39,21 +33,8 @@ int SensorSheetCommand(const SensorSheetOptions& options) {
   }
   if (auto free = CheckOutput(options.output, options.overwrite); !free) return Complain(free.error());
   if (auto written = WriteSheet(options); !written) return Complain(written.error());
-  fmt::print("{}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
-}
-
-void DefineSensorSheet(CLI::App& sensor, Action& action) {
-  auto options = std::make_shared<SensorSheetOptions>();
-  CLI::App* command = sensor.add_subcommand(
-      "sheet", "A contact sheet of the first world: both cameras, every effect at three strengths");
-  command->add_option("scenario", options->scenario, "A scenario file")->required();
-  command->add_option("-o,--output", options->output, "The picture to write (.png)")->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the world (default: the scenario's, else 1)")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53));
-  command->add_option("--clips", options->clips, "Clips instead of the scenario's own");
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  command->callback([=, &action] { action = [=] { return SensorSheetCommand(*options); }; });
 }
 
 }  // namespace etude

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "cli/common_arguments.h"
 #include "cli/stream_commands.h"
 #include "cli/validators.h"
 #include "engine/recognition/filters.h"
@@ -34,7 +35,7 @@ constexpr const char* kRecogniseExamples =
     "  etude recognise take.txt --moves moves.yaml --labels labels.csv\n"
     "  etude recognise joints/ --labels actionLabel.txt --leave-one-person-out --recogniser dtw";
 
-void AddReading(CLI::App& command, StreamArguments& reading) {
+void AddStreamReading(CLI::App& command, StreamArguments& reading) {
   command.add_option("--format", reading.format, "Of the recordings (default: told by content)")
       ->check(CLI::IsMember(StreamFormatNames()));
   command.add_option("--rate", reading.rate_hz, "Of recordings without a clock, Hz (default: 30)")
@@ -65,8 +66,8 @@ void DefineTeach(CLI::App& app, Action& action) {
   command->add_option("streams", options->streams, "Recordings, clips, patterns, folders")->required();
   command->add_option("--labels", options->labels, "Who did what when: a file, or a folder of tag streams");
   command->add_option("-o,--output", options->output, "The moves file to write (YAML)")->required();
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddStreamReading(*command, options->reading);
   command->footer(kTeachExamples);
   command->callback([=, &action] { action = [=] { return TeachCommand(*options); }; });
 }
@@ -97,7 +98,7 @@ void DefineRecognise(CLI::App& app, Action& action) {
   command->add_option("--set", options->settings, "A setting of the recogniser: tolerance_scale=1.2")
       ->allow_extra_args(false);
   command->add_flag("--json", options->as_json, "Scores as JSON, too")->needs(labels);
-  AddReading(*command, options->reading);
+  AddStreamReading(*command, options->reading);
   command->footer(kRecogniseExamples);
   command->callback([=, &action] { action = [=] { return RecogniseCommand(*options); }; });
 }

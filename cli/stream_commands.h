@@ -34,8 +34,8 @@ struct RecogniseCommandOptions {
   std::vector<std::string> streams;  ///< one "-" = standard input, live
   std::string moves;
   std::string labels;
-  std::string recogniser, filter = "none",
-                          weights = "fixed";  ///< recogniser: "" = the first that the moves suffice for
+  std::string recogniser;  ///< "" = key-pose
+  std::string filter = "none", weights = "fixed";
   std::optional<double> threshold;
   std::vector<std::string> settings;  ///< "tolerance_scale=1.2"
   bool leave_one_person_out = false;

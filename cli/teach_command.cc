@@ -2,8 +2,8 @@
 
 #include "bench/files/files.h"
 #include "bench/streams/teach.h"
-#include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/stream_commands.h"
 #include "engine/base/names.h"
 #include "engine/teaching/moves_file.h"
@@ -48,7 +48,7 @@ int TeachCommand(const TeachCommandOptions& options) {
                move.counter_examples.size(), move.span_s);
     for (const TaughtPose& pose : move.poses) fmt::print("  {}\n", TargetsText(pose));
   }
-  fmt::print("written: {}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/clip_arguments.h"
+#include "cli/common_arguments.h"
 #include "cli/train_command.h"
 
 namespace etude {
@@ -42,9 +43,7 @@ void DefineTrain(CLI::App& app, Action& action) {
       ->add_option("--hold-out", options->hold_out,
                    "Clips to judge by: a share of them (0: none), drawn by the seed, or a pattern of names")
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of all dice")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
-      ->capture_default_str();
+  AddSeed(*command, options->seed, "Seed of all dice");
   command->add_option("--population", options->population, "Genomes of a generation")
       ->check(CLI::Range(5, 1000))
       ->capture_default_str();
@@ -63,8 +62,8 @@ void DefineTrain(CLI::App& app, Action& action) {
   for (const char* other : {"--method", "--memberships", "--hold-out", "--population", "--generations"}) {
     command->get_option(other)->excludes("--recogniser")->excludes("--coached");
   }
-  command->add_flag("--overwrite", options->overwrite, "Replace a file that is there");
-  AddReading(*command, options->reading);
+  AddOverwrite(*command, options->overwrite);
+  AddClipReading(*command, options->reading);
   command->footer(kTrainExamples);
   command->callback([=, &action] {
     action = [=] {

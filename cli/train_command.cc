@@ -13,6 +13,7 @@
 #include "bench/training/tuning.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "engine/base/names.h"
 #include "sim/choreography/canonical_body.h"
@@ -21,7 +22,7 @@
 namespace etude {
 namespace {
 
-constexpr std::size_t kMostClips = 150;
+constexpr std::size_t kMostClipsToTrainOn = 150;
 
 /// Clips to learn from, and clips to judge by.
 struct Split {
@@ -72,8 +73,9 @@ Result<Split> LoadSplit(const TrainOptions& options) {
     names.push_back(clip.name);
     motions.push_back(std::move(clip.motion));
   }
-  if (names.size() > kMostClips) {
-    return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(), kMostClips);
+  if (names.size() > kMostClipsToTrainOn) {
+    return Fail({}, "{} clips; allowed: at most {}, since their pairs grow with the square", names.size(),
+                kMostClipsToTrainOn);
   }
   ASSIGN_OR_RETURN(const auto held_out, ChooseHeldOut(names, options));
 
@@ -175,7 +177,7 @@ int TrainCommand(const TrainOptions& options) {
   fmt::print("{} clips learnt from, {} held out; how well d < 0.4 tells pairs of frames that look alike:\n",
              split->learnt.size(), split->held_out.size());
   for (const std::string& line : comparison) fmt::print("{}\n", line);
-  fmt::print("written: {}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
 }
 

@@ -9,6 +9,7 @@
 #include "bench/tasks/detection/train_recogniser.h"
 #include "cli/clip_reading.h"
 #include "cli/commands.h"
+#include "cli/output_file.h"
 #include "cli/progress_bar.h"
 #include "cli/train_command.h"
 #include "engine/base/named.h"
@@ -60,7 +61,7 @@ Result<void> TrainIntoFile(const TrainOptions& options) {
 int TrainRecogniserCommand(const TrainOptions& options) {
   const auto done = TrainIntoFile(options);
   if (!done) return Complain(done.error());
-  fmt::print("written: {}\n", options.output);
+  TellWritten(options.output);
   return kSuccess;
 }
 

@@ -5,6 +5,7 @@
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
+#include "bench/files/save_json.h"
 #include "bench/films/take_films.h"
 #include "bench/run/finish.h"
 #include "bench/run/manifest.h"

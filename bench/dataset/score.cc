@@ -1,11 +1,12 @@
 #include "bench/dataset/score.h"
 
-#include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "bench/dataset/layout.h"
 #include "bench/files/files.h"
+#include "bench/files/save_json.h"
+#include "bench/process/clock.h"
+#include "bench/run/cell_runner.h"
 #include "bench/run/finish.h"
 #include "bench/run/manifest.h"
 #include "bench/run/run_folder.h"
@@ -66,9 +67,8 @@ Result<CellResult> JudgeFile(TaskWorld& world, const fs::path& file) {
   }
   ASSIGN_OR_RETURN(const auto text, ReadWholeFile(file));
   ASSIGN_OR_RETURN(const auto answer, ReadJson(text, file.string()));
-  auto judged = world.Judge(answer);
+  auto judged = JudgeAnswer(world, answer);
   if (!judged) return Fail({file.string(), 0, 0}, "{}", ToString(judged.error()));
-  judged->digests.emplace_back("answer", Digest().Add(std::string_view(answer.dump())).Hex());
   return judged;
 }
 
@@ -80,8 +80,7 @@ Row JudgeWorld(const Plan& plan, std::size_t w, const std::optional<fs::path>& f
   const auto ended = [&](Status status, const std::string& reason) {
     return scenario.EndedRow(world.condition, world.trial, method, status, reason);
   };
-  const std::vector<int>& filmed = scenario.scenario().recordings.trials;
-  const bool is_filmed = std::find(filmed.begin(), filmed.end(), world.trial) != filmed.end();
+  const bool is_filmed = scenario.scenario().recordings.KeepsTrial(world.trial);
   const auto built = scenario.task(world.condition).MakeWorld(scenario.KeyOf(world.trial), is_filmed);
   if (const auto why = built->WhySkipped()) {
     if (file) faults.extra.push_back(fmt::format("{}.json ({})", NameOf(plan, w), *why));
@@ -112,13 +111,13 @@ class Meter {
   void Count(Status status) {
     ++progress_.cells_done;
     progress_.cells_ok += status == Status::kOk ? 1 : 0;
-    progress_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    progress_.seconds = SecondsSince(start_);
     on_progress_(progress_);
   }
   const Progress& progress() const { return progress_; }
 
  private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Clock::time_point start_ = Clock::now();
   const std::function<void(const Progress&)>& on_progress_;
   Progress progress_;
 };

@@ -24,4 +24,11 @@ std::string_view StatusName(Status status) {
   return "failed";
 }
 
+std::optional<Status> FindStatus(std::string_view name) {
+  for (int i = 0; i < kStatusCount; ++i) {
+    if (StatusName(static_cast<Status>(i)) == name) return static_cast<Status>(i);
+  }
+  return std::nullopt;
+}
+
 }  // namespace etude

@@ -12,8 +12,11 @@ namespace etude {
 
 /// How a cell (world × method) ended. Every cell becomes a row with one of these.
 enum class Status { kOk, kUnsolved, kFailed, kTimeout, kCrashed, kOutOfMemory, kBadOutput, kSkipped };
+constexpr int kStatusCount = static_cast<int>(Status::kSkipped) + 1;
 
 std::string_view StatusName(Status status);
+/// Nothing when no status is called so.
+std::optional<Status> FindStatus(std::string_view name);
 
 /// One measured value of a cell; a missing value says why, and never counts as zero.
 struct MetricValue {
@@ -27,7 +30,7 @@ struct Series {
   std::string name;  ///< e.g. "mpjpe_mm"
   std::string axis;  ///< what the values are along: "frame", "iteration", "effector", "angle"
   std::vector<double> values;
-  std::vector<std::string> names = {};  ///< of what values count from 0, where they do
+  std::vector<std::string> names = {};  ///< of categories, where `values` are indices into them
 };
 
 /// What one method did in one world.

@@ -12,10 +12,10 @@ namespace etude {
 
 namespace fs = std::filesystem;
 
-Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& desk, std::span<const Attachment> files) {
+Result<AttachmentFolder> AttachmentFolder::Write(const fs::path& attachment_root, std::span<const Attachment> files) {
   AttachmentFolder folder;
   if (files.empty()) return folder;
-  std::string name = (desk / "XXXXXX").string();
+  std::string name = (attachment_root / "XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) return Fail({name, 0, 0}, "cannot be made: {}", std::strerror(errno));
   folder.path_ = name;
   for (const Attachment& file : files) {

@@ -14,8 +14,9 @@ class AttachmentFolder {
  public:
   /// None yet.
   AttachmentFolder() = default;
-  /// Makes it in `desk`. No folder when there are no files.
-  static Result<AttachmentFolder> Write(const std::filesystem::path& desk, std::span<const Attachment> files);
+  /// Makes it in `attachment_root`. No folder when there are no files.
+  static Result<AttachmentFolder> Write(const std::filesystem::path& attachment_root,
+                                        std::span<const Attachment> files);
   AttachmentFolder(AttachmentFolder&& other) noexcept;
   AttachmentFolder& operator=(AttachmentFolder&& other) noexcept;
   ~AttachmentFolder();

@@ -1,12 +1,12 @@
 #include "bench/outside/conformance.h"
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bench/outside/messages.h"
 #include "bench/outside/seated_program.h"
 #include "bench/outside/specimens.h"
+#include "bench/process/clock.h"
 
 namespace etude {
 namespace {
@@ -22,7 +22,7 @@ struct Attempt {
 };
 
 /// A program in a seat that is told more than it knows of.
-class WordierProgram final : public SeatedProgram {
+class ProgramWithUnknownKeys final : public SeatedProgram {
  public:
   using SeatedProgram::SeatedProgram;
   bool Begin(const Payload& session) override {
@@ -37,10 +37,10 @@ class WordierProgram final : public SeatedProgram {
   }
 };
 
-class Examination {
+class ConformanceTest {
  public:
-  Examination(const OutsideOptions& options, bool takes_seat, const std::vector<Specimen>& specimens,
-              const std::function<void(const ConformanceCheck&)>& report)
+  ConformanceTest(const OutsideOptions& options, bool takes_seat, const std::vector<Specimen>& specimens,
+                  const std::function<void(const ConformanceCheck&)>& report)
       : method_(options), takes_seat_(takes_seat), time_s_(options.time_s), specimens_(specimens), report_(report) {}
 
   /// Whether all checks were passed.
@@ -71,10 +71,9 @@ class Examination {
   }
 
   Attempt Ask(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id, const Payload& shown) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const OutsideReply reply = method_.Ask(specimen.setting_id, specimen.setting, id, shown);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    slowest_s_ = std::max(slowest_s_, took.count());
+    slowest_s_ = std::max(slowest_s_, SecondsSince(start));
     peak_mb_ = std::max(peak_mb_, reply.peak_mb);
     repeated_ += reply.repeated;
     Attempt attempt{reply.status, reply.reason, "", reply.status != Status::kFailed};
@@ -92,11 +91,10 @@ class Examination {
   /// A whole session with the program in its seat; what it said is told by a digest of all steps.
   template <typename Program>
   Attempt Play(const Specimen& specimen, const SpecimenProblem& problem, const std::string& id) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     Program program(method_, specimen.setting_id, specimen.setting, id);
     const auto result = problem.world->RunWith(program, 0);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    slowest_s_ = std::max(slowest_s_, took.count());
+    slowest_s_ = std::max(slowest_s_, SecondsSince(start));
     peak_mb_ = std::max(peak_mb_, program.peak_mb());
     repeated_ += program.repeated();
     if (const auto& failure = program.failure()) {
@@ -118,7 +116,7 @@ class Examination {
       const Attempt& attempt = first_.back();
       if (first_.size() == 1) {
         if (!attempt.was_put) return Fail({}, "{}", attempt.said);
-        const std::string name = method_.CalledItself();
+        const std::string name = method_.ProgramName();
         Report("starts and greets", !name.empty(), name.empty() ? attempt.fault : Printable(name));
         if (name.empty()) return {};
       }
@@ -186,7 +184,7 @@ class Examination {
   /// The first problem, with more said than the program knows of.
   Attempt AskAtLength(const std::string& id) {
     const SpecimenProblem& problem = specimens_[0].problems[0];
-    if (takes_seat_) return Play<WordierProgram>(specimens_[0], problem, id);
+    if (takes_seat_) return Play<ProgramWithUnknownKeys>(specimens_[0], problem, id);
     Payload shown = PayloadOf(*problem.problem.json, problem.problem.files);
     (*shown.json)["of_a_later_version"] = std::string(2'000'000, 'x');
     return Ask(specimens_[0], problem, id, shown);
@@ -208,7 +206,7 @@ class Examination {
 Result<bool> CheckConformance(const OutsideOptions& options, const std::string& seat,
                               const std::function<void(const ConformanceCheck&)>& report) {
   ASSIGN_OR_RETURN(const auto specimens, MakeSpecimens(options.task, seat));
-  return Examination(options, !seat.empty(), specimens, report).Run();
+  return ConformanceTest(options, !seat.empty(), specimens, report).Run();
 }
 
 }  // namespace etude

@@ -19,13 +19,12 @@
 #include "bench/outside/error_log.h"
 #include "bench/outside/messages.h"
 #include "bench/process/child_process.h"
+#include "bench/process/clock.h"
 #include "bench/process/find_program.h"
 #include "bench/process/program_limits.h"
 
 namespace etude {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLookEvery{20};  // at memory, and at whether it still runs
 constexpr int kMostFailures = 3;
@@ -49,7 +48,7 @@ Failure TooLong(double seconds) { return {Status::kTimeout, fmt::format("took lo
 
 /// What a program said is its fault; what cannot be said to it is not.
 tl::unexpected<Failure> BadOutput(const Error& error) { return Failed(Status::kBadOutput, error.message); }
-tl::unexpected<Failure> Unspeakable(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
+tl::unexpected<Failure> OurFailure(const Error& error) { return Failed(Status::kFailed, ToString(error)); }
 
 }  // namespace
 
@@ -57,8 +56,8 @@ struct OutsideMethod::State {
   explicit State(OutsideOptions told) : options(std::move(told)), errors(options.error_file) {}
 
   Outcome<void> MakeReady(const std::string& setting_id, const Payload& setting);
-  Outcome<Json> Converse(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
-                         const Payload& problem);
+  Outcome<Json> Solve(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
+                      const Payload& problem);
   Outcome<void> Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
                       const Payload& begin);
   Outcome<Json> Step(const Payload& step);
@@ -83,9 +82,9 @@ struct OutsideMethod::State {
 
   const OutsideOptions options;
   ErrorLog errors;
-  std::optional<TemporaryFolder> desk;  ///< where attachments lie, from the first start on
+  std::optional<TemporaryFolder> attachment_root;  ///< where attachments lie, from the first start on
   std::optional<ChildProcess> child;
-  std::string called_itself;
+  std::string program_name;
   std::optional<std::string> setting_in_force;
   AttachmentFolder setting_files;
   struct Session {
@@ -138,10 +137,10 @@ Outcome<void> OutsideMethod::State::MakeReady(const std::string& setting_id, con
 Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const Payload& setting, const std::string& id,
                                           const Payload& begin) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
-  auto files = AttachmentFolder::Write(desk->path(), begin.files);
-  if (!files) return Unspeakable(files.error());
+  auto files = AttachmentFolder::Write(attachment_root->path(), begin.files);
+  if (!files) return OurFailure(files.error());
   const auto line = BeginLine(id, *begin.json, files->path());
-  if (!line) return Unspeakable(line.error());
+  if (!line) return OurFailure(line.error());
   RETURN_IF_ERROR(Exchange(*line, options.time_s, ReadReady));
   answered.erase(id);
   session = {.id = id, .files = std::move(*files)};
@@ -150,10 +149,10 @@ Outcome<void> OutsideMethod::State::Begin(const std::string& setting_id, const P
 
 Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
   const int number = session->steps++;
-  const auto files = AttachmentFolder::Write(desk->path(), step.files);
-  if (!files) return Unspeakable(files.error());
+  const auto files = AttachmentFolder::Write(attachment_root->path(), step.files);
+  if (!files) return OurFailure(files.error());
   const auto line = StepLine(session->id, number, *step.json, files->path());
-  if (!line) return Unspeakable(line.error());
+  if (!line) return OurFailure(line.error());
   const auto read = [&](const std::string& said) -> Result<Json> {
     auto answer = ReadStepAnswer(said, session->id, number);
     if (!answer) return Fail({}, "at step {}: {}", number, answer.error().message);
@@ -162,13 +161,13 @@ Outcome<Json> OutsideMethod::State::Step(const Payload& step) {
   return Exchange(*line, options.time_s, read, Looks::kNowAndThen);
 }
 
-Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, const Payload& setting,
-                                             const std::string& problem_id, const Payload& problem) {
+Outcome<Json> OutsideMethod::State::Solve(const std::string& setting_id, const Payload& setting,
+                                          const std::string& problem_id, const Payload& problem) {
   RETURN_IF_ERROR(MakeReady(setting_id, setting));
-  const auto files = AttachmentFolder::Write(desk->path(), problem.files);
-  if (!files) return Unspeakable(files.error());
+  const auto files = AttachmentFolder::Write(attachment_root->path(), problem.files);
+  if (!files) return OurFailure(files.error());
   const auto line = ProblemLine(problem_id, *problem.json, files->path());
-  if (!line) return Unspeakable(line.error());
+  if (!line) return OurFailure(line.error());
   answered.erase(problem_id);
   auto answer = Exchange(*line, options.time_s, [&](const std::string& said) { return ReadAnswer(said, problem_id); });
   answered.insert(problem_id);
@@ -178,38 +177,38 @@ Outcome<Json> OutsideMethod::State::Converse(const std::string& setting_id, cons
 Outcome<void> OutsideMethod::State::Start() {
   if (options.command.empty()) return Failed(Status::kFailed, "no program is named");
   const auto told = options.options_json.empty() ? Json::object() : ReadJson(options.options_json, "its options");
-  if (!told) return Unspeakable(told.error());
+  if (!told) return OurFailure(told.error());
   const auto hello = HelloLine(options.task, *told);
-  if (!hello) return Unspeakable(hello.error());
-  if (!desk) {
+  if (!hello) return OurFailure(hello.error());
+  if (!attachment_root) {
     auto made = TemporaryFolder::Make("files");
-    if (!made) return Unspeakable(made.error());
-    desk.emplace(std::move(*made));
+    if (!made) return OurFailure(made.error());
+    attachment_root.emplace(std::move(*made));
   }
   std::vector<std::string> command = options.command;
   auto program = FindProgram(command.front());
-  if (!program) return Unspeakable(program.error());
+  if (!program) return OurFailure(program.error());
   command.front() = std::move(*program);
-  command = options.fence.Around(command, {desk->path()});
+  command = options.fence.Around(command, {attachment_root->path()});
   auto started = ChildProcess::Start({.program = command.front(),
                                       .arguments = {command.begin() + 1, command.end()},
                                       .error_file = errors.path(),
                                       .limited = true});
-  if (!started) return Unspeakable(started.error());
+  if (!started) return OurFailure(started.error());
   child = std::move(*started);
   answered.clear();
   cpu_s = cpu_charged_s = 0;
   ASSIGN_OR_RETURN(const auto reply, Exchange(*hello, StartSeconds(), ReadHello));
-  called_itself = reply.name + " " + reply.version;
+  program_name = reply.name + " " + reply.version;
   return {};
 }
 
 Outcome<void> OutsideMethod::State::TellSetting(const std::string& id, const Payload& setting) {
-  auto files = AttachmentFolder::Write(desk->path(), setting.files);
-  if (!files) return Unspeakable(files.error());
+  auto files = AttachmentFolder::Write(attachment_root->path(), setting.files);
+  if (!files) return OurFailure(files.error());
   setting_files = std::move(*files);
   const auto line = SettingLine(id, *setting.json, setting_files.path());
-  if (!line) return Unspeakable(line.error());
+  if (!line) return OurFailure(line.error());
   RETURN_IF_ERROR(Exchange(*line, StartSeconds(), ReadReady));
   setting_in_force = id;
   return {};
@@ -333,7 +332,7 @@ OutsideMethod::~OutsideMethod() {
 OutsideReply OutsideMethod::Ask(const std::string& setting_id, const Payload& setting, const std::string& problem_id,
                                 const Payload& problem) {
   state_->peak_mb = 0;
-  OutsideReply reply = state_->ReplyOf(state_->Converse(setting_id, setting, problem_id, problem));
+  OutsideReply reply = state_->ReplyOf(state_->Solve(setting_id, setting, problem_id, problem));
   state_->errors.Save();
   return reply;
 }
@@ -379,7 +378,7 @@ OutsideReply OutsideMethod::State::ReplyOf(Outcome<Json> said) {
   return reply;
 }
 
-std::string OutsideMethod::CalledItself() const { return state_->called_itself; }
+std::string OutsideMethod::ProgramName() const { return state_->program_name; }
 
 std::string OutsideMethod::End(int patience_ms) { return state_->Stop(patience_ms); }
 

@@ -63,7 +63,7 @@ class OutsideMethod {
   OutsideReply Step(const Payload& step);
 
   /// What the program calls itself: "name version"; "" before its first handshake.
-  std::string CalledItself() const;
+  std::string ProgramName() const;
   /// Ends its input, waits, and says how it ended: "exit code 0", "signal 9 (Killed)" when it had to be killed, "not
   /// running". The next problem starts it anew.
   std::string End(int patience_ms);

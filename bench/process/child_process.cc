@@ -79,7 +79,7 @@ void LimitProgram() {
 }
 
 /// The children of this process that are spoken to. Where it adopts orphans, all others are such.
-std::set<pid_t>& Spoken() {
+std::set<pid_t>& ManagedChildren() {
   static std::set<pid_t> children;
   return children;
 }
@@ -94,7 +94,7 @@ void EndOrphans() {
   for (int i = 0; found && i < kMostLooks; ++i) {
     found = false;
     for (const pid_t child : ChildrenOf(::getpid())) {
-      if (Spoken().contains(child)) continue;
+      if (ManagedChildren().contains(child)) continue;
       found = true;
       HeldTree(child).Kill();
       ::waitpid(child, nullptr, 0);
@@ -139,7 +139,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
                   report->write.number(), parent, options.limited);
   }
   if (pid < 0) return Fail({}, "no process can be started: {}", std::strerror(errno));
-  Spoken().insert(pid);
+  ManagedChildren().insert(pid);
   report->write.Close();
   int reason = 0;
   ssize_t count = 0;
@@ -147,7 +147,7 @@ Result<ChildProcess> ChildProcess::Start(const ChildOptions& options) {
   }
   if (count > 0) {
     ::waitpid(pid, nullptr, 0);
-    Spoken().erase(pid);
+    ManagedChildren().erase(pid);
     return Fail({path, 0, 0}, "cannot be executed: {}", std::strerror(reason));
   }
   ::fcntl(input->write.number(), F_SETFL, O_NONBLOCK);
@@ -245,7 +245,7 @@ std::string ChildProcess::Finish(int patience_ms) {
   int status = 0;
   while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
-  Spoken().erase(pid_);
+  ManagedChildren().erase(pid_);
   EndOrphans();
   pid_ = input_ = output_ = -1;
   return DescribeEnd(status);

@@ -4,6 +4,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
+#include "bench/files/save_json.h"
 
 namespace etude {
 namespace {
@@ -30,7 +31,7 @@ Json Encode(const ColumnIndex& index) {
     }
     kinds.push_back({{"metrics", kind.metrics}, {"why", why}, {"stages", kind.stages}, {"series", curves}});
   }
-  for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
+  for (int i = 0; i < kStatusCount; ++i) statuses.push_back(StatusName(static_cast<Status>(i)));
   return {{"format", "etude-columns"},
           {"version", kColumnsVersion},
           {"scenario", index.scenario},
@@ -87,8 +88,7 @@ Result<ColumnIndex> Decode(const Json& json, const Place& place) {
 }  // namespace
 
 Result<void> WriteColumnIndex(const fs::path& folder, const ColumnIndex& index) {
-  ASSIGN_OR_RETURN(const auto text, WriteJson(Encode(index)));
-  return WriteFileAtomically(folder / kIndexFile, text + "\n");
+  return SaveJson(folder / kIndexFile, Encode(index));
 }
 
 Result<ColumnIndex> ReadColumnIndex(const fs::path& folder) {

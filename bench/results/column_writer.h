@@ -11,7 +11,7 @@
 #include "bench/model/study.h"
 #include "bench/results/column_index.h"
 #include "bench/results/npy.h"
-#include "engine/base/in_turn.h"
+#include "engine/base/cyclic_lookup.h"
 
 namespace etude {
 
@@ -28,7 +28,7 @@ class NpyColumns {
 
   std::filesystem::path folder_;
   Number fill_;
-  InTurn<NpyWriter> columns_;
+  CyclicLookup<NpyWriter> columns_;
 };
 
 /// Writes the rows of one scenario as columns of numbers, one file each, that NumPy reads (docs/results.md). The arrays
@@ -63,7 +63,7 @@ class ColumnWriter {
   NpyColumns<std::uint32_t> places_;  ///< of texts and kinds
   NpyColumns<std::uint8_t> statuses_;
   NpyColumns<float> times_;
-  InTurn<Curve> curves_;
+  CyclicLookup<Curve> curves_;
 };
 
 }  // namespace etude

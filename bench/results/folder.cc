@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bench/files/files.h"
+#include "bench/files/save_json.h"
 #include "bench/results/column_reader.h"
 #include "bench/results/row_json.h"
 #include "bench/results/seal.h"
@@ -146,8 +147,7 @@ Result<void> ResultWriter::Add(const Row& row, const CellUsage& usage) {
   RETURN_IF_ERROR(columns_ ? columns_->Add(row, usage) : AddAsText(row, usage));
   if (!row.result.recording) return {};
   ASSIGN_OR_RETURN(const auto json, EncodeRecording(*row.result.recording));
-  ASSIGN_OR_RETURN(const auto text, WriteJson(json));
-  return WriteFileAtomically(folder_ / "recordings" / FileNameOf(row.Id()), text + "\n");
+  return SaveJson(folder_ / "recordings" / FileNameOf(row.Id()), json);
 }
 
 Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
@@ -167,17 +167,9 @@ Result<void> ResultWriter::AddAsText(const Row& row, const CellUsage& usage) {
 
 Result<void> ResultWriter::Finish(const std::vector<ScenarioSummary>& scenarios) {
   RETURN_IF_ERROR(FinishScenario());
-  ASSIGN_OR_RETURN(const auto summary, WriteJson(EncodeSummaries(scenarios)));
-  RETURN_IF_ERROR(WriteFileAtomically(folder_ / "summary.json", summary + "\n"));
+  RETURN_IF_ERROR(SaveJson(folder_ / "summary.json", EncodeSummaries(scenarios)));
   if (timings_) RETURN_IF_ERROR(timings_->Finish());
   return cells_ ? cells_->Finish() : Result<void>();
-}
-
-Result<void> SaveResults(const fs::path& folder, const std::vector<Row>& rows,
-                         const std::vector<ScenarioSummary>& scenarios) {
-  ASSIGN_OR_RETURN(auto writer, ResultWriter::Begin(folder));
-  for (const Row& row : rows) RETURN_IF_ERROR(writer.Add(row, {}));
-  return writer.Finish(scenarios);
 }
 
 Result<RunData> LoadRunOutline(const fs::path& folder, Sealing sealing) {

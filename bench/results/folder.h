@@ -22,7 +22,7 @@ constexpr int kResultSchema = 3;
 /// Stands in a result folder while its run is under way, and after it was interrupted.
 constexpr const char* kJournalFile = "journal.jsonl";
 
-/// Runs of more cells than this keep them as columns (columns.h) instead of lines of text.
+/// Runs of more cells than this keep them as columns (column_writer.h) instead of lines of text.
 constexpr std::size_t kMostRowsAsText = 100'000;
 /// Of such runs LoadRun holds about so many rows.
 constexpr std::size_t kMostRowsHeld = 20'000;
@@ -53,10 +53,6 @@ class ResultWriter {
   std::optional<AtomicFile> series_;
   std::optional<ColumnWriter> columns_;
 };
-
-/// The same of rows that are all there, as text, without their times.
-Result<void> SaveResults(const std::filesystem::path& folder, const std::vector<Row>& rows,
-                         const std::vector<ScenarioSummary>& scenarios);
 
 /// What a reader does about a folder whose seal does not hold (seal.h).
 enum class Sealing {

@@ -33,13 +33,6 @@ std::vector<SweptValue> SplitCondition(const std::string& label) {
   return settings;
 }
 
-std::optional<Status> FindStatus(const std::string& name) {
-  for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
-    if (StatusName(static_cast<Status>(i)) == name) return static_cast<Status>(i);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 Json EncodeRow(const Row& row) {

@@ -8,6 +8,7 @@
 
 #include "bench/files/files.h"
 #include "bench/files/json.h"
+#include "bench/files/save_json.h"
 #include "bench/results/folder.h"
 #include "engine/base/digest.h"
 
@@ -67,9 +68,7 @@ bool IsMadeFromResults(std::string_view part) { return part == "report" || part 
 
 Result<void> SealRun(const fs::path& folder) {
   ASSIGN_OR_RETURN(const auto digests, DigestsOf(folder));
-  ASSIGN_OR_RETURN(const auto text,
-                   WriteJson({{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}}));
-  return WriteFileAtomically(folder / kSealFile, text + "\n");
+  return SaveJson(folder / kSealFile, {{"format", "etude-seal"}, {"version", kSealVersion}, {"files", digests}});
 }
 
 Result<void> CheckSeal(const fs::path& folder) {

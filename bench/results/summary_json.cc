@@ -156,9 +156,8 @@ MetricSummary DecodeMetric(const Json& json) {
 MethodSummary DecodeMethod(const Json& json) {
   MethodSummary method;
   method.method = json.at("method").get<std::string>();
-  constexpr int kStatuses = static_cast<int>(Status::kSkipped) + 1;
   for (const auto& [name, count] : json.at("statuses").items()) {
-    method.statuses.emplace_back(ByName<Status>(name, StatusName, kStatuses), count.get<int>());
+    method.statuses.emplace_back(ByName<Status>(name, StatusName, kStatusCount), count.get<int>());
   }
   for (const Json& metric : json.at("metrics")) method.metrics.push_back(DecodeMetric(metric));
   method.ok = json.at("ok").get<int>();

@@ -126,13 +126,6 @@ class LineReader {
   bool good_ = true;
 };
 
-std::optional<Status> FindStatus(std::string_view name) {
-  for (int i = 0; i <= static_cast<int>(Status::kSkipped); ++i) {
-    if (StatusName(static_cast<Status>(i)) == name) return static_cast<Status>(i);
-  }
-  return std::nullopt;
-}
-
 CellLineHead ReadHead(LineReader& reader) {
   CellLineHead head;
   reader.Expect(R"({"cell":)");

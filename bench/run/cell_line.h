@@ -14,12 +14,13 @@ namespace etude {
 /// place in the catalogue, which is the same for all that one build writes. Short, and always in the same order, so
 /// that a line is read in a microsecond and passed on without being read at all.
 ///
-///     {"cell":12,"status":"ok","usage":[wall_s,cpu_s,peak_mb],"values":[3,0.5,4,null],"why":["no truth"],
-///      "digests":["world","0123456789abcdef"],"series":[["position_error_cm","iteration",[3,2,1]]],
-///      "recording":{…},"sum":"0123456789abcdef"}
+///     {"cell":12,"status":"unsolved","reason":"…","usage":[wall_s,cpu_s,peak_mb,world_wall_s,world_cpu_s],
+///      "values":[3,0.5,4,null],"why":["no truth"],"digests":["world","0123456789abcdef"],
+///      "series":[["position_error_cm","iteration",[3,2,1]]],"recording":{…},"sum":"0123456789abcdef"}
 ///
-/// Behind a series' values stand the names of what they count, where they do. A value that is not finite, or a metric
-/// that the catalogue does not know, turns the cell into bad_output.
+/// Parts that would be empty are left out, as is `reason` where there is none. The last two numbers of `usage` stand in
+/// a world's first cell only. A series of category indices appends the category names after its values. A value that is
+/// not finite, or a metric that the catalogue does not know, turns the cell into bad_output.
 std::string EncodeCellLine(std::size_t cell, FinishedCell finished);
 
 /// What a line says first.

@@ -46,6 +46,12 @@ std::string ErrorFileOf(const std::string& folder, const PreparedScenario& scena
 
 }  // namespace
 
+Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer) {
+  ASSIGN_OR_RETURN(auto judged, world.Judge(answer));
+  judged.digests.emplace_back("answer", Digest().Add(std::string_view(answer.dump())).Hex());
+  return judged;
+}
+
 void CellRunner::PeakMemory::Begin() {
   const auto now = Clock::now();
   if (now < looked_ + kLookEvery) return;
@@ -85,9 +91,8 @@ void CellRunner::Open(int condition, int trial) {
   why_no_world_.clear();
   const Stopwatch watch;
   const WorldKey key = scenario_.KeyOf(trial);
-  const std::vector<int>& filmed = scenario_.scenario().recordings.trials;
   try {
-    world_ = scenario_.task(condition).MakeWorld(key, std::find(filmed.begin(), filmed.end(), trial) != filmed.end());
+    world_ = scenario_.task(condition).MakeWorld(key, scenario_.scenario().recordings.KeepsTrial(trial));
     const auto& methods = scenario_.scenario().methods;
     const bool runs_built_in = std::ranges::any_of(methods, &MethodEntry::RunsInTask);
     if (runs_built_in && !world_->WhySkipped()) world_->PrepareShared();
@@ -110,8 +115,7 @@ FinishedCell CellRunner::Run(std::size_t method) {
   cell.usage.wall_s = watch.WallSeconds();
   cell.usage.cpu_s += watch.CpuSecondsUsed();
   cell.usage.peak_mb = std::max(cell.usage.peak_mb, peak_memory_.Mb());
-  const std::vector<std::string>& filmed = scenario_.scenario().recordings.methods;
-  if (std::find(filmed.begin(), filmed.end(), cell.row.method) == filmed.end()) cell.row.result.recording.reset();
+  if (!scenario_.scenario().recordings.KeepsMethod(cell.row.method)) cell.row.result.recording.reset();
   scenario_.CompleteMetrics(condition_, cell.row);
   return cell;
 }
@@ -169,9 +173,8 @@ CellResult CellRunner::AskOutside(std::size_t method, CellUsage& usage) {
   usage.cpu_s += reply.cpu_s;
   usage.peak_mb = reply.peak_mb;
   if (reply.status != Status::kOk) return CellResult::Ended(reply.status, reply.reason);
-  auto judged = world_->Judge(*reply.answer);
+  auto judged = JudgeAnswer(*world_, *reply.answer);
   if (!judged) return CellResult::Ended(Status::kBadOutput, ToString(judged.error()));
-  judged->digests.emplace_back("answer", Digest().Add(std::string_view(reply.answer->dump())).Hex());
   return std::move(*judged);
 }
 

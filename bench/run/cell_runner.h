@@ -6,7 +6,7 @@
 
 #include "bench/model/cell_usage.h"
 #include "bench/outside/outside_method.h"
-#include "bench/run/clock.h"
+#include "bench/process/clock.h"
 #include "bench/run/setup.h"
 
 namespace etude {
@@ -15,6 +15,10 @@ struct FinishedCell {
   Row row;
   CellUsage usage;
 };
+
+/// Scores an answer that did not come from a built-in method; its fingerprint stands among the digests of the cell.
+/// Fails as TaskWorld::Judge.
+Result<CellResult> JudgeAnswer(TaskWorld& world, const Json& answer);
 
 /// Runs the cells of one world after the other, as a worker does: the world is built once, methods outside
 /// stay alive from world to world.

@@ -2,8 +2,8 @@
 
 #include <set>
 
+#include "bench/process/clock.h"
 #include "bench/run/cell_runner.h"
-#include "bench/run/clock.h"
 #include "bench/run/suite.h"
 #include "bench/run/supervisor.h"
 #include "bench/scenario/study_of.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/files/durable.h"
-#include "bench/files/files.h"
+#include "bench/files/save_json.h"
 #include "bench/results/folder.h"
 #include "bench/results/seal.h"
 #include "bench/run/sum_up.h"
@@ -12,11 +12,6 @@
 namespace etude {
 
 namespace fs = std::filesystem;
-
-Result<void> SaveJson(const fs::path& path, const Json& json) {
-  ASSIGN_OR_RETURN(const auto text, WriteJson(json));
-  return WriteFileAtomically(path, text + "\n");
-}
 
 Result<bool> FinishRun(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, int jobs,
                        const std::function<bool(std::size_t rows)>& goes_on) {

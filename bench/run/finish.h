@@ -15,7 +15,4 @@ namespace etude {
 Result<bool> FinishRun(const std::filesystem::path& folder, const Plan& plan, CellTable& cells, const Json& host,
                        int jobs, const std::function<bool(std::size_t rows)>& goes_on);
 
-/// Writes one JSON value and a line end, whole or not at all.
-Result<void> SaveJson(const std::filesystem::path& path, const Json& json);
-
 }  // namespace etude

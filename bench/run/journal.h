@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/process/clock.h"
 #include "bench/run/cell_table.h"
-#include "bench/run/clock.h"
 #include "bench/run/plan.h"
 
 namespace etude {

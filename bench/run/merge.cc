@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/files/files.h"
+#include "bench/process/clock.h"
 #include "bench/results/folder.h"
-#include "bench/run/clock.h"
 #include "bench/run/finish.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"

@@ -5,8 +5,9 @@
 
 #include "bench/files/durable.h"
 #include "bench/files/files.h"
+#include "bench/files/save_json.h"
+#include "bench/process/clock.h"
 #include "bench/results/folder.h"
-#include "bench/run/clock.h"
 #include "bench/run/finish.h"
 #include "bench/run/journal.h"
 #include "bench/run/manifest.h"
@@ -61,10 +62,10 @@ Result<void> CheckHead(const fs::path& folder, const JournalHead& found, const J
 }
 
 /// Keeps what finished cells say on the disk, and tells how far the run has come.
-class Keeper {
+class JournalRecorder {
  public:
-  Keeper(CellTable& cells, Journal journal, std::uint32_t file, const Progress& before,
-         const std::function<void(const Progress&)>& on_progress)
+  JournalRecorder(CellTable& cells, Journal journal, std::uint32_t file, const Progress& before,
+                  const std::function<void(const Progress&)>& on_progress)
       : cells_(cells), journal_(std::move(journal)), file_(file), progress_(before), on_progress_(on_progress) {
     on_progress_(progress_);
   }
@@ -114,6 +115,52 @@ Result<RunOutcome> AlreadyWhole(const fs::path& folder) {
   return outcome;
 }
 
+/// A journal that cells can be added to, and what it held before.
+struct OpenedJournal {
+  Journal journal;
+  Progress before;  ///< `cells` counts those that the folder will hold
+  std::vector<int> damaged;
+};
+
+/// Begins the folder of a run, or goes on with what it holds, which is put into `cells`.
+Result<OpenedJournal> OpenJournal(const fs::path& folder, const std::string& manifest, const JournalHead& head,
+                                  bool continues, const RunOptions& options, const Plan& plan, CellTable& cells) {
+  Progress before;
+  std::vector<int> damaged;
+  if (continues) {
+    ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells));
+    RETURN_IF_ERROR(CheckHead(folder, found.head, head));
+    damaged = found.damaged;
+    before.cells_done = before.cells_before = found.cells;
+    before.cells_ok = found.cells_ok;
+  } else {
+    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest));
+    RETURN_IF_ERROR(SyncTree(folder));
+    RETURN_IF_ERROR(SyncPathTo(folder));
+  }
+  ASSIGN_OR_RETURN(auto journal,
+                   continues ? Journal::Continue(folder, options.sync) : Journal::Begin(folder, head, options.sync));
+  for (std::size_t world = 0; world < plan.world_count(); ++world) {
+    if (plan.IsIn(options.shard, world)) before.cells += plan.MethodCount(world);
+  }
+  return OpenedJournal{std::move(journal), before, std::move(damaged)};
+}
+
+/// Writes the results of a whole run; of a shard, which keeps its journal, host.json alone. False when it was
+/// stopped amid that. `was_done`: there was nothing left to run.
+Result<bool> FinishFolder(const fs::path& folder, const Plan& plan, CellTable& cells, const Json& host, bool was_done,
+                          const RunOptions& options) {
+  if (options.shard.IsWhole()) {
+    const auto goes_on = [&](std::size_t) { return options.stop == nullptr || !*options.stop; };
+    return FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on);
+  }
+  if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
+    RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
+    RETURN_IF_ERROR(SyncTree(folder));
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const Progress&)>& on_progress) {
@@ -130,32 +177,17 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
   if (options.stop != nullptr && *options.stop) return RunOutcome{.folder = folder, .stopped = true};
   const bool continues = options.resume && state != FolderState::kFree;
   ASSIGN_OR_RETURN(auto claimed, RunFolder::Claim(folder, continues));
-  CellTable cells(plan.cell_count());
-  Progress before;
-  std::vector<int> damaged;
   if (continues) {
     RETURN_IF_ERROR(CheckManifest(folder, manifest + "\n"));
     if (state == FolderState::kFinished) return AlreadyWhole(folder);
-    ASSIGN_OR_RETURN(const auto found, ReadJournal(folder, plan, cells));
-    RETURN_IF_ERROR(CheckHead(folder, found.head, head));
-    damaged = found.damaged;
-    before.cells_done = before.cells_before = found.cells;
-    before.cells_ok = found.cells_ok;
-  } else {
-    RETURN_IF_ERROR(WriteFileAtomically(folder / "manifest.json", manifest + "\n"));
-    RETURN_IF_ERROR(SyncTree(folder));
-    RETURN_IF_ERROR(SyncPathTo(folder));
   }
-  ASSIGN_OR_RETURN(auto journal,
-                   continues ? Journal::Continue(folder, options.sync) : Journal::Begin(folder, head, options.sync));
-
-  for (std::size_t world = 0; world < plan.world_count(); ++world) {
-    if (plan.IsIn(options.shard, world)) before.cells += plan.MethodCount(world);
-  }
+  CellTable cells(plan.cell_count());
+  ASSIGN_OR_RETURN(auto opened, OpenJournal(folder, manifest + "\n", head, continues, options, plan, cells));
   std::vector<Order> orders = plan.OrdersFor(options.shard, cells.Done());
   const bool was_done = continues && orders.empty();
   const Fence fence = FenceFor(scenarios, options.outside, folder);
-  Keeper keeper(cells, std::move(journal), cells.AddFile(folder / kJournalFile), before, on_progress);
+  JournalRecorder recorder(cells, std::move(opened.journal), cells.AddFile(folder / kJournalFile), opened.before,
+                           on_progress);
   const auto whole = RunOrders(suite, plan, std::move(orders),
                                {.program = ThisProgram(),
                                 .error_folder = (fs::absolute(folder) / "stderr").string(),
@@ -163,12 +195,12 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                                 .jobs = options.jobs,
                                 .stop = options.stop},
                                [&](const DeliveredCell& cell) {
-                                 auto kept = keeper.Add(cell);
+                                 auto kept = recorder.Add(cell);
                                  if (kept) claimed.Keep();
                                  return kept;
                                });
-  RETURN_IF_ERROR(keeper.Sync());
-  const Progress& progress = keeper.progress();
+  RETURN_IF_ERROR(recorder.Sync());
+  const Progress& progress = recorder.progress();
   if (!whole) {
     Error failure = whole.error();
     if (progress.cells_done > 0) failure.message += "; what was done is kept, --resume goes on with it";
@@ -180,19 +212,13 @@ Result<RunOutcome> Run(const RunOptions& options, const std::function<void(const
                      .seconds = SecondsSince(start),
                      .stopped = !*whole,
                      .fence = ProgramsOf(scenarios).empty() ? "" : fence.description(),
-                     .damaged_lines = std::move(damaged)};
+                     .damaged_lines = std::move(opened.damaged)};
   if (outcome.stopped) return outcome;
   claimed.Keep();
   Json host = DescribeHost(options.command_line, WorkerCount(options.jobs), outcome.seconds);
   if (!outcome.fence.empty()) host["fence"] = outcome.fence;
-  if (options.shard.IsWhole()) {
-    const auto goes_on = [&](std::size_t) { return options.stop == nullptr || !*options.stop; };
-    ASSIGN_OR_RETURN(const bool is_whole, FinishRun(folder, plan, cells, host, WorkerCount(options.jobs), goes_on));
-    outcome.stopped = !is_whole;
-  } else if (std::error_code none; !was_done || !fs::exists(folder / "host.json", none)) {
-    RETURN_IF_ERROR(SaveJson(folder / "host.json", host));
-    RETURN_IF_ERROR(SyncTree(folder));
-  }
+  ASSIGN_OR_RETURN(const bool is_whole, FinishFolder(folder, plan, cells, host, was_done, options));
+  outcome.stopped = !is_whole;
   outcome.seconds = SecondsSince(start);
   return outcome;
 }

@@ -90,6 +90,48 @@ Result<std::vector<NamedClips>> ReadLibraryOptions(const std::vector<std::string
   return libraries;
 }
 
+/// The scenario files with a scenario that has a use for clips, and for recordings.
+struct UsersOfFiles {
+  std::set<std::string> clips, recordings;
+};
+
+/// A scenario of `file` with what the options put in the place of its own. The texts of what it names are kept among
+/// `sources`; what it has a use for is noted in `users`.
+Result<ScenarioSetup> SetUp(Scenario& scenario, const std::string& file, const std::string& digest, int trials,
+                            const RunOptions& options, SourceTexts& sources, UsersOfFiles& users) {
+  const bool uses_clips = FindTaskKind(scenario.task)->uses_clips;
+  if (uses_clips) users.clips.insert(file);
+  const bool replaced = !options.clips.empty() && uses_clips;
+  if (replaced && !scenario.libraries.empty()) {
+    return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one", scenario.name);
+  }
+  if (replaced && !scenario.streams.files.empty()) {
+    return Fail({file, 0, 0}, "--clips: scenario {} is about recordings; --streams names others", scenario.name);
+  }
+  const bool uses_recordings = FindTaskKind(scenario.task)->uses_recordings;
+  const bool is_recorded = uses_recordings && !options.streams.empty();
+  if (is_recorded && !scenario.libraries.empty()) {
+    return Fail({file, 0, 0}, "--streams: scenario {} is about libraries", scenario.name);
+  }
+  if (uses_recordings) users.recordings.insert(file);
+  if (is_recorded) scenario.streams.files = options.streams;
+  // Labels of other recordings are of no use.
+  if (is_recorded || (uses_recordings && !options.labels.empty())) scenario.streams.labels = options.labels;
+  // Clips of no library are not loaded where there are libraries, and none where there are recordings.
+  std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
+  if (!scenario.libraries.empty() || !scenario.streams.files.empty()) clips.clear();
+  const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
+  RETURN_IF_ERROR(KeepText(joint_map, sources));
+  RETURN_IF_ERROR(KeepNamedFiles(scenario, sources));
+  ScenarioSetup setup{file,   scenario.name,      options.seed ? *options.seed : scenario.seed.value_or(1),
+                      trials, std::move(clips),   joint_map,
+                      digest, scenario.libraries, scenario.streams.files};
+  ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, sources));
+  ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, sources));
+  if (people) setup.trials = std::min(trials, *people);  // a person is judged once
+  return setup;
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> FindScenarioFiles(const std::vector<std::string>& paths) {
@@ -122,7 +164,7 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
   suite.suite = SuiteName(options.scenarios);
   suite.seed = options.seed.value_or(1);
   std::map<std::string, std::string> file_of_name;
-  std::set<std::string> with_clips, with_recordings;  // files with a scenario that has a use for them
+  UsersOfFiles users;
   std::size_t cells = 0;
   for (const std::string& file : files) {
     SourceTexts texts;
@@ -153,47 +195,18 @@ Result<SuiteSetup> ReadSuite(const RunOptions& options) {
         return Fail({file, 0, 0}, "{} conditions × {} methods × {} trials make more than {} cells in one run",
                     scenario.conditions.size(), scenario.methods.size(), trials, kMostCells);
       }
-      if (uses_clips) with_clips.insert(file);
-      const bool replaced = !options.clips.empty() && uses_clips;
-      if (replaced && !scenario.libraries.empty()) {
-        return Fail({file, 0, 0}, "--clips: scenario {} is about libraries; --library NAME=CLIPS adds one",
-                    scenario.name);
-      }
-      if (replaced && !scenario.streams.files.empty()) {
-        return Fail({file, 0, 0}, "--clips: scenario {} is about recordings; --streams names others", scenario.name);
-      }
-      const bool uses_recordings = FindTaskKind(scenario.task)->uses_recordings;
-      const bool is_recorded = uses_recordings && !options.streams.empty();
-      if (is_recorded && !scenario.libraries.empty()) {
-        return Fail({file, 0, 0}, "--streams: scenario {} is about libraries", scenario.name);
-      }
-      if (uses_recordings) with_recordings.insert(file);
-      if (is_recorded) scenario.streams.files = options.streams;
-      // Labels of other recordings are of no use.
-      if (is_recorded || (uses_recordings && !options.labels.empty())) scenario.streams.labels = options.labels;
-      // Clips of no library are not loaded where there are libraries, and none where there are recordings.
-      std::vector<std::string> clips = replaced ? options.clips : scenario.clips;
-      if (!scenario.libraries.empty() || !scenario.streams.files.empty()) clips.clear();
-      const std::string& joint_map = options.joint_map.empty() ? scenario.joint_map : options.joint_map;
-      RETURN_IF_ERROR(KeepText(joint_map, suite.sources));
-      RETURN_IF_ERROR(KeepNamedFiles(scenario, suite.sources));
-      ScenarioSetup setup{file,         scenario.name,      options.seed ? *options.seed : scenario.seed.value_or(1),
-                          trials,       std::move(clips),   joint_map,
-                          digest.Hex(), scenario.libraries, scenario.streams.files};
-      ASSIGN_OR_RETURN(setup.labels, KeepLabels(scenario.streams.labels, suite.sources));
-      ASSIGN_OR_RETURN(const auto people, CountRecordedPeople(setup, scenario.streams, suite.sources));
-      if (people) setup.trials = std::min(trials, *people);  // a person is judged once
+      ASSIGN_OR_RETURN(auto setup, SetUp(scenario, file, digest.Hex(), trials, options, suite.sources, users));
       suite.scenarios.push_back(std::move(setup));
     }
     suite.canonical.insert(canonical.begin(), canonical.end());
     suite.sources.merge(texts);
   }
   if (!options.clips.empty() || !options.libraries.empty()) {
-    RETURN_IF_ERROR(CheckThatUsed(options.scenarios, with_clips,
+    RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.clips,
                                   "--clips or --library: no task of its scenarios makes its worlds of clips"));
   }
   if (!options.streams.empty() || !options.labels.empty()) {
-    RETURN_IF_ERROR(CheckThatUsed(options.scenarios, with_recordings,
+    RETURN_IF_ERROR(CheckThatUsed(options.scenarios, users.recordings,
                                   "--streams or --labels: no task of its scenarios makes its worlds of recordings"));
   }
   return suite;

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "bench/process/child_process.h"
-#include "bench/run/clock.h"
+#include "bench/process/clock.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 

@@ -20,7 +20,7 @@ namespace {
 /// choice keeps the bytes the same on every machine.
 void FixEigenBlocking() { Eigen::setCpuCacheSizes(32 * 1024, 256 * 1024, 2 * 1024 * 1024); }
 
-int Misunderstood(const Error& error) {
+int ProtocolError(const Error& error) {
   std::cerr << ToString(error) << '\n';
   return 2;
 }
@@ -53,12 +53,12 @@ int RunWorker(std::istream& in, std::ostream& out) {
   if (!std::getline(in, line)) return 0;
   const Place place{"a worker's set-up", 1, 0};
   const auto json = ReadJson(line, place.file, place.line);
-  if (!json) return Misunderstood(json.error());
+  if (!json) return ProtocolError(json.error());
   try {
     const auto setup = DecodeSetup(json->at("setup"), place);
-    if (!setup) return Misunderstood(setup.error());
+    if (!setup) return ProtocolError(setup.error());
     const auto scenarios = PrepareAll(*setup);
-    if (!scenarios) return Misunderstood(scenarios.error());
+    if (!scenarios) return ProtocolError(scenarios.error());
     const Fence fence = DecodeFence(json->at("fence"));
     std::vector<std::unique_ptr<CellRunner>> runners;
     for (const PreparedScenario& scenario : *scenarios) {
@@ -67,11 +67,11 @@ int RunWorker(std::istream& in, std::ostream& out) {
     out << kWorkerReady << '\n' << std::flush;
     while (std::getline(in, line)) {
       const auto order = ReadJson(line, "a worker's orders");
-      if (!order) return Misunderstood(order.error());
-      if (auto done = Execute(*order, runners, out); !done) return Misunderstood(done.error());
+      if (!order) return ProtocolError(order.error());
+      if (auto done = Execute(*order, runners, out); !done) return ProtocolError(done.error());
     }
   } catch (const Json::exception& error) {
-    return Misunderstood({place, error.what()});
+    return ProtocolError({place, error.what()});
   }
   return 0;
 }

@@ -260,6 +260,14 @@ void AddLibraries(std::span<const NamedClips> libraries, Scenario& scenario) {
   }
 }
 
+bool RecordingSelection::KeepsTrial(int trial) const {
+  return std::find(trials.begin(), trials.end(), trial) != trials.end();
+}
+
+bool RecordingSelection::KeepsMethod(std::string_view name) const {
+  return std::find(methods.begin(), methods.end(), name) != methods.end();
+}
+
 std::vector<std::string> MethodNames(const Scenario& scenario) {
   std::vector<std::string> names;
   for (const MethodEntry& method : scenario.methods) names.push_back(method.name);

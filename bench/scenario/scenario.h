@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/keys/field_table.h"
@@ -39,6 +40,9 @@ struct Condition {
 struct RecordingSelection {
   std::vector<std::string> methods;
   std::vector<int> trials;
+
+  bool KeepsTrial(int trial) const;
+  bool KeepsMethod(std::string_view name) const;
 };
 
 /// One of the methods compared.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/order_statistics.h"
+
 namespace etude {
 namespace {
 
@@ -48,12 +50,6 @@ bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, dou
     if (a && b && glm::distance(*a, *b) * rate_hz > kResting) return false;
   }
   return true;
-}
-
-double MiddleOf(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The deviation of the distance of two joints over its mean, percent.
@@ -178,7 +174,7 @@ void MeasureQuiet(const JointRecording& recording, SensorStatistics& result) {
       if (!before || !after || glm::distance(*before, *after) > kQuiet) continue;
       if (const auto difference = SecondDifference(recording, t, j)) lengths.push_back(*difference);
     }
-    if (lengths.size() >= kFewest) white.Add(1000 * MiddleOf(lengths) / middle_length);
+    if (lengths.size() >= kFewest) white.Add(1000 * UpperMedian(std::move(lengths)) / middle_length);
   }
   result.quiet_white_mm = white.Value();
 }
@@ -206,9 +202,7 @@ void MeasureJumps(const JointRecording& recording, SensorStatistics& result) {
     }
   }
   if (jumps.empty()) return;
-  const auto at = jumps.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(jumps.size() - 1) * 0.99);
-  std::nth_element(jumps.begin(), at, jumps.end());
-  result.hand_jump_cm = 100 * *at;
+  result.hand_jump_cm = 100 * LowerPercentile(std::move(jumps), 0.99);
 }
 
 /// Every value of some statistics, in one order.

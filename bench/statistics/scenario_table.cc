@@ -81,10 +81,4 @@ void ScenarioTable::Add(const Row& row) {
   }
 }
 
-ScenarioTable Tabulate(const Study& study, std::span<const Row> rows) {
-  ScenarioTable table(study);
-  for (const Row& row : rows) table.Add(row);
-  return table;
-}
-
 }  // namespace etude

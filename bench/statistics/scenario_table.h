@@ -7,7 +7,7 @@
 
 #include "bench/metrics/catalogue.h"
 #include "bench/model/study.h"
-#include "engine/base/in_turn.h"
+#include "engine/base/cyclic_lookup.h"
 
 namespace etude {
 
@@ -31,7 +31,7 @@ class MethodColumns {
  private:
   std::string name_;
   std::vector<std::optional<Status>> statuses_;  ///< by trial
-  InTurn<std::vector<double>> values_;           ///< by metric and trial; NaN = none
+  CyclicLookup<std::vector<double>> values_;     ///< by metric and trial; NaN = none
 };
 
 /// Everything measured under one condition.
@@ -62,8 +62,5 @@ class ScenarioTable {
   std::vector<ConditionTable> conditions_;
   std::size_t last_ = 0;  ///< rows of one condition come together
 };
-
-/// The table of rows that are all there.
-ScenarioTable Tabulate(const Study& study, std::span<const Row> rows);
 
 }  // namespace etude

@@ -38,8 +38,7 @@ class LabelScores {
 };
 
 /// One line of JSON: {"stream": "take", "frame": 97, "time_s": 3.2333, "move": "open", "evidence": 0.61}; no stream
-/// when
-/// "" is its name.
+/// when "" is its name.
 std::string SpottingLine(const Spotting& spotting, const std::string& move, double rate_hz, const std::string& stream);
 
 /// {"scores": {…}}

@@ -6,7 +6,6 @@
 
 namespace etude {
 
-/// What came of recognising each person by what the others taught.
 /// What a performance was, and what it was taken for; "" for nothing.
 struct Classified {
   std::string truth, taken_for, person;
@@ -14,6 +13,7 @@ struct Classified {
 /// The share taken for what they were. Nothing of no verdicts.
 std::optional<double> Accuracy(std::span<const Classified> verdicts);
 
+/// What came of recognising each person by what the others taught.
 struct LeaveOneOut {
   std::vector<std::string> people;         ///< sorted
   std::vector<Classified> verdicts;        ///< of performances from a beginning to an end, done right

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -86,12 +87,6 @@ struct Darkness {
   double Width() const { return 4 * std::sqrt(std::sqrt(spread)); }
 };
 
-float Median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece) {
   glm::ivec2 low = piece.front(), high = piece.front();
   std::vector<float> inside, around;
@@ -108,7 +103,7 @@ Darkness Measure(const GreyImage& picture, const std::vector<glm::ivec2>& piece)
       if (x == low.x || x == high.x || y == low.y || y == high.y) around.push_back(picture.At(x, y));
     }
   }
-  const float dark = Median(std::move(inside)), bright = Median(std::move(around));
+  const float dark = UpperMedian(std::move(inside)), bright = UpperMedian(std::move(around));
   Darkness sum;
   if (!(bright > dark)) return sum;
   glm::dmat2 second(0);

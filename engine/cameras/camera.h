@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// A camera's inside, pixels. Image axes: u right, v down, origin at the top left corner;
+/// The intrinsics of a camera, pixels. Image axes: u right, v down, origin at the top left corner;
 /// the centre of pixel (i, j) is (i + 0.5, j + 0.5).
 struct Intrinsics {
   int width = 640;

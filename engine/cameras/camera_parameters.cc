@@ -53,8 +53,6 @@ Result<CameraParameters> Decompose(const ProjectionMatrix& matrix) {
   return p;
 }
 
-ProjectionMatrix Recompose(const CameraParameters& parameters) { return MatrixOf(ToCamera(parameters, 1, 1)); }
-
 Camera ToCamera(const CameraParameters& p, int width, int height) {
   Camera camera;
   const double fx = p.focal_length / p.delta_u, sine = std::sin(p.skew);

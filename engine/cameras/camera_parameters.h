@@ -7,7 +7,7 @@
 
 namespace etude {
 
-/// Paper B's six parameters inside a camera and six outside it (section 2.2), by the pinhole's usual form
+/// Paper B's six intrinsic and six extrinsic parameters of a camera (section 2.2), by the pinhole's usual form
 ///
 ///         [ f/δu   −(f/δu)·cot θ   pu ]
 ///     H ~ [  0      f/(δv·sin θ)   pv ] · [ R_CW | t ],    R_CW = Rx(ω) Ry(φ) Rz(κ).
@@ -32,9 +32,6 @@ struct CameraParameters {
 /// The parameters of a matrix, in closed form. Fails when it is no camera's: a number that is not finite,
 /// rows that are parallel, or a picture that only a mirror shows.
 Result<CameraParameters> Decompose(const ProjectionMatrix& matrix);
-
-/// The matrix of parameters, scaled such that w is the depth in metres.
-ProjectionMatrix Recompose(const CameraParameters& parameters);
 
 /// The pinhole with these parameters, its picture of `width` × `height` pixels; and the parameters of a camera, which
 /// leave its distortion out.

@@ -183,9 +183,9 @@ Result<RefinedRig> CalibrateFromPlanes(std::span<const PictureSize> sizes, std::
       if (view.view->camera == camera) homographies.push_back(view.homography);
     }
     if (homographies.empty()) return Fail({}, "camera {} shows no board with four corners or more", camera + 1);
-    const auto inside = IntrinsicsFromPlanes(homographies, sizes[camera].width, sizes[camera].height);
-    if (!inside) return Fail({}, "camera {}: {}", camera + 1, inside.error().message);
-    guess.cameras.push_back({.intrinsics = *inside});
+    const auto intrinsics = IntrinsicsFromPlanes(homographies, sizes[camera].width, sizes[camera].height);
+    if (!intrinsics) return Fail({}, "camera {}: {}", camera + 1, intrinsics.error().message);
+    guess.cameras.push_back({.intrinsics = *intrinsics});
   }
   for (PlaneView& view : usable) {
     view.pose_CT = PoseOfPlane(guess.cameras[view.view->camera].intrinsics, view.homography);

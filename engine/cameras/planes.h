@@ -28,9 +28,9 @@ struct PictureSize {
   int height = 0;
 };
 
-/// Cameras from flat boards in their pictures: each camera's inside from its homographies, the cameras joined through
-/// boards that two of them see at once, then all together by `RefineRig`. Things are boards at one place; the first one
-/// that `views` names defines the world: it stands still at its own frame. Points with z ≠ 0 are not allowed.
+/// Cameras from flat boards in their pictures: each camera's intrinsics from its homographies, the cameras joined
+/// through boards that two of them see at once, then all together by `RefineRig`. A target is a board at one place; the
+/// first one that `views` names defines the world: it stands still at its own frame. Points with z ≠ 0 are not allowed.
 /// Views of fewer than four corners, or of corners on one line, are left out. Fails, naming the camera, when one has no
 /// view left, or sees no board at the same time as the others.
 /// @param sizes of the cameras' pictures

@@ -13,12 +13,12 @@
 namespace etude {
 namespace {
 
-/// What is inside a camera, as Ceres moves it.
-enum Inside { kFx, kFy, kCx, kCy, kSkew, kK1, kK2, kP1, kP2, kK3, kInsideCount };
-constexpr std::array<const char*, kInsideCount> kInsideNames = {
+/// The intrinsics of a camera, as Ceres moves it.
+enum Intrinsic { kFx, kFy, kCx, kCy, kSkew, kK1, kK2, kP1, kP2, kK3, kIntrinsicsCount };
+constexpr std::array<const char*, kIntrinsicsCount> kIntrinsicsNames = {
     "focal length", "focal length", "principal point", "principal point", "skew",
     "distortion",   "distortion",   "distortion",      "distortion",      "distortion"};
-/// A pose: Rodrigues' vector, then the translation; of a camera R_CW and p_CW, of a thing R_WT and p_WT.
+/// A pose: Rodrigues' vector, then the translation; of a camera R_CW and p_CW, of a target R_WT and p_WT.
 constexpr int kPoseCount = 6;
 
 /// How far a pixel is from where its point is shown. The distortion is that of distortion.h, once more because Ceres
@@ -28,7 +28,7 @@ struct ReprojectionError {
   glm::dvec2 pixel;
 
   template <typename T>
-  bool operator()(const T* inside, const T* camera, const T* target, T* residual) const {
+  bool operator()(const T* intrinsics, const T* camera, const T* target, T* residual) const {
     const T in_target[3] = {T(p_TQ.x), T(p_TQ.y), T(p_TQ.z)};
     T in_world[3], in_camera[3];
     ceres::AngleAxisRotatePoint(target, in_target, in_world);
@@ -38,16 +38,16 @@ struct ReprojectionError {
     if (!(in_camera[2] > T(1e-9))) return false;
     const T x = in_camera[0] / in_camera[2], y = in_camera[1] / in_camera[2];
     const T r2 = x * x + y * y;
-    const T gain = 1.0 + r2 * (inside[kK1] + r2 * (inside[kK2] + r2 * inside[kK3]));
-    const T xd = x * gain + 2.0 * inside[kP1] * x * y + inside[kP2] * (r2 + 2.0 * x * x);
-    const T yd = y * gain + inside[kP1] * (r2 + 2.0 * y * y) + 2.0 * inside[kP2] * x * y;
-    residual[0] = inside[kFx] * xd + inside[kSkew] * yd + inside[kCx] - pixel.x;
-    residual[1] = inside[kFy] * yd + inside[kCy] - pixel.y;
+    const T gain = 1.0 + r2 * (intrinsics[kK1] + r2 * (intrinsics[kK2] + r2 * intrinsics[kK3]));
+    const T xd = x * gain + 2.0 * intrinsics[kP1] * x * y + intrinsics[kP2] * (r2 + 2.0 * x * x);
+    const T yd = y * gain + intrinsics[kP1] * (r2 + 2.0 * y * y) + 2.0 * intrinsics[kP2] * x * y;
+    residual[0] = intrinsics[kFx] * xd + intrinsics[kSkew] * yd + intrinsics[kCx] - pixel.x;
+    residual[1] = intrinsics[kFy] * yd + intrinsics[kCy] - pixel.y;
     return true;
   }
 };
 
-using InsideBlock = std::array<double, kInsideCount>;
+using IntrinsicsBlock = std::array<double, kIntrinsicsCount>;
 using PoseBlock = std::array<double, kPoseCount>;
 
 PoseBlock ToBlock(const glm::dmat3& R, const glm::dvec3& t) {
@@ -63,18 +63,18 @@ glm::dmat3 RotationOf(const PoseBlock& block) {
   return R;
 }
 
-InsideBlock ToBlock(const Camera& camera, const RefineOptions& options) {
+IntrinsicsBlock ToBlock(const Camera& camera, const RefineOptions& options) {
   const Intrinsics& in = camera.intrinsics;
   const bool has_lens = options.lens != LensModel::kPinhole;
   const Distortion d = has_lens ? camera.distortion : Distortion{};
   return {in.fx, in.fy, in.cx, in.cy, in.skew, d.k1, d.k2, d.p1, d.p2, d.k3};
 }
 
-/// Which parameters inside a camera stay as they are.
+/// Which intrinsics of a camera stay as they are.
 std::vector<int> Held(const RefineOptions& options) {
   std::vector<int> held;
   const bool holds_lens = options.lens == LensModel::kPinhole || options.lens == LensModel::kAsInCamera;
-  for (int i = 0; i < kInsideCount; ++i) {
+  for (int i = 0; i < kIntrinsicsCount; ++i) {
     const bool is_lens = i >= kK1;
     if ((i == kSkew && !options.skew) || (is_lens && holds_lens) || (i == kK3 && options.lens == LensModel::kRadial2)) {
       held.push_back(i);
@@ -89,19 +89,19 @@ class Bundle {
   Bundle(const RigGuess& guess, std::span<const TargetView> views, const RefineOptions& options)
       : guess_(guess), views_(views), options_(options), held_(Held(options)) {
     for (const Camera& camera : guess.cameras) {
-      inside_.push_back(ToBlock(camera, options));
+      intrinsics_.push_back(ToBlock(camera, options));
       cameras_.push_back(ToBlock(camera.R_CW, -(camera.R_CW * camera.p_WC)));
     }
     for (const TargetPlace& target : guess.targets) targets_.push_back(ToBlock(target.R_WT, target.p_WT));
     for (const TargetView& view : views) AddView(view);
-    for (InsideBlock& inside : inside_) Hold(inside);
+    for (IntrinsicsBlock& intrinsics : intrinsics_) Hold(intrinsics);
     problem_.SetParameterBlockConstant(targets_.front().data());
   }
 
   std::size_t points() const { return points_; }
   std::size_t parameters() const {
-    const std::size_t inside = options_.inside_is_known ? 0 : kInsideCount - held_.size();
-    return inside_.size() * (inside + kPoseCount) + (targets_.size() - 1) * kPoseCount;
+    const std::size_t free_intrinsics = options_.hold_intrinsics ? 0 : kIntrinsicsCount - held_.size();
+    return intrinsics_.size() * (free_intrinsics + kPoseCount) + (targets_.size() - 1) * kPoseCount;
   }
 
   Result<void> Solve() {
@@ -143,13 +143,13 @@ class Bundle {
         eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
     const double freedom = 2.0 * static_cast<double>(points_) - static_cast<double>(parameters());
     const double sigma = freedom > 0 ? std::sqrt(2 * cost_ / freedom) : 0;
-    std::vector<IntrinsicsDeviation> deviations(inside_.size());
+    std::vector<IntrinsicsDeviation> deviations(intrinsics_.size());
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].inside < 0 || columns_[i].inside > kCy) continue;
+      if (columns_[i].intrinsic < 0 || columns_[i].intrinsic > kCy) continue;
       IntrinsicsDeviation& of = deviations[columns_[i].camera];
       double* const members[] = {&of.fx, &of.fy, &of.cx, &of.cy};
       const auto at = static_cast<Eigen::Index>(i);
-      *members[columns_[i].inside] = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
+      *members[columns_[i].intrinsic] = sigma * std::sqrt(std::max(0.0, inverse(at, at))) / scale[at];
     }
     return deviations;
   }
@@ -157,8 +157,8 @@ class Bundle {
   RefinedRig Answer() const {
     RefinedRig rig;
     rig.cameras = guess_.cameras;
-    for (std::size_t i = 0; i < inside_.size(); ++i) {
-      const InsideBlock& in = inside_[i];
+    for (std::size_t i = 0; i < intrinsics_.size(); ++i) {
+      const IntrinsicsBlock& in = intrinsics_[i];
       Camera& camera = rig.cameras[i];
       camera.intrinsics = {
           camera.intrinsics.width, camera.intrinsics.height, in[kFx], in[kFy], in[kCx], in[kCy], in[kSkew]};
@@ -177,33 +177,33 @@ class Bundle {
  private:
   /// Which free parameter a column of the Jacobian belongs to.
   struct Column {
-    std::size_t camera = 0;  ///< or the thing, counted behind the cameras
-    int inside = -1;         ///< Inside, or −1: of a pose
+    std::size_t camera = 0;  ///< or the target, counted behind the cameras
+    int intrinsic = -1;      ///< Intrinsic, or −1: of a pose
   };
 
   void AddView(const TargetView& view) {
     for (const PointPair& pair : view.pairs) {
-      using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kInsideCount, kPoseCount, kPoseCount>;
+      using Cost = ceres::AutoDiffCostFunction<ReprojectionError, 2, kIntrinsicsCount, kPoseCount, kPoseCount>;
       problem_.AddResidualBlock(new Cost(new ReprojectionError{pair.world, pair.pixel}), nullptr,
-                                inside_[view.camera].data(), cameras_[view.camera].data(),
+                                intrinsics_[view.camera].data(), cameras_[view.camera].data(),
                                 targets_[view.target].data());
     }
     points_ += view.pairs.size();
   }
 
-  void Hold(InsideBlock& inside) {
-    if (options_.inside_is_known) {
-      problem_.SetParameterBlockConstant(inside.data());
+  void Hold(IntrinsicsBlock& intrinsics) {
+    if (options_.hold_intrinsics) {
+      problem_.SetParameterBlockConstant(intrinsics.data());
     } else if (!held_.empty()) {
-      problem_.SetManifold(inside.data(), new ceres::SubsetManifold(kInsideCount, held_));
+      problem_.SetManifold(intrinsics.data(), new ceres::SubsetManifold(kIntrinsicsCount, held_));
     }
   }
 
   std::shared_ptr<ceres::ParameterBlockOrdering> TargetsFirst() {
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     for (PoseBlock& target : targets_) ordering->AddElementToGroup(target.data(), 0);
-    for (std::size_t i = 0; i < inside_.size(); ++i) {
-      ordering->AddElementToGroup(inside_[i].data(), 1);
+    for (std::size_t i = 0; i < intrinsics_.size(); ++i) {
+      ordering->AddElementToGroup(intrinsics_[i].data(), 1);
       ordering->AddElementToGroup(cameras_[i].data(), 1);
     }
     return ordering;
@@ -212,10 +212,10 @@ class Bundle {
   Eigen::MatrixXd NormalMatrix() {
     ceres::Problem::EvaluateOptions evaluate;
     columns_.clear();
-    for (std::size_t i = 0; i < inside_.size(); ++i) {
-      if (!options_.inside_is_known) {
-        evaluate.parameter_blocks.push_back(inside_[i].data());
-        for (int k = 0; k < kInsideCount; ++k) {
+    for (std::size_t i = 0; i < intrinsics_.size(); ++i) {
+      if (!options_.hold_intrinsics) {
+        evaluate.parameter_blocks.push_back(intrinsics_[i].data());
+        for (int k = 0; k < kIntrinsicsCount; ++k) {
           if (std::find(held_.begin(), held_.end(), k) == held_.end()) columns_.push_back({i, k});
         }
       }
@@ -224,7 +224,7 @@ class Bundle {
     }
     for (std::size_t i = 1; i < targets_.size(); ++i) {
       evaluate.parameter_blocks.push_back(targets_[i].data());
-      columns_.insert(columns_.end(), kPoseCount, Column{inside_.size() + i, -1});
+      columns_.insert(columns_.end(), kPoseCount, Column{intrinsics_.size() + i, -1});
     }
     ceres::CRSMatrix jacobian;
     problem_.Evaluate(evaluate, &cost_, nullptr, nullptr, &jacobian);
@@ -241,9 +241,9 @@ class Bundle {
 
   tl::unexpected<Error> Undetermined(std::size_t column) const {
     const Column& of = columns_[column];
-    if (of.camera >= inside_.size())
-      return Fail({}, "the views do not determine where board {} was", of.camera - inside_.size() + 1);
-    const char* const what = of.inside < 0 ? "place" : kInsideNames[static_cast<std::size_t>(of.inside)];
+    if (of.camera >= intrinsics_.size())
+      return Fail({}, "the views do not determine where board {} was", of.camera - intrinsics_.size() + 1);
+    const char* const what = of.intrinsic < 0 ? "place" : kIntrinsicsNames[static_cast<std::size_t>(of.intrinsic)];
     return Fail({}, "camera {}: the points do not determine its {}; they must fill a volume, boards be tilted",
                 of.camera + 1, what);
   }
@@ -252,7 +252,7 @@ class Bundle {
   const std::span<const TargetView> views_;
   const RefineOptions options_;
   const std::vector<int> held_;
-  std::vector<InsideBlock> inside_;
+  std::vector<IntrinsicsBlock> intrinsics_;
   std::vector<PoseBlock> cameras_, targets_;
   std::size_t points_ = 0;
   ceres::Problem problem_;

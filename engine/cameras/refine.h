@@ -11,14 +11,14 @@
 
 namespace etude {
 
-/// Where a rigid thing T with known points stands in the world W: p_WQ = R_WT p_TQ + p_WT.
+/// Where a calibration target T, rigid with known points, stands in the world W: p_WQ = R_WT p_TQ + p_WT.
 struct TargetPlace {
   glm::dmat3 R_WT{1};
   glm::dvec3 p_WT{0};
 };
 
-/// What one picture shows of such a thing. Points that were measured in the world are a thing that stands at the
-/// world's origin.
+/// What one picture shows of a target. Points that were measured in the world are a target that stands at the world's
+/// origin.
 struct TargetView {
   std::size_t camera = 0;
   std::size_t target = 0;
@@ -38,17 +38,17 @@ struct RefineOptions {
   bool skew = false;
   /// Hold focal lengths, principal points and lenses as the start has them: rigs whose cameras were calibrated one by
   /// one and then set up.
-  bool inside_is_known = false;
+  bool hold_intrinsics = false;
   int most_iterations = 200;
 };
 
-/// Cameras and things, as far as they are known.
+/// Cameras and targets, as far as they are known.
 struct RigGuess {
   std::vector<Camera> cameras;
   std::vector<TargetPlace> targets;  ///< the first stays where it is: it is what "the world" means
 };
 
-/// The standard deviations of a camera's inside, pixels, if the corners err independently and alike.
+/// The standard deviations of a camera's intrinsics, pixels, if the corners err independently and alike.
 struct IntrinsicsDeviation {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
@@ -64,7 +64,7 @@ struct RefinedRig {
   std::vector<IntrinsicsDeviation> deviations;
 };
 
-/// The cameras and places of things that make the sum of squared reprojection errors smallest (`refined`;
+/// The cameras and places of targets that make the sum of squared reprojection errors smallest (`refined`;
 /// Levenberg–Marquardt by Ceres), with distortion. `guess` is near it: from `Calibrate`, `Decompose` or planes.h.
 /// Fails when a camera has no view, when there are fewer equations than unknowns, when the start does not show a point,
 /// and when the views leave something undetermined: it is named.

@@ -11,7 +11,7 @@ std::size_t BoardViews::Add(std::size_t camera, std::size_t moment, const Colour
   }
   for (auto& [board, view] : by_board) {
     view.camera = camera;
-    view.target = things_.try_emplace({moment, board}, things_.size()).first->second;
+    view.target = targets_.try_emplace({moment, board}, targets_.size()).first->second;
     views_.push_back(std::move(view));
   }
   return corners.size();

@@ -11,7 +11,7 @@
 
 namespace etude {
 
-/// Collects what pictures show of boards, for `CalibrateFromPlanes`. A board at one moment is a thing of its own: it
+/// Collects what pictures show of boards, for `CalibrateFromPlanes`. A board at one moment is a target of its own: it
 /// may be carried about between pictures, but pictures of one moment show it at one place.
 class BoardViews {
  public:
@@ -25,7 +25,7 @@ class BoardViews {
 
  private:
   const std::vector<Board> boards_;
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> things_;  ///< of moment and board
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> targets_;  ///< of moment and board
   std::vector<TargetView> views_;
 };
 

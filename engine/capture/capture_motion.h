@@ -29,7 +29,8 @@ struct CapturedMotion {
 /// Paper B from marked pictures to a motion: MeasureFrames, BridgeGaps, RecoverFrames. Frames of which too little was
 /// seen stay empty, be it all of them; HoldFrames and ToClip make a clip of the others. Fails, saying why, when inputs
 /// do not fit together: fewer than two cameras, not as many lists of marks as cameras, lists of different lengths, a
-/// body with limb lengths that are not positive, no solver.
+/// body with limb lengths that are not positive, no solver. For programs that link this folder alone, as its test does;
+/// task `capture` shares stages between methods and calls them one by one.
 Result<CapturedMotion> CaptureMotion(const CaptureInputs& inputs, const CaptureOptions& options);
 
 }  // namespace etude

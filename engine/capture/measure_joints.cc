@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/base/order_statistics.h"
 #include "engine/cameras/likeliest_point.h"
 #include "engine/kinematics/limb_lengths.h"
 
@@ -88,9 +89,7 @@ std::optional<double> UsualVariance(std::span<const JointMeasurements> measured,
     variances.push_back((covariance[0][0] + covariance[1][1] + covariance[2][2]) / 3);
   }
   if (variances.empty()) return std::nullopt;
-  const auto middle = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() / 2);
-  std::nth_element(variances.begin(), middle, variances.end());
-  return *middle;
+  return UpperMedian(std::move(variances));
 }
 
 // From right to left across the body, as far as hips or shoulders tell.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/base/order_statistics.h"
+
 namespace etude {
 namespace {
 
@@ -31,9 +33,7 @@ SomeJoints PlacedJoints(const JointMeasurements& frame) {
 
 std::optional<double> MedianOf(std::vector<double> values) {
   if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return UpperMedian(std::move(values));
 }
 
 std::optional<glm::dvec3> MiddleOf(const SomeJoints& joints, Role a, Role b) {

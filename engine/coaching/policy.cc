@@ -104,6 +104,14 @@ std::span<const Policy> AllPolicies() {
 
 std::vector<std::string> PolicyNames() { return NamesOf(AllPolicies()); }
 
+std::vector<std::string> LivePolicyNames() {
+  std::vector<std::string> names;
+  for (const Policy& policy : AllPolicies()) {
+    if (!policy.asks_truth && !policy.takes_moments) names.push_back(policy.name);
+  }
+  return names;
+}
+
 const Policy* FindPolicy(std::string_view name) { return FindByName(AllPolicies(), name); }
 
 }  // namespace etude

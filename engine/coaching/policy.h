@@ -51,6 +51,8 @@ struct Policy {
 /// Paper A's first: at-first-mistake, never, after-n, confidence, fading, oracle, yoked.
 std::span<const Policy> AllPolicies();
 std::vector<std::string> PolicyNames();
+/// Those that need no one who knows the truth or another session: what can coach real people.
+std::vector<std::string> LivePolicyNames();
 /// Null when there is no such policy.
 const Policy* FindPolicy(std::string_view name);
 

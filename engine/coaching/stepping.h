@@ -20,7 +20,7 @@ class Stepping {
   void Run();
 
  private:
-  // The player (player.cc).
+  // The player.
   void Watch();
   PlayerHint WhereToStand() const;
   bool IsIdleFor(double seconds) const;
@@ -35,7 +35,7 @@ class Stepping {
   void DanceOn();
   void Correct();
 
-  // The dance's music and windows (dancing.cc).
+  // The dance's music and windows (these in stepping_windows.cc).
   void FollowMusic(double dance_frame);
   void OpenWindowAt(double dance_frame);
   void CloseWindow();

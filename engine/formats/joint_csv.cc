@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
 
 namespace etude {
@@ -35,9 +36,8 @@ std::optional<double> RateOf(const NumberRows& table, std::size_t time_column) {
     if (!std::isnan(step)) steps.push_back(step);
   }
   if (steps.empty()) return std::nullopt;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle > 0 ? std::optional(1 / *middle) : std::nullopt;
+  const double middle = UpperMedian(std::move(steps));
+  return middle > 0 ? std::optional(1 / middle) : std::nullopt;
 }
 
 using JointColumns = std::array<std::array<std::optional<std::size_t>, 3>, kRoleCount>;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/order_statistics.h"
 #include "engine/capture/fit_pose.h"
 #include "engine/capture/measure_joints.h"
 #include "engine/kinematics/limb_lengths.h"
@@ -23,9 +24,7 @@ std::optional<double> MedianDistance(std::span<const RoleVectors> frames, Role a
     if (p && q) lengths.push_back(glm::distance(*p, *q));
   }
   if (lengths.empty()) return std::nullopt;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return UpperMedian(std::move(lengths));
 }
 
 std::optional<double> MedianBone(std::span<const RoleVectors> frames, const Bone& bone) {

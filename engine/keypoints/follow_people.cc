@@ -4,6 +4,8 @@
 #include <limits>
 #include <tuple>
 
+#include "engine/base/order_statistics.h"
+
 namespace etude {
 namespace {
 
@@ -18,9 +20,7 @@ double StepBetween(const SeenPerson& a, const SeenPerson& b, double least_confid
   }
   constexpr std::size_t kFewest = 3;
   if (steps.size() < kFewest) return std::numeric_limits<double>::infinity();
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle / std::max(1.0, HeightPx(a));
+  return UpperMedian(std::move(steps)) / std::max(1.0, HeightPx(a));
 }
 
 class Follower {

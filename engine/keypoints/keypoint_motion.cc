@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -57,13 +58,6 @@ void AddSide(const LandmarkPlaces& marks, const SideMarks& m, const SideRoles& r
   joints[Index(r.foot)] = at(m.toe);
 }
 
-double MedianOf(std::vector<double> values) {
-  assert(!values.empty());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> cameras, const MatchedPerson& person,
@@ -98,7 +92,7 @@ std::vector<LandmarkPlaces> TriangulatePerson(std::span<const ProjectionMatrix> 
     report->rejected.clear();
     for (std::size_t c = 0; c < cameras.size(); ++c)
       report->rejected.push_back(used[c] > 0 ? rejected[c] / used[c] : 0);
-    report->residual_px = residuals.empty() ? 0 : MedianOf(residuals);
+    report->residual_px = residuals.empty() ? 0 : UpperMedian(residuals);
     const auto ever = static_cast<double>(std::ranges::count_if(found, [](std::size_t n) { return n > 0; }));
     report->found = ever > 0 ? static_cast<double>(residuals.size()) / (ever * static_cast<double>(frames)) : 0;
   }

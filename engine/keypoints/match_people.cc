@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/order_statistics.h"
 #include "engine/cameras/triangulation.h"
 
 namespace etude {
@@ -16,13 +17,6 @@ namespace {
 struct Track : PersonTrack {
   std::size_t camera = 0;
 };
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Nearest point to two lines; nothing of parallel ones.
 std::optional<glm::dvec3> MiddleOf(const SightLine& a, const SightLine& b) {
@@ -84,7 +78,7 @@ class Joiner {
                 people_[other.camera][at.frame][at.other], errors);
     }
     constexpr std::size_t kFewest = 8;
-    return errors.size() < kFewest ? std::numeric_limits<double>::infinity() : Median(std::move(errors));
+    return errors.size() < kFewest ? std::numeric_limits<double>::infinity() : UpperMedian(std::move(errors));
   }
 
   void AddErrors(std::size_t camera_a, const SeenPerson& a, std::size_t camera_b, const SeenPerson& b,
@@ -151,7 +145,7 @@ class Joiner {
           if (group_[u] == g && error != errors_.end()) errors.push_back(error->second);
         }
       }
-      person.error = errors.empty() ? 0 : Median(errors);
+      person.error = errors.empty() ? 0 : UpperMedian(std::move(errors));
       person.cameras = static_cast<std::size_t>(std::ranges::count(by, true));
       persons.push_back(std::move(person));
     }

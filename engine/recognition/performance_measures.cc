@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/order_statistics.h"
+
 namespace etude {
 namespace {
 
@@ -174,12 +176,10 @@ void PersonsUsual::Add(const PerformanceMeasures& performance) {
   constexpr std::size_t kLatest = 32;
   if (latest_.size() == kLatest) latest_.erase(latest_.begin());
   latest_.push_back(performance);
-  std::vector<double> values(latest_.size());
   ForEachOwn([&](std::size_t own, std::size_t) {
-    for (std::size_t i = 0; i < latest_.size(); ++i) values[i] = latest_[i][own];
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    usual_[own] = *middle;
+    std::vector<double> values;
+    for (const PerformanceMeasures& measures : latest_) values.push_back(measures[own]);
+    usual_[own] = UpperMedian(std::move(values));
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
 #include "engine/base/smoothstep.h"
 #include "engine/retargeting/limbs.h"
 #include "engine/retargeting/rotations.h"
@@ -31,9 +32,7 @@ double LegLength(const BodyPose& pose) {
 double UsualLegLength(const BodyMotion& motion) {
   std::vector<double> lengths;
   for (const BodyPose& pose : motion.poses) lengths.push_back(LegLength(pose));
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return UpperMedian(std::move(lengths));
 }
 
 /// The limb from `role`'s parent to it: as long as the target's, pointing as the performer's.

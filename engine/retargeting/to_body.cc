@@ -7,6 +7,7 @@
 
 #include "engine/base/angles.h"
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/motion/statistics.h"
 #include "engine/retargeting/body_sampler.h"
 #include "engine/retargeting/check_sides.h"
@@ -72,13 +73,6 @@ std::size_t CountForeignTPose(const Clip& clip, BodySampler& sampler, UpAxis up)
   return jump > kJumpPerStature * Stature(first) && jump > kJumpPerNextStep * next_step ? next : 0;
 }
 
-/// The value below which `part` of all values lie.
-double Percentile(std::vector<double> values, double part) {
-  const auto rank = static_cast<std::size_t>(part * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank), values.end());
-  return values[rank];
-}
-
 template <typename Measure>
 std::vector<double> OverFrames(const std::vector<BodyPose>& poses, Measure measure) {
   std::vector<double> values;
@@ -128,7 +122,7 @@ Result<std::vector<BodyPose>> Resampled(const Clip& clip, BodySampler& sampler, 
 /// (some files leave all offsets to the frames).
 double FindStature(const BodyPose& rest, const std::vector<BodyPose>& poses) {
   const double at_rest = Stature(rest);
-  const double moving = Percentile(OverFrames(poses, Stature), 0.5);
+  const double moving = LowerPercentile(OverFrames(poses, Stature), 0.5);
   return at_rest > 0.5 * moving && at_rest < 2 * moving ? at_rest : moving;
 }
 
@@ -147,7 +141,7 @@ void FindUnit(double stature, const std::optional<double>& given, BodyConversion
 double FindFloor(const std::vector<BodyPose>& poses) {
   // Not the very lowest: a single frame in which a marker was lost must not lift the whole clip.
   constexpr double kLow = 0.05;
-  return Percentile(OverFrames(poses, LowestPoint), kLow);
+  return LowerPercentile(OverFrames(poses, LowestPoint), kLow);
 }
 
 double LegLength(const BodyPose& pose) {

@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <cmath>
 
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
 #include "engine/streams/format_readers.h"
 
@@ -67,9 +67,7 @@ std::optional<double> SecondsPerCount(const NumberRows& table) {
     if (step > 0) steps.push_back(step);
   }
   if (steps.empty()) return table.RowCount() == 1 ? std::optional(1 / kJudgedRateHz) : std::nullopt;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  const double step = *middle;
+  const double step = UpperMedian(std::move(steps));
   if (step < 1) return 1.0;
   if (step < 5) return 1 / kJudgedRateHz;  // frames, of which some are missing
   if (step <= 1000) return 1e-3;

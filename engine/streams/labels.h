@@ -35,8 +35,7 @@ constexpr double kActionPointTolerance = 0.333;
 ///     seq-1,0.5,3.1,arms-open,right,anna
 ///   MSRC-12's tag stream, `XQPCTick;Tag` and a row a tag: action points of the recording `clip`, by its own clock
 ///   UTKinect's actionLabel.txt: `s01_e01`, then `walk: 252 390` in frames at 30 Hz by the recordings' own clock;
-///   labels
-///     of NaN are left out; a recording goes by whatever name holds `s01_e01`
+///     labels of NaN are left out; a recording goes by whatever name holds `s01_e01`
 ///
 /// Refused with file, line and column: unknown headings, words for times, ends before beginnings, no labels at all,
 /// more than 16 MiB.

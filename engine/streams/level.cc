@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/angles.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -16,12 +17,6 @@ using enum Role;
 
 constexpr double kMostTilt = Radians(30), kMostApart = Radians(15);
 const glm::dvec3 kFileUp(0, 1, 0);
-
-double Percentile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// The middle of the trunk's directions, axis by axis.
 std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
@@ -33,7 +28,7 @@ std::optional<glm::dvec3> UpOfTrunk(std::span<const RecordedFrame> frames) {
     for (int axis = 0; axis < 3; ++axis) axes[axis].push_back(up[axis]);
   }
   if (axes[0].empty()) return std::nullopt;
-  const glm::dvec3 middle(Percentile(axes[0], 0.5), Percentile(axes[1], 0.5), Percentile(axes[2], 0.5));
+  const glm::dvec3 middle(LowerPercentile(axes[0], 0.5), LowerPercentile(axes[1], 0.5), LowerPercentile(axes[2], 0.5));
   if (glm::length(middle) < 0.5) return std::nullopt;
   return glm::normalize(middle);
 }
@@ -113,7 +108,7 @@ StreamLevel EstimateLevel(std::span<const RecordedFrame> frames, double rate_hz)
     const auto &left = frame.places[Index(kLeftFoot)], &right = frame.places[Index(kRightFoot)];
     if (left && right) heights.push_back(std::min((level.R_WF * *left).y, (level.R_WF * *right).y));
   }
-  if (!heights.empty()) level.floor_m = Percentile(heights, 0.1);
+  if (!heights.empty()) level.floor_m = LowerPercentile(heights, 0.1);
   return level;
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/named.h"
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 #include "engine/formats/number_rows.h"
 #include "engine/streams/format_readers.h"
 
@@ -63,9 +64,7 @@ double MiddleDistance(const StreamRecording& recording, Role a, Role b) {
     if (from && to) lengths.push_back(glm::distance(*from, *to));
   }
   if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return UpperMedian(std::move(lengths));
 }
 
 /// No person is anywhere near so far from the sensor.

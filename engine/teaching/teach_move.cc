@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/base/order_statistics.h"
 #include "engine/recognition/sight.h"
 
 namespace etude {
@@ -34,17 +35,11 @@ Track TrackOf(const SkeletonStream& stream) {
   return smooth;
 }
 
-double Percentile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// How far an angle goes, but for the outermost twentieths.
 double RangeOf(const Track& track, std::size_t feature) {
   std::vector<double> values;
   for (const Angles& angles : track) values.push_back(angles[feature]);
-  return Percentile(values, 0.95) - Percentile(values, 0.05);
+  return LowerPercentile(values, 0.95) - LowerPercentile(values, 0.05);
 }
 
 /// Angles that go together in a key pose.
@@ -59,7 +54,7 @@ std::vector<std::size_t> AnglesThatMatter(std::span<const Track> tracks, const T
   for (std::size_t f = 0; f < kFeatureCount; ++f) {
     std::vector<double> of_examples;
     for (const Track& track : tracks) of_examples.push_back(RangeOf(track, f));
-    ranges[f] = Percentile(of_examples, 0.5);
+    ranges[f] = LowerPercentile(of_examples, 0.5);
   }
   const double least = std::max(options.least_range_deg, 0.5 * *std::ranges::max_element(ranges));
   std::array<bool, kFeatureCount> matters{};

@@ -9,8 +9,8 @@
 #include "engine/motion/rest_body.h"
 #include "engine/silhouettes/silhouette_cost.h"
 #include "engine/unmarked/adult_body.h"
+#include "engine/vision/background_estimate.h"
 #include "engine/vision/person_finder.h"
-#include "engine/vision/plate.h"
 
 namespace etude {
 namespace {
@@ -77,7 +77,7 @@ class Recovery {
       for (std::size_t i = 0; i < track.frames.size(); ++i) {
         AddNearness(track, i, c, activity[i]);
       }
-      rooms_.push_back(EstimatePlate(pictures, activity, options_.kept));
+      rooms_.push_back(EstimateBackground(pictures, activity, options_.kept));
     }
   }
 

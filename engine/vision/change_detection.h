@@ -84,7 +84,8 @@ struct PersonOptions {
 };
 
 /// The person in the picture (paper B, chapter 4): change detection, then the 8-connected component or components that
-/// `pieces` names, then their small holes filled. All zero when nothing changed.
+/// `pieces` names, then their small holes filled. All zero when nothing changed. Takes go through `PersonFinder`, which
+/// tests compare with this plain form.
 Mask ExtractPerson(const ColourImage& background, const ColourImage& picture, const PersonOptions& options);
 
 }  // namespace etude

@@ -61,16 +61,6 @@ PixelBox Grown(PixelBox box, int by, const Image<Pixel>& image) {
   return box;
 }
 
-bool IsNear(const Mask& person, int x, int y, int margin) {
-  if (person.At(x, y) != 0) return true;
-  for (int v = std::max(0, y - margin); v <= std::min(person.height - 1, y + margin); ++v) {
-    for (int u = std::max(0, x - margin); u <= std::min(person.width - 1, x + margin); ++u) {
-      if (person.At(u, v) != 0) return true;
-    }
-  }
-  return false;
-}
-
 glm::dvec2 ChromaticityOf(Rgb8 colour) {
   const double sum = colour.r + colour.g + colour.b;
   return sum > 0 ? glm::dvec2(colour.r, colour.g) / sum : glm::dvec2(1.0 / 3);
@@ -113,7 +103,7 @@ LimbImage Classified(const ColourImage& picture, const Mask& person, const LimbC
   for (int y = box.low.y; y < box.high.y; ++y) {
     for (int x = box.low.x; x < box.high.x; ++x) {
       if (const std::uint8_t label = palette.LabelAt(picture.At(x, y));
-          label != 0 && IsNear(person, x, y, options.margin_px)) {
+          label != 0 && IsNearPerson(person, x, y, options.margin_px)) {
         limbs.At(x, y) = label;
       }
     }

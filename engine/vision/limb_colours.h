@@ -5,6 +5,7 @@
 #include "engine/base/image.h"
 #include "engine/vision/limb_evidence.h"
 #include "engine/vision/limb_regions.h"
+#include "engine/vision/near_person.h"
 #include "engine/vision/strokes.h"
 
 namespace etude {
@@ -18,8 +19,7 @@ struct LimbColours {
 
 struct LimbColourOptions {
   FigureLook look;
-  /// A pixel this close to the extracted person still counts as on it: extraction frays edges by a pixel or two.
-  int margin_px = 3;
+  int margin_px = kFrayedEdgePx;
   /// So far may a pixel's chromaticity, (R, G, B) / (R + G + B), be off the suit's nearest. Half of what lies between
   /// the nearest two of 14 hues that share two thirds of the circle, and lamps that are tinted, must stay below; what
   /// people live with is less colourful than a suit by twice as much.

@@ -28,9 +28,9 @@ struct PictureEvidence {
 
 /// What a person looks like, and so where joints lie in what is seen of a limb; anyone knows it who looks.
 enum class FigureKind {
-  kCapsules,  ///< paper B's studio: round limbs, of which the thicker one ends about the joint; trunk joints are
-              ///< outside
-  kDressed,   ///< limbs are cut across at their joints (sim/character)
+  /// Paper B's studio: round limbs, of which the thicker one ends about the joint; trunk joints are outside.
+  kCapsules,
+  kDressed,  ///< limbs are cut across at their joints (sim/character)
 };
 
 /// What is known of the person beforehand.
@@ -44,9 +44,8 @@ struct FigureLook {
 /// Where limbs run and joints are in a picture that was parted into limbs, by whoever did it. The middle line of each
 /// limb is that of its visible pixels (`FindMiddleLine`). Joint centres, from what anyone knows of bodies:
 /// - capsules end round: a joint lies half a width inside the end of the limb that covers the other one there. Which
-/// one
-///   covers shows in their common border, whose ends bend back towards it. Hips, shoulders and the neck lie inside the
-///   trunk: beyond the border, along the limb, by a share of the border's breadth that is the joint's own;
+///   one covers shows in their common border, whose ends bend back towards it. Hips, shoulders and the neck lie inside
+///   the trunk: beyond the border, along the limb, by a share of the border's breadth that is the joint's own;
 /// - the limbs of people in clothes are cut across at their joints: a joint lies at that border or, of arms, near the
 ///   limb's inner end; a shoulder half an arm's width inside the arm, a hip above the crotch;
 /// - a tip lies about half a width inside the limb's outer end; the head's point some way below the crown.

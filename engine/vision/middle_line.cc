@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "engine/base/order_statistics.h"
+
 namespace etude {
 namespace {
 
@@ -63,9 +65,7 @@ double UsualWidth(const std::vector<Section>& sections) {
     if (!section.IsEmpty()) widths.push_back(section.Width());
   }
   constexpr double kShare = 0.9;
-  const auto at = widths.begin() + static_cast<std::ptrdiff_t>(kShare * static_cast<double>(widths.size() - 1));
-  std::nth_element(widths.begin(), at, widths.end());
-  return *at;
+  return LowerPercentile(std::move(widths), kShare);
 }
 
 // Lays the line through the middles of the sections that are about as wide as usual.

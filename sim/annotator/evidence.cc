@@ -23,7 +23,7 @@ LimbRegions ByStroke(Regions regions) {
 
 PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options) {
   const LimbRegions regions = ByStroke(FindRegions(picture.labels, picture.colours, picture.person, options.margin_px));
-  return FindLimbEvidence(regions, {.figure = options.figure, .head_below_crown = options.head_below_crown});
+  return FindLimbEvidence(regions, options.look);
 }
 
 }  // namespace etude

@@ -2,6 +2,7 @@
 
 #include "engine/base/image.h"
 #include "engine/vision/limb_evidence.h"
+#include "engine/vision/near_person.h"
 
 namespace etude {
 
@@ -14,14 +15,12 @@ struct AnnotatedPicture {
 
 /// What the annotator looks with.
 struct EvidenceOptions {
-  FigureKind figure = FigureKind::kCapsules;  ///< `FigureLook::figure`
-  /// A pixel this close to the extracted person still counts as on it: extraction frays edges by a pixel or two.
-  int margin_px = 3;
-  double head_below_crown = 1.3;  ///< `FigureLook::head_below_crown`
+  FigureLook look;
+  int margin_px = kFrayedEdgePx;
 };
 
 /// What the annotator can know from one picture and from anatomy (`FindLimbEvidence`); nothing else enters. What these
-/// rules cost in exact joint centres: README.md, by joint.
+/// rules cost in exact joint centres: docs/annotator.md, by joint.
 PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options = {});
 
 }  // namespace etude

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "engine/vision/near_person.h"
+
 namespace etude {
 namespace {
 
@@ -44,16 +46,6 @@ class RegionFinder {
   }
 
  private:
-  bool IsNearPerson(int x, int y) const {
-    if (person_.At(x, y) != 0) return true;
-    for (int v = std::max(0, y - margin_px_); v <= std::min(person_.height - 1, y + margin_px_); ++v) {
-      for (int u = std::max(0, x - margin_px_); u <= std::min(person_.width - 1, x + margin_px_); ++u) {
-        if (person_.At(u, v) != 0) return true;
-      }
-    }
-    return false;
-  }
-
   static bool HasPerformer(const std::uint32_t* labels, int count) {
     std::uint32_t found = 0;
     for (int i = 0; i < count; ++i) found |= static_cast<std::uint32_t>(IsPerformer(labels[i]));
@@ -68,7 +60,7 @@ class RegionFinder {
         x += kBlock - 1;
         continue;
       }
-      if (!IsPerformer(labels[x]) || !IsNearPerson(x, y)) continue;
+      if (!IsPerformer(labels[x]) || !IsNearPerson(person_, x, y, margin_px_)) continue;
       seen_.At(x, y) = static_cast<std::uint8_t>(labels[x]);
       first_ = std::min(first_, x);
       last_ = std::max(last_, x);

@@ -11,8 +11,9 @@
 
 namespace etude {
 
-/// The distortion of those strengths in a camera with that inside: k1 = radial / r², where r is the distance of the
-/// picture's farthest corner from the axis at distance 1; tangential |p| = strength / 3r, its direction by one throw.
+/// The distortion of those strengths in a camera with those intrinsics: k1 = radial / r², where r is the distance of
+/// the picture's farthest corner from the axis at distance 1; tangential |p| = strength / 3r, its direction by one
+/// throw.
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
 /// Pictures of a pinhole become those of a lens. The renderer draws straight lines only: it draws a pinhole's picture

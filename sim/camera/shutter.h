@@ -34,9 +34,6 @@ class Shutter {
   std::vector<double> SubframesOf(const Band& band) const;
   static constexpr int kSubframes = 9;
 
-  double offset_frames() const { return offset_; }
-  double drift() const { return drift_; }
-
  private:
   double offset_ = 0;    ///< frames
   double drift_ = 0;     ///< frames per frame

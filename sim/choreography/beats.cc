@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/base/names.h"
+#include "engine/base/order_statistics.h"
 
 namespace etude {
 namespace {
@@ -60,10 +61,8 @@ Result<std::vector<double>> ReadBeats(std::string_view text, const std::string& 
 double TempoOf(const std::vector<double>& beats_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < beats_s.size(); ++i) steps.push_back(beats_s[i] - beats_s[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
   // To a hundredth: digits of a file are no reason to call a tempo too fast for a move.
-  return std::round(6000 / *middle) / 100;
+  return std::round(6000 / UpperMedian(std::move(steps))) / 100;
 }
 
 Result<Dance> ToBeats(Dance dance, const std::vector<double>& beats_s) {

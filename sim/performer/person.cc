@@ -95,8 +95,6 @@ const std::vector<std::string>& PeopleNames() {
   return names;
 }
 
-std::string_view PeopleName(People people) { return PeopleNames()[static_cast<std::size_t>(people)]; }
-
 People FindPeople(std::string_view name) {
   const auto found = std::ranges::find(PeopleNames(), name);
   assert(found != PeopleNames().end());

@@ -25,7 +25,6 @@ enum class People {
 
 /// "mixed", "toddler", "school-child", "adult", "expert", "absent": in the order of the enum.
 const std::vector<std::string>& PeopleNames();
-std::string_view PeopleName(People people);
 /// `name` must be one of PeopleNames().
 People FindPeople(std::string_view name);
 

@@ -37,7 +37,7 @@ class Bridge(EtudeCase):
             self.assertIn(words, lines[0])
 
     def test_the_tags_file_holds_the_bridge_frames_of_every_clip(self):
-        self.works(*FEW, "-o", self.tags)
+        self.assertIn(f"written: {self.tags}\n", self.works(*FEW, "-o", self.tags))
         root = ElementTree.parse(self.tags).getroot()
         clips = root.findall("clip")
         self.assertEqual([clip.get("name") for clip in clips], FEW)
@@ -63,7 +63,9 @@ class Bridge(EtudeCase):
         self.assertEqual(self.tags.read_bytes(), first)
 
     def test_the_summary_for_programs_keeps_to_its_schema(self):
-        summary = json.loads(self.works(*FEW, "--json"))
+        result = self.etude("bridge", *FEW, "--json", "-o", self.tags)
+        self.assertEqual((result.returncode, result.stderr), (0, f"written: {self.tags}\n"))
+        summary = json.loads(result.stdout)
         self.assertEqual(complaints(summary, load_schema("bridge-summary.schema.json")), [])
         self.assertEqual([clip["name"] for clip in summary["clips"]], FEW)
         self.assertEqual(len(summary["pairs"]), 12)

@@ -139,6 +139,22 @@ methods: [{name: hue}]
         self.assertIn("already holds a run", again.stderr)
         self.run_suite(path, "--overwrite")
 
+    def test_rows_and_a_packed_cell_replace_no_file_unasked(self):
+        rows = self.run_suite(self.write("ik.yaml", IK))
+        text, pack = self.folder / "rows.jsonl", self.folder / "cell.etude"
+        for words, file in ((["rows", self.out, "-o", text], text),
+                            (["replay", self.out, "--cell", rows[0]["cell"], "--pack", pack], pack)):
+            file.write_text("mine")
+            refused = self.etude(*words)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("is there already; --overwrite replaces it", refused.stderr)
+            self.assertEqual(file.read_text(), "mine")
+            replaced = self.etude(*words, "--overwrite")
+            self.assertEqual(replaced.returncode, 0, replaced.stderr)
+            self.assertIn(f"written: {file}\n", replaced.stdout)
+        self.assertEqual(text.read_bytes(), (self.out / "cells.jsonl").read_bytes())
+        self.assertEqual(self.etude("replay", pack).returncode, 0)
+
     def test_lists_what_a_scenario_can_name(self):
         for what, words in {"methods": "capture", "metrics": "position_error_cm", "clips": "builtin:clap",
                             "scenarios": "scenarios/quick"}.items():

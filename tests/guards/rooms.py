@@ -76,7 +76,7 @@ MAY_INCLUDE = {
     "bench/clips":
         "engine/base engine/formats engine/formats/deepmimic engine/formats/gltf engine/motion engine/retargeting "
         "sim/camera sim/character sim/choreography sim/sensors bench/files",
-    "bench/dataset": "engine/base bench/files bench/films bench/run bench/scenario",
+    "bench/dataset": "engine/base bench/files bench/films bench/process bench/run bench/scenario",
     "bench/files": "engine/base",
     "bench/films": "engine/base sim/render sim/sensors bench/files bench/model",
     "bench/finished_runs": "engine/base bench/files bench/gate bench/metrics bench/results bench/run bench/scenario",

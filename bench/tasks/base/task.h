@@ -86,9 +86,6 @@ class Task {
   virtual std::optional<double> ValueOfFailure(std::string_view /*metric*/) const { return std::nullopt; }
 };
 
-/// Every method of a world, in order; those of a world to be skipped are.
-std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion = false);
-
 struct LabelledStreams;
 
 /// What a scenario gives a task to make itself from.

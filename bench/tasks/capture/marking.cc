@@ -99,9 +99,9 @@ Marking::Marking(const StudioOptions& options, const CaptureWorld& world, const 
     : mark_every_(static_cast<std::size_t>(options.mark_every)), annotators_(world.cameras.size()) {
   const PersonErrors errors{.error_px = options.annotation_error_px};
   const BodyPose& body = world.truth.front();
-  eye_.figure = world.own || world.stage.IsPerformerDressed() ? FigureKind::kDressed : FigureKind::kCapsules;
+  eye_.look.figure = world.own || world.stage.IsPerformerDressed() ? FigureKind::kDressed : FigureKind::kCapsules;
   suit_ = SuitOf(world.colours);
-  eye_.head_below_crown = HeadBelowCrown(PerformerAt(world, 0), body);
+  eye_.look.head_below_crown = HeadBelowCrown(PerformerAt(world, 0), body);
   for (std::size_t camera = 0; camera < annotators_.size(); ++camera) {
     for (int annotator = 0; annotator < options.annotators; ++annotator) {
       annotators_[camera].emplace_back(errors, eye_, key, annotator, static_cast<int>(camera));
@@ -128,9 +128,7 @@ Marks Marking::MarkTrueJoints(std::size_t frame, const AnnotatedPicture& picture
 
 Marks Marking::ReadColours(std::size_t frame, const AnnotatedPicture& picture) const {
   if (frame % mark_every_ != 0) return {};
-  return ReadLimbColours(
-      picture.colours, picture.person, suit_,
-      {.look = {.figure = eye_.figure, .head_below_crown = eye_.head_below_crown}, .margin_px = eye_.margin_px});
+  return ReadLimbColours(picture.colours, picture.person, suit_, {.look = eye_.look, .margin_px = eye_.margin_px});
 }
 
 Marks Marking::Mark(std::size_t camera, std::size_t frame, const AnnotatedPicture& picture) {

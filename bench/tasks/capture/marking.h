@@ -48,7 +48,7 @@ class Marking {
   std::vector<MarkedTwice> joints_, limbs_;
 };
 
-/// `EvidenceOptions::head_below_crown` of a performer in the pose `body`: the same in every pose, like limb lengths,
+/// `FigureLook::head_below_crown` of a performer in the pose `body`: the same in every pose, like limb lengths,
 /// and measured beforehand.
 double HeadBelowCrown(const Figure& figure, const BodyPose& body);
 

@@ -86,8 +86,8 @@ TransitionAnswer ReadTransition(AnswerFields& fields, const Stage& stage, const 
   answer.segments.push_back({.clip = request.to, .first = entered, .last = last_of_to, .own = {}});
   answer.join = FindJoin(fields.Choice("join", JoinNames(), JoinNames().front()));
   if (fields.Has("join_s")) {
-    answer.segments.back().wish = JoinWish{.blend_s = fields.Number("join_s", kJoins_s)};
-    answer.segments.back().wish->fades = fields.Boolean("fades", false);
+    answer.segments.back().preferred = PreferredJoin{.blend_s = fields.Number("join_s", kJoins_s)};
+    answer.segments.back().preferred->fades = fields.Boolean("fades", false);
   }
   answer.matched = fields.Boolean("matched", false);
   return answer;

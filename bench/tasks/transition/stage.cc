@@ -11,8 +11,6 @@
 namespace etude {
 namespace {
 
-constexpr double kJudgedHipHeight = 0.90;  // docs/metrics.md
-
 bool IsAct(const LibraryClip& clip) {
   const std::vector<std::string> acts = BuiltinActNames();
   return std::ranges::any_of(acts, [&](const std::string& act) { return clip.source == "builtin:" + act; });
@@ -29,6 +27,11 @@ void CastClips(const ClipLibrary& library, bool asks_for_acts, Stage& stage) {
 }
 
 }  // namespace
+
+BodyProportions JudgedProportions() {
+  constexpr double kHipHeight = 0.90;
+  return MakeBodyProportions(PoseOf(Controls{}), kHipHeight);
+}
 
 std::vector<double> NaturalJumpsOf(const Stage& stage, int from, int to) {
   std::vector<double> jumps = stage.natural_jumps_cm[from];
@@ -55,8 +58,7 @@ Stage SetStage(const ClipLibrary& library, const StageRules& rules) {
                       .min_clips = rules.min_clips,
                       .most_per_class = rules.most_per_class,
                       .weights = rules.fuzzy.weights};
-  const BodyProportions proportions = MakeBodyProportions(PoseOf(Controls{}), kJudgedHipHeight);
-  stage.library = MakeLibrary(std::move(names), clips, proportions, tags, rules.tween);
+  stage.library = MakeLibrary(std::move(names), clips, JudgedProportions(), tags, rules.tween);
   for (const BodyMotion& motion : stage.library.motions) {
     stage.natural_jumps_cm.push_back(NaturalJumpsCm(motion));
     const int last = static_cast<int>(motion.poses.size()) - 1;

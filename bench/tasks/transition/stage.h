@@ -10,6 +10,9 @@
 
 namespace etude {
 
+/// Of the body that performs all clips when transitions are judged: its hips stand at 0.90 m (docs/metrics.md).
+BodyProportions JudgedProportions();
+
 /// How a library is made ready for transitions.
 struct StageRules {
   FuzzySystem fuzzy;
@@ -20,8 +23,8 @@ struct StageRules {
   bool asks_for_acts = false;  ///< the coach's acts are asked for while other clips play, where there are both
 };
 
-/// A library of clips made ready for transitions: all performed by one body whose hips stand at
-/// 0.90 m, tagged, and each with nature's own jumps to be compared with.
+/// A library of clips made ready for transitions: all performed by one body (`JudgedProportions`), tagged, and each
+/// with nature's own jumps to be compared with.
 struct Stage {
   MotionLibrary library;                ///< its names are as rows and videos show them
   std::vector<std::string> identities;  ///< equal for equal clips: what opens the clip

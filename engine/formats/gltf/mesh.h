@@ -11,8 +11,7 @@ namespace etude {
 /// The scene's surfaces and their colours, put into `character`, whose skeleton is the nodes'. One mesh per primitive
 /// that has triangles (lists, strips, fans; points and lines are passed over):
 /// - with a skin, one binding per joint of the skin; of several sets of joints the four greatest weights of a vertex
-/// are
-///   kept and made to sum to 1; a vertex without weight hangs on the skin's first joint;
+///   are kept and made to sum to 1; a vertex without weight hangs on the skin's first joint;
 /// - without, one binding to its node;
 /// - without normals, faces get their own, as the specification demands.
 /// Colours are the materials' base colour factors and textures; KHR_texture_transform, vertex colours and morph targets

@@ -30,12 +30,11 @@ class DampedInverse {
   /// By duality dq = clamp(preferred + Jᵀy), where J dq + μ y = e: a piecewise linear equation of as many unknowns as
   /// targets have numbers. Newton's method on it is the primal-dual active set (Hintermüller, Ito and Kunisch 2002): y
   /// is solved for with some angles fixed at an end of their range, none at first, and then each is fixed where
-  /// preferred
-  /// + Jᵀy leads beyond that end, and free where it does not. (To begin with the last step's set takes more passes.) It
-  /// may take four passes; one and a half is the mean of steps with the damping of `levenberg-marquardt`, which settle
-  /// nearly all, and more hardly help the others. The answer is within the ranges always, and the optimum when the set
-  /// has settled (`is_exact`): then the conditions of Karush, Kuhn and Tucker hold. False as above, for the angles that
-  /// are free.
+  /// preferred + Jᵀy leads beyond that end, and free where it does not. (To begin with the last step's set takes more
+  /// passes.) It may take four passes; one and a half is the mean of steps with the damping of `levenberg-marquardt`,
+  /// which settle nearly all, and more hardly help the others. The answer is within the ranges always, and the optimum
+  /// when the set has settled (`is_exact`): then the conditions of Karush, Kuhn and Tucker hold. False as above, for
+  /// the angles that are free.
   bool StepWithin(double damping, std::span<const double> preferred, std::span<const double> angles,
                   std::span<const AngleRange> ranges, std::vector<double>& step);
 

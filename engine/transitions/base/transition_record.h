@@ -24,8 +24,8 @@ enum class Branch { kNone, kNow, kEnd, kStandingPose, kFrontHalf, kRearHalf, kIn
 /// "none", "now", "end", "standing pose", "front half", "rear half", "in-between", "forced", "unbroken".
 std::string_view BranchName(Branch branch);
 
-/// How a choice that has tried would have the clips joined.
-struct JoinWish {
+/// The join that a choice of frames prefers; set by `played`, which tries several, and by answers of methods outside.
+struct PreferredJoin {
   double blend_s = 0;  ///< seconds until the new motion is shown alone
   bool fades = false;  ///< the old motion goes on while it fades out; else what it was off from the new one dies away
 };
@@ -40,7 +40,7 @@ struct Segment {
   int first = 0;                      ///< index into the clip, or into `own`
   int last = 0;                       ///< the last frame shown
   std::vector<BodyPose> own;          ///< only of kOwnFrames
-  std::optional<JoinWish> wish = {};  ///< of the join into it
+  std::optional<PreferredJoin> preferred = {};  ///< of the join into it
   bool in_place = false;              ///< `own` stands where it is to be shown: it is not laid on anything
 };
 

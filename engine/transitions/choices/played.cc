@@ -176,7 +176,7 @@ struct PlayedWay {
   FramePair pair;
   std::size_t number = 0;  ///< of the pair
   int frames = 0;          ///< of the join
-  bool fades = false;      ///< JoinWish
+  bool fades = false;      ///< PreferredJoin
   double cost_s = 0;
 };
 
@@ -290,8 +290,8 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
   const Rehearsal rehearsal(library, request, options, NearestPairs(library, request, allowed));
   const PlayedWay& best = rehearsal.ways().front();
   TransitionRecord record = DirectTransition(library, request, best.pair.leave, best.pair.enter, rules);
-  const JoinWish wish{.blend_s = best.frames / library.motions[request.from].rate_hz, .fades = best.fades};
-  record.segments.back().wish = wish;
+  const PreferredJoin preferred{.blend_s = best.frames / library.motions[request.from].rate_hz, .fades = best.fades};
+  record.segments.back().preferred = preferred;
   record.pairs_seen = record.pairs_matched = allowed.Pairs();
   record.cost_unit = "s";
   std::vector<RankedPair> others;
@@ -306,8 +306,8 @@ TransitionRecord PlanPlayed(const MotionLibrary& library, const TransitionReques
   record.candidates =
       ListCandidates(library, request, rules, ranked(best), std::move(others), CandidateOutcome::kWorse);
   record.why = fmt::format("least cost of the transitions played: {}, joined within {:.2f} s by {}, {:.2f} s in all",
-                           DescribePair(library, request, best.pair.leave, best.pair.enter), wish.blend_s,
-                           wish.fades ? "a fade" : "what was off dying away", best.cost_s);
+                           DescribePair(library, request, best.pair.leave, best.pair.enter), preferred.blend_s,
+                           preferred.fades ? "a fade" : "what was off dying away", best.cost_s);
   return record;
 }
 

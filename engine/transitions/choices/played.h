@@ -8,10 +8,10 @@
 namespace etude {
 
 struct PlayedOptions {
-  /// What a second of waiting or of joining is worth: so much acceleration, centimetres per frame², beyond the clips'
-  /// own. A smaller one takes smoother transitions that come later and last longer.
+  /// Exchange rate of the cost: one second of waiting or blending equals this much acceleration beyond the clips' own,
+  /// cm/frame². Smaller: smoother, later, longer transitions.
   double excess_per_s = 0.5;
-  /// Likewise of poses that neither motion has: so many centimetres, over as many seconds, off the nearer of the two.
+  /// Likewise for poses of neither clip: cm off the nearer clip, integrated over seconds.
   double invented_per_s = 5;
   double least_play_s = 1;  ///< what must be left of the wanted clip to play, as PointCloudOptions'
 };
@@ -23,7 +23,7 @@ const SettingTable<PlayedOptions>& PlayedSettings();
 /// largest acceleration of any joint beyond what either clip has of its own there (`excess_per_s`) + how far the frames
 /// shown are from both clips' own, the root of the mean over joints, summed over time (`invented_per_s`). The best are
 /// played once more with their feet (PlantFeet) before the last word. The record's last segment holds how it should be
-/// joined (JoinWish).
+/// joined (PreferredJoin).
 ///
 /// Ours; searching what is shown instead of what is alike after Kovar, Gleicher and Pighin 2002 and Bollo 2018. It
 /// knows nothing of what accelerations count as natural.

@@ -28,7 +28,7 @@ struct JoinInput {
   std::function<std::vector<BodyPose>(std::size_t count)> continuation;
   /// What the new motion has next after its frame at the point, likewise.
   std::function<std::vector<BodyPose>(std::size_t count)> upcoming = {};
-  std::optional<JoinWish> wish = {};  ///< of the choice of frames; minimum-jerk and planted-feet follow it
+  std::optional<PreferredJoin> preferred = {};  ///< of the choice of frames; minimum-jerk and planted-feet follow it
   double rate_hz = kJudgedRateHz;
 };
 

@@ -51,7 +51,7 @@ Inertialiser DecayOf(const JoinWindow& window, int frames) {
                   .target = {window.target_before, window.next[0]},
                   .continuation = {},
                   .upcoming = {},
-                  .wish = {},
+                  .preferred = {},
                   .rate_hz = window.rate_hz};
   double direction = 1;
   if (window.old_frames > 0) {  // an Inertialiser told the frames after for those before measures velocities backwards
@@ -86,12 +86,12 @@ std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades) {
   return played;
 }
 
-JoinWish WishOf(const JoinInput& input, const MinimumJerkOptions& options) {
-  return input.wish.value_or(JoinWish{.blend_s = options.blend_s, .fades = options.fades != 0});
+PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options) {
+  return input.preferred.value_or(PreferredJoin{.blend_s = options.blend_s, .fades = options.fades != 0});
 }
 
-JoinWindow WishedWindow(const JoinInput& input, const JoinWish& wish) {
-  return WindowOf(input, static_cast<int>(std::lround(wish.blend_s * input.rate_hz)));
+JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred) {
+  return WindowOf(input, static_cast<int>(std::lround(preferred.blend_s * input.rate_hz)));
 }
 
 Blend ShowPlayed(std::vector<BodyPose> played) {
@@ -101,8 +101,8 @@ Blend ShowPlayed(std::vector<BodyPose> played) {
 }
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options) {
-  const JoinWish wish = WishOf(input, options);
-  return ShowPlayed(PlayMinimumJerk(WishedWindow(input, wish), wish.fades));
+  const PreferredJoin preferred = PreferredJoinOf(input, options);
+  return ShowPlayed(PlayMinimumJerk(WindowOfJoin(input, preferred), preferred.fades));
 }
 
 }  // namespace etude

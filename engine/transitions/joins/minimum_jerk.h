@@ -60,9 +60,9 @@ class MinimumJerkPlay {
 std::vector<BodyPose> PlayMinimumJerk(const JoinWindow& window, bool fades);
 
 Blend MinimumJerk(const JoinInput& input, const MinimumJerkOptions& options);
-/// What the choice of frames wishes for, or else the options.
-JoinWish WishOf(const JoinInput& input, const MinimumJerkOptions& options);
-JoinWindow WishedWindow(const JoinInput& input, const JoinWish& wish);
+/// What the choice of frames prefers, or else the options; and the window of that.
+PreferredJoin PreferredJoinOf(const JoinInput& input, const MinimumJerkOptions& options);
+JoinWindow WindowOfJoin(const JoinInput& input, const PreferredJoin& preferred);
 /// Shows `played` (a window's frames), then the new motion.
 Blend ShowPlayed(std::vector<BodyPose> played);
 

@@ -261,9 +261,9 @@ void PlantFeet(const JoinWindow& window, std::vector<BodyPose>& played) {
 }
 
 Blend PlantedFeet(const JoinInput& input, const MinimumJerkOptions& options) {
-  const JoinWish wish = WishOf(input, options);
-  const JoinWindow window = WishedWindow(input, wish);
-  std::vector<BodyPose> played = PlayMinimumJerk(window, wish.fades);
+  const PreferredJoin preferred = PreferredJoinOf(input, options);
+  const JoinWindow window = WindowOfJoin(input, preferred);
+  std::vector<BodyPose> played = PlayMinimumJerk(window, preferred.fades);
   PlantFeet(window, played);
   return ShowPlayed(std::move(played));
 }

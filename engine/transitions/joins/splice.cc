@@ -97,7 +97,7 @@ Splice SpliceSegments(std::span<const BodyMotion> clips, std::span<const Segment
         .target = {next.Before(entered), point.arriving},
         .continuation = [&](std::size_t count) { return old.After(left, count); },
         .upcoming = [&](std::size_t count) { return next.Own(entered, count); },
-        .wish = segments[i].wish,
+        .preferred = segments[i].preferred,
         .rate_hz = rate_hz};
     next.blend = join.begin(input, join_settings);
     for (int frame = entered + 1; frame <= segments[i].last; ++frame) shown.push_back(next.Shown(frame));

@@ -54,12 +54,20 @@ TEST(Recording, FindsATrackByName) {
 
 TEST(Names, OfAllStatusesDiffer) {
   std::set<std::string_view> names;
-  constexpr int kCount = static_cast<int>(Status::kSkipped) + 1;
-  for (int i = 0; i < kCount; ++i) names.insert(StatusName(static_cast<Status>(i)));
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(kCount));
+  for (int i = 0; i < kStatusCount; ++i) names.insert(StatusName(static_cast<Status>(i)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kStatusCount));
   EXPECT_EQ(RulingName(Ruling::kMet), "met");
   EXPECT_EQ(RulingName(Ruling::kUnmet), "unmet");
   EXPECT_EQ(RulingName(Ruling::kUndecided), "undecided");
+}
+
+TEST(FindStatus, FindsEachByItsNameAndNothingElse) {
+  for (int i = 0; i < kStatusCount; ++i) {
+    const auto status = static_cast<Status>(i);
+    EXPECT_EQ(FindStatus(StatusName(status)), status);
+  }
+  EXPECT_EQ(FindStatus("OK"), std::nullopt);
+  EXPECT_EQ(FindStatus(""), std::nullopt);
 }
 
 TEST(Payload, OwnsItsJson) {

@@ -55,7 +55,7 @@ TEST(OutsideMethod, AnswersManyProblemsInOneLife) {
     EXPECT_GT(reply.cpu_s, 0);
     EXPECT_LT(reply.cpu_s, 5);
   }
-  EXPECT_EQ(method.CalledItself(), "hostile 1.0");
+  EXPECT_EQ(method.ProgramName(), "hostile 1.0");
   EXPECT_EQ(method.End(5000), "exit code 0");
 }
 

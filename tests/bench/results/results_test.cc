@@ -169,7 +169,10 @@ TEST(LoadRun, NamesTheFileAndLineThatIsTorn) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "etude_torn_run";
   std::filesystem::remove_all(folder);
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("no such folder"));
-  ASSERT_TRUE(SaveResults(folder, {SampleRow()}, {}));
+  auto writer = ResultWriter::Begin(folder);
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->Add(SampleRow(), {}));
+  ASSERT_TRUE(writer->Finish({}));
   EXPECT_THAT(ToString(LoadRun(folder).error()), HasSubstr("manifest.json: no such file"));
   ASSERT_TRUE(WriteFileAtomically(folder / "manifest.json",
                                   fmt::format(R"({{"schema":{},"suite":"s","seed":1,"etude":"0"}})", kResultSchema)));

@@ -2,6 +2,7 @@
 #include "bench/tasks/registry.h"
 #include "engine/kinematics/solvers/ik_solver.h"
 #include "tests/bench/scenario/parse.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -47,6 +47,12 @@ std::vector<Row> Rows(const Study& study) {
   return rows;
 }
 
+ScenarioTable Tabulate(const Study& study, std::span<const Row> rows) {
+  ScenarioTable table(study);
+  for (const Row& row : rows) table.Add(row);
+  return table;
+}
+
 class SummaryTest : public testing::Test {
  protected:
   Study study = StudyOf(ParseOne(kYaml));

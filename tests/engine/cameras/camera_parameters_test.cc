@@ -59,6 +59,9 @@ ProjectionMatrix PrintedMatrix(const CameraParameters& p) {
   return matrix;
 }
 
+/// The matrix of parameters, scaled such that w is the depth in metres.
+ProjectionMatrix Recompose(const CameraParameters& parameters) { return MatrixOf(ToCamera(parameters, 1, 1)); }
+
 TEST(CameraParameters, RecomposeIsThePrintedProduct) {
   for (int seed = 0; seed < 50; ++seed) {
     const CameraParameters p = AnyParameters(seed);

@@ -151,7 +151,7 @@ TEST(RefineRig, HoldsWhatIsKnownInsideACamera) {
   off.p_WC += glm::dvec3(0.1, -0.05, 0.2);
   const std::vector<TargetView> views{{0, 0, Pairs(TrueCamera(), 10, 5, 0)}};
   const auto rig =
-      RefineRig({{off}, {TargetPlace{}}}, views, {.lens = LensModel::kAsInCamera, .inside_is_known = true});
+      RefineRig({{off}, {TargetPlace{}}}, views, {.lens = LensModel::kAsInCamera, .hold_intrinsics = true});
   ASSERT_TRUE(rig) << ToString(rig.error());
   EXPECT_EQ(rig->parameters, 6u);
   ExpectSame(rig->cameras[0], TrueCamera(), 1e-9);

@@ -25,6 +25,10 @@ TEST(Policy, KnowsItsNames) {
   EXPECT_EQ(FindPolicy("always"), nullptr);
 }
 
+TEST(Policy, CoachesRealPeopleWithoutTheTruthOrAnotherSession) {
+  EXPECT_THAT(LivePolicyNames(), testing::ElementsAre("at-first-mistake", "never", "after-n", "confidence", "fading"));
+}
+
 TEST(Policy, CorrectsNothingThatIsNoMistake) {
   for (const Policy& policy : AllPolicies()) {
     for (WindowVerdict verdict : {WindowVerdict::kRight, WindowVerdict::kUnknown}) {

@@ -24,7 +24,7 @@ double LargestBias(Role role) {
 
 TEST(SeePicture, FindsJointCentresOfABodyThatHidesNothing) {
   EvidenceOptions eye;
-  eye.head_below_crown =
+  eye.look.head_below_crown =
       0.46;  // the shape puts this body's crown 4.3 cm above its head joint, and the head's radius is 9.3
   const PictureEvidence seen = SeePicture(Shown(LabelsOf(BodyCapsules(StandingBody()), FrontCamera())).picture(), eye);
   const ProjectionMatrix matrix = MatrixOf(FrontCamera());

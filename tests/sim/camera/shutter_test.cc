@@ -181,10 +181,11 @@ TEST(Shutter, ThrowsTheSignsOfOffsetAndDriftAndNothingElse) {
   for (int trial = 0; trial < 200; ++trial) {
     RandomStream random({1, "signs", trial}, "clock");
     const Shutter shutter({.sync_offset_ms = 50, .clock_drift_ppm = 9000}, 30, false, random);
-    EXPECT_NEAR(std::abs(shutter.offset_frames()), 1.5, 1e-12);
-    EXPECT_NEAR(std::abs(shutter.drift()), 0.009, 1e-12);
-    late += shutter.offset_frames() > 0;
-    slow += shutter.drift() > 0;
+    const double offset = shutter.TimeOf(0), drift = shutter.TimeOf(1) - shutter.TimeOf(0) - 1;
+    EXPECT_NEAR(std::abs(offset), 1.5, 1e-12);
+    EXPECT_NEAR(std::abs(drift), 0.009, 1e-12);
+    late += offset > 0;
+    slow += drift > 0;
   }
   EXPECT_NEAR(late, 100, 35);
   EXPECT_NEAR(slow, 100, 35);

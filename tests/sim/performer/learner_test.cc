@@ -123,7 +123,7 @@ TEST(Learner, DoesWhatIsShownOneLagLater) {
         if (height(i) > height(top)) top = i;
       }
       const double lag = static_cast<double>(top) / 30 - top_shown_s;
-      EXPECT_NEAR(lag, performance.event.chance.lag_s, 0.25) << PeopleName(people);
+      EXPECT_NEAR(lag, performance.event.chance.lag_s, 0.25) << PeopleNames()[static_cast<std::size_t>(people)];
       EXPECT_NEAR(*performance.event.first_right_s - top_shown_s, performance.event.chance.lag_s, 0.15);
     }
   }

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/body/cuboid.h"
 #include "sim/choreography/move.h"
 #include "sim/choreography/stance.h"
-#include "sim/stage/occluders.h"
 #include "sim/stage/palette.h"
 #include "tests/support/gtest_printers.h"
 
@@ -199,9 +199,12 @@ TEST_F(RenderedStage, NothingButThePerformerIsEverLabelledAsOne) {
   for (const std::ptrdiff_t pixels : seen) EXPECT_GT(pixels, 2000);
 }
 
-TEST_F(RenderedStage, OccludersAreTheFurnitureThatIsDrawn) {
+TEST_F(RenderedStage, FurnitureIsDrawnWhereRaysMeetItsBoxes) {
   const StagedRoom stage = MakeStage(5, 1);
-  const std::vector<Cuboid> boxes = BoxesOf(*stage.interior());
+  std::vector<Cuboid> boxes;
+  for (const FurnitureBox& piece : stage.interior()->furniture) {
+    boxes.push_back({piece.centre, piece.half_size, piece.heading});
+  }
   const Camera camera = Cameras().front();
   const View view = renderer_->Render({.interior = stage.interior()}, {}, camera, Targets::kAll);
   const Intrinsics& in = camera.intrinsics;

@@ -10,6 +10,7 @@
 #include "engine/formats/bvh.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -118,7 +118,7 @@ TEST_F(MarkingTest, FramesThatNobodyIsAskedToMarkStayEmpty) {
   }
 }
 
-// What the shares of `EvidenceOptions::figure` were read off: people in clothes who stand with their arms out, whatever
+// What the shares of `FigureLook::figure` were read off: people in clothes who stand with their arms out, whatever
 // their build and cut, seen from before. Taken for capsules, they have their hips and shoulders far away.
 TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
   const auto renderer = Renderer::Create();
@@ -131,7 +131,7 @@ TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
     const Figure figure = stage.PerformerAt(body, PerformerColours());
     const View view = (*renderer)->Render({}, {figure}, camera, Targets::kColourAndLabels);
     const Shown shown(view.labels);
-    EvidenceOptions eye{.figure = FigureKind::kDressed, .head_below_crown = HeadBelowCrown(figure, body)};
+    EvidenceOptions eye{.look = {.figure = FigureKind::kDressed, .head_below_crown = HeadBelowCrown(figure, body)}};
     const auto miss_mm = [&](Role role) {
       const auto joint = SeePicture(shown.picture(), eye).joints[Index(role)];
       const double distance = -(camera.R_CW * (camera.p_WC - body[role])).z;
@@ -146,7 +146,7 @@ TEST(SeePicture, KnowsWherePeopleInClothesHaveTheirJoints) {
          {kLeftKnee, kRightKnee, kLeftWrist, kRightWrist, kLeftHand, kRightHand, kLeftFoot, kRightFoot}) {
       EXPECT_LT(miss_mm(role), 15) << RoleName(role) << ", seed " << seed;
     }
-    eye.figure = FigureKind::kCapsules;
+    eye.look.figure = FigureKind::kCapsules;
     EXPECT_GT(miss_mm(kLeftShoulder), 50) << "the control";
   }
 }

@@ -4,6 +4,7 @@
 
 #include "tests/bench/tasks/detection/detection_fixture.h"
 #include "tests/support/gtest_printers.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

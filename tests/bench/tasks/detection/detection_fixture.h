@@ -9,6 +9,7 @@
 
 #include "bench/tasks/detection/detection_task.h"
 #include "tests/bench/tasks/base/cell_values.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 

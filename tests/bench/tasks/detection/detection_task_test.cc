@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/bench/tasks/detection/detection_fixture.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -7,6 +7,7 @@
 #include "bench/streams/leave_one_out.h"
 #include "tests/bench/streams/record_people.h"
 #include "tests/bench/tasks/detection/detection_fixture.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/metrics/catalogue.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -10,6 +10,7 @@
 #include "bench/tasks/pose_distance/score.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

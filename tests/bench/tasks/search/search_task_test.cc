@@ -5,6 +5,7 @@
 #include "bench/metrics/catalogue.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/search/search_fixture.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

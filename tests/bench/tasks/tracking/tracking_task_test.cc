@@ -10,6 +10,7 @@
 #include "engine/kinematics/body_tree.h"
 #include "tests/bench/tasks/base/cell_values.h"
 #include "tests/bench/tasks/tracking/some_clips.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -46,9 +46,9 @@ class TransitionExchange : public TransitionFixture {
                    {"enter_frame", record.segments.back().first},
                    {"join", join},
                    {"matched", choice.matches_poses && record.branch != Branch::kForced}};
-    if (const auto& wish = record.segments.back().wish) {
-      answer["join_s"] = wish->blend_s;
-      answer["fades"] = wish->fades;
+    if (const auto& preferred = record.segments.back().preferred) {
+      answer["join_s"] = preferred->blend_s;
+      answer["fades"] = preferred->fades;
     }
     if (record.segments.size() == 2) return answer;
     EXPECT_EQ(record.segments.size(), 3u);

@@ -12,6 +12,7 @@
 #include "bench/tasks/transition/transition_task.h"
 #include "engine/document/node.h"
 #include "sim/choreography/move.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 

@@ -12,6 +12,7 @@
 #include "bench/tasks/transition/world.h"
 #include "engine/transitions/choices/choice.h"
 #include "tests/bench/tasks/transition/transition_fixture.h"
+#include "tests/support/run_world.h"
 
 namespace etude {
 namespace {

@@ -59,7 +59,7 @@ class BothWays : public testing::TestWithParam<bool> {};
 TEST_P(BothWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
   const BodyMotion clips[] = {WavingClip(60), WavingClip(60, 2)};
   std::vector<Segment> way = Segments(19, 5, clips[1]);
-  way.back().wish = JoinWish{.blend_s = 1, .fades = GetParam()};
+  way.back().preferred = PreferredJoin{.blend_s = 1, .fades = GetParam()};
   const Splice splice = SpliceSegments(clips, way, *FindJoin("minimum-jerk"));
   for (Role role : AllRoles()) {
     // At s = 1/30 a share of 10 s³ of the gap, at most 1.7 m here.
@@ -71,7 +71,7 @@ TEST_P(BothWays, ShowTheOldMotionsNextFrameFirstButForTheBlendsOwnBeginning) {
 TEST_P(BothWays, EndInTheNewMotionWhenTheWishSays) {
   const BodyMotion clips[] = {WavingClip(60), WavingClip(60, 2)};
   std::vector<Segment> way = Segments(19, 5, clips[1]);
-  way.back().wish = JoinWish{.blend_s = 0.4, .fades = GetParam()};
+  way.back().preferred = PreferredJoin{.blend_s = 0.4, .fades = GetParam()};
   const Splice splice = SpliceSegments(clips, way, *FindJoin("minimum-jerk"));
   ExpectSamePose(splice.motion.poses[19 + 12], splice.wanted[12], 1e-9);
   EXPECT_GT(glm::distance(splice.motion.poses[19 + 6][Role::kLeftHand], splice.wanted[6][Role::kLeftHand]), 0.01);
@@ -88,7 +88,7 @@ TEST(WindowOf, HoldsTheLastFrameOfAMotionThatEndsAndCountsTheRealOnes) {
                             [&](std::size_t) {
                               return std::vector<BodyPose>{clip.poses[2], clip.poses[3]};
                             },
-                        .wish = {}};
+                        .preferred = {}};
   const JoinWindow window = WindowOf(input, 3);
   ASSERT_EQ(window.old.size(), 4u);
   ASSERT_EQ(window.next.size(), 4u);

@@ -149,7 +149,7 @@ double SlideOf(const Splice& splice, int frames) {
 TEST(PlantedFeet, DoesNotSlideWhereLimbsAloneDo) {
   const BodyMotion clips[] = {Still(Stride(0.3), 60), Still(Stride(-0.3), 60)};
   std::vector<Segment> way = Segments(19, 5, clips[1]);
-  way.back().wish = JoinWish{.blend_s = 0.8};
+  way.back().preferred = PreferredJoin{.blend_s = 0.8};
   const double limbs = SlideOf(SpliceSegments(clips, way, *FindJoin("minimum-jerk")), 24);
   const double feet = SlideOf(SpliceSegments(clips, way, *FindJoin("planted-feet")), 24);
   EXPECT_GT(limbs, 0.3) << "the control slides";

@@ -1,4 +1,4 @@
-#include "engine/base/in_turn.h"
+#include "engine/base/cyclic_lookup.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace etude {
 namespace {
 
-TEST(InTurn, FindsWhatAMapFindsInWhateverOrderItIsAsked) {
-  InTurn<int> things;
+TEST(CyclicLookup, FindsWhatAMapFindsInWhateverOrderItIsAsked) {
+  CyclicLookup<int> things;
   std::map<std::string, int> oracle;
   std::minstd_rand dice(1);
   int found = 0, missed = 0;

@@ -1,4 +1,4 @@
-#include "engine/vision/plate.h"
+#include "engine/vision/background_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -34,33 +34,33 @@ std::vector<ColourImage> Pictures() {
   return pictures;
 }
 
-int PixelsUnlikeRoom(const ColourImage& plate) {
+int PixelsUnlikeRoom(const ColourImage& background) {
   int unlike = 0;
   for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) unlike += !(plate.At(x, y) == RoomAt(x, y));
+    for (int x = 0; x < kWidth; ++x) unlike += !(background.At(x, y) == RoomAt(x, y));
   }
   return unlike;
 }
 
-TEST(EstimatePlate, ShowsTheRoomBehindSomebodyWhoHidesItMostly) {
+TEST(EstimateBackground, ShowsTheRoomBehindSomebodyWhoHidesItMostly) {
   const std::vector<ColourImage> pictures = Pictures();
   const std::vector<Activity> motion = MotionActivity(pictures, {.lag = 1, .reach = 4, .change = 14});
-  EXPECT_EQ(PixelsUnlikeRoom(EstimatePlate(pictures, motion, 3)), 0);
-  EXPECT_GT(PixelsUnlikeRoom(EstimatePlate(pictures, motion, kPictures)), kBox * kHeight / 2)
+  EXPECT_EQ(PixelsUnlikeRoom(EstimateBackground(pictures, motion, 3)), 0);
+  EXPECT_GT(PixelsUnlikeRoom(EstimateBackground(pictures, motion, kPictures)), kBox * kHeight / 2)
       << "the control: a median over all shows the box";
 }
 
-TEST(EstimatePlate, TakesTheCalmestPicturesAndOfEqualsTheEarliest) {
+TEST(EstimateBackground, TakesTheCalmestPicturesAndOfEqualsTheEarliest) {
   std::vector<ColourImage> pictures;
   std::vector<Activity> activity;
   for (int k = 0; k < 5; ++k) {
     pictures.emplace_back(1, 1, Rgb8{static_cast<std::uint8_t>(10 * k), 0, static_cast<std::uint8_t>(100 - 10 * k)});
     activity.emplace_back(1, 1, k == 1 ? 0.0f : 1.0f);
   }
-  EXPECT_EQ(EstimatePlate(pictures, activity, 1).At(0, 0), (Rgb8{10, 0, 90}));
-  EXPECT_EQ(EstimatePlate(pictures, activity, 3).At(0, 0), (Rgb8{10, 0, 90}))
+  EXPECT_EQ(EstimateBackground(pictures, activity, 1).At(0, 0), (Rgb8{10, 0, 90}));
+  EXPECT_EQ(EstimateBackground(pictures, activity, 3).At(0, 0), (Rgb8{10, 0, 90}))
       << "0, 10 and 20: the median of each colour";
-  EXPECT_EQ(EstimatePlate(pictures, activity, 9).At(0, 0), (Rgb8{20, 0, 80})) << "all, where more are asked for";
+  EXPECT_EQ(EstimateBackground(pictures, activity, 9).At(0, 0), (Rgb8{20, 0, 80})) << "all, where more are asked for";
 }
 
 TEST(MotionActivity, IsTheShareOfPixelsAboutThatChange) {

@@ -1,8 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "bench/tasks/base/task.h"
 
 namespace etude {
 
-std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods, bool keeps_motion) {
+/// What every method of a world did in it, in order; those of a world to be skipped are.
+inline std::vector<CellResult> RunWorld(const Task& task, const WorldKey& key, std::size_t methods,
+                                        bool keeps_motion = false) {
   const std::unique_ptr<TaskWorld> world = task.MakeWorld(key, keeps_motion);
   const std::optional<std::string> why_skipped = world->WhySkipped();
   std::vector<CellResult> cells;

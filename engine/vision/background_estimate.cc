@@ -1,4 +1,4 @@
-#include "engine/vision/plate.h"
+#include "engine/vision/background_estimate.h"
 
 #include <algorithm>
 #include <cassert>
@@ -51,13 +51,14 @@ std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, cons
   return activity;
 }
 
-ColourImage EstimatePlate(std::span<const ColourImage> pictures, std::span<const Activity> activity, std::size_t kept) {
+ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<const Activity> activity,
+                               std::size_t kept) {
   assert(!pictures.empty() && activity.size() == pictures.size() && kept >= 1);
   kept = std::min(kept, pictures.size());
-  ColourImage plate(pictures[0].width, pictures[0].height);
+  ColourImage background(pictures[0].width, pictures[0].height);
   std::vector<std::size_t> calmest(pictures.size());
   std::vector<std::uint8_t> levels(kept);
-  for (std::size_t i = 0; i < plate.pixels.size(); ++i) {
+  for (std::size_t i = 0; i < background.pixels.size(); ++i) {
     for (std::size_t k = 0; k < calmest.size(); ++k) calmest[k] = k;
     const auto last = calmest.begin() + static_cast<std::ptrdiff_t>(kept) - 1;
     std::nth_element(calmest.begin(), last, calmest.end(), [&](std::size_t a, std::size_t b) {
@@ -70,9 +71,9 @@ ColourImage EstimatePlate(std::span<const ColourImage> pictures, std::span<const
       std::nth_element(levels.begin(), middle, levels.end());
       return *middle;
     };
-    plate.pixels[i] = {median(&Rgb8::r), median(&Rgb8::g), median(&Rgb8::b)};
+    background.pixels[i] = {median(&Rgb8::r), median(&Rgb8::g), median(&Rgb8::b)};
   }
-  return plate;
+  return background;
 }
 
 }  // namespace etude

@@ -7,9 +7,10 @@
 
 namespace etude {
 
-/// Few things by name, which are asked for in the same order again and again: the one behind the last is tried first.
+/// A small list of named items; Find starts after the last hit, which is O(1) when names are asked for in a repeating
+/// order.
 template <typename T>
-class InTurn {
+class CyclicLookup {
  public:
   /// Null when there is none of that name.
   T* Find(std::string_view name) {

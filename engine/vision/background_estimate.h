@@ -23,12 +23,13 @@ struct MotionOptions {
 /// after.
 std::vector<Activity> MotionActivity(std::span<const ColourImage> pictures, const MotionOptions& options = {});
 
-/// The empty room out of pictures none of which shows it: of every pixel the median (each colour by itself) of those
-/// `kept` pictures in which least goes on there; of equals the earliest. What never was uncovered cannot be told, and
-/// shows whatever hid it. (B. Laugraud, S. Piérard, M. Van Droogenbroeck, "LaBGen: a method based on motion detection
-/// for generating the background of a scene", Pattern Recognition Letters 96, 2017; theirs counts motion in patches.)
+/// Background of a static scene: per pixel and channel the median of the `kept` pictures with the least motion there;
+/// ties go to the earliest. A pixel never uncovered keeps what hid it. (B. Laugraud, S. Piérard, M. Van Droogenbroeck,
+/// "LaBGen: a method based on motion detection for generating the background of a scene", Pattern Recognition Letters
+/// 96, 2017; theirs counts motion in patches.)
 /// @param activity of each picture, of its size
 /// @param kept at least one; as many as there are pictures gives their median
-ColourImage EstimatePlate(std::span<const ColourImage> pictures, std::span<const Activity> activity, std::size_t kept);
+ColourImage EstimateBackground(std::span<const ColourImage> pictures, std::span<const Activity> activity,
+                               std::size_t kept);
 
 }  // namespace etude
