@@ -115,7 +115,7 @@ Result<Json> ReadStepAnswer(const std::string& line, const std::string& id, int 
   return message;
 }
 
-Answered WhatItAnswers(const std::string& line) {
+Answered QuestionAnsweredBy(const std::string& line) {
   const auto message = ReadMessage(line);
   if (!message || ((*message)["type"] != "answer" && (*message)["type"] != "no_answer")) return {};
   Answered answered{TextOf(*message, "id", line).value_or("")};

@@ -40,7 +40,7 @@ struct Answered {
   std::string id;
   std::optional<int> step = {};
 };
-Answered WhatItAnswers(const std::string& line);
+Answered QuestionAnsweredBy(const std::string& line);
 
 /// The first `longest` bytes, what is no printable ASCII written as \xNN, in single quotes.
 std::string Printable(std::string_view text, std::size_t longest = 80);

@@ -245,7 +245,7 @@ auto OutsideMethod::State::Exchange(const std::string& line, double seconds, Rea
 /// Whether a line answers what has an answer. When it comes must not matter: it may come with the first answer, or only
 /// after the next question.
 bool OutsideMethod::State::IsRepeated(const std::string& line) const {
-  const Answered about = WhatItAnswers(line);
+  const Answered about = QuestionAnsweredBy(line);
   if (session && about.id == session->id) return about.step && *about.step < session->steps - 1;
   return answered.contains(about.id);
 }

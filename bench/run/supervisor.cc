@@ -11,10 +11,12 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <ranges>
 #include <thread>
 
 #include "bench/process/child_process.h"
 #include "bench/process/clock.h"
+#include "bench/run/order_queue.h"
 #include "bench/run/outside_programs.h"
 #include "bench/run/worker.h"
 
@@ -40,8 +42,9 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;       ///< of what it is at
-  bool ready = false;               ///< its set-up is done
+  Clock::time_point deadline;                    ///< of what it is at
+  bool ready = false;                            ///< its set-up is done
+  std::size_t condition = OrderQueue::kNowhere;  ///< of the last order that it was given
   std::deque<Order> orders;         ///< the one it works on, with the methods not yet answered, and those it has ahead
   bool built = false;               ///< the world that it works on is
   bool dismissed = false;           ///< it ended, and no other takes its place
@@ -60,7 +63,7 @@ class Supervisor {
  public:
   Supervisor(const Plan& plan, std::vector<Order> orders, const SupervisorOptions& options, const Deliver& deliver)
       : plan_(plan),
-        orders_(orders.begin(), orders.end()),
+        orders_(plan, std::move(orders)),
         options_(options),
         deliver_(deliver),
         paces_(plan.scenarios().size()) {}
@@ -101,15 +104,13 @@ class Supervisor {
     for (const Order& order : worker.orders) ahead_s += PaceOf(order).SecondsPerWorld().value_or(kAheadS);
     std::string lines;
     while (!orders_.empty() && (worker.orders.empty() || ahead_s < kAheadS)) {
-      const Order& next = orders_.front();
+      const Order& next = worker.orders.emplace_back(orders_.Take(worker.condition));
       const World& world = plan_.world(next.world);
       if (!lines.empty()) lines += '\n';
       fmt::format_to(std::back_inserter(lines), R"({{"world":[{},{},{}],"first_cell":{},"methods":[{}]}})",
                      world.scenario, world.condition, world.trial, plan_.CellAt(next.world, 0),
                      fmt::join(next.methods, ","));
       ahead_s += PaceOf(next).SecondsPerWorld().value_or(kAheadS);
-      worker.orders.push_back(std::move(orders_.front()));
-      orders_.pop_front();
       if (worker.orders.size() == 1) BeginWorld(worker);
     }
     if (!lines.empty()) worker.process.Send(lines);
@@ -226,7 +227,7 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      orders_.insert(orders_.begin(), worker.orders.begin(), worker.orders.end());  // those ahead were not begun
+      for (Order& ahead : std::views::reverse(worker.orders)) orders_.PutBack(std::move(ahead));  // they were not begun
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
     }
     if (orders_.empty()) {
@@ -234,6 +235,7 @@ class Supervisor {
       return {};
     }
     ASSIGN_OR_RETURN(auto next, StartWorker());
+    next.condition = worker.condition;
     worker = std::move(next);
     return {};
   }
@@ -251,12 +253,12 @@ class Supervisor {
       RETURN_IF_ERROR(deliver_({{cell, status}, line}));
     }
     order.methods.erase(order.methods.begin(), order.methods.begin() + static_cast<std::ptrdiff_t>(lost));
-    if (!order.methods.empty()) orders_.push_front(std::move(order));
+    if (!order.methods.empty()) orders_.PutBack(std::move(order));
     return {};
   }
 
   const Plan& plan_;
-  std::deque<Order> orders_;
+  OrderQueue orders_;
   const SupervisorOptions& options_;
   const Deliver& deliver_;
   std::string setup_line_;

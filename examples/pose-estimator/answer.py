@@ -99,12 +99,17 @@ def body(joints, ears, lengths):
     return places
 
 
+def estimate(folder, problem):
+    """Seventeen [u, v, score] of every picture, by its name."""
+    pictures = [str(folder / name) for camera in problem["cameras"] for name in camera["pictures"]]
+    return json.loads(subprocess.run(["node", HERE / "estimate.mjs", *pictures], check=True, stdout=subprocess.PIPE).stdout)
+
+
 def keypoints_of(folder, problem, kept):
     if not kept.exists():
-        pictures = [str(folder / name) for camera in problem["cameras"] for name in camera["pictures"]]
-        told = subprocess.run(["node", HERE / "estimate.mjs", *pictures], check=True, capture_output=True, text=True)
+        keypoints = estimate(folder, problem)
         kept.parent.mkdir(parents=True, exist_ok=True)
-        kept.write_text(told.stdout)
+        kept.write_text(json.dumps(keypoints))
     return json.loads(kept.read_text())
 
 

@@ -14,7 +14,7 @@ void Lines(std::string_view bytes) {
   ReadReady(line);
   ReadAnswer(line, "1");
   ReadStepAnswer(line, "1", 2);
-  WhatItAnswers(line);
+  QuestionAnsweredBy(line);
   for (const char c : Printable(line.substr(0, 80))) {
     Require(c >= 0x20 && c < 0x7f, "unprintable bytes of an answer are shown as they are");
   }
