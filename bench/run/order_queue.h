@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "bench/run/plan.h"
@@ -10,13 +11,15 @@ namespace etude {
 
 /// The orders of a run that no worker has yet, by condition. What the worlds of a condition share (thresholds, tuned
 /// weights) every worker prepares for itself, so a worker stays with its condition while there are orders, then takes
-/// the next condition that nobody has begun, and only then helps with the one that has most orders left.
+/// the next condition that nobody has begun, and only then helps with the one that has most orders left. Conditions of
+/// long worlds are helped with first: a long world that is begun last leaves all other workers idle.
 class OrderQueue {
  public:
   /// Where a worker is that has not begun anything.
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
 
-  OrderQueue(const Plan& plan, std::vector<Order> orders);
+  /// `is_long`: whether worlds of this scenario take long, as far as is known.
+  OrderQueue(const Plan& plan, std::vector<Order> orders, std::function<bool(int scenario)> is_long);
 
   bool empty() const { return left_ == 0; }
   std::size_t size() const { return left_; }
@@ -26,11 +29,17 @@ class OrderQueue {
   void PutBack(Order order);
 
  private:
-  std::size_t ConditionWithMost() const;
+  struct Condition {
+    int scenario = 0;
+    std::size_t first_world = 0;
+    std::deque<Order> orders = {};
+  };
+  std::size_t Choose();
 
-  std::vector<std::deque<Order>> conditions_;  ///< in the order of the plan
-  std::vector<std::size_t> first_worlds_;      ///< of each, ascending
-  std::size_t begun_ = 0;                      ///< so many conditions were begun
+  std::vector<Condition> conditions_;  ///< in the order of the plan
+  std::function<bool(int scenario)> is_long_;
+  std::vector<std::size_t> open_;  ///< conditions that were begun and had orders left
+  std::size_t begun_ = 0;          ///< so many conditions were begun, or had nothing to do
   std::size_t left_ = 0;
 };
 

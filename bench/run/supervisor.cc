@@ -25,6 +25,7 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;      // how stale a look at memory or at the clock may be
 constexpr double kAheadS = 0.05;           // of work that is handed out at once, by what worlds took until now
+constexpr double kLongWorldS = 1;          // to wait for one at the end is worse than to prepare for it twice
 constexpr int kGatherMicroseconds = 2000;  // where workers have work ahead, their answers are taken together
 constexpr int kMostDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
 constexpr double kLongestSetupS = 600;     // clips are read in it
@@ -63,7 +64,8 @@ class Supervisor {
  public:
   Supervisor(const Plan& plan, std::vector<Order> orders, const SupervisorOptions& options, const Deliver& deliver)
       : plan_(plan),
-        orders_(plan, std::move(orders)),
+        orders_(plan, std::move(orders),
+                [this](int scenario) { return PaceOf(scenario).SecondsPerWorld().value_or(0) > kLongWorldS; }),
         options_(options),
         deliver_(deliver),
         paces_(plan.scenarios().size()) {}
@@ -119,7 +121,8 @@ class Supervisor {
     worker.dismissed = true;
   }
 
-  Pace& PaceOf(const Order& order) { return paces_[static_cast<std::size_t>(plan_.world(order.world).scenario)]; }
+  Pace& PaceOf(int scenario) { return paces_[static_cast<std::size_t>(scenario)]; }
+  Pace& PaceOf(const Order& order) { return PaceOf(plan_.world(order.world).scenario); }
 
   /// The clock starts for the world that is first in its orders.
   void BeginWorld(Worker& worker) {

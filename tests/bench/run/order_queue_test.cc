@@ -16,7 +16,9 @@ class OrderQueueTest : public testing::Test {
 
   const std::vector<PreparedScenario> scenarios_ = Prepared(SmallSuite());
   const Plan plan_{scenarios_};
-  OrderQueue queue_{plan_, plan_.OrdersFor({}, std::vector<bool>(plan_.cell_count()))};
+  bool long_worlds_ = false;
+  OrderQueue queue_{plan_, plan_.OrdersFor({}, std::vector<bool>(plan_.cell_count())),
+                    [this](int) { return long_worlds_; }};
   std::size_t anna_ = OrderQueue::kNowhere, bert_ = OrderQueue::kNowhere;
 };
 
@@ -56,6 +58,14 @@ TEST_F(OrderQueueTest, ANewWorkerGoesWhereMostIsLeftWhenEveryConditionWasBegun) 
   EXPECT_EQ(TakenBy(carla), 5u);
   EXPECT_EQ(TakenBy(carla), 2u);
   EXPECT_TRUE(queue_.empty());
+}
+
+TEST_F(OrderQueueTest, LongWorldsAreHelpedWithBeforeAnotherConditionIsBegun) {
+  long_worlds_ = true;
+  EXPECT_EQ(TakenBy(anna_), 0u);
+  EXPECT_EQ(TakenBy(bert_), 1u);
+  EXPECT_EQ(TakenBy(anna_), 2u);
+  EXPECT_EQ(TakenBy(bert_), 3u);
 }
 
 }  // namespace
