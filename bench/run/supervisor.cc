@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kPollMilliseconds = 20;      // how stale a look at memory or at the clock may be
 constexpr double kAheadS = 0.05;           // of work that is handed out at once, by what worlds took until now
-constexpr double kLongWorldS = 1;          // to wait for one at the end is worse than to prepare for it twice
+constexpr double kLongWorldS = 1;          // to wait for such a world at the end is worse than to prepare it twice
 constexpr int kGatherMicroseconds = 2000;  // where workers have work ahead, their answers are taken together
 constexpr int kMostDeathsInSetup = 3;      // one may be chance (out of memory, a stray kill); a row of them is not
 constexpr double kLongestSetupS = 600;     // clips are read in it
@@ -43,14 +43,15 @@ struct Worker {
   Worker(ChildProcess child, Clock::time_point setup_deadline) : process(std::move(child)), deadline(setup_deadline) {}
 
   ChildProcess process;
-  Clock::time_point deadline;                    ///< of what it is at
-  bool ready = false;                            ///< its set-up is done
-  std::size_t condition = OrderQueue::kNowhere;  ///< of the last order that it was given
+  Clock::time_point deadline;       ///< of what it is at
+  bool ready = false;               ///< its set-up is done
   std::deque<Order> orders;         ///< the one it works on, with the methods not yet answered, and those it has ahead
   bool built = false;               ///< the world that it works on is
   bool dismissed = false;           ///< it ended, and no other takes its place
   Clock::time_point began = {};     ///< the world that it works on
   Clock::time_point measured = {};  ///< when its memory was last looked at
+  /// Of the last order that it was given.
+  std::size_t condition = OrderQueue::kNowhere;
 };
 
 /// How long worlds of a scenario took, as this process saw it.
