@@ -11,7 +11,6 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <ranges>
 #include <thread>
 
 #include "bench/process/child_process.h"
@@ -231,7 +230,9 @@ class Supervisor {
     if (!worker.orders.empty()) {
       Order order = std::move(worker.orders.front());
       worker.orders.pop_front();
-      for (Order& ahead : std::views::reverse(worker.orders)) orders_.PutBack(std::move(ahead));  // they were not begun
+      for (; !worker.orders.empty(); worker.orders.pop_back()) {  // those ahead were not begun
+        orders_.PutBack(std::move(worker.orders.back()));
+      }
       RETURN_IF_ERROR(GiveUp(std::move(order), worker.built, status, reason));
     }
     if (orders_.empty()) {
