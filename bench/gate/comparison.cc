@@ -115,7 +115,7 @@ std::vector<std::string> WhyNotComparable(const Snapshot& before, const Snapshot
 }
 
 std::vector<std::string> DropIncomparable(Snapshot& before, Snapshot& after) {
-  const std::vector<std::string> reasons = WhyNotComparable(before, after);
+  std::vector<std::string> reasons = WhyNotComparable(before, after);
   std::set<std::string> dropped;
   for (const SnapshotScenario& scenario : before.scenarios) {
     const SnapshotScenario* partner = FindScenario(after, scenario.name);
