@@ -112,7 +112,7 @@ template <typename Act>
 Outcome<void> OutsideMethod::State::Attempt(const std::string& what, Act act) {
   Failures& failed = failures[what];
   if (failed.times == kMostFailures) return tl::unexpected(failed.last);
-  const Outcome<void> done = act();
+  Outcome<void> done = act();
   if (done) {
     failed.times = 0;
     return done;
@@ -313,7 +313,7 @@ std::string OutsideMethod::State::Stop(int patience_ms) {
   session.reset();
   setting_files = {};  // deleted first: we may be killed while we wait for the program to end
   setting_in_force.reset();
-  const std::string end = child ? child->Finish(patience_ms) : "not running";
+  std::string end = child ? child->Finish(patience_ms) : "not running";
   child.reset();
   return end;
 }
