@@ -125,7 +125,8 @@ def run(options, kept_in=HERE, work=ROOT / "out/soak/fuzz"):
             before = reader.counts[counted]
             found = reader.round(options)
             with lock:
-                left[reader.name] -= reader.counts[counted] - before
+                done = reader.counts[counted] - before
+                left[reader.name] -= done or left[reader.name]  # one that executes nothing would go on for ever
                 reader.busy = False
                 save(figure, readers)
                 print(f"{reader.name:24} {reader.counts['executions']:>12,} executions, {reader.counts['edges']:>6,} edges, "

@@ -63,6 +63,12 @@ class Soak(unittest.TestCase):
         self.assertEqual(self.figure()["readers"]["good"]["rounds"], 3)
         self.assertEqual(self.figure()["readers"]["bad"]["executions"], 252)
 
+    def test_a_reader_that_executes_nothing_ends_after_a_round(self):
+        self.program.write_text(FUZZER.replace('echo "#100 DONE cov: 42 ft: 1 corp: 1"; echo "stat::number_of_executed_units: 100"',
+                                               "exit 1"))
+        self.run_soak("--until", "250", "--only", "good")
+        self.assertEqual(self.figure()["readers"]["good"]["rounds"], 1)
+
     def test_inputs_that_were_kept_are_checked_once(self):
         self.run_soak("--check", "--only", "good")
         self.assertIn("-runs=0", (self.folder / "arguments").read_text())
