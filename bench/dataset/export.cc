@@ -7,7 +7,6 @@
 #include "bench/files/files.h"
 #include "bench/files/save_json.h"
 #include "bench/films/take_films.h"
-#include "bench/run/finish.h"
 #include "bench/run/manifest.h"
 #include "bench/run/plan.h"
 #include "bench/run/suite.h"
