@@ -11,7 +11,7 @@ namespace etude {
 namespace {
 
 /// One less than a round number, so that the 2.5 % and 97.5 % points are replicates.
-constexpr int kResamples = 1999;
+constexpr std::size_t kResamples = 1999;
 
 /// Median of sorted values, of which the one at `without` is left out.
 double MedianWithout(std::span<const double> sorted, std::size_t without) {
@@ -51,16 +51,21 @@ double ResampledMean(std::span<const double> sorted, RandomStream& dice) {
   return sum / static_cast<double>(sorted.size());
 }
 
-/// Counts how often each value is drawn and walks to the middle, which saves sorting the resample.
-double ResampledMedian(std::span<const double> sorted, RandomStream& dice, std::vector<int>& counts) {
-  counts.assign(sorted.size(), 0);
-  DrawIndices(dice, sorted.size(), [&](std::size_t index) { ++counts[index]; });
-  const std::size_t low = (sorted.size() - 1) / 2, high = sorted.size() / 2;
-  std::size_t index = 0, passed = counts[0];
+/// Of a resample that drew each value so often; walking to the middle saves sorting it.
+double MedianOfDrawn(std::span<const double> sorted, std::span<const int> counts) {
+  const int low = static_cast<int>(sorted.size() - 1) / 2, high = static_cast<int>(sorted.size()) / 2;
+  std::size_t index = 0;
+  int passed = counts[0];
   while (passed <= low) passed += counts[++index];
   const double lower = sorted[index];
   while (passed <= high) passed += counts[++index];
   return 0.5 * (lower + sorted[index]);
+}
+
+double ResampledMedian(std::span<const double> sorted, RandomStream& dice, std::vector<int>& counts) {
+  counts.assign(sorted.size(), 0);
+  DrawIndices(dice, sorted.size(), [&](std::size_t index) { ++counts[index]; });
+  return MedianOfDrawn(sorted, counts);
 }
 
 /// The correction of one end's level; nothing where it is undefined.
@@ -110,6 +115,24 @@ Interval StudentInterval(std::span<const double> values, double confidence) {
   return {KeepThirtyBits(mean - half), KeepThirtyBits(mean + half), IntervalKind::kStudent};
 }
 
+std::vector<double> Sorted(std::span<const double> values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  return sorted;
+}
+
+/// Of a sample of one value all over, and of one too large to be resampled.
+std::optional<Interval> IntervalWithoutDice(std::span<const double> sorted, Aggregate aggregate, double confidence) {
+  if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
+  if (static_cast<int>(sorted.size()) <= kLargestResampled) return std::nullopt;
+  return aggregate == Aggregate::kMedian ? OrderStatisticsInterval(sorted, confidence)
+                                         : StudentInterval(sorted, confidence);
+}
+
+RandomStream DiceOf(std::uint64_t seed, const std::string& purpose) {
+  return RandomStream({.suite_seed = seed, .scenario = "bootstrap", .trial = 0}, purpose);
+}
+
 }  // namespace
 
 double Quantile(std::span<const double> values, double q) {
@@ -153,20 +176,41 @@ Interval BcaInterval(std::vector<double>& replicates, double estimate, std::span
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                           const std::string& purpose, double confidence) {
   if (static_cast<int>(values.size()) < kSmallestSample) return std::nullopt;
-  std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted.front() == sorted.back()) return Interval{sorted.front(), sorted.front(), IntervalKind::kPercentile};
-  if (static_cast<int>(sorted.size()) > kLargestResampled) {
-    return aggregate == Aggregate::kMedian ? OrderStatisticsInterval(sorted, confidence)
-                                           : StudentInterval(sorted, confidence);
-  }
-  RandomStream dice({.suite_seed = seed, .scenario = "bootstrap", .trial = 0}, purpose);
+  const std::vector<double> sorted = Sorted(values);
+  if (const auto known = IntervalWithoutDice(sorted, aggregate, confidence)) return known;
+  RandomStream dice = DiceOf(seed, purpose);
   std::vector<double> replicates(kResamples);
   std::vector<int> counts;
   for (double& replicate : replicates) {
     replicate = aggregate == Aggregate::kMedian ? ResampledMedian(sorted, dice, counts) : ResampledMean(sorted, dice);
   }
   return BcaInterval(replicates, AggregateOf(sorted, aggregate), Jackknife(sorted, aggregate), confidence);
+}
+
+std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> values, std::uint64_t seed,
+                                                    const std::string& purpose, double confidence) {
+  if (static_cast<int>(values.size()) < kSmallestSample) return std::nullopt;
+  const std::vector<double> sorted = Sorted(values);
+  if (const auto median = IntervalWithoutDice(sorted, Aggregate::kMedian, confidence)) {
+    return MedianAndMean{*median, *IntervalWithoutDice(sorted, Aggregate::kMean, confidence)};
+  }
+  RandomStream dice = DiceOf(seed, purpose);
+  std::vector<double> medians(kResamples), means(kResamples);
+  std::vector<int> counts;
+  for (std::size_t i = 0; i < kResamples; ++i) {
+    counts.assign(sorted.size(), 0);
+    double sum = 0;
+    DrawIndices(dice, sorted.size(), [&](std::size_t index) {
+      ++counts[index];
+      sum += sorted[index];
+    });
+    medians[i] = MedianOfDrawn(sorted, counts);
+    means[i] = sum / static_cast<double>(sorted.size());
+  }
+  const auto interval = [&](std::vector<double>& replicates, Aggregate aggregate) {
+    return BcaInterval(replicates, AggregateOf(sorted, aggregate), Jackknife(sorted, aggregate), confidence);
+  };
+  return MedianAndMean{interval(medians, Aggregate::kMedian), interval(means, Aggregate::kMean)};
 }
 
 }  // namespace etude

@@ -38,4 +38,12 @@ constexpr int kLargestResampled = 20'000;
 std::optional<Interval> BootstrapInterval(std::span<const double> values, Aggregate aggregate, std::uint64_t seed,
                                           const std::string& purpose, double confidence = kConfidence);
 
+struct MedianAndMean {
+  Interval median, mean;
+};
+
+/// Both BootstrapIntervals of the same values, to the bit, from dice that are thrown once.
+std::optional<MedianAndMean> BootstrapMedianAndMean(std::span<const double> values, std::uint64_t seed,
+                                                    const std::string& purpose, double confidence = kConfidence);
+
 }  // namespace etude

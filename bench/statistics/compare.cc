@@ -26,6 +26,16 @@ double ShareBetter(std::span<const double> differences, double sign) {
   return better / static_cast<double>(differences.size());
 }
 
+/// Of the pairs' differences; no median's where the metric is aggregated by the mean.
+MedianAndMean IntervalsOf(std::span<const Pair> pairs, std::span<const double> differences, const MetricInfo& metric,
+                          std::uint64_t seed, const std::string& purpose, double confidence) {
+  if (metric.aggregate == Aggregate::kMedian) {
+    return *BootstrapMedianAndMean(differences, seed, purpose, confidence);
+  }
+  if (AreShares(pairs)) return {{}, ShareInterval(differences, confidence)};
+  return {{}, *BootstrapInterval(differences, Aggregate::kMean, seed, purpose, confidence)};
+}
+
 }  // namespace
 
 double DifferenceOf(const Pair& pair, const MetricInfo& metric) {
@@ -52,14 +62,11 @@ Comparison ComparePaired(std::span<const Pair> pairs, const MetricInfo& metric, 
   }
   result.difference = AggregateOf(differences, metric.aggregate);
   result.mean = Mean(differences);
-  const bool by_mean = metric.aggregate == Aggregate::kMean;
   if (result.pairs >= kSmallestSample) {
-    const Interval mean = by_mean && AreShares(pairs)
-                              ? ShareInterval(differences, confidence)
-                              : *BootstrapInterval(differences, Aggregate::kMean, seed, purpose, confidence);
-    const Interval own = by_mean ? mean : *BootstrapInterval(differences, metric.aggregate, seed, purpose, confidence);
-    result.mean_low = mean.low;
-    result.mean_high = mean.high;
+    const MedianAndMean intervals = IntervalsOf(pairs, differences, metric, seed, purpose, confidence);
+    const Interval& own = metric.aggregate == Aggregate::kMedian ? intervals.median : intervals.mean;
+    result.mean_low = intervals.mean.low;
+    result.mean_high = intervals.mean.high;
     result.ci_low = own.low;
     result.ci_high = own.high;
     result.interval = own.kind;

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "bench/statistics/bootstrap.h"
@@ -77,6 +76,15 @@ std::string BestOther(const Study& study, const ConditionTable& table, const std
 
 }  // namespace
 
+std::string Rival::Name() const { return of_half[0] == of_half[1] ? of_half[0] : of_half[0] + " or " + of_half[1]; }
+
+std::string Rival::Note() const {
+  if (of_half[0] == of_half[1]) return "";
+  return fmt::format(
+      "which method is strongest was chosen on the other half of the worlds: “{}” for one, “{}” for the other",
+      of_half[0], of_half[1]);
+}
+
 bool Competes(const Study& study, const ComparedMethod& method) {
   if (method.has_oracle) return false;
   const bool is_first = method.name == study.methods.front().name;
@@ -86,27 +94,25 @@ bool Competes(const Study& study, const ComparedMethod& method) {
   });
 }
 
-RivalWorlds FindRival(const Study& study, const ConditionTable& table, const std::string& method,
-                      const std::string& metric) {
-  RivalWorlds found;
-  if (!study.rival.empty()) {
-    if (study.rival == method) return found;
-    return {study.rival, "", PairsOf(table, study.rival, method, metric)};
+std::optional<Rival> FindRival(const Study& study, const ConditionTable& table, const std::string& method) {
+  Rival rival;
+  if (study.rival.empty()) {
+    rival.of_half = {BestOther(study, table, method, 1), BestOther(study, table, method, 0)};
+  } else if (study.rival != method) {
+    rival.of_half = {study.rival, study.rival};
   }
-  const std::array<std::string, 2> of_half = {BestOther(study, table, method, 1), BestOther(study, table, method, 0)};
-  if (of_half[0].empty() || of_half[1].empty()) return found;
-  found.rival = of_half[0] == of_half[1] ? of_half[0] : of_half[0] + " or " + of_half[1];
-  if (of_half[0] != of_half[1]) {
-    found.note = fmt::format(
-        "which method is strongest was chosen on the other half of the worlds: “{}” for one, “{}” "
-        "for the other",
-        of_half[0], of_half[1]);
-  }
+  if (rival.of_half[0].empty() || rival.of_half[1].empty()) return std::nullopt;
+  return rival;
+}
+
+PairedWorlds WorldsAgainst(const Rival& rival, const ConditionTable& table, const std::string& method,
+                           const std::string& metric) {
+  const std::array<const MethodColumns*, 2> of_half = {&table.Of(rival.of_half[0]), &table.Of(rival.of_half[1])};
+  PairedWorlds worlds;
   for (int trial = 0; trial < table.trials(); ++trial) {
-    const std::string& rival = of_half[static_cast<std::size_t>(HalfOf(table, trial))];
-    AddWorld(table.Of(rival), table.Of(method), metric, trial, found.worlds);
+    AddWorld(*of_half[static_cast<std::size_t>(HalfOf(table, trial))], table.Of(method), metric, trial, worlds);
   }
-  return found;
+  return worlds;
 }
 
 }  // namespace etude

@@ -134,14 +134,16 @@ std::vector<Question> AskAgainstRivals(const Study& study, const ConditionTable&
   std::vector<Question> questions;
   for (const ComparedMethod& entry : study.methods) {
     if (!Competes(study, entry)) continue;
+    const auto rival = FindRival(study, condition, entry.name);
+    if (!rival) continue;
     for (const std::string& id : study.metrics) {
-      const RivalWorlds found = FindRival(study, condition, entry.name, id);
-      if (found.rival.empty()) continue;
       const std::string purpose = PurposeOf(study.scenario, condition.condition, id, "rival", entry.name);
-      questions.push_back(family.Ask(found.worlds, condition, *FindMetric(id), purpose));
-      questions.back().comparison.baseline = found.rival;
-      questions.back().comparison.method = entry.name;
-      if (!found.note.empty()) questions.back().comparison.notes.push_back(found.note);
+      const PairedWorlds worlds = WorldsAgainst(*rival, condition, entry.name, id);
+      questions.push_back(family.Ask(worlds, condition, *FindMetric(id), purpose));
+      Comparison& comparison = questions.back().comparison;
+      comparison.baseline = rival->Name();
+      comparison.method = entry.name;
+      if (const std::string note = rival->Note(); !note.empty()) comparison.notes.push_back(note);
     }
   }
   return questions;

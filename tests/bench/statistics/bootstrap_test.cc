@@ -203,5 +203,26 @@ TEST(BootstrapInterval, OfVeryManyValuesIsAClosedFormThatSaysTheSame) {
   }
 }
 
+void ExpectSame(const Interval& a, const Interval& b) {
+  EXPECT_EQ(a.low, b.low);
+  EXPECT_EQ(a.high, b.high);
+  EXPECT_EQ(a.kind, b.kind);
+}
+
+TEST(BootstrapMedianAndMean, AreThoseThatEachAloneWouldBe) {
+  RandomStream dice({.suite_seed = 6, .scenario = "both", .trial = 0}, "x");
+  for (int n : {6, 7, 40, 129, kLargestResampled + 1}) {
+    std::vector<double> values(static_cast<std::size_t>(n));
+    for (double& value : values) value = std::exp(dice.Normal());
+    const auto both = BootstrapMedianAndMean(values, 4, "x", 0.9);
+    ExpectSame(both->median, *BootstrapInterval(values, Aggregate::kMedian, 4, "x", 0.9));
+    ExpectSame(both->mean, *BootstrapInterval(values, Aggregate::kMean, 4, "x", 0.9));
+  }
+  const auto flat = BootstrapMedianAndMean(std::vector<double>(9, 2.5), 4, "x");
+  EXPECT_EQ(flat->median.low, 2.5);
+  EXPECT_EQ(flat->mean.high, 2.5);
+  EXPECT_FALSE(BootstrapMedianAndMean(std::vector<double>{1, 2, 3, 4, 5}, 4, "x"));
+}
+
 }  // namespace
 }  // namespace etude

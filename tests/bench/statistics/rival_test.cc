@@ -37,7 +37,8 @@ ScenarioTable TableOf(const Study& study, const Errors& errors) {
 }
 
 std::string RivalOf(const Study& study, const ScenarioTable& table, const std::string& method) {
-  return FindRival(study, table.conditions()[0], method, "position_error_cm").rival;
+  const auto rival = FindRival(study, table.conditions()[0], method);
+  return rival ? rival->Name() : "";
 }
 
 TEST(FindRival, TakesTheBestOtherMethodThatCompetes) {
@@ -65,11 +66,14 @@ TEST(FindRival, ChoosesOnOtherWorldsThanThoseItIsJudgedOn) {
     if (method == "a") return 5.0;
     return (method == "b") == (trial % 2 == 0) ? 1.0 : 9.0;
   });
-  const RivalWorlds found = FindRival(study, table.conditions()[0], "a", "position_error_cm");
-  EXPECT_EQ(found.rival, "c or b");
-  ASSERT_EQ(found.worlds.pairs.size(), 12u);
-  for (const Pair& pair : found.worlds.pairs) EXPECT_EQ(pair.baseline, 9);
-  EXPECT_THAT(found.note, testing::HasSubstr("on the other half of the worlds"));
+  const ConditionTable& condition = table.conditions()[0];
+  const auto rival = FindRival(study, condition, "a");
+  ASSERT_TRUE(rival);
+  EXPECT_EQ(rival->Name(), "c or b");
+  EXPECT_THAT(rival->Note(), testing::HasSubstr("on the other half of the worlds"));
+  const PairedWorlds worlds = WorldsAgainst(*rival, condition, "a", "position_error_cm");
+  ASSERT_EQ(worlds.pairs.size(), 12u);
+  for (const Pair& pair : worlds.pairs) EXPECT_EQ(pair.baseline, 9);
 }
 
 TEST(FindRival, IsTheScenariosOwnWhereItNamesOne) {
