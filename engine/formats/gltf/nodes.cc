@@ -148,9 +148,8 @@ class NodeReader {
       for (int above = node; above != kNoIndex && nodes_.joint_of[above] == kNoIndex; above = parents_[above]) {
         chain.push_back(above);
       }
-      for (auto next = chain.rbegin(); next != chain.rend(); ++next) {
-        RETURN_IF_ERROR(MakeJoint(*next));
-      }
+      std::ranges::reverse(chain);
+      for (const int next : chain) RETURN_IF_ERROR(MakeJoint(next));
     }
     return CheckGltfPose(file_, nodes_.skeleton, RestPose(nodes_.skeleton), "nodes");
   }

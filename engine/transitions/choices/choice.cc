@@ -42,9 +42,9 @@ AllowedFrames BridgeFrames(Library library, Request request, Values /*values*/) 
 
 /// A choice that ranks every pair of frames.
 template <auto Plan, auto Settings>
-Choice Ranked(std::string name, std::string description, bool uses_fuzzy) {
-  return {.name = std::move(name),
-          .description = std::move(description),
+Choice Ranked(const char* name, const char* description, bool uses_fuzzy) {
+  return {.name = name,
+          .description = description,
           .matches_poses = true,
           .uses_fuzzy = uses_fuzzy,
           .settings = Settings().Describe(),

@@ -161,7 +161,7 @@ TransitionRecord ThroughInBetween(const MotionLibrary& library, const Transition
   for (Candidate& candidate : entrances.ListCandidates(entrance, entrance_frames)) {
     candidate.to_frame = std::exchange(candidate.from_frame, last);
     candidate.point = 1;
-    record.candidates.push_back(std::move(candidate));
+    record.candidates.push_back(candidate);
   }
   record.why = why_not + "; " + Explain(library, request, exit, entrance, rules.threshold);
   return record;

@@ -34,8 +34,8 @@ JoinWindow WindowOf(const JoinInput& input, int frames) {
                     .next = {input.target.now},
                     .rate_hz = input.rate_hz};
   const std::size_t count = static_cast<std::size_t>(frames);
-  for (BodyPose& pose : input.continuation(count)) window.old.push_back(std::move(pose));
-  for (BodyPose& pose : input.upcoming(count)) window.next.push_back(std::move(pose));
+  for (const BodyPose& pose : input.continuation(count)) window.old.push_back(pose);
+  for (const BodyPose& pose : input.upcoming(count)) window.next.push_back(pose);
   window.old_frames = static_cast<int>(window.old.size()) - 1;
   window.next_frames = static_cast<int>(window.next.size()) - 1;
   window.old.resize(count + 1, BodyPose(window.old.back()));

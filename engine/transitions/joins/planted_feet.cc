@@ -54,7 +54,7 @@ struct Travel {
 };
 
 Travel TravelOf(const JoinWindow& window, Role foot, double begin, double end) {
-  const int middle = static_cast<int>(0.5 * (begin + end) + 0.5);
+  const int middle = static_cast<int>(std::lround(0.5 * (begin + end)));
   const glm::dvec3 &from = window.old[middle][foot], &to = window.next[middle][foot];
   return {FloorDistance(from, to), glm::distance(from, to)};
 }
