@@ -174,7 +174,7 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
     }
   }
   const Interrupt interrupt;
-  const auto is_whole =
+  auto is_whole =
       UnlessInterrupted(WriteOverlayFilm(options.film, overlays, person.motion, WatchFilms(interrupt)), interrupt);
   if (is_whole && *is_whole) TellWritten(options.film);
   return is_whole;

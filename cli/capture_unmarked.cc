@@ -128,8 +128,7 @@ Result<bool> WriteFilm(const CaptureCommandOptions& options, const std::vector<F
     overlays.back().keypoints.resize(motion.poses.size());
   }
   const Interrupt interrupt;
-  const auto is_whole =
-      UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
+  auto is_whole = UnlessInterrupted(WriteOverlayFilm(options.film, overlays, motion, WatchFilms(interrupt)), interrupt);
   if (is_whole && *is_whole) TellWritten(options.film);
   return is_whole;
 }

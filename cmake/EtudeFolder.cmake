@@ -73,14 +73,15 @@ endfunction()
 function(etude_test_options TARGET)
   etude_unity(${TARGET})
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${TARGET} PRIVATE -O1)  # tests run once and are compiled often; what they test keeps -O2
+    target_compile_options(${TARGET} PRIVATE -O0)  # tests run once and are compiled often; what they test keeps -O2
   endif()
 endfunction()
 
 # etude_tests(DEPENDS <folder>... LIBRARIES <target>... LABELS <label>...)
 #   Makes one test program of every .cc file of the current folder, which mirrors the folder it
-#   tests (tests/engine/motion tests engine/motion), and registers each test with ctest in the
-#   pinned environment (bench/process).
+#   tests (tests/engine/motion tests engine/motion), and registers it with ctest in the pinned
+#   environment (bench/process). The whole program is one of ctest's tests: most of its own take
+#   less time than to start it (tests/README.md).
 function(etude_tests)
   cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;LABELS" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -107,14 +108,9 @@ function(etude_tests)
     target_link_libraries(${target} PRIVATE ${dependency})
   endforeach()
   target_link_libraries(${target} PRIVATE etude_tests_support ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  # Through a launcher, because gtest_discover_tests takes only one value for ENVIRONMENT.
-  set_target_properties(${target} PROPERTIES CROSSCOMPILING_EMULATOR "env;${ETUDE_PINNED_ENVIRONMENT}")
-  gtest_discover_tests(${target}
-    TEST_PREFIX "${mirrored}: "
-    WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}"
-    DISCOVERY_TIMEOUT 60
-    NO_PRETTY_VALUES  # our parameters have names; their values may be raw bytes
-    PROPERTIES LABELS "${ARG_LABELS}")
+  add_test(NAME "${mirrored}" COMMAND env ${ETUDE_PINNED_ENVIRONMENT} $<TARGET_FILE:${target}>
+    WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+  set_tests_properties("${mirrored}" PROPERTIES LABELS "${ARG_LABELS}")
 endfunction()
 
 # etude_target_name(<absolute folder> <out>): engine/motion -> etude_engine_motion

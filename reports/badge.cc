@@ -76,7 +76,7 @@ std::string VerdictBadges(const MethodFinding& finding) {
   if (IsEveryWorldItsOwn(finding.unit) && finding.beyond.as_on_these) {
     return badge(finding.verdict, fmt::format("{} and {} like them", finding.Words(), others));
   }
-  const std::string here = badge(finding.verdict, finding.Words());
+  std::string here = badge(finding.verdict, finding.Words());
   if (!finding.is_compared) return here;
   if (finding.beyond.on_these_only) {
     return here + fmt::format(" <span class=\"badge none\">no verdict for {}</span>", others);

@@ -16,7 +16,7 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
 std::vector<std::string> ReadMetricList(Fields& fields, const std::string& task,
                                         const std::vector<std::string>& known) {
   const char* key = "metrics";
-  const std::vector<std::string> metrics = fields.Texts(key);
+  std::vector<std::string> metrics = fields.Texts(key);
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     const Place& place = fields.node().Find(key)->items[i].place;
     if (!Contains(known, metrics[i])) {
@@ -70,7 +70,7 @@ std::vector<SweptValue> ReadWhere(Fields& fields, const Scenario& scenario) {
 /// A name that must be one of `known`, which only a scenario tells; `allowed` says it for people.
 template <typename Options>
 Field<Options> KnownName(const std::string& key, std::string Options::*member, std::string allowed,
-                         std::vector<std::string> known, std::string meaning) {
+                         const std::vector<std::string>& known, std::string meaning) {
   return {{key, TextKind(std::move(allowed)), "", std::move(meaning)},
           [=](Fields& fields, Options& options) { options.*member = fields.Choice(key, known, options.*member); }};
 }

@@ -104,7 +104,7 @@ class Collector {
       for (std::size_t i = 0; i < names->size(); ++i) {
         if ((*names)[i].empty()) return Fail(list->items[i].place, "an empty name where a file is named");
         const auto path = std::filesystem::path(file).parent_path() / (*names)[i];
-        const auto included = Included(path.lexically_normal().string(), list->items[i].place);
+        auto included = Included(path.lexically_normal().string(), list->items[i].place);
         if (!included) return included;
         for (const Node::Entry& entry : *included) Put(entry, found);
       }

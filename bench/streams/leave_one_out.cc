@@ -19,11 +19,11 @@ double WarpedCost(const std::vector<PoseVector>& a, const std::vector<PoseVector
   const double all = static_cast<double>(a.size() + b.size());
   std::vector<double> before(b.size() + 1, kFar), now(b.size() + 1, kFar);
   before[0] = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (const PoseVector& pose : a) {
     now[0] = kFar;
     double lowest = kFar;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const double here = SquaredDistance(a[i], b[j]);
+      const double here = SquaredDistance(pose, b[j]);
       now[j + 1] = std::min({before[j] + 2 * here, before[j + 1] + here, now[j] + here});
       lowest = std::min(lowest, now[j + 1]);
     }

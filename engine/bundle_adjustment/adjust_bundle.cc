@@ -306,7 +306,7 @@ class Sum {
   }
 
   template <typename Cost, typename... Arguments>
-  void Add(std::vector<double*> blocks, const Arguments&... arguments) {
+  void Add(const std::vector<double*>& blocks, const Arguments&... arguments) {
     costs_.push_back(std::make_unique<Cost>(arguments...));
     problem_.AddResidualBlock(costs_.back().get(), nullptr, blocks);
   }

@@ -1,6 +1,7 @@
 #include "engine/keypoints/agreement.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace etude {
 namespace {
@@ -11,7 +12,7 @@ MarkerAgreement Summed(std::string name, std::vector<double> distances_mm) {
   if (distances_mm.empty()) return {.name = std::move(name)};
   std::ranges::sort(distances_mm);
   const auto at = [&](double share) {
-    return distances_mm[static_cast<std::size_t>(share * static_cast<double>(distances_mm.size() - 1) + 0.5)];
+    return distances_mm[static_cast<std::size_t>(std::lround(share * static_cast<double>(distances_mm.size() - 1)))];
   };
   return {.name = std::move(name), .median_mm = at(0.5), .p95_mm = at(0.95), .frames = distances_mm.size()};
 }

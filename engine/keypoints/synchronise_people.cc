@@ -144,7 +144,7 @@ SeenPeople PeopleInTime(const SeenPeople& people, double offset, std::size_t fra
   for (const PersonTrack& track : FollowPeople(people, options)) {
     const MovingPerson person(people, track);
     for (std::size_t frame = 0; frame < frames; ++frame) {
-      if (auto there = person.At(static_cast<double>(frame) - offset)) in_time[frame].push_back(std::move(*there));
+      if (const auto there = person.At(static_cast<double>(frame) - offset)) in_time[frame].push_back(*there);
     }
   }
   return in_time;

@@ -12,19 +12,17 @@ void ClockComparison::Update(const PoseVector& seen) {
   for (int shift = -kMostSteps; shift <= kMostSteps; ++shift) {
     const int taught = now - shift;
     if (taught < 0 || taught >= size) continue;
-    const int index = shift + kMostSteps;
-    Sum& sum = halves_[2 * taught < size ? 0 : 1][static_cast<std::size_t>(index)];
+    Sum& sum = halves_[2 * taught < size ? 0 : 1][static_cast<std::size_t>(shift + kMostSteps)];
     sum.distance += SquaredDistance(seen, pattern_[static_cast<std::size_t>(taught)]);
     ++sum.count;
   }
 }
 
 ClockComparison::Sum ClockComparison::SumOf(Part part, int shift) const {
-  const int index = shift + kMostSteps;
-  const Sum &first = halves_[0][static_cast<std::size_t>(index)], &second = halves_[1][static_cast<std::size_t>(index)];
-  if (part == Part::kFirst) return first;
-  if (part == Part::kSecond) return second;
-  return first + second;
+  const auto index = static_cast<std::size_t>(shift + kMostSteps);
+  if (part == Part::kFirst) return halves_[0][index];
+  if (part == Part::kSecond) return halves_[1][index];
+  return halves_[0][index] + halves_[1][index];
 }
 
 ClockComparison::Fit ClockComparison::FitOf(Part part, double usual_s) const {

@@ -80,13 +80,13 @@ Result<void> LiveStream::Start(bool at_end, std::vector<SensedFrame>& stream) {
   std::vector<RecordedFrame> frames = std::move(recording.frames);
   recording.frames.clear();
   meaning_ = std::move(recording);
-  for (RecordedFrame& frame : frames) RETURN_IF_ERROR(Add(std::move(frame), stream));
+  for (const RecordedFrame& frame : frames) RETURN_IF_ERROR(Add(frame, stream));
   first_lines_.clear();
   return {};
 }
 
 /// A frame under the time of the one before is left out.
-Result<void> LiveStream::Add(RecordedFrame frame, std::vector<SensedFrame>& stream) {
+Result<void> LiveStream::Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream) {
   const bool again = frames_ > 0 && frame.time_s == last_s_;
   ++frames_;
   last_s_ = frame.time_s;

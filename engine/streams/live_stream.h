@@ -30,7 +30,7 @@ class LiveStream {
 
  private:
   Result<void> Start(bool at_end, std::vector<SensedFrame>& stream);
-  Result<void> Add(RecordedFrame frame, std::vector<SensedFrame>& stream);
+  Result<void> Add(const RecordedFrame& frame, std::vector<SensedFrame>& stream);
   Result<RecordedFrame> Read(std::string_view line) const;
 
   std::string name_;

@@ -84,13 +84,13 @@ Result<void> CheckReach(const StreamRecording& recording, const std::string& fil
 /// Frames that stand twice under one time count once, as the last one tells them.
 Result<void> OrderTimes(StreamRecording& recording, const std::string& file) {
   std::vector<RecordedFrame> ordered;
-  for (RecordedFrame& frame : recording.frames) {
+  for (const RecordedFrame& frame : recording.frames) {
     if (!ordered.empty() && frame.time_s < ordered.back().time_s) {
       return Fail({file, frame.line}, "time {:.6g} s after {:.6g} s; allowed: a clock that does not run backwards",
                   frame.time_s, ordered.back().time_s);
     }
     if (!ordered.empty() && frame.time_s == ordered.back().time_s) ordered.pop_back();
-    ordered.push_back(std::move(frame));
+    ordered.push_back(frame);
   }
   if (const std::size_t twice = recording.frames.size() - ordered.size(); twice > 0) {
     recording.remarks.push_back(fmt::format("{} frames under the time of another, of which the last counts", twice));

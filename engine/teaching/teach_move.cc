@@ -233,8 +233,9 @@ Result<TaughtMove> TeachMove(const std::string& name, std::vector<SkeletonStream
     }
     longest = std::max(longest, SecondsOf(stream));
   }
+  std::vector<TaughtPose> poses = FindKeyPoses(tracks, right.front().rate_hz, options);
   return TaughtMove{.name = name,
-                    .poses = FindKeyPoses(tracks, right.front().rate_hz, options),
+                    .poses = std::move(poses),
                     .span_s = std::min(kLongestSpan, kSlower * longest),
                     .examples = std::move(right),
                     .counter_examples = std::move(wrong)};

@@ -128,11 +128,11 @@ class Looker {
     glm::dvec2 outwards(0);
     const Region& inner_part = HangsFromTrunk(i) ? regions_.trunk : regions_.limbs[i - 1];
     const Region& trunk = regions_.trunk;
-    if (EndsAt(limb, limb.outer)) {
-      outwards = limb.outer->middle - limb.region->middle;
-    } else if (const auto from_neck = AwayFromNeck(i, limb)) {
+    const bool ends_there = EndsAt(limb, limb.outer);
+    const auto from_neck = ends_there ? std::nullopt : AwayFromNeck(i, limb);
+    if (from_neck) {
       outwards = *from_neck;
-    } else if (limb.outer && (!limb.inner || RunsAlong(limb))) {
+    } else if (ends_there || (limb.outer && (!limb.inner || RunsAlong(limb)))) {
       outwards = limb.outer->middle - limb.region->middle;
     } else if (limb.inner && limb.outer) {
       outwards = limb.outer->middle - limb.inner->middle;

@@ -17,9 +17,9 @@ constexpr Box kPositionPlot{12, 464, 622, 244}, kOrientationPlot{646, 464, 622, 
 ErrorPlot PlotOf(const IkRace& race, std::vector<double> IkPath::*values, std::string title, std::string suffix,
                  double goal, const RaceClock& clock) {
   std::vector<ErrorCurve> curves;
-  for (std::size_t i = 0; i < race.paths.size(); ++i) {
-    if (!IsAskedFor(race.paths[i].*values)) continue;
-    curves.push_back({race.paths[i].iterations, race.paths[i].*values, MethodPaint(race.paths[i].method_index)});
+  for (const IkPath& path : race.paths) {
+    if (!IsAskedFor(path.*values)) continue;
+    curves.push_back({path.iterations, path.*values, MethodPaint(path.method_index)});
   }
   if (curves.empty()) title += ": not asked for";
   return {std::move(title), std::move(suffix), goal, std::move(curves), clock};

@@ -25,14 +25,14 @@ using Rows = std::vector<const Row*>;
 /// What several trials' values of one figure become.
 using Aggregator = std::function<double(std::vector<double>)>;
 
-double First(std::vector<double> values) { return values.front(); }
+double First(const std::vector<double>& values) { return values.front(); }
 
 double MedianSize(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
   return Median(std::move(values));
 }
 
-double RootMeanSquare(std::vector<double> values) {
+double RootMeanSquare(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) sum += value * value;
   return std::sqrt(sum / static_cast<double>(values.size()));

@@ -134,7 +134,7 @@ class Plot {
   std::string Units(const Axis& axis) const {
     if (!ShowsUnits()) return "";
     // A world of two clips belongs to both: no clip has a mean of its own.
-    const std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
+    std::string interval = Interval(axis, kUnitsX + 10, c_.beyond.difference, c_.beyond.low, c_.beyond.high);
     if (scenario_.unit == SamplingUnit::kClipPair) return interval;
     std::map<std::size_t, std::pair<double, int>> sums;
     for (const PairedWorld& world : pairs_.worlds) {

@@ -9,17 +9,17 @@
 namespace etude {
 namespace {
 
-constexpr std::int8_t kNoBorder = -1;
+constexpr int kNoBorder = -1;
 
 // Which stroke begins where two parts meet.
-using BorderTable = std::array<std::array<std::int8_t, kPartCount>, kPartCount>;
+using BorderTable = std::array<std::array<int, kPartCount>, kPartCount>;
 constexpr BorderTable kBorderOf = [] {
   BorderTable table{};
   for (auto& row : table) row.fill(kNoBorder);
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     const auto limb = static_cast<std::size_t>(kLimbParts[i].limb),
                inner = static_cast<std::size_t>(kLimbParts[i].inner);
-    table[limb][inner] = table[inner][limb] = static_cast<std::int8_t>(i);
+    table[limb][inner] = table[inner][limb] = static_cast<int>(i);
   }
   return table;
 }();
@@ -93,7 +93,7 @@ class RegionFinder {
   }
 
   void AddBorder(std::uint8_t part, std::uint8_t other, const glm::dvec2& at) {
-    const std::int8_t stroke = kBorderOf[part][other];
+    const int stroke = kBorderOf[part][other];
     if (stroke != kNoBorder) found_.borders[static_cast<std::size_t>(stroke)].push_back(at);
   }
 

@@ -28,6 +28,7 @@ class CodeTable {
   static std::int32_t StepOf(float light) {
     const float above = light > 0 ? light : 0;
     const float inside = above < 1 ? above : 1;
+    // Never negative; std::lround would be done for one at a time.  NOLINTNEXTLINE(bugprone-incorrect-roundings)
     return static_cast<std::int32_t>(inside * (kSteps - 1) + 0.5f);
   }
   std::uint8_t At(std::int32_t step) const { return codes_[static_cast<std::size_t>(step)]; }

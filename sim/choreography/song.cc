@@ -27,7 +27,7 @@ Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) 
   if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));
   }
-  const auto move = LoadBuiltinMove(part.move);
+  auto move = LoadBuiltinMove(part.move);
   if (!move) return move;
   const double danced_bpm = PaceOf(part) * tempo_bpm;
   if (danced_bpm < move->slowest_bpm || danced_bpm > move->fastest_bpm) {

@@ -14,12 +14,12 @@ SCHEMA = load_schema("coach-line.schema.json")
 
 
 class Coach(EtudeCase):
-    def setUp(self):
-        super().setUp()
-        self.take = self.folder / "take.csv"
-        self.expert = self.folder / "expert.csv"
-        self.etude("clip", "convert", "builtin:standby", str(self.take))
-        self.etude("clip", "convert", "builtin:warm_up", str(self.expert))
+    @classmethod
+    def setUpClass(cls):
+        shared = cls.shared_folder()
+        cls.take, cls.expert = shared / "take.csv", shared / "expert.csv"
+        cls.etude("clip", "convert", "builtin:standby", cls.take)
+        cls.etude("clip", "convert", "builtin:warm_up", cls.expert)
 
     def coach(self, *arguments, text=None):
         result = self.etude("coach", "warm_up", *arguments, text=text)

@@ -58,12 +58,20 @@ class EtudeCase(unittest.TestCase):
         self.folder = pathlib.Path(scratch.name)
         self.out = self.folder / "out"
 
+    @classmethod
+    def shared_folder(cls):
+        """A scratch folder of the whole class: what all its tests read is made once, in setUpClass."""
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        return pathlib.Path(scratch.name)
+
     def write(self, name, text):
         path = self.folder / name
         path.write_text(text)
         return str(path)
 
-    def etude(self, *arguments, text=None):
+    @staticmethod
+    def etude(*arguments, text=None):
         """Runs the program; `text` is what it reads from its standard input."""
         return subprocess.run([ETUDE, *map(str, arguments)], input=text, capture_output=True, text=True, timeout=120)
 

@@ -3,6 +3,7 @@ suffers."""
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import time
@@ -12,6 +13,7 @@ from etude_case import ETUDE, IK, EtudeCase
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HOSTILE = ROOT / "tests/bench/outside/hostile.py"
+BROWSER = ROOT / "tests/bench/outside/in_a_browser.py"
 EXAMPLES = ROOT / "examples/outside-methods"
 
 LIMITS = "limits: {time_s: 5, memory_mb: 300}\n"
@@ -131,6 +133,22 @@ class OutsideMethods(EtudeCase):
             self.assertIn(words, result.stdout)
         self.assertEqual(self.etude("check-method", "--task", "ki", "--", "true").returncode, 2)
         self.assertEqual(self.etude("check-method", "--task", "ik", "--", "no-such-program").returncode, 2)
+
+    @unittest.skipUnless(shutil.which("node"), "needs Node")
+    def test_node_runs_inside_the_fence(self):
+        result = self.etude("check-method", "--task", "coach", "--seat", "policy", "--",
+                            "node", EXAMPLES / "coach_policy.mjs")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertIn("9 of 9 checks passed", result.stdout)
+
+    @unittest.skipUnless(shutil.which("chromium"), "needs Chromium")
+    def test_a_browser_runs_inside_the_fence(self):
+        one = IK.replace("trials: 4\nsweep: {joint_noise_deg: [2, 5]}", "trials: 1")
+        rows = self.run_suite(self.write("suite.yaml", one + outside("browser", BROWSER) +
+                                         "limits: {time_s: 60, memory_mb: 4096}\n"))
+        found = [row for row in rows if row["method"] == "browser"]
+        self.assertEqual([row["status"] for row in found], ["unsolved"], found)
+        self.assertLess(found[0]["hidden_angle_change_deg"], 1e-9, "the page answers with the start pose")
 
     def test_no_process_is_left_behind(self):
         path = self.write("hang.yaml", IK + outside("hangs", HOSTILE, "hangs", "{}", self.folder))

@@ -1,6 +1,7 @@
 """examples/pose-estimator measures: on keypoints made here, its figures are known beforehand. (No estimator is run.)"""
 import json
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -33,11 +34,18 @@ def projection(path):
 
 
 class PoseEstimator(EtudeCase):
+    @classmethod
+    def setUpClass(cls):
+        shared = cls.shared_folder()
+        (shared / "pictures.yaml").write_text(SCENARIO)
+        cls.exported = shared / "data"
+        exported = cls.etude("export", shared / "pictures.yaml", "-o", cls.exported)
+        assert exported.returncode == 0, exported.stderr
+
     def setUp(self):
         super().setUp()
         self.data = self.folder / "data"
-        exported = self.etude("export", self.write("pictures.yaml", SCENARIO), "-o", self.data)
-        self.assertEqual(exported.returncode, 0, exported.stderr)
+        shutil.copytree(self.exported, self.data)
         self.truth = self.data / "truth" / "pictures" / "all" / "000"
         joints = json.loads((self.data / "inputs" / "pictures" / "all" / "setting.json").read_text())["joints"]
         self.poses = np.array(json.loads((self.truth / "truth.json").read_text())["poses"]).reshape(-1, len(joints), 3)

@@ -140,11 +140,13 @@ def cells_on(files):
 @unittest.skipUnless(shutil.which("strace") and subprocess.run(["strace", "-o", "/dev/null", "true"]).returncode == 0,
                      "needs strace, and a system that allows it")
 class PowerCut(EtudeCase):
-    def setUp(self):
-        super().setUp()
-        self.scenario = self.write("ik.yaml", SCENARIO)
-        self.whole = self.folder / "whole"
-        self.run_suite(self.scenario, out=self.whole)
+    @classmethod
+    def setUpClass(cls):
+        shared = cls.shared_folder()
+        cls.whole, cls.scenario = shared / "whole", str(shared / "ik.yaml")
+        pathlib.Path(cls.scenario).write_text(SCENARIO)
+        result = cls.etude("run", cls.scenario, "-o", cls.whole)
+        assert result.returncode == 0, result.stderr
 
     def disks(self, command):
         """Every different disk that a power cut may leave, with the number of cells that had been counted by then."""

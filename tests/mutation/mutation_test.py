@@ -174,6 +174,13 @@ class Toy(unittest.TestCase):
         self.assertEqual(shadow.impossible([compiled]), {1, 4})
 
 
+def listing(program):
+    """The program, which tells its one test as a GoogleTest does."""
+    asked = 'if (argc > 1 && std::strcmp(argv[1], "--gtest_list_tests") == 0) return std::puts("Toy.\\n  All") < 0;'
+    return "#include <cstdio>\n#include <cstring>\n" + program.replace(
+        "int main() {", "int main(int argc, char** argv) {\n  " + asked, 1)
+
+
 class Soak(unittest.TestCase):
     """A whole check of a small project, whose one test program takes the place of a GoogleTest."""
 
@@ -187,13 +194,13 @@ class Soak(unittest.TestCase):
             "tests/engine/toy/CMakeLists.txt":
                 "add_executable(etude_tests_engine_toy good_test.cc ../../../engine/toy/toy.cc)\n"
                 "target_include_directories(etude_tests_engine_toy PRIVATE ../../../engine/toy)\n"
-                "add_test(NAME \"engine/toy:all\" COMMAND etude_tests_engine_toy --gtest_filter=all)\n",
+                "add_test(NAME engine/toy COMMAND etude_tests_engine_toy)\n",
             "engine/toy/toy.h": (HERE / "toy/toy.h").read_text(),
             # With a sum of strings, which has no difference; and a number that must be constant.
             "engine/toy/toy.cc": (HERE / "toy/toy.cc").read_text() +
                 "\n#include <string>\nstd::string Twice(const std::string& a) { return a + a; }\n"
                 "extern int sized[3];\nint sized[3];\nint Unused(int a) { return a + 7; }\n",
-            "tests/engine/toy/good_test.cc": (HERE / "toy/good_test.cc").read_text(),
+            "tests/engine/toy/good_test.cc": listing((HERE / "toy/good_test.cc").read_text()),
         }
         for name, text in files.items():
             (cls.root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -222,7 +229,7 @@ class Soak(unittest.TestCase):
         self.assertEqual(figure.load(self.root / "out/figure.json"), found)
         self.assertIn(f"{found['sample']} mutants, 0 to be tried", self.run_soak("--count", "1000")[1])
         path = self.root / "tests/engine/toy/good_test.cc"
-        path.write_text("int main() {}\n")  # other tests: what the earlier ones said no longer holds
+        path.write_text(listing("int main() {}\n"))  # other tests: what the earlier ones said no longer holds
         again, said = self.run_soak("--count", "1000")
         self.assertIn(f"{found['sample']} mutants, {found['sample']} to be tried", said)
         self.assertEqual(again["noticed"], 0)

@@ -212,8 +212,8 @@ Result<CaptureAnswer> ReadCaptureAnswer(const Json& json, std::size_t frames) {
       answer.emplace_back();
       continue;
     }
-    ASSIGN_OR_RETURN(auto pose, ReadPose(entry, fields.PathOf("poses", answer.size())));
-    answer.emplace_back(std::move(pose));
+    ASSIGN_OR_RETURN(const auto pose, ReadPose(entry, fields.PathOf("poses", answer.size())));
+    answer.emplace_back(pose);
   }
   return answer;
 }

@@ -109,7 +109,7 @@ Payload StagePayload(const Stage& stage) {
 }
 
 Payload RequestPayload(const TransitionRequest& request, double max_wait_s) {
-  const Json json = {
+  Json json = {
       {"from", request.from}, {"to", request.to}, {"request_frame", request.request_frame}, {"max_wait_s", max_wait_s}};
   return PayloadOf(std::move(json));
 }

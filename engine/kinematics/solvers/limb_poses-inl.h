@@ -181,7 +181,7 @@ class LimbPoses {
     Four(&screw)[6] = hinges_[slot].screw;
     SetScrew(axes[kAxis], p_RJ_W, screw);
     const Four has_hinge = LoadFour(level.has_hinge[kAxis]);
-    for (int k = 0; k < 6; ++k) screw[k] = screw[k] * has_hinge;
+    for (Four& component : screw) component = component * has_hinge;
   }
 
   HWY_INLINE void LineariseEnds(int number, const Four (&p_WL)[3], const Four (&R_WE)[3][3], const Four (&p_WR)[3]) {

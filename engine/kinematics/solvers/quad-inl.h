@@ -20,6 +20,7 @@ struct Quad {
   HWY_INLINE Quad(const V& a, const V& b, const V& c, const V& d) : v{a, b, c, d} {}
   // One by one: GCC copies whole arrays of vectors in pieces that are too narrow to be read back at once.
   HWY_INLINE Quad(const Quad& other) : v{other.v[0], other.v[1], other.v[2], other.v[3]} {}
+  // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): all is read before any is written.
   HWY_INLINE Quad& operator=(const Quad& other) {
     const V a = other.v[0], b = other.v[1], c = other.v[2], d = other.v[3];
     v[0] = a;
