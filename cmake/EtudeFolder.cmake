@@ -73,7 +73,7 @@ endfunction()
 function(etude_test_options TARGET)
   etude_unity(${TARGET})
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${TARGET} PRIVATE -O0)  # tests run once and are compiled often; what they test keeps -O2
+    target_compile_options(${TARGET} PRIVATE -O1)  # tests run once and are compiled often; what they test keeps -O2
   endif()
 endfunction()
 

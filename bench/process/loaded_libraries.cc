@@ -42,18 +42,13 @@ int AddLibrary(dl_phdr_info* object, std::size_t, void* list) {
   return 0;
 }
 
-Libraries Loaded() {
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> LoadedLibraries() {
   Libraries libraries;
   ::dl_iterate_phdr(AddLibrary, &libraries);
   std::ranges::sort(libraries);
   return libraries;
 }
-
-// Before main: what libraries load later, as they come to need it, is no choice of the build's.
-const Libraries kAtStart = Loaded();
-
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> LoadedLibraries() { return kAtStart; }
 
 }  // namespace etude

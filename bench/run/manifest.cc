@@ -16,6 +16,7 @@
 #include "bench/tasks/base/sensor_key.h"
 #include "bench/tasks/registry.h"
 #include "engine/base/digest.h"
+#include "sim/render/renderer.h"
 
 namespace etude {
 namespace {
@@ -81,8 +82,9 @@ std::string DigestOf(const std::vector<std::string>& texts) {
   return digest.Hex();
 }
 
-/// Of the libraries that were loaded, renderer and codecs among them, by their build IDs.
+/// Of the libraries of a process that draws, renderer and codecs among them, by their build IDs.
 std::string DigestOfLibraries() {
+  static_cast<void>(LoadRenderer());  // where there is none, the digest tells that
   std::vector<std::string> texts;
   for (const auto& [name, build] : LoadedLibraries()) texts.push_back(name + " " + build);
   return DigestOf(texts);

@@ -1,6 +1,7 @@
 #include "sim/render/gl_context.h"
 
 #include <GL/osmesa.h>
+#include <dlfcn.h>
 
 #ifdef __SANITIZE_ADDRESS__
 // OSMesa keeps 480 bytes of every destroyed context, fontconfig what it once read. The sanitizer asks every program
@@ -27,9 +28,43 @@ Result<GLuint> CompileShader(const GlFunctions& gl, GLenum stage, const std::str
   return Fail({}, "this GL refuses one of Etude's shaders: {}", log);
 }
 
+/// The functions of OSMesa that it cannot be asked for by name.
+struct OsMesa {
+  decltype(&OSMesaCreateContextAttribs) CreateContextAttribs = nullptr;
+  decltype(&OSMesaDestroyContext) DestroyContext = nullptr;
+  decltype(&OSMesaMakeCurrent) MakeCurrent = nullptr;
+  decltype(&OSMesaGetProcAddress) GetProcAddress = nullptr;
+};
+
+Result<OsMesa> OpenOsMesa() {
+  void* library = ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return Fail({}, "OSMesa cannot be loaded: {}", ::dlerror());
+  OsMesa functions;
+#define ETUDE_OSMESA_LOAD(name)                                                                  \
+  functions.name = reinterpret_cast<decltype(functions.name)>(::dlsym(library, "OSMesa" #name)); \
+  if (!functions.name) return Fail({}, "OSMesa lacks the function OSMesa{}", #name);
+  ETUDE_OSMESA_LOAD(CreateContextAttribs)
+  ETUDE_OSMESA_LOAD(DestroyContext)
+  ETUDE_OSMESA_LOAD(MakeCurrent)
+  ETUDE_OSMESA_LOAD(GetProcAddress)
+#undef ETUDE_OSMESA_LOAD
+  return functions;
+}
+
+const Result<OsMesa>& GetOsMesa() {
+  static const Result<OsMesa> loaded = OpenOsMesa();
+  return loaded;
+}
+
 }  // namespace
 
+Result<void> GlContext::LoadLibrary() {
+  if (!GetOsMesa()) return tl::unexpected(GetOsMesa().error());
+  return {};
+}
+
 Result<std::unique_ptr<GlContext>> GlContext::Create() {
+  ASSIGN_OR_RETURN(const OsMesa mesa, GetOsMesa());
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_DEPTH_BITS,
@@ -42,11 +77,11 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
                             3,
                             0};
   std::unique_ptr<GlContext> result(new GlContext);
-  result->context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+  result->context_ = mesa.CreateContextAttribs(attributes, nullptr);
   if (!result->context_) return Fail({}, "OSMesa gives no OpenGL 3.3 core context");
   result->MakeCurrent();
-#define ETUDE_GL_LOAD(type, name)                                                     \
-  result->functions_.name = reinterpret_cast<type>(OSMesaGetProcAddress("gl" #name)); \
+#define ETUDE_GL_LOAD(type, name)                                                    \
+  result->functions_.name = reinterpret_cast<type>(mesa.GetProcAddress("gl" #name)); \
   if (!result->functions_.name) return Fail({}, "OSMesa lacks the OpenGL function gl{}", #name);
   ETUDE_GL_FUNCTIONS(ETUDE_GL_LOAD)
 #undef ETUDE_GL_LOAD
@@ -54,11 +89,11 @@ Result<std::unique_ptr<GlContext>> GlContext::Create() {
 }
 
 GlContext::~GlContext() {
-  if (context_) OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+  if (context_) GetOsMesa()->DestroyContext(static_cast<OSMesaContext>(context_));
 }
 
 void GlContext::MakeCurrent() {
-  OSMesaMakeCurrent(static_cast<OSMesaContext>(context_), unused_framebuffer_.data(), GL_UNSIGNED_BYTE, 64, 64);
+  GetOsMesa()->MakeCurrent(static_cast<OSMesaContext>(context_), unused_framebuffer_.data(), GL_UNSIGNED_BYTE, 64, 64);
 }
 
 Result<GLuint> GlContext::LinkProgram(const std::string& vertex_source, const std::string& fragment_source,

@@ -89,7 +89,11 @@ struct GlFunctions {
 /// An offscreen GL 3.3 core context. Everything is drawn into framebuffer objects of our own.
 class GlContext {
  public:
-  /// Fails when OSMesa has no such context or lacks a function, saying which.
+  /// Loads OSMesa, which Create does, too. It brings a compiler along (LLVM), whose loading takes longer than that of
+  /// most other libraries together: so it is not loaded when the program starts, but by those who draw.
+  static Result<void> LoadLibrary();
+
+  /// Fails when OSMesa cannot be loaded, has no such context or lacks a function, saying which.
   static Result<std::unique_ptr<GlContext>> Create();
   ~GlContext();
   GlContext(const GlContext&) = delete;

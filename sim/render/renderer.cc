@@ -268,6 +268,8 @@ Result<Renderer*> SharedRenderer() {
   return (*shared)->get();
 }
 
+Result<void> LoadRenderer() { return GlContext::LoadLibrary(); }
+
 std::string RendererVersion() {
   const auto context = GlContext::Create();
   if (!context) return context.error().message;

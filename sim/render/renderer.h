@@ -122,6 +122,10 @@ class Renderer {
 /// hundred pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
 Result<Renderer*> SharedRenderer();
 
+/// Loads what draws, so that it is among the libraries of this process; whoever draws does so anyway. Fails when it
+/// cannot be loaded, saying why.
+Result<void> LoadRenderer();
+
 /// What draws, and its version, on which pixels depend: "4.5 (Core Profile) Mesa 22.3.6"; else why nothing draws.
 std::string RendererVersion();
 

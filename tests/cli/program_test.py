@@ -1,14 +1,15 @@
 """What the program is made of: the libraries that it loads, and how it is hardened."""
 
+import os
 import re
 import subprocess
+import tempfile
 import unittest
 
 from etude_case import ETUDE
 
 # Each is used on purpose; what else turns up was linked by accident.
 LIBRARIES = {
-    "libOSMesa": "renders",
     "libOpenEXR-3_1": "pictures of numbers", "libImath-3_1": "halves, for OpenEXR", "libpng16": "pictures",
     "libjpeg": "pictures that were compressed",
     "libcairo": "draws sheets and films",
@@ -39,6 +40,14 @@ class Program(unittest.TestCase):
     def test_a_library_by_accident_is_noticed(self):
         found = needed(" 0x01 (NEEDED)   Shared library: [libf77blas.so.3]\n")
         self.assertEqual([name for name in found if name not in LIBRARIES], ["libf77blas"])
+
+    def test_the_renderer_is_loaded_by_those_who_draw_alone(self):
+        """It brings a compiler along, whose loading takes as long as that of nearly everything else."""
+        loads = lambda *arguments: "libLLVM" in subprocess.run(
+            [ETUDE, *arguments], capture_output=True, text=True, check=True, env=os.environ | {"LD_DEBUG": "files"}).stderr
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertFalse(loads("clip", "info", "builtin:clap"))
+            self.assertTrue(loads("clip", "render", "builtin:clap", "-o", folder + "/clap.png"))
 
     def test_what_the_loader_has_put_into_place_stays(self):
         self.assertRegex(sections("-l"), r"GNU_RELRO")

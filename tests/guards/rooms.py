@@ -96,7 +96,7 @@ MAY_INCLUDE = {
     "bench/replay": "engine/base sim/random bench/clips bench/files bench/model bench/results bench/run",
     "bench/results": "engine/base bench/files bench/metrics bench/model",
     "bench/run":
-        "engine/base bench/files bench/model bench/metrics bench/outside bench/process bench/results bench/scenario "
+        "engine/base sim/render bench/files bench/model bench/metrics bench/outside bench/process bench/results bench/scenario "
         "bench/statistics bench/streams bench/tasks bench/tasks/base",
     "bench/scenario":
         "engine/base engine/document engine/streams bench/files bench/keys bench/metrics bench/model bench/tasks "
