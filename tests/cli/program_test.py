@@ -43,11 +43,14 @@ class Program(unittest.TestCase):
 
     def test_the_renderer_is_loaded_by_those_who_draw_alone(self):
         """It brings a compiler along, whose loading takes as long as that of nearly everything else."""
-        loads = lambda *arguments: "libLLVM" in subprocess.run(
-            [ETUDE, *arguments], capture_output=True, text=True, check=True, env=os.environ | {"LD_DEBUG": "files"}).stderr
+        def loads_a_compiler(*arguments):
+            told = subprocess.run([ETUDE, *arguments], capture_output=True, text=True, check=True,
+                                  env=os.environ | {"LD_DEBUG": "files"})
+            return "libLLVM" in told.stderr
+
         with tempfile.TemporaryDirectory() as folder:
-            self.assertFalse(loads("clip", "info", "builtin:clap"))
-            self.assertTrue(loads("clip", "render", "builtin:clap", "-o", folder + "/clap.png"))
+            self.assertFalse(loads_a_compiler("clip", "info", "builtin:clap"))
+            self.assertTrue(loads_a_compiler("clip", "render", "builtin:clap", "-o", folder + "/clap.png"))
 
     def test_what_the_loader_has_put_into_place_stays(self):
         self.assertRegex(sections("-l"), r"GNU_RELRO")
