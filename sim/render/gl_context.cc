@@ -37,7 +37,7 @@ struct OsMesa {
 };
 
 Result<OsMesa> OpenOsMesa() {
-  void* library = ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+  void* library = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_LOCAL);
   if (library == nullptr) return Fail({}, "OSMesa cannot be loaded: {}", ::dlerror());
   OsMesa functions;
 #define ETUDE_OSMESA_LOAD(name)                                                                  \
