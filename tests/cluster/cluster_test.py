@@ -1,4 +1,5 @@
-"""A suite as a job array of a private Slurm: whatever happens to its tasks, the merged run has the same bytes."""
+"""A suite as a job array of a private Slurm: whatever happens to its tasks, the merged run has the same bytes.
+ETUDE_SHARDS: how many tasks the array of the first test has."""
 import json
 import os
 import pathlib
@@ -50,9 +51,9 @@ class Cluster(unittest.TestCase):
         run("scancel", "--user", os.getuid())
         self.wait_for_the_queue()
 
-    def submit(self, *arguments, cpus=1):
+    def submit(self, *arguments, shards=SHARDS, cpus=1):
         """Submits the array and its merge; gives the array's job id."""
-        command = SCRIPTS / "cluster/submit", "-n", SHARDS, "-c", cpus, "-o", self.out, *arguments
+        command = SCRIPTS / "cluster/submit", "-n", shards, "-c", cpus, "-o", self.out, *arguments
         return must(*command).split()[1]
 
     def wait_until(self, what, condition):
@@ -83,15 +84,16 @@ class Cluster(unittest.TestCase):
         result = run(SCRIPTS / "same-results", one, other)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
-    def test_an_array_of_four_has_the_bytes_of_a_run_in_one_piece(self):
+    def test_an_array_has_the_bytes_of_a_run_in_one_piece(self):
+        shards = int(os.environ.get("ETUDE_SHARDS", SHARDS))
         suite = self.folder / "few.yaml"
         suite.write_text(FEW_WORLDS)
-        self.submit(suite, cpus=CPUS)
+        self.submit(suite, shards=shards, cpus=CPUS)
         self.wait_for_the_queue()
         self.assertTrue(self.out.exists(), self.log("merge"))
         self.assert_same_results(self.in_one_piece(suite), self.out)
-        jobs = [json.loads((self.shards / str(i) / "host.json").read_text())["jobs"] for i in range(1, SHARDS + 1)]
-        self.assertEqual(jobs, [CPUS] * SHARDS)
+        jobs = [json.loads((self.shards / str(i) / "host.json").read_text())["jobs"] for i in range(1, shards + 1)]
+        self.assertEqual(jobs, [CPUS] * shards)
         # The control: the comparison sees another seed.
         must(ETUDE, "run", suite, "--seed", 2, "-o", self.folder / "other")
         self.assertNotEqual(run(SCRIPTS / "same-results", self.folder / "other", self.out).returncode, 0)
