@@ -32,6 +32,10 @@ function step(shown) {
 for await (const line of readline.createInterface({ input: process.stdin })) {
   const message = JSON.parse(line);
   if (message.type === "hello") {
+    if (message.protocol !== PROTOCOL) {
+      console.error(`speaks protocol ${PROTOCOL}, was asked for ${message.protocol}`);
+      process.exit(1);
+    }
     say({ type: "hello", protocol: PROTOCOL, name: "coach-policy-javascript", version: "1.0" });
   } else if (message.type === "setting") {
     say({ type: "ready" });

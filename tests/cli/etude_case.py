@@ -65,6 +65,16 @@ class EtudeCase(unittest.TestCase):
         cls.addClassCleanup(scratch.cleanup)
         return pathlib.Path(scratch.name)
 
+    @classmethod
+    def run_once(cls, text):
+        """A scenario of that text and its run, for the whole class: their paths."""
+        shared = cls.shared_folder()
+        scenario, whole = shared / "ik.yaml", shared / "whole"
+        scenario.write_text(text)
+        result = cls.etude("run", scenario, "-o", whole)
+        assert result.returncode == 0, result.stderr
+        return str(scenario), whole
+
     def write(self, name, text):
         path = self.folder / name
         path.write_text(text)

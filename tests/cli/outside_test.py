@@ -3,6 +3,7 @@ suffers."""
 import json
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -140,6 +141,24 @@ class OutsideMethods(EtudeCase):
                             "node", EXAMPLES / "coach_policy.mjs")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertIn("9 of 9 checks passed", result.stdout)
+
+    @unittest.skipUnless(shutil.which("node"), "needs Node")
+    def test_the_policy_in_javascript_is_the_one_in_python(self):
+        dice = random.Random(1)
+        asked = [{"type": "hello", "protocol": 1, "options": {}}, {"type": "setting", "setting": {}}]
+        for session in range(3):
+            asked.append({"type": "begin", "begin": {}, "id": str(session)})
+            for number in range(60):
+                verdicts = [{"move": dice.choice("abc"), "verdict": dice.choice(["wrong", "wrong", "right"])}
+                            for _ in range(dice.randrange(3))]
+                asked.append({"type": "step", "id": str(session), "number": number, "step": {"verdicts": verdicts}})
+        told = "".join(json.dumps(message) + "\n" for message in asked)
+        answers = []
+        for program in (["python3", EXAMPLES / "coach_policy.py"], ["node", EXAMPLES / "coach_policy.mjs"]):
+            said = subprocess.run(program, input=told, capture_output=True, text=True, check=True).stdout
+            answers.append([json.loads(line) for line in said.splitlines()][1:])  # without its name
+        self.assertEqual(*answers)
+        self.assertEqual({message["answer"]["correct"] for message in answers[0] if "answer" in message}, {True, False})
 
     @unittest.skipUnless(shutil.which("chromium"), "needs Chromium")
     def test_a_browser_runs_inside_the_fence(self):

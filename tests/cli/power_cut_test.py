@@ -142,11 +142,7 @@ def cells_on(files):
 class PowerCut(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        shared = cls.shared_folder()
-        cls.whole, cls.scenario = shared / "whole", str(shared / "ik.yaml")
-        pathlib.Path(cls.scenario).write_text(SCENARIO)
-        result = cls.etude("run", cls.scenario, "-o", cls.whole)
-        assert result.returncode == 0, result.stderr
+        cls.scenario, cls.whole = cls.run_once(SCENARIO)
 
     def disks(self, command):
         """Every different disk that a power cut may leave, with the number of cells that had been counted by then."""

@@ -2,7 +2,6 @@
 the same bytes.  ETUDE_KILLS: how many kills (more in the heavy version of this test)."""
 import json
 import os
-import pathlib
 import random
 import shutil
 import signal
@@ -19,11 +18,7 @@ LONGER = IK.replace("trials: 4", "trials: 40") + "video: {compare: [fixed], tria
 class Survival(EtudeCase):
     @classmethod
     def setUpClass(cls):
-        shared = cls.shared_folder()
-        cls.made, cls.scenario = shared / "whole", str(shared / "ik.yaml")
-        pathlib.Path(cls.scenario).write_text(LONGER)
-        result = cls.etude("run", cls.scenario, "-o", cls.made)
-        assert result.returncode == 0, result.stderr
+        cls.scenario, cls.made = cls.run_once(LONGER)
 
     def setUp(self):
         super().setUp()
