@@ -17,6 +17,10 @@ BASELINE = {"values": [
     {"scenario": "s", "condition": "n=1", "method": "a", "metric": "solved", "values": [1.0, 1.0, 0.0, 1.0]}]}
 
 
+def bound(*entries):
+    return "\n<!-- bound\n" + "".join(f"{entry}\n" for entry in entries) + "-->\n"
+
+
 class Figures(unittest.TestCase):
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
@@ -50,48 +54,79 @@ class Figures(unittest.TestCase):
         print(output)
 
     def test_are_right_when_they_are(self):
-        for text in ["2.3 cm<!-- quick: s/n=1/a/jump_cm -->",
-                     "2 cm<!-- quick: s/n=1/a/jump_cm -->",
-                     "two<!-- quick: s/n=1/a/jump_cm --> steps",
-                     "412.6<!-- quick: s/n=1/a/jump_cm, mean -->",
-                     "12<!-- quick: t/n=1,m=2/a/jump_cm, mean -->",
-                     "1,234.50<!-- quick: s/n=1/a/jump_cm, max -->",
-                     "three<!-- quick: s/n=1/a/solved, ones --> of 4<!-- quick: s/n=1/a/solved, worlds -->",
-                     "75 %<!-- quick: s/n=1/a/solved, mean, times 100 -->",
-                     "75 (30<!-- quick: s/n=1/a/solved, share low, times 100 -->–95<!-- quick: s/n=1/a/solved, share high, times 100 -->)",
-                     "−1.0 cm<!-- quick: s/n=1/a minus b/jump_cm -->",
-                     "1.0 cm<!-- quick: s/n=1/a minus b/jump_cm, without sign -->",
-                     "2 to<!-- quick: s/*/a/jump_cm, lowest --> 5<!-- quick: s/*/a/jump_cm, highest -->",
-                     "<!-- figures -->\n2<!-- quick: s/n=1/a/jump_cm -->, at 5°<!-- said -->, `x 7`, F1\n<!-- end of figures -->"]:
+        for text in ["2.3 cm" + bound("2.3 = quick: s/n=1/a/jump_cm"),
+                     "2 cm" + bound("2 = quick: s/n=1/a/jump_cm"),
+                     "two steps" + bound("two = quick: s/n=1/a/jump_cm"),
+                     "412.6" + bound("412.6 = quick: s/n=1/a/jump_cm, mean"),
+                     "12" + bound("12 = quick: t/n=1,m=2/a/jump_cm, mean"),
+                     "1,234.50" + bound("1,234.50 = quick: s/n=1/a/jump_cm, max"),
+                     "three of 4" + bound("three = quick: s/n=1/a/solved, ones", "4 = quick: s/n=1/a/solved, worlds"),
+                     "75 %" + bound("75 = quick: s/n=1/a/solved, mean, times 100"),
+                     "75 (30–95)" + bound("30 = quick: s/n=1/a/solved, share low, times 100",
+                                          "95 = quick: s/n=1/a/solved, share high, times 100"),
+                     "−1.0 cm" + bound("−1.0 = quick: s/n=1/a minus b/jump_cm"),
+                     "1.0 cm" + bound("1.0 = quick: s/n=1/a minus b/jump_cm, without sign"),
+                     "2 to\n5" + bound("2 = quick: s/*/a/jump_cm, lowest", "5 = quick: s/*/a/jump_cm, highest"),
+                     "in 12 of 2 rooms, 2 of\nthem dark" + bound("2 of them = quick: s/n=1/a/jump_cm"),
+                     "<!-- figures -->\n2, at 5°, `x 7`, F1" + bound("2 = quick: s/n=1/a/jump_cm", "5 said") +
+                     "\n<!-- end of figures -->"]:
             with self.subTest(text):
                 self.assert_right(text)
 
     def test_are_flagged_when_they_are_wrong(self):
         for text, complaint in [
-                ("2.4 cm<!-- quick: s/n=1/a/jump_cm -->", "README.md:1: 2.4 is 2.3 in quick: s/n=1/a/jump_cm"),
-                ("\n\nthree<!-- quick: s/n=1/a/jump_cm -->", "README.md:3: three is two in"),
-                ("2<!-- quick: s/n=3/a/jump_cm -->", "no jump_cm of a under n=3 in s"),
-                ("2<!-- quick: s/n=1/c/jump_cm -->", "no jump_cm of c"),
-                ("9<!-- quick: t/n=1,m=2/a/jump_cm, share low -->", "values other than 0 and 1 have no share"),
-                ("9<!-- quick: t/n=1,m=2/a/jump_cm, mean -->", "9 is 12 in quick: t/n=1,m=2/a/jump_cm, mean"),
-                ("2<!-- quick: s/n=1/a/jump_cm, typical -->", "'typical' is none of median"),
-                ("2<!-- quick: s/n=1/a -->", "is not SCENARIO/CONDITION/METHOD/METRIC"),
-                ("2<!-- quick: s/*/a/jump_cm -->", "'*' and lowest or highest go together"),
-                ("2<!-- slow: s/n=1/a/jump_cm -->", "no scenarios/baselines/slow.json and no docs/figures/slow.json"),
-                ("2 is what came out of it<!-- quick: s/n=1/a/jump_cm -->", "1 of 1 bindings do not stand right behind"),
-                ("<!-- figures -->\n2<!-- quick: s/n=1/a/jump_cm --> and 9 more\n<!-- end of figures -->", "holds 9, neither"),
-                ("<!-- figures -->\n2<!-- quick: s/n=1/a/jump_cm -->", "a block of figures has no end"),
+                ("2.4 cm" + bound("2.4 = quick: s/n=1/a/jump_cm"), "README.md:1: 2.4 is 2.3 in quick: s/n=1/a/jump_cm"),
+                ("\n\nthree" + bound("three = quick: s/n=1/a/jump_cm"), "README.md:3: three is two in"),
+                ("2" + bound("2 = quick: s/n=3/a/jump_cm"), "no jump_cm of a under n=3 in s"),
+                ("2" + bound("2 = quick: s/n=1/c/jump_cm"), "no jump_cm of c"),
+                ("9" + bound("9 = quick: t/n=1,m=2/a/jump_cm, share low"), "values other than 0 and 1 have no share"),
+                ("9" + bound("9 = quick: t/n=1,m=2/a/jump_cm, mean"), "9 is 12 in quick: t/n=1,m=2/a/jump_cm, mean"),
+                ("2" + bound("2 = quick: s/n=1/a/jump_cm, typical"), "'typical' is none of median"),
+                ("2" + bound("2 = quick: s/n=1/a"), "is not SCENARIO/CONDITION/METHOD/METRIC"),
+                ("2" + bound("2 = quick: s/*/a/jump_cm"), "'*' and lowest or highest go together"),
+                ("2" + bound("2 = slow: s/n=1/a/jump_cm"), "no scenarios/baselines/slow.json and no docs/figures/slow.json"),
+                ("It is 7" + bound("2 = quick: s/n=1/a/jump_cm"), "is bound to no number of the paragraph above"),
+                ("2, then 7" + bound("7 said", "2 = quick: s/n=1/a/jump_cm"), "is bound to no number of the paragraph above"),
+                ("22" + bound("2 = quick: s/n=1/a/jump_cm"), "is bound to no number of the paragraph above"),
+                ("2" + bound("2 quick: s/n=1/a/jump_cm"), "is bound to no number of the paragraph above"),
+                ("2\n\n<!-- bound\n2 = quick: s/n=1/a/jump_cm\n-->", "a <!-- bound is not written as"),
+                ("2<!-- quick: s/n=1/a/jump_cm -->", "a comment binds nothing"),
+                ("<!-- figures -->\n2 and 9 more" + bound("2 = quick: s/n=1/a/jump_cm") + "\n<!-- end of figures -->",
+                 "holds 9, neither"),
+                ("<!-- figures -->\n2" + bound("2 = quick: s/n=1/a/jump_cm"), "a <!-- figures --> is not written as"),
                 ("No figure at all.", "0 figures are bound")]:
             with self.subTest(text):
                 self.assert_flagged(text, complaint)
 
     def test_are_written_anew_in_the_manner_that_they_had(self):
-        page = ("9.99 cm<!-- quick: s/n=1/a/jump_cm -->, Nine<!-- quick: s/n=1/a/jump_cm -->, "
-                "7.5<!-- quick: s/n=1/a/jump_cm, max -->, −8<!-- quick: s/n=1/a minus b/jump_cm -->")
+        page = ("9.99 cm, Nine, 7.5, −8" + bound("9.99 = quick: s/n=1/a/jump_cm", "Nine = quick: s/n=1/a/jump_cm",
+                                                "7.5 = quick: s/n=1/a/jump_cm, max", "−8 = quick: s/n=1/a minus b/jump_cm"))
         self.of_page(page, "--write")
         self.assertEqual((self.root / "README.md").read_text(),
                          page.replace("9.99", "2.26").replace("Nine", "Two").replace("7.5", "1,234.5").replace("−8", "−1"))
         self.assertEqual(self.figures()[0], 0)
+
+    def test_of_a_table_are_filled_by_one_directive(self):
+        page = ("<!-- table: quick\npath: s/{column}/{row}\nrows: a/jump_cm | - | a/solved, ones & a minus b/jump_cm\n"
+                "columns: n=1 | n=2 | -\n-->\n| of 3 | 1 | 2 | said |\n|---|---|---|---|\n"
+                "| a |%s| **%s** cm (about) | 7 |\n| by hand | 5 | 6 | 8 |\n| both | %s of 4 | – | 9 |\n<!-- end -->\n")
+        self.of_page(page % ("", "9.0", "1 and 9"), "--write")
+        right = page % (" 2.26 ", "5.0", "3 and −1")
+        self.assertEqual((self.root / "README.md").read_text(), right)
+        self.assertIn("4 figures are bound to results, 0 complaints", self.figures()[1])
+        self.assert_right("<!-- figures -->\n" + right + "<!-- end of figures -->\n")
+        for old, new, complaint in [("5.0", "5.1", "README.md:8: 5.1 is 5.0 in quick: s/n=2/a/jump_cm"),
+                                    ("3 and −1 of 4", "3", "the cell '3' has 1 numbers for 2 results"),
+                                    ("| 7 |", "| 7 | 7 |", "a row of 4 cells is given 3 columns"),
+                                    ("| - | a/solved", "| a/solved", "a table of 3 rows is given 2"),
+                                    ("columns: n=1", "columns: n=3", "no jump_cm of a under n=3 in s"),
+                                    ("<!-- end -->", "", "a <!-- table: is not written as")]:
+            with self.subTest(complaint):
+                self.assert_flagged(right.replace(old, new), complaint)
+
+    def test_of_a_table_may_stand_in_the_columns(self):
+        self.assert_right("<!-- table: quick\nrows: a | b\ncolumns: s/n=1/{row}/jump_cm | s/n=1/{row}/jump_cm, max\n-->\n"
+                          "| | median | max |\n|---|---|---|\n| a | 2 | 1,234.5 |\n| b | 3.13 | 1,236 |\n<!-- end -->\n")
 
     def test_are_taken_from_runs_that_are_too_large_to_keep(self):
         run = self.root / "run"
@@ -99,13 +134,13 @@ class Figures(unittest.TestCase):
         (run / "manifest.json").write_text('{"suite":"large","seed":3}')
         rows = [{"scenario": "s", "condition": "-", "method": "a", "trial": i, "jump_cm": float(i)} for i in range(5)]
         (run / "cells.jsonl").write_text("\n".join(map(json.dumps, rows)) + "\n")
-        text = "2<!-- large: s/-/a/jump_cm --> of 5<!-- large: s/-/a/jump_cm, worlds -->"
+        text = "2 of 5" + bound("2 = large: s/-/a/jump_cm", "5 = large: s/-/a/jump_cm, worlds")
         self.assert_flagged(text, "no scenarios/baselines/large.json")
         code, output = self.figures("--take", "large", run)
         self.assertEqual(code, 0, output)
         self.assert_right(text)
-        self.assert_flagged(text.replace("2<", "3<"), "3 is 2 in large")
-        self.assert_flagged(text.replace("jump_cm -->", "jump_cm, mean -->"), "was not taken")
+        self.assert_flagged(text.replace("2 ", "3 "), "3 is 2 in large")
+        self.assert_flagged(text.replace("jump_cm\n", "jump_cm, mean\n"), "was not taken")
         self.assertEqual(self.figures("--take", "small", run)[0], 2)
 
 
