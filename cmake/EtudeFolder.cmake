@@ -1,9 +1,39 @@
 # One folder = one target. The name of the target, its sources and its tests all follow from the
 # folder's path, so that nothing can be listed in one place and forgotten in another.
 
+# How bytes of others are met.
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ETUDE_SANITIZE)
+  set(ETUDE_HARDENING -D_FORTIFY_SOURCE=2 -fstack-protector-strong -fstack-clash-protection)
+endif()
+
+# etude_harness_options(): how the folders below are compiled: bench, reports, cli. What takes time is in engine/ and sim/, so
+# that more than -O1 is not worth the compiler's time; nearly all of them read files, so that all are hardened.
+macro(etude_harness_options)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    add_compile_options(-O1 ${ETUDE_HARDENING})
+  endif()
+  set(ETUDE_HEADERS etude_harness_headers)
+endmacro()
+
+# etude_headers(<target> LIBRARIES <target>... HEADERS <header>...)
+#   With ETUDE_UNITY, compiles headers once, for all folders where the variable ETUDE_HEADERS is <target> and the options are
+#   the same. Without, each file must include what it uses.
+function(etude_headers TARGET)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES;HEADERS" ${ARGN})
+  if(ETUDE_UNITY)
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/${TARGET}.cc")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "// The headers are compiled with this file.\n")
+    add_library(${TARGET} OBJECT "${source}")
+    target_include_directories(${TARGET} PRIVATE "${CMAKE_SOURCE_DIR}")
+    target_link_libraries(${TARGET} PRIVATE ${ARG_LIBRARIES})
+    target_precompile_headers(${TARGET} PRIVATE ${ARG_HEADERS})
+  endif()
+endfunction()
+
 # etude_folder(HARDENED DEPENDS <folder>... LIBRARIES <target>... PRIVATE_LIBRARIES <target>...)
-#   Makes the library etude_<path> of every .cc file of the current folder. HARDENED: where bytes of others come in, a
-#   smashed stack and what the C library sees written beyond its end stop the program. Not where numbers are crunched.
+#   Makes the library etude_<path> of every .cc file of the current folder. HARDENED, for folders of engine/: where bytes of
+#   others come in, a smashed stack and what the C library sees written beyond its end stop the program. Not where numbers
+#   are crunched.
 function(etude_folder)
   cmake_parse_arguments(ARG "HARDENED" "" "DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
@@ -16,8 +46,9 @@ function(etude_folder)
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
   endif()
-  if(ARG_HARDENED AND CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT ETUDE_SANITIZE)
-    target_compile_options(${target} PRIVATE -D_FORTIFY_SOURCE=2 -fstack-protector-strong -fstack-clash-protection)
+  if(ARG_HARDENED AND ETUDE_HARDENING)
+    target_compile_options(${target} PRIVATE ${ETUDE_HARDENING})
+    set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)  # which are compiled without
   endif()
   target_include_directories(${target} ${scope} "${CMAKE_SOURCE_DIR}")
   target_link_libraries(${target} ${scope} glm::glm tl::expected ${ARG_LIBRARIES})
@@ -30,8 +61,8 @@ function(etude_folder)
   endforeach()
 endfunction()
 
-# etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time: of what the compiler reads
-# in a file, more than nine tenths are headers. Files that Highway compiles once per instruction set stay alone.
+# etude_unity(<target>): with ETUDE_UNITY, compiles the files of a folder a dozen at a time, and after the headers that
+# ETUDE_HEADERS names: of what the compiler reads in a file, more than nine tenths are headers. Files that Highway compiles once per instruction set stay alone.
 function(etude_unity TARGET)
   if(NOT ETUDE_UNITY)
     return()
@@ -45,9 +76,12 @@ function(etude_unity TARGET)
   foreach(source IN LISTS sources)
     file(STRINGS "${source}" per_target REGEX "hwy/foreach_target.h")
     if(per_target)
-      set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endforeach()
+  if(ETUDE_HEADERS)
+    target_precompile_headers(${TARGET} REUSE_FROM ${ETUDE_HEADERS})
+  endif()
 endfunction()
 
 # etude_embed(FUNCTION <name> HEADER <header> FILES <file>...)
@@ -69,48 +103,48 @@ function(etude_embed)
   target_sources(${target} PRIVATE "${embedded}")
 endfunction()
 
-# etude_test_options(<target>): how tests are compiled, the headers that they share too.
-function(etude_test_options TARGET)
-  etude_unity(${TARGET})
-  if(CMAKE_BUILD_TYPE STREQUAL "Release")
-    target_compile_options(${TARGET} PRIVATE -O1)  # tests run once and are compiled often; what they test keeps -O2
-  endif()
-endfunction()
+# etude_test_program(<name> FOLDERS <folder>... DEPENDS <folder>... LIBRARIES <target>... HEAVY <folder>...)
+#   Makes the program etude_tests_<name> of every .cc file of the folders of tests/, and of all below them. A folder mirrors
+#   the one that it tests (tests/engine/motion tests engine/motion), which is linked. Each is one of ctest's tests, in the
+#   pinned environment (bench/process): most single tests take less time than to start them (tests/README.md). The target
+#   etude_tests_<folder> builds its program. HEAVY folders have the label "heavy".
+function(etude_test_program NAME)
+  cmake_parse_arguments(ARG "" "" "FOLDERS;DEPENDS;LIBRARIES;HEAVY" ${ARGN})
+  set(program etude_tests_${NAME})
+  set(patterns ${ARG_FOLDERS})
+  list(TRANSFORM patterns REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/tests/\\1/*.cc")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${patterns})
+  list(FILTER sources EXCLUDE REGEX "/tests/(reports/support|fuzz/program|fuzz/readers)/")  # libraries and programs of their own
+  set(folders ${sources})
+  list(TRANSFORM folders REPLACE "/[^/]*$" "")
+  list(REMOVE_DUPLICATES folders)
 
-# etude_tests(DEPENDS <folder>... LIBRARIES <target>... LABELS <label>...)
-#   Makes one test program of every .cc file of the current folder, which mirrors the folder it
-#   tests (tests/engine/motion tests engine/motion), and registers it with ctest in the pinned
-#   environment (bench/process). The whole program is one of ctest's tests: most of its own take
-#   less time than to start it (tests/README.md).
-function(etude_tests)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;LIBRARIES;LABELS" ${ARGN})
-  etude_target_name("${CMAKE_CURRENT_SOURCE_DIR}" target)
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cc")
-  if(NOT sources)
-    message(WARNING "${CMAKE_CURRENT_SOURCE_DIR} holds no test")
-    return()
-  endif()
-  add_executable(${target} ${sources})
-  etude_test_options(${target})
+  add_executable(${program} ${sources})
+  etude_unity(${program})
   if(ETUDE_HAS_GOLD AND NOT ETUDE_SANITIZE)
-    target_link_options(${target} PRIVATE -fuse-ld=gold)
+    target_link_options(${program} PRIVATE -fuse-ld=gold)
   endif()
-  if(ETUDE_UNITY)
-    target_precompile_headers(${target} REUSE_FROM etude_tests_headers)
-  endif()
-  file(RELATIVE_PATH mirrored "${CMAKE_SOURCE_DIR}/tests" "${CMAKE_CURRENT_SOURCE_DIR}")
-  etude_target_name("${CMAKE_SOURCE_DIR}/${mirrored}" subject)
-  if(TARGET ${subject})
-    target_link_libraries(${target} PRIVATE ${subject})
-  endif()
+  foreach(folder IN LISTS folders)
+    file(RELATIVE_PATH mirrored "${CMAKE_SOURCE_DIR}/tests" "${folder}")
+    etude_target_name("${CMAKE_SOURCE_DIR}/${mirrored}" subject)
+    if(TARGET ${subject})
+      target_link_libraries(${program} PRIVATE ${subject})
+    endif()
+    add_test(NAME "${mirrored}" COMMAND env ${ETUDE_PINNED_ENVIRONMENT} $<TARGET_FILE:${program}> "--folder=${mirrored}"
+      WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+    if(mirrored IN_LIST ARG_HEAVY)
+      set_tests_properties("${mirrored}" PROPERTIES LABELS heavy)
+    endif()
+    etude_target_name("${folder}" by_folder)
+    if(NOT TARGET ${by_folder})
+      add_custom_target(${by_folder} DEPENDS ${program})
+    endif()
+  endforeach()
   foreach(folder IN LISTS ARG_DEPENDS)
     etude_target_name("${CMAKE_SOURCE_DIR}/${folder}" dependency)
-    target_link_libraries(${target} PRIVATE ${dependency})
+    target_link_libraries(${program} PRIVATE ${dependency})
   endforeach()
-  target_link_libraries(${target} PRIVATE etude_tests_support ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
-  add_test(NAME "${mirrored}" COMMAND env ${ETUDE_PINNED_ENVIRONMENT} $<TARGET_FILE:${target}>
-    WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
-  set_tests_properties("${mirrored}" PROPERTIES LABELS "${ARG_LABELS}")
+  target_link_libraries(${program} PRIVATE etude_tests_support ${ARG_LIBRARIES} GTest::gtest GTest::gmock)
 endfunction()
 
 # etude_target_name(<absolute folder> <out>): engine/motion -> etude_engine_motion

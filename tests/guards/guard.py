@@ -5,8 +5,7 @@
     guard.py RULE ROOT --must-flag  the control: fails unless every file of ROOT is complained about
 
 Rules: imports, rooms (rooms.py), doors, determinism, types (two of one name, which the linker would take for one), pages
-(files that .md files mention). Prints how many files it
-checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
+(files that .md files mention). Prints how many files it checked, so that a guard that looks at nothing cannot pass for one that finds nothing.
 """
 import fnmatch
 import functools
@@ -15,7 +14,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True  # the sources stay as they are
-from rooms import MAY_INCLUDE, NEVER_INCLUDES
+from rooms import NEVER_INCLUDES, may_include
 
 LAYERS = ["engine", "sim", "bench", "reports", "cli"]
 FOLDERS = LAYERS + ["tests", "docs", "scripts", "scenarios", "examples", "cmake"]  # where pages stand
@@ -100,8 +99,15 @@ class Rooms:
         self.includes_of = {}
         self.seen, self.used = set(), set()
         self.followed = 0
-        if circle := find_circle(MAY_INCLUDE):
-            sys.exit(f"rooms.py: a circle: {' > '.join(circle)}")
+        self.may_include = may_include()
+        if circle := find_circle(self.may_include):
+            sys.exit(f"rooms: a circle: {' > '.join(circle)}")
+
+    def room_of(self, file):
+        """The nearest folder above that is a room."""
+        while file and file not in self.may_include:
+            file = file.rpartition("/")[0]
+        return file
 
     def own_includes(self, file):
         """What a file of ours includes of ours, with line numbers."""
@@ -124,12 +130,13 @@ class Rooms:
 
     def check_own(self, room, file):
         for number, target in self.own_includes(file):
-            other = target.rpartition("/")[0]
+            other = self.room_of(target)
             if other == room:
                 continue
             self.used.add((room, other))
-            if MAY_INCLUDE[room] != "any" and other not in MAY_INCLUDE[room].split():
-                yield number, f"{room} may not include {target} (rooms.py: {MAY_INCLUDE[room] or 'no other room'})"
+            allowed = self.may_include[room]
+            if allowed is not None and other not in allowed:
+                yield number, f"{room} may not include {target} (its DEPENDS: {' '.join(allowed) or 'no other room'})"
 
     def check_through_others(self, room, file):
         banned = [other for rooms, others in NEVER_INCLUDES for other in others.split() if lies_in(room, rooms.split())]
@@ -139,22 +146,23 @@ class Rooms:
                 return
 
     def __call__(self, relative, _):
-        room, file = relative.parent.as_posix(), relative.as_posix()
-        if room not in MAY_INCLUDE:
-            yield 1, f"the room {room} does not stand in rooms.py"
+        file = relative.as_posix()
+        room = self.room_of(file)
+        if not room:
+            yield 1, f"{relative.parent} is no room: no CMakeLists.txt has an etude_folder(…) for it"
             return
         self.seen.add(room)
         yield from self.check_own(room, file)
         yield from self.check_through_others(room, file)
 
     def unused(self):
-        """What the table allows and nothing needs: it must tell what is, not what was."""
-        for room, others in MAY_INCLUDE.items():
+        """What the lists allow and nothing needs: they must tell what is, not what was."""
+        for room, others in self.may_include.items():
             if room not in self.seen:
-                yield f"rooms.py has the room {room}, which holds no code"
-            for other in [] if others == "any" else others.split():
+                yield f"the room {room} holds no code"
+            for other in others or []:
                 if (room, other) not in self.used:
-                    yield f"rooms.py lets {room} include {other}, which nothing does"
+                    yield f"{room}/CMakeLists.txt: nothing of it includes {other}"
 
 
 def find_circle(table):
@@ -166,7 +174,7 @@ def find_circle(table):
             return way[way.index(room):] + [room]
         if room in done or room not in table:
             return []
-        for other in table[room].split():
+        for other in table[room] or []:
             if circle := follow(other, way + [room]):
                 return circle
         done.add(room)
@@ -310,12 +318,12 @@ def main():
     stale = []
     if isinstance(rule, Rooms):
         stale = list(rule.unused())
-        print(f"rooms: {len(MAY_INCLUDE)} rooms, {len(rule.used)} pairs of rooms in use, {len(stale)} allowed in vain, "
+        print(f"rooms: {len(rule.may_include)} rooms, {len(rule.used)} pairs of rooms in use, {len(stale)} allowed in vain, "
               f"{rule.followed} includes followed")
     if checked == 0:
         sys.exit("nothing was checked")
     if must_flag:
-        if isinstance(rule, Rooms) and not (stale and find_circle({"a": "b", "b": "c", "c": "b"})):
+        if isinstance(rule, Rooms) and not (stale and find_circle({"a": ["b"], "b": ["c"], "c": ["b"]})):
             sys.exit("a table that allows too much, or goes round in a circle, was not noticed")
         sys.exit(0 if len(flagged) == checked else "a file that must be flagged was not")
     if stale:

@@ -174,8 +174,7 @@ class Shadow:
 
     # --- the build -----------------------------------------------------------------------------------------------
     def test_folders(self):
-        lists = [f for f in self.files if f.startswith("tests/engine/") and f.endswith("/CMakeLists.txt")]
-        return [os.path.dirname(f) for f in lists]
+        return sorted({os.path.dirname(f) for f in self.files if re.match(r"tests/engine/.*\.cc$", f)})
 
     def compile(self, folders, jobs, log):
         """Builds the test programs of these folders; drops what does not compile. Raises when something else is

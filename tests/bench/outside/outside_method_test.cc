@@ -19,7 +19,7 @@ using ::testing::StartsWith;
 
 Payload Show(Json json, std::vector<Attachment> files = {}) { return PayloadOf(std::move(json), std::move(files)); }
 
-const Fence& TheFence() {
+const Fence& FenceOfMethods() {
   static const Fence fence = Fence::Find();
   return fence;
 }
@@ -83,7 +83,7 @@ class Hostile : public ::testing::TestWithParam<Hostility> {};
 
 TEST_P(Hostile, BecomesTheSameReplyWithAndWithoutAFenceAndTheNextProblemIsPutToANewProgram) {
   const Hostility& hostility = GetParam();
-  for (const Fence& fence : {Fence(), TheFence()}) {
+  for (const Fence& fence : {Fence(), FenceOfMethods()}) {
     OutsideMethod method(Behaving(hostility.behaviour, fence));
     const OutsideReply reply = Ask(method);
     EXPECT_EQ(StatusName(reply.status), StatusName(hostility.status));
@@ -241,7 +241,7 @@ TEST(OutsideMethod, MakesTheFolderOfItsStandardErrorWhenItHasSomethingToKeep) {
 }
 
 TEST(OutsideMethod, AttachmentsLieInAFolderWhileItWorks) {
-  for (const Fence& fence : {Fence(), TheFence()}) {
+  for (const Fence& fence : {Fence(), FenceOfMethods()}) {
     OutsideOptions options = Behaving("is_good", fence);
     options.command = {
         "sh", "-c",

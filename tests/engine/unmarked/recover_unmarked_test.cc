@@ -38,14 +38,14 @@ Rgb8 RoomAt(std::size_t camera, int x, int y) {
 }
 
 /// A film of the body in red before a patterned wall; `moves`: else it stands.
-struct Film {
+struct FilmOfWalker {
   SilhouetteBody body = MakeSilhouetteBody(AdultLengths(kStature));
   std::vector<Camera> cameras = CamerasAround({-40, 40, 150});
   std::vector<std::vector<ColourImage>> pictures;
   std::vector<ColourImage> rooms;
   std::vector<BodyPose> truth;
 
-  explicit Film(bool moves) {
+  explicit FilmOfWalker(bool moves) {
     for (int k = 0; k < kFrames; ++k) truth.push_back(ToBodyPose(body, Moving(body, moves ? k : 0)));
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       ColourImage room(cameras[c].intrinsics.width, cameras[c].intrinsics.height);
@@ -74,7 +74,7 @@ struct Film {
 };
 
 TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
-  const Film film(true);
+  const FilmOfWalker film(true);
   const auto found = RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}},
                                      {.track = {}, .rounds = 3, .samples = 8, .kept = 3});
   ASSERT_TRUE(found) << found.error().message;
@@ -94,7 +94,7 @@ TEST(RecoverUnmarked, FindsThePersonTheStatureAndTheRoomInFilmsAlone) {
 }
 
 TEST(RecoverUnmarked, IsToldRoomsAndStature) {
-  const Film film(true);
+  const FilmOfWalker film(true);
   const auto told =
       RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = film.rooms, .stature_m = kStature});
   ASSERT_TRUE(told) << told.error().message;
@@ -107,7 +107,7 @@ TEST(RecoverUnmarked, IsToldRoomsAndStature) {
 }
 
 TEST(RecoverUnmarked, SeesNobodyWhereNothingMoves) {
-  const Film film(false);
+  const FilmOfWalker film(false);
   const auto found =
       RecoverUnmarked({.cameras = film.cameras, .pictures = film.pictures, .rooms = {}, .stature_m = {}});
   ASSERT_FALSE(found);

@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 96;
+constexpr int kPictureWidth = 640, kPictureHeight = 96;
 
 /// Bright to the left of an edge that stands at `edge` at a time.
 Painter MovingEdge(const std::function<double(double)>& edge) {
@@ -25,7 +25,7 @@ double EdgeInRow(const ColourImage& picture, int y) {
 }
 
 CameraModel Wide(const CameraEffects& effects, bool is_reference = true) {
-  return ModelOf(effects, PlainCamera(kWidth, kHeight), is_reference);
+  return ModelOf(effects, PlainCamera(kPictureWidth, kPictureHeight), is_reference);
 }
 
 // A vertical edge that moves leans over in the picture: its slant, rows apart, gives the time between them.
@@ -36,10 +36,10 @@ double ReadOutMs(double effect_ms) {
       Shoot(model, MovingEdge([](double frame) { return 320 + kPixelsPerFrame * (frame - 4); }), 4);
   std::vector<std::pair<double, double>> middles;  // of the bands, whose rows are seen at the band's middle
   for (int band = 0; band < Shutter::kBands; ++band) {
-    const int rows = kHeight / Shutter::kBands;
+    const int rows = kPictureHeight / Shutter::kBands;
     middles.push_back({band * rows + rows / 2.0, EdgeInRow(picture, band * rows + rows / 2)});
   }
-  return FitLine(middles).slope * kHeight / kPixelsPerFrame / 30 * 1000;
+  return FitLine(middles).slope * kPictureHeight / kPixelsPerFrame / 30 * 1000;
 }
 
 TEST(RollingShutter, IsRecoveredFromTheSlantOfAMovingEdge) {
@@ -52,7 +52,7 @@ TEST(RollingShutter, IsExactInEachOfItsBands) {
   CameraModel model = Wide({.rolling_shutter_ms = 30, .noise = 0});
   const auto edge = [](double frame) { return 320 + 300 * (frame - 4); };
   const ColourImage picture = Shoot(model, MovingEdge(edge), 4);
-  const std::vector<Shutter::Band> bands = model.shutter().BandsOf(4, kHeight);
+  const std::vector<Shutter::Band> bands = model.shutter().BandsOf(4, kPictureHeight);
   ASSERT_EQ(bands.size(), 8u);
   int next = 0;
   for (const Shutter::Band& band : bands) {
@@ -60,7 +60,7 @@ TEST(RollingShutter, IsExactInEachOfItsBands) {
     next = band.rows.end;
     for (int y = band.rows.first; y < band.rows.end; ++y) EXPECT_NEAR(EdgeInRow(picture, y), edge(band.time), 0.51);
   }
-  EXPECT_EQ(next, kHeight);
+  EXPECT_EQ(next, kPictureHeight);
 }
 
 // An edge that moves is a ramp as wide as its way while the shutter is open; its standard deviation, of nine equal
@@ -71,7 +71,7 @@ double BlurPixels(double blur, double pixels_per_frame) {
       Shoot(model, MovingEdge([=](double frame) { return 320 + pixels_per_frame * (frame - 4); }), 4);
   const auto value = [&](int x) { return LightAt(picture, x, 10); };
   double sum = 0, first = 0, second = 0;
-  for (int x = 1; x < kWidth; ++x) {
+  for (int x = 1; x < kPictureWidth; ++x) {
     const double step = value(x - 1) - value(x);
     sum += step;
     first += step * x;
@@ -107,7 +107,7 @@ double Dance(double frame) {
 }
 
 std::vector<double> Seen(const CameraEffects& effects, bool is_reference, std::size_t frames) {
-  CameraModel model = ModelOf(effects, PlainCamera(kWidth, 4), is_reference);
+  CameraModel model = ModelOf(effects, PlainCamera(kPictureWidth, 4), is_reference);
   std::vector<double> edges;
   for (std::size_t k = 0; k < frames; ++k) edges.push_back(EdgeInRow(Shoot(model, MovingEdge(Dance), k), 1));
   return edges;

@@ -19,7 +19,6 @@
 namespace etude {
 namespace {
 
-using Body = CanonicalBody;
 using enum Role;
 
 constexpr double kRateHz = 120;
@@ -73,10 +72,10 @@ Worst FootSpeed(const BodyMotion& motion) {
     double rest, slack;
   };
   // A rising heel carries the ankle forward, a quarter as far as up, so hardly any rise may pass as flat.
-  const Point points[] = {{kLeftFoot, Body::kToeHeight, 1e-4},
-                          {kRightFoot, Body::kToeHeight, 1e-4},
-                          {kLeftAnkle, Body::kAnkleHeight, 1e-5},
-                          {kRightAnkle, Body::kAnkleHeight, 1e-5}};
+  const Point points[] = {{kLeftFoot, CanonicalBody::kToeHeight, 1e-4},
+                          {kRightFoot, CanonicalBody::kToeHeight, 1e-4},
+                          {kLeftAnkle, CanonicalBody::kAnkleHeight, 1e-5},
+                          {kRightAnkle, CanonicalBody::kAnkleHeight, 1e-5}};
   Worst worst;
   for (std::size_t i = 0; i + 1 < motion.poses.size(); ++i) {
     for (const Point& point : points) {
@@ -191,15 +190,15 @@ LimbLengths CanonicalLengths() {
   const BodyPose rest = StandingPose();
   const auto length = [&](Role from, Role to) { return glm::distance(rest[from], rest[to]); };
   return {.foot = length(kLeftAnkle, kLeftFoot),
-          .shank = Body::kShank,
-          .thigh = Body::kThigh,
-          .hip_width = 2 * Body::kHipHalfWidth,
+          .shank = CanonicalBody::kShank,
+          .thigh = CanonicalBody::kThigh,
+          .hip_width = 2 * CanonicalBody::kHipHalfWidth,
           .trunk = length(kHipCentre, kShoulderCentre),
           .neck = length(kShoulderCentre, kHead),
-          .shoulder_width = 2 * Body::kShoulderHalfWidth,
-          .upper_arm = Body::kUpperArm,
-          .forearm = Body::kForearm,
-          .hand = Body::kHand};
+          .shoulder_width = 2 * CanonicalBody::kShoulderHalfWidth,
+          .upper_arm = CanonicalBody::kUpperArm,
+          .forearm = CanonicalBody::kForearm,
+          .hand = CanonicalBody::kHand};
 }
 
 /// Radians by which a joint's angles lie outside an adult's limits.
@@ -298,10 +297,10 @@ double LowestJoint(const BodyMotion& motion) {
 
 TEST(Dance, NoJointIsBelowTheFloor) {
   for (const auto& [name, motion] : AllDances()) {
-    EXPECT_NEAR(LowestJoint(motion), Body::kToeHeight, 1e-6) << name << ": toes are the lowest, and on the floor";
+    EXPECT_NEAR(LowestJoint(motion), CanonicalBody::kToeHeight, 1e-6) << name << ": toes are the lowest, and on the floor";
   }
   const Change deeper = [](Controls& controls) { controls[MiddleControl::kHipsDrop] += 0.3; };
-  EXPECT_LT(LowestJoint(Danced(LoadMove("stretch"), deeper)), Body::kToeHeight) << "hands go through the floor";
+  EXPECT_LT(LowestJoint(Danced(LoadMove("stretch"), deeper)), CanonicalBody::kToeHeight) << "hands go through the floor";
 }
 
 }  // namespace

@@ -11,10 +11,10 @@
 namespace etude {
 namespace {
 
-constexpr WorldKey kWorld{.suite_seed = 1, .scenario = "music", .trial = 0};
+constexpr WorldKey kMusicWorld{.suite_seed = 1, .scenario = "music", .trial = 0};
 
 TEST(MusicClock, WithoutFaultsIsAClock) {
-  MusicClock clock({}, kWorld);
+  MusicClock clock({}, kMusicWorld);
   clock.Tick();
   EXPECT_EQ(clock.Now(), 0) << "silent until it is told to play";
   clock.PlayFrom(10);
@@ -26,7 +26,7 @@ TEST(MusicClock, WithoutFaultsIsAClock) {
 }
 
 TEST(MusicClock, Drifts) {
-  MusicClock clock({.drift = -0.02}, kWorld);
+  MusicClock clock({.drift = -0.02}, kMusicWorld);
   clock.PlayFrom(0);
   for (int i = 0; i < 3000; ++i) clock.Tick();
   EXPECT_NEAR(clock.Now(), 98, 1e-9);
@@ -55,7 +55,7 @@ TEST(MusicClock, StuttersAsOftenAndAsLongAsItIsTold) {
 
 TEST(MusicClock, StuttersAtTheSameFramesWhateverItIsTold) {
   const MusicClockOptions options{.stutters_per_min = 20, .stutter_s = 0.2};
-  MusicClock paused(options, kWorld);
+  MusicClock paused(options, kMusicWorld);
   std::vector<int> frames;
   paused.PlayFrom(5);
   for (int i = 0; i < 1800; ++i) {
@@ -65,7 +65,7 @@ TEST(MusicClock, StuttersAtTheSameFramesWhateverItIsTold) {
     paused.Tick();
     if (paused.IsPlaying() && paused.Now() == before) frames.push_back(i);
   }
-  std::vector<int> expected = Standing(MusicClock(options, kWorld));
+  std::vector<int> expected = Standing(MusicClock(options, kMusicWorld));
   std::erase_if(expected, [](int frame) { return frame >= 300 && frame < 600; });
   EXPECT_EQ(frames, expected);
 }

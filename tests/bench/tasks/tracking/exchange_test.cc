@@ -18,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const WorldKey kExchangeWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
+const WorldKey kTrackedWorld{.suite_seed = 1, .scenario = "exchange", .trial = 0};
 constexpr double kRate = 30;
 
 std::unique_ptr<Task> MakeTask(const std::string& condition = "{duration_s: 0.5}") {
@@ -31,7 +31,7 @@ std::unique_ptr<Task> MakeTask(const std::string& condition = "{duration_s: 0.5}
 
 TEST(TrackingExchange, TellsTheBodyOnceAndEveryFramesRootAndTargets) {
   const auto task = MakeTask();
-  const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kExchangeWorld, false)->MakeProblem()->json;
+  const Json setting = *task->Setting()->json, problem = *task->MakeWorld(kTrackedWorld, false)->MakeProblem()->json;
   EXPECT_EQ(setting["rate_hz"], 30);
   EXPECT_EQ(setting["max_steps"], 20);
   EXPECT_EQ(problem["angles"].size(), 29u);
@@ -47,7 +47,7 @@ TEST(TrackingExchange, TellsTheBodyOnceAndEveryFramesRootAndTargets) {
 
 TEST(TrackingExchange, TheTruthIsAPerfectAnswer) {
   const auto task = MakeTask();
-  const auto world = task->MakeWorld(kExchangeWorld, true);
+  const auto world = task->MakeWorld(kTrackedWorld, true);
   const auto cell = world->Judge(*world->MakeTruth()->json);
   ASSERT_TRUE(cell) << ToString(cell.error());
   EXPECT_EQ(cell->status, Status::kOk) << cell->reason;
@@ -64,7 +64,7 @@ TEST(TrackingExchange, TheTruthIsAPerfectAnswer) {
 
 TEST(TrackingExchange, TheTruthMissesDisturbedTargets) {
   const auto task = MakeTask("{duration_s: 0.5, target_noise_cm: 1}");
-  const auto world = task->MakeWorld(kExchangeWorld, false);
+  const auto world = task->MakeWorld(kTrackedWorld, false);
   const auto cell = world->Judge(*world->MakeTruth()->json);
   EXPECT_EQ(cell->status, Status::kUnsolved);
   EXPECT_NEAR(*ValueOf(*cell, "position_error_cm"), std::sqrt(8 / kPi), 0.3) << "mean of a three-dimensional normal";
@@ -72,7 +72,7 @@ TEST(TrackingExchange, TheTruthMissesDisturbedTargets) {
 }
 
 TEST(TrackingExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
-  const auto world = MakeTrackingWorld({.duration_s = 0.5}, BuiltinClipOf("builtin:boxing"), kExchangeWorld);
+  const auto world = MakeTrackingWorld({.duration_s = 0.5}, BuiltinClipOf("builtin:boxing"), kTrackedWorld);
   const auto answer = Follow(*world, {.name = "today", .solver = FindIkSolver("damped-least-squares"), .options = {}});
   Json told = {{"angles_deg", Json::array()}, {"iterations", *answer->iterations}};
   for (const auto& angles : answer->angles) {
@@ -92,7 +92,7 @@ TEST(TrackingExchange, ScoresAnAnswerLikeABuiltInMethodThatFoundTheSame) {
 }
 
 TEST(TrackingExchange, AFrameThatBreaksALimitIsUnsolvedHoweverWellItMeetsItsTargets) {
-  auto world = MakeTrackingWorld({.duration_s = 0.5}, BuiltinClipOf("builtin:boxing"), kExchangeWorld);
+  auto world = MakeTrackingWorld({.duration_s = 0.5}, BuiltinClipOf("builtin:boxing"), kTrackedWorld);
   const int elbow = world->tree.joints[kTreeLeftElbow].first_dof;
   world->truth[7].angles[elbow] = Radians(-5);
   world->targets[7] = TargetsMetBy(world->tree, world->truth[7]);
@@ -108,7 +108,7 @@ TEST(TrackingExchange, AFrameThatBreaksALimitIsUnsolvedHoweverWellItMeetsItsTarg
 
 TEST(TrackingExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
   const auto task = MakeTask();
-  const auto world = task->MakeWorld(kExchangeWorld, false);
+  const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
   const auto complaint = [&](auto change) {
     Json answer = good;
@@ -131,9 +131,9 @@ TEST(TrackingExchange, RefusesWhatIsNoAnswerNamingThePlaceInIt) {
 
 TEST(TrackingExchange, ScoresOrRefusesWhateverIsSaid) {
   const auto task = MakeTask("{duration_s: 0.2}");
-  const auto world = task->MakeWorld(kExchangeWorld, false);
+  const auto world = task->MakeWorld(kTrackedWorld, false);
   const Json good = *world->MakeTruth()->json;
-  RandomStream dice(kExchangeWorld, "mutations");
+  RandomStream dice(kTrackedWorld, "mutations");
   int refused = 0;
   for (int i = 0; i < 300; ++i) {
     const auto cell = world->Judge(Mutated(good, dice));

@@ -9,7 +9,7 @@ namespace etude {
 namespace {
 
 /// Clip 0 plays; clip 1 is unlike it; clip 2 goes from the one to the other in 20 frames.
-MotionLibrary ThreeClips() {
+MotionLibrary LibraryOfThree() {
   std::vector<double> levels(21);
   std::vector<int> frames(21);
   for (int f = 0; f <= 20; ++f) levels[f] = 0.05 + 0.1 * (frames[f] = f);
@@ -21,7 +21,7 @@ MotionLibrary ThreeClips() {
 }
 
 TransitionRecord Plan(std::string_view choice, const TransitionRequest& request) {
-  return FindChoice(choice)->plan(ThreeClips(), request, {}, {});
+  return FindChoice(choice)->plan(LibraryOfThree(), request, {}, {});
 }
 
 TEST(FuzzyBridge, RecordsTheBranchItTook) {
@@ -32,7 +32,7 @@ TEST(FuzzyBridge, RecordsTheBranchItTook) {
 }
 
 TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
-  MotionLibrary library = ThreeClips();
+  MotionLibrary library = LibraryOfThree();
   library.tagged[0] = ClipOfLevels({0, 0.3, 5, 0, 0}, {0, 1, 2, 3});
   const TransitionRecord record = PlanFuzzyBridge(library, {.from = 0, .request_frame = 0, .to = 2}, {});
   // Frame 0 sees 0.05, 0.15, 0.25, 0.35 below 0.4; frame 1 the first seven of 0.05 … 2.05; frame 3 as frame 0.
@@ -57,7 +57,7 @@ TEST(FuzzyBridge, TellsOfThePairsItDidNotTake) {
 }
 
 TEST(FuzzyBridge, TakesTheSmallestDistanceWhenToldTo) {
-  MotionLibrary library = ThreeClips();
+  MotionLibrary library = LibraryOfThree();
   library.tagged[0] = ClipOfLevels({0.4, 0.06, 0.05, 0}, {0, 1, 2});
   const TransitionRecord record =
       PlanFuzzyBridge(library, {.from = 0, .request_frame = 0, .to = 2}, {.pick = Pick::kSmallest});

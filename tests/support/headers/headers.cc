@@ -1,1 +1,0 @@
-// The headers that tests share are compiled with this file (CMakeLists.txt).

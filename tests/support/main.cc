@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <iostream>
+#include <string>
+
+namespace {
+
+// A filter for the tests whose files stand in a folder of tests/, not below it; empty where there is none.
+std::string TestsOf(const std::string& folder) {
+  std::string filter;
+  const testing::UnitTest& all = *testing::UnitTest::GetInstance();
+  for (int s = 0; s < all.total_test_suite_count(); ++s) {
+    const testing::TestSuite& suite = *all.GetTestSuite(s);
+    for (int t = 0; t < suite.total_test_count(); ++t) {
+      const testing::TestInfo& test = *suite.GetTestInfo(t);
+      const std::string file = test.file();
+      if (file.substr(0, file.rfind('/')).ends_with("/tests/" + folder)) {
+        filter += std::string(suite.name()) + "." + test.name() + ":";
+      }
+    }
+  }
+  return filter;
+}
+
+}  // namespace
+
+// GoogleTest's main, and `--folder=bench/statistics`: only what tests that folder. A filter that somebody asks for counts.
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  constexpr const char* kFolder = "--folder=";
+  if (argc == 2 && std::strncmp(argv[1], kFolder, std::strlen(kFolder)) == 0) {
+    const std::string tests = TestsOf(argv[1] + std::strlen(kFolder));
+    if (tests.empty()) {
+      std::cerr << argv[0] << ": no test stands in tests/" << argv[1] + std::strlen(kFolder) << "\n";
+      return 2;
+    }
+    if (GTEST_FLAG_GET(filter) == "*") {
+      GTEST_FLAG_SET(filter, tests);
+    }
+  } else if (argc > 1) {
+    std::cerr << argv[0] << ": unknown argument '" << argv[1] << "'; allowed: --folder=FOLDER, GoogleTest's own\n";
+    return 2;
+  }
+  return RUN_ALL_TESTS();
+}
