@@ -16,16 +16,16 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::size_t kWalkFrames = 60;
+constexpr std::size_t kPersonFrames = 60;
 constexpr double kRate = 30;
 constexpr double kFirstX = -0.5, kSecondX = 0.7;
 
 /// Two persons side by side, seen by some of the four cameras, in an order that changes from frame to frame.
 std::vector<SeenPeople> TwoWalkers(const std::vector<Camera>& cameras, double sigma_px) {
   RandomStream dice = WalkersDice("errors");
-  std::vector<SeenPeople> people(cameras.size(), SeenPeople(kWalkFrames));
+  std::vector<SeenPeople> people(cameras.size(), SeenPeople(kPersonFrames));
   for (std::size_t c = 0; c < cameras.size(); ++c) {
-    for (std::size_t k = 0; k < kWalkFrames; ++k) {
+    for (std::size_t k = 0; k < kPersonFrames; ++k) {
       const double t = static_cast<double>(k) / kRate;
       people[c][k].push_back(Seen(cameras[c], Walker(kFirstX, 0, t), sigma_px, dice));
       people[c][k].push_back(Seen(cameras[c], Walker(kSecondX, 0.2, t + 0.4), sigma_px, dice));
@@ -79,7 +79,7 @@ TEST(MatchPeople, TellsTwoPersonsApartInFourCamerasWhateverTheirOrder) {
     const auto truth = [&](double x, double z, double later) {
       double worst = 0;
       for (std::size_t c = 0; c < 4; ++c) {
-        for (std::size_t k = 0; k < kWalkFrames; ++k) {
+        for (std::size_t k = 0; k < kPersonFrames; ++k) {
           const LandmarkPlaces places = Walker(x, z, static_cast<double>(k) / kRate + later);
           if (!person.seen[c][k]) return 1e9;
           const Keypoint& hip = (*person.seen[c][k])[Landmark::kLeftHip];
@@ -109,8 +109,8 @@ TEST(MatchPeople, JoinsWhatACameraLostForAWhileByTheOthers) {
 TEST(MatchPeople, LeavesAPersonAloneWhomNoOtherCameraSees) {
   const std::vector<Camera> cameras = Pinholes();
   RandomStream dice = WalkersDice("bystander");
-  std::vector<SeenPeople> people(4, SeenPeople(kWalkFrames));
-  for (std::size_t k = 0; k < kWalkFrames; ++k) {
+  std::vector<SeenPeople> people(4, SeenPeople(kPersonFrames));
+  for (std::size_t k = 0; k < kPersonFrames; ++k) {
     const double t = static_cast<double>(k) / kRate;
     for (std::size_t c = 0; c < 4; ++c) people[c][k].push_back(Seen(cameras[c], Walker(0, 0, t), 1, dice));
     people[2][k].push_back(Seen(cameras[2], Walker(1.5, -1, 0.2 * t), 1, dice));
@@ -133,15 +133,15 @@ TEST(RecoverPerson, GivesExactKeypointsPlacesBackThroughLenses) {
   EXPECT_NEAR(person->body.lengths.upper_arm, 0.29, 1e-6);
   EXPECT_NEAR(person->body.lengths.hand, 0.72 * 0.25, 1e-6);
   EXPECT_EQ(std::ranges::count(person->is_held, true), 0);
-  EXPECT_EQ(person->motion.poses.size(), kWalkFrames);
-  EXPECT_EQ(person->clip.frames.size(), kWalkFrames);
+  EXPECT_EQ(person->motion.poses.size(), kPersonFrames);
+  EXPECT_EQ(person->clip.frames.size(), kPersonFrames);
 }
 
 /// One walker alone, in all four cameras.
 std::vector<SeenPeople> OneWalker(const std::vector<Camera>& cameras, double sigma_px) {
   RandomStream dice = WalkersDice("one");
-  std::vector<SeenPeople> people(cameras.size(), SeenPeople(kWalkFrames));
-  for (std::size_t k = 0; k < kWalkFrames; ++k) {
+  std::vector<SeenPeople> people(cameras.size(), SeenPeople(kPersonFrames));
+  for (std::size_t k = 0; k < kPersonFrames; ++k) {
     const LandmarkPlaces walker = Walker(0, 0, static_cast<double>(k) / kRate);
     for (std::size_t c = 0; c < cameras.size(); ++c) people[c][k].push_back(Seen(cameras[c], walker, sigma_px, dice));
   }
@@ -151,7 +151,7 @@ std::vector<SeenPeople> OneWalker(const std::vector<Camera>& cameras, double sig
 /// The largest distance of any joint of the skeleton to the walker's, metres.
 double WorstJoint(const RecoveredPerson& person) {
   double worst = 0;
-  for (std::size_t k = 0; k < kWalkFrames; ++k) {
+  for (std::size_t k = 0; k < kPersonFrames; ++k) {
     const RoleVectors truth = JointsOf(Walker(0, 0, static_cast<double>(k) / kRate));
     for (const Role role : AllRoles()) {
       if (!truth[Index(role)]) continue;
@@ -173,11 +173,11 @@ TEST(RecoverPerson, ItsSkeletonIsNearerToTheTruthThanNoisyPoints) {
   const auto person = Recover(cameras, OneWalker(cameras, 2), PersonOptions());
   ASSERT_TRUE(person) << ToString(person.error());
   std::vector<LandmarkPlaces> walk;
-  for (std::size_t k = 0; k < kWalkFrames; ++k) walk.push_back(Walker(0, 0, static_cast<double>(k) / kRate));
+  for (std::size_t k = 0; k < kPersonFrames; ++k) walk.push_back(Walker(0, 0, static_cast<double>(k) / kRate));
   const MarkerMotion truth = JointMarkers(walk, kRate);
   const MarkerAgreement skeleton = CompareAllMarkers(JointMarkers(person->motion), truth);
   const MarkerAgreement points = CompareAllMarkers(JointMarkers(person->landmarks, kRate), truth);
-  EXPECT_EQ(skeleton.frames, 19 * kWalkFrames) << "all but the spine";
+  EXPECT_EQ(skeleton.frames, 19 * kPersonFrames) << "all but the spine";
   EXPECT_GT(points.median_mm, 4) << "the control: 2 px are 9 mm at 4 m, of which four cameras leave a half";
   EXPECT_LT(skeleton.median_mm, points.median_mm);
   EXPECT_LT(skeleton.p95_mm, points.p95_mm);
@@ -191,7 +191,7 @@ TEST(RecoverPerson, ItsClipHasTheJointsWhereTheMotionHas) {
   for (const Role role : {Role::kLeftKnee, Role::kRightAnkle, Role::kLeftElbow, Role::kRightWrist, Role::kHead}) {
     const int joint = person->clip.skeleton.Find(std::string(RoleName(role)));
     ASSERT_GE(joint, 0) << RoleName(role);
-    for (std::size_t k = 0; k < kWalkFrames; ++k) {
+    for (std::size_t k = 0; k < kPersonFrames; ++k) {
       ComputeGlobals(person->clip.skeleton, person->clip.frames[k], globals);
       EXPECT_LT(glm::distance(globals[joint].position, person->motion.poses[k][role]), 1e-9) << RoleName(role);
     }

@@ -297,10 +297,12 @@ double LowestJoint(const BodyMotion& motion) {
 
 TEST(Dance, NoJointIsBelowTheFloor) {
   for (const auto& [name, motion] : AllDances()) {
-    EXPECT_NEAR(LowestJoint(motion), CanonicalBody::kToeHeight, 1e-6) << name << ": toes are the lowest, and on the floor";
+    EXPECT_NEAR(LowestJoint(motion), CanonicalBody::kToeHeight, 1e-6)
+        << name << ": toes are the lowest, and on the floor";
   }
   const Change deeper = [](Controls& controls) { controls[MiddleControl::kHipsDrop] += 0.3; };
-  EXPECT_LT(LowestJoint(Danced(LoadMove("stretch"), deeper)), CanonicalBody::kToeHeight) << "hands go through the floor";
+  EXPECT_LT(LowestJoint(Danced(LoadMove("stretch"), deeper)), CanonicalBody::kToeHeight)
+      << "hands go through the floor";
 }
 
 }  // namespace
