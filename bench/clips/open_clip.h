@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "bench/clips/clip_file.h"
 #include "engine/base/result.h"
 #include "engine/motion/character.h"
 #include "engine/motion/clip.h"
@@ -14,6 +15,24 @@
 #include "engine/retargeting/to_body.h"
 
 namespace etude {
+
+enum class ClipFormat { kBvh, kGltf, kGlb, kDeepMimic, kBuiltin };
+/// "BVH", "glTF", "GLB", "DeepMimic", "built-in"
+std::string_view FormatName(ClipFormat format);
+
+/// What a motion file holds.
+struct ClipFile {
+  ClipFormat format = ClipFormat::kBvh;
+  Character figure;         ///< a skeleton, and meshes if the file has any
+  std::vector<Clip> clips;  ///< on that skeleton; a glTF file may have none
+};
+
+/// Larger files, or a .gltf with more in its buffers, are refused before memory is taken.
+constexpr std::uintmax_t kLargestClipFile = 500'000'000;
+
+/// Reads a BVH or glTF file or a motion of DeepMimic, told by its content, whatever it is called. The buffers of a
+/// .gltf are read from its own folder and below only, links leading out of it are refused.
+Result<ClipFile> ReadClipFile(const std::string& path);
 
 /// What a reference to a clip may be told beside its name.
 struct OpenOptions {

@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 
+#include "bench/model/payload.h"
 #include "engine/base/image.h"
 #include "engine/base/result.h"
 
@@ -41,5 +43,9 @@ class Encoder {
   int pictures_;  ///< the socket that ffmpeg reads from; −1 once closed
   Log log_;       ///< what ffmpeg says on its standard error
 };
+
+/// Puts the takes among `files` into `folder`, each as a film: `camera-1-0000.png`, `camera-1-0001.png`, … (in this
+/// order, PNG) become `camera-1.mp4`. Fails where ffmpeg does, for instance at odd widths.
+Result<void> SaveTakeFilms(std::span<const Attachment> files, int rate_hz, const std::filesystem::path& folder);
 
 }  // namespace etude

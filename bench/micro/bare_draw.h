@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

@@ -2,8 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "engine/fuzzy/membership.h"
+#include "engine/fuzzy/weights.h"
 
 namespace etude {
 
@@ -31,5 +35,34 @@ struct GeneticResult {
 /// the answer scores no less than any ancestor. The same seed gives the same answer.
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
+
+/// Within which share of d² = 0.4² the genetic algorithms take pairs for let through in part (PairTable::SoftF1). Close
+/// pairs are so few that F1 itself moves in steps of single pairs: a search by it learns those by heart, and does worse
+/// on other clips.
+constexpr double kFitnessRamp = 0.5;
+
+/// The `genetic` weights (paper A's future work; how is ours): the S ≥ 0 of sum 8 by which "d < 0.4" tells the close
+/// pairs best, by their soft F1. The first ancestor is `start`, so that what is learnt does no worse on what it saw.
+/// Status as of FitWeights, `iterations` counts generations; unless kFitted, the weights are `start`.
+WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
+                                const GeneticOptions& options = {});
+
+/// The weights that genes in [0, 1] stand for: their squares' proportions, with sum 8. A gene is a √S, by which
+/// equation 1 stretches a difference of grades; so weights near zero are found, too. Nothing when all genes are zero.
+std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
+/// The genes of weights of which one is above zero.
+Genome GenesOf(const FeatureWeights& weights);
+
+/// How far a breakpoint may move from where it was, as a share of its feature's universe.
+constexpr double kBreakpointReach = 0.2;
+
+/// How many genes the memberships have: one per breakpoint within the universe of the triangular and trapezoidal
+/// shapes. Breakpoints at its ends stay there, so that shoulders stay shoulders; left and right limbs share theirs;
+/// Gaussian and singleton shapes stay as they are.
+std::size_t CountMembershipGenes(const Memberships& start);
+
+/// The memberships that genes in [0, 1] stand for: every breakpoint of `start` moved by (2 gene − 1) reaches, and each
+/// shape's put back into rising order. All genes ½ is `start`.
+Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 
 }  // namespace etude

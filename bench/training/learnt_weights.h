@@ -6,7 +6,6 @@
 #include <tuple>
 #include <vector>
 
-#include "bench/training/training_clips.h"
 #include "bench/training/training_pairs.h"
 #include "engine/fuzzy/fuzzy_system.h"
 

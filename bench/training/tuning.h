@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "bench/training/genetic_search.h"
-#include "bench/training/match_score.h"
-#include "bench/training/training_clips.h"
+#include "bench/training/training_pairs.h"
 #include "engine/fuzzy/fuzzy_system.h"
 
 namespace etude {

@@ -1,10 +1,52 @@
 #pragma once
 
+#include <array>
+#include <glm/glm.hpp>
+#include <vector>
+
 #include "engine/base/image.h"
 #include "engine/vision/limb_evidence.h"
+#include "engine/vision/limb_regions.h"
 #include "engine/vision/near_person.h"
+#include "sim/body/shape.h"
 
 namespace etude {
+
+/// The part that each stroke runs along, and the part that it hangs from, in the order of `StrokeMarks`: the joint
+/// between the two is the stroke's `from`.
+struct LimbParts {
+  Part limb;
+  Part inner;
+};
+constexpr std::array<LimbParts, kStrokeCount> kLimbParts = {{
+    {Part::kLeftThigh, Part::kTrunk},
+    {Part::kLeftShank, Part::kLeftThigh},
+    {Part::kLeftFoot, Part::kLeftShank},
+    {Part::kRightThigh, Part::kTrunk},
+    {Part::kRightShank, Part::kRightThigh},
+    {Part::kRightFoot, Part::kRightShank},
+    {Part::kLeftUpperArm, Part::kTrunk},
+    {Part::kLeftForearm, Part::kLeftUpperArm},
+    {Part::kLeftHand, Part::kLeftForearm},
+    {Part::kRightUpperArm, Part::kTrunk},
+    {Part::kRightForearm, Part::kRightUpperArm},
+    {Part::kRightHand, Part::kRightForearm},
+    {Part::kHead, Part::kTrunk},
+}};
+
+/// What an annotator can tell apart in one picture.
+struct Regions {
+  int width = 0, height = 0;
+  std::array<Region, kPartCount> parts;
+  /// Where a limb touches the part it hangs from: the middles of all pixel sides between them, by stroke.
+  std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
+
+  const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
+};
+
+/// The visible parts of the performer that lie on `person` or at most `margin_px` beside it (in u and in v): what the
+/// segmenter lost is not seen. All pictures have the same size.
+Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const Mask& person, int margin_px);
 
 /// One picture as the annotator is shown it; all three of one size.
 struct AnnotatedPicture {

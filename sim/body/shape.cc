@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace etude {
 namespace {
@@ -182,6 +183,11 @@ double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dv
   return t < kInfinity && along >= 0 && along <= length ? t : kInfinity;
 }
 
+// From the world's axes to the box's.
+glm::dvec3 Turned(const glm::dvec3& v, double sine, double cosine) {
+  return {cosine * v.x - sine * v.z, v.y, sine * v.x + cosine * v.z};
+}
+
 }  // namespace
 
 std::vector<Capsule> BodyCapsules(const BodyPose& pose) {
@@ -221,6 +227,25 @@ JointSight SightOf(const std::vector<Capsule>& body, const BodyPose& pose, Role 
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye) {
   const JointSight sight = SightOf(body, pose, role, eye);
   return sight.other < sight.skin - kHidingClearance;
+}
+
+double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3& direction) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double sine = std::sin(box.heading), cosine = std::cos(box.heading);
+  const glm::dvec3 from = Turned(origin - box.centre, sine, cosine), along = Turned(direction, sine, cosine);
+  double enter = 0, leave = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (along[axis] == 0) {
+      if (std::abs(from[axis]) > box.half_size[axis]) return kInfinity;
+      continue;
+    }
+    double near = (-box.half_size[axis] - from[axis]) / along[axis];
+    double far = (box.half_size[axis] - from[axis]) / along[axis];
+    if (near > far) std::swap(near, far);
+    enter = std::max(enter, near);
+    leave = std::min(leave, far);
+  }
+  return enter <= leave ? enter : kInfinity;
 }
 
 }  // namespace etude

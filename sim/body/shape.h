@@ -8,7 +8,8 @@
 
 namespace etude {
 
-/// What a pixel or a ray can meet, as numbers in label images: the parts of the performer's body, and what else is there.
+/// What a pixel or a ray can meet, as numbers in label images: the parts of the performer's body, and what else is
+/// there.
 enum class Part : std::uint32_t {
   kBackground = 0,
   kShadow = 1,
@@ -68,5 +69,16 @@ constexpr double kHidingClearance = 0.02;
 /// Whether a part other than those ending in `role` stands between `eye` and the joint: clearly before the skin that
 /// the eye would see there. `body` is `BodyCapsules(pose)`.
 bool IsHidden(const std::vector<Capsule>& body, const BodyPose& pose, Role role, const glm::dvec3& eye);
+
+/// A solid box that stands upright, turned about the vertical: furniture, as far as rays and pictures need it. Metres.
+struct Cuboid {
+  glm::dvec3 centre{0};
+  glm::dvec3 half_size{0.5};  ///< along its own axes, each positive
+  double heading = 0;         ///< radians: its own +Z points to (sin heading, 0, cos heading)
+};
+
+/// The distance along the ray (unit direction) to the box's surface, or infinity. A ray that starts inside meets it at
+/// 0.
+double HitDistance(const Cuboid& box, const glm::dvec3& origin, const glm::dvec3& direction);
 
 }  // namespace etude

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/image.h"
 #include "engine/cameras/camera.h"
 #include "sim/camera/camera_effects.h"
 #include "sim/camera/light.h"
 #include "sim/random/stream.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 
@@ -55,5 +56,42 @@ class LensWarp {
   std::vector<std::int32_t> nearest_;    ///< likewise: each pixel's place in the pinhole's picture
   std::vector<RowRange> source_of_row_;  ///< likewise
 };
+
+/// Spreads every point to a Gaussian of standard deviation `sigma_px`, cut off beyond three of them; what lies outside
+/// is taken to be like the nearest pixel. A lens out of focus spreads a point to a disc, but its aberrations and the
+/// sensor's pixels round that off; MTF(f) = exp(−2π²σ²f²), f in cycles per pixel. Not deeper or shallower with
+/// distance.
+class Defocus {
+ public:
+  explicit Defocus(double sigma_px);
+  void Apply(LightImage& light);
+
+ private:
+  void BlurAcross(const Light* row, std::size_t width, Light* out);
+
+  std::vector<float> weights_;  ///< of the middle, and of those 1, 2, … away
+  std::vector<Light> padded_row_, across_;
+  std::vector<const float*> rows_;
+};
+
+/// The share of the light that reaches a pixel, 0…1.
+using Transmission = Image<float>;
+
+/// Darkens towards the corners: cos(θ) to the power 4 · strength, θ between the pixel's ray and the axis. 1 is what
+/// geometry alone does to a lens; mounts and filters add to it.
+void AddVignette(const Camera& camera, double strength, Transmission& transmission);
+
+/// A speck of dust before the sensor: its shadow is soft, because the light comes from the whole lens.
+struct Speck {
+  double x = 0, y = 0;  ///< pixels
+  double radius = 0;    ///< pixels, to where half of the shadow is left
+};
+
+/// Ten specks of 2 to 6 pixels, anywhere in a picture of that size.
+std::vector<Speck> ThrowSpecks(int width, int height, RandomStream& random);
+
+/// Each speck keeps `strength` of the light away in its middle, and half as much at its radius:
+/// strength / (1 + (d / radius)⁴) at distance d. Shadows of several multiply.
+void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission);
 
 }  // namespace etude

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "engine/motion/body.h"
 #include "engine/motion/character.h"
+#include "engine/motion/clip.h"
 #include "engine/retargeting/joint_map.h"
-#include "sim/render/renderer.h"
+#include "engine/retargeting/to_body.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 
@@ -39,5 +43,24 @@ Figure FigureAt(const Character& character, const std::vector<Surface>& still,
 /// The joints of a skeleton's pose in the world.
 std::vector<GlobalTransform> GlobalsInWorld(const Skeleton& skeleton, const LocalPose& pose,
                                             const glm::dmat4& to_world);
+
+/// The figure that a file brings along with its clip, moving as recorded: its meshes and textures on its own skeleton.
+class RecordedFigure {
+ public:
+  /// Of a clip with the character's skeleton, which `map` has understood and `body` has put into the world.
+  RecordedFigure(std::shared_ptr<const Character> character, Clip clip, const JointMap& map,
+                 const BodyConversion& body);
+
+  /// At a frame of the body's motion, also between frames (`SampleFrame`), and moved along the floor.
+  Figure At(double frame, const FloorMove& move = {}) const;
+
+ private:
+  std::shared_ptr<const Character> character_;
+  Clip clip_;
+  double first_ = 0;             // the clip's frame that is the motion's first one
+  double frames_per_frame_ = 1;  // of the clip, for one of the motion
+  glm::dmat4 to_world_{1};
+  std::vector<Surface> still_;  // one per mesh: all of it that no pose changes
+};
 
 }  // namespace etude

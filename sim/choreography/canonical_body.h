@@ -59,4 +59,11 @@ struct BodyDimensions {
 /// legs: a child's step is a child's.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
+/// The ready stance near which every move starts and ends: feet on their home spots, knees soft,
+/// arms loosely hanging. What a choreography file does not name stands like this.
+Controls ReadyStance();
+
+/// The canonical body at rest: legs straight, arms hanging. The pose to calibrate, fit and compare by.
+BodyPose StandingPose();
+
 }  // namespace etude

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "engine/base/image.h"
@@ -8,6 +9,12 @@
 #include "sim/skeleton_sensor/options.h"
 
 namespace etude {
+
+/// 1 where what `camera` sees gets no light from a projector `baseline_m` on its right (+x of the camera's frame, same
+/// viewing direction): something nearer in the same row lies between. Left of an edge that is f · b · (1/z_near −
+/// 1/z_far) pixels wide. Rows are taken as the planes of projector and camera, which a lens bends a little; what stands
+/// outside the picture throws no shadow into it. None with `baseline_m` 0.
+Mask ProjectorShadow(const DepthImage& depth, const Camera& camera, double baseline_m);
 
 /// What a depth camera is, and how strongly each of its faults shows.
 struct DepthCameraOptions {

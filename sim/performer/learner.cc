@@ -11,7 +11,7 @@
 
 #include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
-#include "sim/performer/eased_time.h"
+#include "sim/performer/rendition.h"
 
 namespace etude {
 namespace {

@@ -11,7 +11,7 @@
 #include "sim/performer/person.h"
 #include "sim/performer/rendition.h"
 #include "sim/performer/session.h"
-#include "sim/performer/sway.h"
+#include "sim/performer/style.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -10,7 +10,6 @@
 #include "sim/performer/fault.h"
 #include "sim/performer/person.h"
 #include "sim/performer/rendition.h"
-#include "sim/performer/stray.h"
 #include "sim/random/stream.h"
 
 namespace etude {

@@ -53,4 +53,16 @@ Controls RestOf(const Person& person);
 /// nears the end of the range.
 Controls WithinReach(const Controls& wanted, const Controls& authored);
 
+/// Nobody stands like a post: weight wanders from foot to foot, the chest breathes, the head looks about.
+class Sway {
+ public:
+  explicit Sway(RandomStream& random);
+
+  /// What it adds to a standing body, seconds after the session's first frame.
+  Controls At(double time_s) const;
+
+ private:
+  std::array<double, 5> phases_{};
+};
+
 }  // namespace etude

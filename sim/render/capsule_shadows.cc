@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/render/backdrop.h"
+#include "sim/render/empty_room.h"
 
 namespace etude {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 
 namespace etude {
@@ -30,5 +31,31 @@ std::string SurfaceFragmentShader(Skin skin);
 /// The same triangles, thrown from the lamp onto the floor or the wall.
 std::string SurfaceShadowVertexShader();
 std::string SurfaceShadowFragmentShader();
+
+// GLSL that several programs share.
+
+/// The pixel's ray, where it meets the empty room, and the room's light.
+extern const char* const kRoomGeometry;
+/// `vec4 LitPaint(paint, normal, point, ray)`: how the lamp and the room's light show on people. After kRoomGeometry.
+extern const char* const kBodyLight;
+/// `bool IsBehindRoom(depth)`: whether the empty room hides that depth of the pixel; with the uniform `farthest`.
+extern const char* const kRoomInFront;
+/// `vec4 RoomInShadow(hit, point, inside, softness)`: a pixel of the room that a body darkens. After kRoomGeometry.
+extern const char* const kShadowLight;
+
+/// A vertex shader's `vec3 BoxCorner()`, one of the 14 of the strip that is a box around a capsule, and `void
+/// Place(point)`. One instance per capsule (CapsuleInstance).
+extern const char* const kCapsuleBox;
+/// `vec3 StudioPaint(place, is_wall, blur)`: the studio's tiles and spots.
+extern const char* const kStudioPaint;
+/// `vec3 Painted(index, place, blur)`: the patterns of surface_paint.h, made of these: what they share, those of rooms
+/// or nothing in their place, the function itself.
+extern const char* const kPaintPatterns;
+extern const char* const kRoomPatterns;
+extern const char* const kNoRoomPatterns;
+extern const char* const kPainted;
+
+/// One shader's source, version first.
+std::string AssembleShader(std::initializer_list<const char*> pieces);
 
 }  // namespace etude

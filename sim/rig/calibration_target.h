@@ -6,7 +6,7 @@
 #include "engine/boards/board.h"
 #include "engine/boards/find_boards.h"
 #include "engine/cameras/dlt.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/base/angles.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 namespace {

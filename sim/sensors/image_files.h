@@ -6,7 +6,7 @@
 
 #include "engine/base/image.h"
 #include "engine/base/result.h"
-#include "sim/render/renderer.h"
+#include "sim/render/scene.h"
 #include "sim/sensors/normals.h"
 
 namespace etude {

@@ -3,14 +3,29 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <vector>
 
 #include "engine/motion/body.h"
+#include "sim/body/shape.h"
 #include "sim/random/stream.h"
 #include "sim/skeleton_sensor/joint_errors.h"
 #include "sim/skeleton_sensor/options.h"
-#include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
+
+/// Which joints of one frame are hidden.
+using HiddenJoints = std::array<bool, kRoleCount>;
+
+/// What may stand between a sensor and the body, beside the body itself.
+struct Occluders {
+  std::vector<Cuboid> furniture;
+  std::vector<BodyPose> bystander;  ///< a second person: a pose per frame (the last one stays), none = nobody
+};
+
+/// Which joints of `pose` in this frame `eye` does not see: the ray to the joint meets another part of the body,
+/// furniture or the second person clearly (2 cm) before the joint's own skin. The flesh is what the renderer draws
+/// (sim/body).
+HiddenJoints FindHidden(const BodyPose& pose, std::size_t frame, const Occluders& occluders, const glm::dvec3& eye);
 
 /// What the sensor makes of a joint that is not plainly seen.
 struct Guess {

@@ -1,13 +1,57 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 
 #include "engine/motion/body.h"
 #include "engine/recognition/skeleton_stream.h"
-#include "sim/skeleton_sensor/motion_window.h"
 
 namespace etude {
+
+/// Metres per second, by role.
+using JointSpeeds = std::array<double, kRoleCount>;
+
+/// How a body moves in one frame.
+struct FrameMotion {
+  JointSpeeds speeds{};                    ///< over the two frames before and after
+  std::array<double, kRoleCount> moves{};  ///< 0 for a foot that rests on the floor, 1 in motion and for other joints
+};
+
+/// The motion around each frame of a stream. A foot counts as moving shortly before it leaves and after it lands, so
+/// a frame's motion is known kAhead frames later.
+class MotionWindow {
+ public:
+  static constexpr std::size_t kAhead = 7;
+
+  /// `rate_hz` > 0.
+  explicit MotionWindow(double rate_hz) : rate_hz_(rate_hz) {}
+
+  /// The next frame of the stream.
+  void Push(const BodyPose& pose);
+  /// No frame follows: the last ones' motion is of what there is.
+  void End() { ended_ = true; }
+  /// The next frame whose motion is known: its pose and motion, each frame once, in order; nothing when none is.
+  struct Known {
+    const BodyPose& pose;  ///< valid until the next Push
+    FrameMotion motion;
+  };
+  std::optional<Known> Next();
+
+ private:
+  static constexpr std::size_t kKept = 16;  // frames: a power of two, above twice kAhead
+
+  const BodyPose& PoseAt(std::size_t frame) const { return poses_[frame % kKept]; }
+  void NoteSpeeds();
+
+  double rate_hz_;
+  bool ended_ = false;
+  std::size_t count_ = 0;   ///< poses pushed
+  std::size_t speeds_ = 0;  ///< frames whose speeds are noted
+  std::size_t next_ = 0;    ///< the frame to be told next
+  std::array<BodyPose, kKept> poses_{};
+  std::array<JointSpeeds, kKept> noted_{};
+};
 
 /// What watches a body while it moves, whatever it sees by: a loop is closed over this.
 class LiveSensor {

@@ -10,9 +10,7 @@
 #include "sim/skeleton_sensor/episodes.h"
 #include "sim/skeleton_sensor/joint_errors.h"
 #include "sim/skeleton_sensor/live_sensor.h"
-#include "sim/skeleton_sensor/motion_window.h"
 #include "sim/skeleton_sensor/options.h"
-#include "sim/skeleton_sensor/visibility.h"
 
 namespace etude {
 

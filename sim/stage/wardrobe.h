@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "sim/character/outfit.h"
-#include "sim/render/renderer.h"
+#include "sim/character/dressed_person.h"
+#include "sim/render/scene.h"
 
 namespace etude {
 

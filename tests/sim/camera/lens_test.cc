@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "sim/body/shape.h"
-#include "sim/choreography/stance.h"
+#include "sim/choreography/canonical_body.h"
 #include "tests/sim/camera/shots.h"
 
 namespace etude {
