@@ -15,17 +15,18 @@ struct TimeSpan {
   double from_s = 0;
   double to_s = 0;
 };
-/// "1.5:4"; either end may be left out. Refused: anything else, an end before its start.
+/// Reads a span such as "1.5:4", of which either end may be left out. Anything else and an end before its start are
+/// refused.
 Result<TimeSpan> ParseTimeSpan(const std::string& text);
 
-/// The part of a clip; all of it without one. An open end is the clip's.
+/// Returns that part of a clip, or all of it without a span. An open end is the clip's.
 Result<Clip> TrimTo(const Clip& clip, const std::optional<TimeSpan>& span);
 
 enum class MotionFormat { kBvh, kGlb, kTrc, kCsv };
-/// By the extension of a file's name.
+/// Returns the format of a file by the extension of its name.
 Result<MotionFormat> FormatOfName(const std::string& path);
 
-/// Who a converted motion shall be performed by.
+/// The figure that performs a converted motion.
 enum class Performer { kFile, kNone, kBear, kMannequin };
 
 struct ConvertOptions {
@@ -38,7 +39,7 @@ struct ConvertOptions {
   OpenOptions open;
 };
 
-/// The bytes of the converted file, and what was done on the way, in plain words.
+/// The bytes of the converted file, and a note in plain words on what was done.
 struct Converted {
   std::string bytes;
   std::string note;

@@ -58,7 +58,7 @@ Result<ColourImage> DecodeTexture(std::string_view bytes, std::size_t most_pixel
   return bytes.starts_with("\x89PNG") ? DecodeColourPng(bytes, most_pixels) : ReadJpeg(bytes, most_pixels);
 }
 
-/// What the first bytes say of a file that is neither: some formats are often met, and easily made into one of ours.
+/// Describes a file of another format by its first bytes: some are often met, and easily made into one of ours.
 std::string WhatElse(std::string_view bytes, const std::string& first_word) {
   const bool is_fbx = bytes.starts_with("Kaydara FBX Binary") || bytes.starts_with("; FBX");
   if (is_fbx) return "an FBX file, which Blender turns into glTF";

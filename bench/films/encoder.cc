@@ -55,7 +55,7 @@ int Spawn(const std::vector<std::string>& arguments, int input, int errors, pid_
   return error;
 }
 
-/// "camera-1-0042.png" → "camera-1"; empty for other names.
+/// Returns the take in a picture's name, "camera-1" of "camera-1-0042.png"; empty for other names.
 std::string_view TakeOf(std::string_view name) {
   constexpr std::string_view kForm = "-0000.png";
   if (name.size() <= kForm.size()) return {};

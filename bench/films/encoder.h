@@ -19,15 +19,15 @@ namespace etude {
 /// dropped before Finish leaves nothing behind.
 class Encoder {
  public:
-  /// Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes with them, kept
-  /// without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
+  /// Starts ffmpeg. Pictures must have this size (even numbers) and follow at `rate_hz`. `sound`: a WAV file that goes
+  /// with them, kept without a loss (FLAC); empty = silence. Fails when `program` cannot be started, saying why.
   static Result<Encoder> Start(const std::filesystem::path& path, int width, int height, int rate_hz,
                                const std::filesystem::path& sound = {}, const std::string& program = "ffmpeg");
   ~Encoder();
   Encoder(Encoder&& other) noexcept;
   Encoder& operator=(Encoder&&) = delete;
 
-  /// Fails when ffmpeg has given up; its last words come with the error.
+  /// Sends a picture. Fails when ffmpeg has stopped; its message comes with the error.
   Result<void> Add(const ColourImage& picture);
   /// Waits for ffmpeg to end and puts the file at its path.
   Result<void> Finish();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/result.h"
+#include "engine/cameras/camera.h"
 #include "sim/render/scene.h"
 
 namespace etude {

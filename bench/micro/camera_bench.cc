@@ -3,6 +3,7 @@
 
 #include "sim/camera/camera_model.h"
 #include "sim/choreography/canonical_body.h"
+#include "sim/render/renderer.h"
 
 namespace etude {
 namespace {

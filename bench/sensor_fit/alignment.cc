@@ -33,7 +33,7 @@ std::array<std::optional<Carrier>, kRoleCount> CarriersAt(const TwinMotion& twin
   return carriers;
 }
 
-/// All pairs in every `stride`-th frame.
+/// Returns all pairs in every `stride`-th frame.
 std::vector<Pair> PairsAt(const JointRecording& recording, const TwinMotion& twin, double shift_s, std::size_t stride) {
   std::vector<Pair> pairs;
   for (std::size_t t = 0; t < recording.frames.size(); t += stride) {
@@ -94,7 +94,7 @@ double RootMeanSquare(const std::vector<Pair>& pairs, const TwinAlignment& align
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-/// By turns until what is left changes no more; `alignment` holds where to begin.
+/// Fits rotation, translation and offsets by turns until the remaining distance settles; `alignment` holds the start.
 void Settle(const std::vector<Pair>& pairs, int most_turns, TwinAlignment& alignment) {
   constexpr double kSettled = 1e-6;  // metres
   std::vector<glm::dvec3> from(pairs.size()), to(pairs.size());

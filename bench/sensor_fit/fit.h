@@ -10,23 +10,23 @@
 
 namespace etude {
 
-/// A real recording, its twin, and how they lie to each other: what simulated recordings are made of and held against.
+/// A real recording, its twin, and their alignment: simulated recordings are made from them and compared with them.
 struct RealRecording {
   JointRecording recording;
   TwinMotion twin;
   TwinMatch match;
 };
 
-/// Aligns the two. Nothing when they do not go together (see `AlignTwin`).
+/// Aligns the two. Returns nothing when they do not go together (see `AlignTwin`).
 std::optional<RealRecording> MakeRealRecording(JointRecording recording, TwinMotion twin);
 
 SensorStatistics StatisticsOf(const RealRecording& real);
 
-/// What the simulated sensor says of the twin's motion, from the real sensor's place (2.75 m before the body and 1 m
-/// high where nobody knows it). Absent where the twin is.
+/// Simulates the sensor's report of the twin's motion, from the real sensor's place (2.75 m before the body and 1 m
+/// high where it is not known). Joints are absent where the twin's are.
 JointRecording Simulate(const RealRecording& real, const SkeletonSensorOptions& options, const WorldKey& world);
 
-/// The statistics of so many simulated recordings, each aligned to the twin as a real one.
+/// Summarises the statistics of so many simulated recordings, each aligned to the twin as a real one.
 SensorStatisticsSummary SimulatedStatistics(const RealRecording& real, const SkeletonSensorOptions& options, int worlds,
                                             const WorldKey& first_world);
 
@@ -37,11 +37,11 @@ struct SensorFitOptions {
   std::function<void(int step)> progress;
 };
 
-/// The sensor whose simulated recordings of the twin's motion have the real one's statistics, by moments: simulate,
-/// compare, correct, again. Fitted: each group's size and depth ratio, planted feet, correlations along bones, the
-/// quiet part, the fast part's share, how much shoulders, arms and hands stretch (by the hands' jumps), the reference
-/// distance. Everything else cannot be told from a recording like these, and is kept. What the recording does not show
-/// (a group that was never seen) is kept, too. Deterministic.
+/// Fits the sensor whose simulated recordings of the twin's motion have the real one's statistics, by moments:
+/// simulate, compare, correct, again. Fitted: each group's size and depth ratio, planted feet, correlations along
+/// bones, the quiet part, the fast part's share, how much shoulders, arms and hands stretch (by the hands' jumps), the
+/// reference distance. Everything else cannot be told from a recording like these, and is kept. What the recording does
+/// not show (a group that was never seen) is kept, too. Deterministic.
 SkeletonSensorOptions FitSensor(const RealRecording& real, const SensorFitOptions& options);
 
 }  // namespace etude

@@ -44,7 +44,7 @@ ErrorSeries ErrorsOf(const JointRecording& recording, const TwinMatch& match, Ro
   return series;
 }
 
-/// Whether the twin's joint is at rest around a frame.
+/// Tells whether the twin's joint is at rest around a frame.
 bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, double rate_hz) {
   constexpr std::size_t kReach = 5;
   constexpr double kResting = 0.1;  // m/s
@@ -208,7 +208,7 @@ void MeasureJumps(const JointRecording& recording, SensorStatistics& result) {
   result.hand_jump_cm = 100 * LowerPercentile(std::move(jumps), 0.99);
 }
 
-/// Every value of some statistics, in one order.
+/// Returns every value of some statistics, in one order.
 std::vector<std::optional<double>*> ValuesOf(SensorStatistics& s) {
   std::vector<std::optional<double>*> values = {
       &s.shoulders_and_hips_mm, &s.planted_feet_mm,        &s.quiet_white_mm,     &s.arm_bones_percent,

@@ -41,7 +41,7 @@ std::string Describe(const StreamRecording& recording, const MadeStream& made) {
   return text;
 }
 
-/// All files below a folder, sorted; links to folders are not followed.
+/// Lists all files below a folder, sorted; links to folders are not followed.
 Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   std::vector<std::string> files;
   std::error_code error;
@@ -54,7 +54,7 @@ Result<std::vector<std::string>> FilesBelow(const std::string& folder) {
   return files;
 }
 
-/// Whether a file of a folder may be a recording, by its beginning; labels and read-mes are none.
+/// Tells by its beginning whether a file of a folder may be a recording; labels and read-mes are none.
 Result<bool> LooksLikeStream(const std::string& path) {
   if (IsClip(path)) return true;
   if (fs::path(path).extension() == ".tagstream") return false;
@@ -81,7 +81,7 @@ Result<void> AddFolder(const std::string& folder, const StreamReading& reading, 
   return {};
 }
 
-/// Whom the labels of each stream name; "" where they name nobody.
+/// Returns whom the labels of each stream name; "" where they name nobody.
 Result<std::vector<std::string>> NamedByLabels(const LabelledStreams& all) {
   std::vector<std::string> names(all.streams.size());
   for (const LabelledPart& part : all.parts) {

@@ -21,7 +21,7 @@ constexpr double kMutation = 0.2;       // the chance of a gene
 constexpr double kMutationWidth = 0.1;  // standard deviation
 constexpr unsigned kTournament = 2;
 
-/// What Pagmo minimises.
+/// The problem that Pagmo minimises.
 struct Problem {
   const std::function<double(std::span<const double>)>* score = nullptr;
   std::size_t genes = 0;
@@ -33,11 +33,11 @@ struct Problem {
 };
 
 using enum Feature;
-/// Features and, for limbs, what is tuned along with them.
+/// The tuned features, each with the limb's other side, which is tuned along with it.
 constexpr Feature kTuned[][2] = {{kRH, kLH},       {kRHE, kLHE}, {kPosture, kPosture},
                                  {kTrunk, kTrunk}, {kRF, kLF},   {kRFK, kLFK}};
 
-/// The breakpoints of a shape, rising; none of shapes that have none.
+/// Returns the breakpoints of a shape, rising; Gaussian and singleton shapes have none.
 std::vector<double> BreakpointsOf(const Shape& shape) {
   if (const auto* triangle = std::get_if<Triangular>(&shape)) return {triangle->left, triangle->peak, triangle->right};
   if (const auto* top = std::get_if<Trapezoidal>(&shape)) {

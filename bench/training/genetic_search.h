@@ -14,12 +14,12 @@ namespace etude {
 /// A genome: genes in [0, 1].
 using Genome = std::vector<double>;
 
-/// How long and how widely to search. The defaults are where more of either no longer changed what was learnt.
+/// The length and width of the search. At the defaults, more of either no longer changed what was learnt.
 struct GeneticOptions {
   int population = 40;
   int generations = 60;
   std::uint64_t seed = 1;
-  /// Told after every generation: how many there have been, and the best score so far.
+  /// Called after every generation with the number of generations and the best score so far.
   std::function<void(int generation, double best)> progress = {};
 };
 
@@ -29,40 +29,40 @@ struct GeneticResult {
   int generations = 0;
 };
 
-/// A genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation, the best of
-/// parents and children survive). Looks for the genome of the highest `score`, which must be finite and depend on
-/// the genome alone. The first population is `ancestors` (at least one, all of the same length), then random ones; so
-/// the answer scores no less than any ancestor. The same seed gives the same answer.
+/// Searches by a genetic algorithm (Holland; Pagmo's `sga`: tournaments of 2, binomial crossover, Gaussian mutation,
+/// the best of parents and children survive). It looks for the genome of the highest `score`, which must be finite and
+/// depend on the genome alone. The first population is `ancestors` (at least one, all of the same length), then random
+/// ones; so the answer scores no less than any ancestor. The same seed gives the same answer.
 GeneticResult SearchGenetically(const std::function<double(std::span<const double>)>& score,
                                 std::span<const Genome> ancestors, const GeneticOptions& options = {});
 
-/// Within which share of d² = 0.4² the genetic algorithms take pairs for let through in part (PairTable::SoftF1). Close
-/// pairs are so few that F1 itself moves in steps of single pairs: a search by it learns those by heart, and does worse
-/// on other clips.
+/// The share of d² = 0.4² within which the genetic algorithms count a pair as let through in part (PairTable::SoftF1).
+/// Close pairs are so few that F1 itself moves in steps of single pairs: a search by it learns those by heart, and does
+/// worse on other clips.
 constexpr double kFitnessRamp = 0.5;
 
-/// The `genetic` weights (paper A's future work; how is ours): the S ≥ 0 of sum 8 by which "d < 0.4" tells the close
-/// pairs best, by their soft F1. The first ancestor is `start`, so that what is learnt does no worse on what it saw.
-/// Status as of FitWeights, `iterations` counts generations; unless kFitted, the weights are `start`.
+/// Fits the `genetic` weights (paper A's future work; how is ours): the S ≥ 0 of sum 8 by which "d < 0.4" tells the
+/// close pairs best, by their soft F1. The first ancestor is `start`, so that what is learnt does no worse on what it
+/// saw. Status as of FitWeights, `iterations` counts generations; unless kFitted, the weights are `start`.
 WeightFit FitWeightsGenetically(std::span<const LabelledPair> pairs, const FeatureWeights& start,
                                 const GeneticOptions& options = {});
 
-/// The weights that genes in [0, 1] stand for: their squares' proportions, with sum 8. A gene is a √S, by which
+/// Returns the weights that genes in [0, 1] stand for: their squares' proportions, with sum 8. A gene is a √S, by which
 /// equation 1 stretches a difference of grades; so weights near zero are found, too. Nothing when all genes are zero.
 std::optional<FeatureWeights> WeightsOfGenes(std::span<const double> genes);
-/// The genes of weights of which one is above zero.
+/// Returns the genes of weights of which at least one is above zero.
 Genome GenesOf(const FeatureWeights& weights);
 
-/// How far a breakpoint may move from where it was, as a share of its feature's universe.
+/// The largest move of a breakpoint, as a share of its feature's universe.
 constexpr double kBreakpointReach = 0.2;
 
-/// How many genes the memberships have: one per breakpoint within the universe of the triangular and trapezoidal
-/// shapes. Breakpoints at its ends stay there, so that shoulders stay shoulders; left and right limbs share theirs;
-/// Gaussian and singleton shapes stay as they are.
+/// Returns the number of genes of the memberships: one per breakpoint within the universe of the triangular and
+/// trapezoidal shapes. Breakpoints at its ends stay there, so that shoulders stay shoulders; left and right limbs share
+/// theirs; Gaussian and singleton shapes stay as they are.
 std::size_t CountMembershipGenes(const Memberships& start);
 
-/// The memberships that genes in [0, 1] stand for: every breakpoint of `start` moved by (2 gene − 1) reaches, and each
-/// shape's put back into rising order. All genes ½ is `start`.
+/// Returns the memberships that genes in [0, 1] stand for: every breakpoint of `start` moved by (2 gene − 1) reaches,
+/// and each shape's put back into rising order. All genes ½ is `start`.
 Memberships MembershipsOfGenes(const Memberships& start, std::span<const double> genes);
 
 }  // namespace etude

@@ -25,27 +25,28 @@ struct TrainingClips {
   std::vector<std::vector<TrainingFrame>> frames;  ///< of each clip, sampled evenly
 };
 
-/// Frames taken of a clip, in the middles of as many equal parts, so that long clips count no more than short ones;
-/// all frames of a shorter clip.
+/// The number of frames taken of a clip, in the middles of as many equal parts, so that long clips count no more than
+/// short ones; all frames of a shorter clip.
 constexpr int kFramesPerClip = 16;
 
 /// Samples clips as they came, retargeted to `proportions`.
 TrainingClips SampleClips(std::vector<std::string> identities, std::span<const BodyMotion> clips,
                           const BodyProportions& proportions);
 
-/// Pairs grow with the square of the clips: more would make learning slow, and teach little.
+/// The most clips to learn from. Pairs grow with the square of the clips: more would make learning slow, and teach
+/// little.
 constexpr std::size_t kMostTrainingClips = 40;
 
-/// Every built-in move, and those of `clips` that are none, by their identities; all retargeted to `proportions`. Of
-/// more than kMostTrainingClips, evenly chosen ones.
+/// Gathers every built-in move and, by their identities, the other clips of `clips`, all retargeted to `proportions`.
+/// Of more than kMostTrainingClips, evenly chosen ones.
 Result<TrainingClips> GatherTrainingClips(std::span<const BodyMotion> clips, const std::vector<std::string>& identities,
                                           const BodyProportions& proportions);
 
-/// Every pair of a frame of `a` and one of `b`, labelled close when its true pose gap is below kCloseGap.
+/// Returns every pair of a frame of `a` and one of `b`, labelled close when its true pose gap is below kCloseGap.
 std::vector<LabelledPair> LabelPairs(std::span<const TrainingFrame> a, std::span<const TrainingFrame> b,
                                      const Memberships& memberships = PaperMemberships());
 
-/// The pairs of all these clips, two different clips each.
+/// Returns the pairs of all these clips, each of two different clips.
 std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingFrame>> clips,
                                            const Memberships& memberships = PaperMemberships());
 
@@ -54,7 +55,7 @@ std::vector<LabelledPair> LabelPairsAcross(std::span<const std::vector<TrainingF
 void GradeAnew(std::span<const std::vector<TrainingFrame>> clips, const Memberships& memberships,
                std::span<LabelledPair> pairs);
 
-/// How well "d < threshold" tells close pairs from others.
+/// The score of telling close pairs from others by "d < threshold".
 struct MatchScore {
   int matched = 0;        ///< pairs with d < threshold
   int close = 0;          ///< pairs that are close

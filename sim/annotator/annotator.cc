@@ -103,16 +103,16 @@ void Exchange(const Pair& pair, PictureEvidence& seen) {
   }
 }
 
-/// Where this picture's marks are put, joint by joint.
-class ErringHand {
+/// The errors of this picture's marks, joint by joint.
+class PictureErrors {
  public:
-  ErringHand(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
-             const PictureEvidence& seen)
+  PictureErrors(const PersonErrors& errors, const std::array<glm::dvec2, kRoleCount>& bias, const PictureDice& dice,
+                const PictureEvidence& seen)
       : errors_(errors), bias_(bias), dice_(dice), seen_(seen) {
-    LookAtLimbs();
+    MeasureLimbs();
   }
 
-  /// By how much a mark misses the joint centre, pixels.
+  /// Returns by how much a mark misses the joint centre, pixels.
   glm::dvec2 ErrorAt(Role role) const {
     const std::size_t i = Index(role);
     const glm::dvec2 along = along_[i], across(-along.y, along.x);
@@ -126,7 +126,7 @@ class ErringHand {
     return dice_.miss[stroke] < Strength() * MissProbability(*seen_.limbs[stroke]);
   }
 
-  /// Between the marked ends, and perhaps too short.
+  /// Returns the stroke between the marked ends, perhaps too short.
   PixelSegment Stroke(std::size_t i) const {
     const PixelSegment& line = seen_.limbs[i]->line;
     const glm::dvec2 a = line.a + ErrorAt(StrokeMarks()[i].from), b = line.b + ErrorAt(StrokeMarks()[i].to);
@@ -139,7 +139,7 @@ class ErringHand {
   double Strength() const { return errors_.error_px / kUsualErrorPx; }
 
   // A joint's bias lies along the limb beyond it, else along the one before it; it is as unclear as the less clear one.
-  void LookAtLimbs() {
+  void MeasureLimbs() {
     along_.fill({0, 1});
     for (std::size_t i = kStrokeCount; i-- > 0;) {
       if (!seen_.limbs[i]) continue;
@@ -207,7 +207,7 @@ Annotator::Annotator(const PersonErrors& errors, const EvidenceOptions& eye, con
                      int camera)
     : errors_(errors), eye_(eye), dice_(key, annotator, camera) {}
 
-void Annotator::Mistake(const PictureDice& dice, PictureEvidence& seen) {
+void Annotator::SwapSides(const PictureDice& dice, PictureEvidence& seen) {
   const double strength = errors_.error_px / kUsualErrorPx;
   for (std::size_t i = 0; i < kPairs.size(); ++i) {
     const double begins = strength * (kSwapProbability + kOverlapSwapProbability * Overlap(seen, kPairs[i]));
@@ -224,19 +224,19 @@ void Annotator::Mistake(const PictureDice& dice, PictureEvidence& seen) {
 Marks Annotator::Mark(int frame, const AnnotatedPicture& picture) {
   const PictureDice& dice = dice_.Throw(frame);
   PictureEvidence seen = SeePicture(picture, eye_);
-  Mistake(dice, seen);
-  const ErringHand hand(errors_, dice_.bias(), dice, seen);
+  SwapSides(dice, seen);
+  const PictureErrors errors(errors_, dice_.bias(), dice, seen);
   Marks marks;
   std::array<bool, kStrokeCount> overlooked{};
   for (std::size_t i = 0; i < kStrokeCount; ++i) {
     if (!seen.limbs[i]) continue;
-    overlooked[i] = hand.Overlooks(i);
-    if (!overlooked[i]) marks.strokes[i] = hand.Stroke(i);
+    overlooked[i] = errors.Overlooks(i);
+    if (!overlooked[i]) marks.strokes[i] = errors.Stroke(i);
   }
   for (std::size_t i = 0; i < kEffectorCount; ++i) {
     const Role role = EffectorMarks()[i].role;
     const auto& joint = seen.joints[Index(role)];
-    if (joint && !overlooked[StrokeTo(role)]) marks.effectors[i] = *joint + hand.ErrorAt(role);
+    if (joint && !overlooked[StrokeTo(role)]) marks.effectors[i] = *joint + errors.ErrorAt(role);
   }
   return marks;
 }

@@ -12,8 +12,8 @@
 
 namespace etude {
 
-/// The part that each stroke runs along, and the part that it hangs from, in the order of `StrokeMarks`: the joint
-/// between the two is the stroke's `from`.
+/// The part that a stroke runs along, and the part that it hangs from; the joint between the two is the stroke's
+/// `from`. The table is in the order of `StrokeMarks`.
 struct LimbParts {
   Part limb;
   Part inner;
@@ -34,35 +34,35 @@ constexpr std::array<LimbParts, kStrokeCount> kLimbParts = {{
     {Part::kHead, Part::kTrunk},
 }};
 
-/// What an annotator can tell apart in one picture.
+/// The regions that an annotator can tell apart in one picture.
 struct Regions {
   int width = 0, height = 0;
   std::array<Region, kPartCount> parts;
-  /// Where a limb touches the part it hangs from: the middles of all pixel sides between them, by stroke.
+  /// The borders between a limb and the part it hangs from: the middles of all pixel sides between them, by stroke.
   std::array<std::vector<glm::dvec2>, kStrokeCount> borders;
 
   const Region& operator[](Part part) const { return parts[static_cast<std::size_t>(part)]; }
 };
 
-/// The visible parts of the performer that lie on `person` or at most `margin_px` beside it (in u and in v): what the
-/// segmenter lost is not seen. All pictures have the same size.
+/// Finds the visible parts of the performer that lie on `person` or at most `margin_px` beside it (in u and in v): what
+/// the segmenter lost is not seen. All pictures have the same size.
 Regions FindRegions(const LabelImage& labels, const ColourImage& colours, const Mask& person, int margin_px);
 
-/// One picture as the annotator is shown it; all three of one size.
+/// A picture as the annotator is shown it; all three images have one size.
 struct AnnotatedPicture {
   const LabelImage& labels;    ///< which part is seen where: stands for the eye that tells limbs apart
   const ColourImage& colours;  ///< decides only how clearly a limb stands out
   const Mask& person;          ///< what the segmenter cut out; the rest is not seen
 };
 
-/// What the annotator looks with.
+/// The options of the annotator's view of a picture.
 struct EvidenceOptions {
   FigureLook look;
   int margin_px = kFrayedEdgePx;
 };
 
-/// What the annotator can know from one picture and from anatomy (`FindLimbEvidence`); nothing else enters. What these
-/// rules cost in exact joint centres: docs/annotator.md, by joint.
+/// Returns what the annotator can know from one picture and from anatomy (`FindLimbEvidence`); nothing else enters.
+/// What these rules cost in exact joint centres: docs/annotator.md, by joint.
 PictureEvidence SeePicture(const AnnotatedPicture& picture, const EvidenceOptions& options = {});
 
 }  // namespace etude

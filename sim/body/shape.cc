@@ -156,7 +156,7 @@ bool IsInside(const Capsule& capsule, const glm::dvec3& point) {
   return glm::dot(off, off) <= capsule.radius * capsule.radius;
 }
 
-/// Whether the ray misses the sphere around the whole capsule, by so much that rounding cannot matter: most do.
+/// Tells whether the ray misses the sphere around the whole capsule by so much that rounding cannot matter, as most do.
 bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   constexpr double kAir = 1e-6;  // metres
   const glm::dvec3 from = origin - 0.5 * (capsule.a + capsule.b);
@@ -165,7 +165,7 @@ bool PassesBy(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3
   return outside > 0 && (along > 0 || along * along < outside);
 }
 
-/// Where the ray enters the round side of the capsule, its half-spheres aside.
+/// Returns where the ray enters the round side of the capsule, its half-spheres aside.
 double SideEntry(const Capsule& capsule, const glm::dvec3& origin, const glm::dvec3& direction) {
   const glm::dvec3 axis = capsule.b - capsule.a;
   const double length = glm::length(axis);

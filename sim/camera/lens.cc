@@ -43,7 +43,7 @@ void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __
   }
 }
 
-/// The same for any reach, pass by pass; the sums have the same order.
+/// Weighs rows likewise for any reach, pass by pass; the sums have the same order.
 void WeighInPasses(Rows rows, int reach, const float* weights, std::size_t count, float* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = weights[0] * (rows[reach][i] + rows[reach][i]);
   for (int k = 1; k <= reach; ++k) {

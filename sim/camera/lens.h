@@ -12,23 +12,25 @@
 
 namespace etude {
 
-/// The distortion of those strengths in a camera with those intrinsics: k1 = radial / r², where r is the distance of
-/// the picture's farthest corner from the axis at distance 1; tangential |p| = strength / 3r, its direction by one
-/// throw.
+/// Returns the distortion of those strengths for a camera with those intrinsics: k1 = radial / r², where r is the
+/// distance of the picture's farthest corner from the axis at distance 1; tangential |p| = strength / 3r, its direction
+/// by one throw.
 Distortion LensDistortion(const CameraEffects& effects, const Intrinsics& intrinsics, RandomStream& random);
 
-/// Pictures of a pinhole become those of a lens. The renderer draws straight lines only: it draws a pinhole's picture
-/// of the same scale with a margin, and each pixel of the lens's picture is looked up there, by `UndistortPixel`.
+/// Turns pictures of a pinhole into those of a lens. The renderer draws straight lines only: it draws a pinhole's
+/// picture of the same scale with a margin, and each pixel of the lens's picture is looked up there, by
+/// `UndistortPixel`.
 class LensWarp {
  public:
-  /// Every pixel of the camera must come from somewhere: |radial| of a barrel below 0.14 for usual cameras.
+  /// Every pixel of the camera must have a source: |radial| of a barrel stays below 0.14 for usual cameras.
   explicit LensWarp(const Camera& camera);
 
-  /// What to draw: no distortion, and as much more picture as the corners need. The camera itself when it has none.
+  /// Returns the camera to draw for: without distortion, with as much more picture as the corners need; the camera
+  /// itself when it has no distortion.
   const Camera& pinhole() const { return pinhole_; }
   bool is_none() const { return sources_.empty(); }
 
-  /// The pinhole's rows that these rows of the camera are made of.
+  /// Returns the pinhole's rows that these rows of the camera are made of.
   RowRange SourceRows(const RowRange& rows) const;
 
   /// Fills those rows (of a camera with distortion; else labels and depths are copied): light between four pixels,
@@ -38,11 +40,11 @@ class LensWarp {
   void Warp(const LabelImage& source, const RowRange& rows, LabelImage& out) const;
   void Warp(const DepthImage& source, const RowRange& rows, DepthImage& out) const;
 
-  /// A whole picture of the pinhole as the lens shows it. (Colour goes through light and back.)
+  /// Returns a whole picture of the pinhole as the lens shows it; colour goes through light and back.
   View Warp(const View& pinhole) const;
 
  private:
-  /// Where a pixel comes from: its upper left neighbour, and how far it is from there.
+  /// The source of a pixel: its upper left neighbour, and its distance from there.
   struct Source {
     std::int32_t x, y;
     float right, down;
@@ -87,11 +89,11 @@ struct Speck {
   double radius = 0;    ///< pixels, to where half of the shadow is left
 };
 
-/// Ten specks of 2 to 6 pixels, anywhere in a picture of that size.
+/// Draws ten specks of 2 to 6 pixels, anywhere in a picture of that size.
 std::vector<Speck> ThrowSpecks(int width, int height, RandomStream& random);
 
-/// Each speck keeps `strength` of the light away in its middle, and half as much at its radius:
-/// strength / (1 + (d / radius)⁴) at distance d. Shadows of several multiply.
+/// Darkens `transmission` by dust: each speck keeps `strength` of the light away in its middle, and half as much at its
+/// radius: strength / (1 + (d / radius)⁴) at distance d. Shadows of several multiply.
 void AddDust(const std::vector<Speck>& specks, double strength, Transmission& transmission);
 
 }  // namespace etude

@@ -12,7 +12,7 @@
 
 namespace etude {
 
-/// How much a camera takes of the light, and what it makes of the three colours.
+/// The exposure of a picture and the gains of its three colours.
 struct Toning {
   float exposure = 1;                  ///< times the light that falls on the sensor
   float red = 1, green = 1, blue = 1;  ///< times what the sensor tells
@@ -24,7 +24,8 @@ struct Toning {
 class AutomaticToning {
  public:
   AutomaticToning(const CameraEffects& effects, RandomStream& exposure, RandomStream& white_balance);
-  /// exposure = 2^(ev + drift · sin); red / blue = 2^(balance + drift · sin), green is left alone.
+  /// Returns the toning at a time: exposure = 2^(ev + drift · sin); red / blue = 2^(balance + drift · sin), green is
+  /// left alone.
   Toning At(double seconds) const;
 
  private:
@@ -59,11 +60,11 @@ SensorNoise WebcamNoise(double strength, double gain_db);
 class NormalRows {
  public:
   explicit NormalRows(RandomStream& random) : random_(random) {}
-  /// `count` numbers; valid until the next call.
+  /// Returns `count` numbers, valid until the next call.
   const float* Next(std::size_t count);
-  /// The same as places in the table.
+  /// Returns the numbers as places in the table.
   const std::uint16_t* NextPlaces(std::size_t count);
-  /// The number at a place.
+  /// Returns the table of numbers by place.
   static const float* Table();
 
  private:
@@ -73,7 +74,7 @@ class NormalRows {
   std::vector<float> normals_;
 };
 
-/// What comes out for light v and a standard normal number: a full pixel takes no more light.
+/// Returns the noisy value of light v for a standard normal number; a full pixel takes no more light.
 inline float Disturbed(const SensorNoise& noise, float light, float normal) {
   const float deviation = std::sqrt(noise.read * noise.read + noise.photon * noise.photon * (light > 0 ? light : 0));
   const float seen = light + deviation * normal;
@@ -91,28 +92,30 @@ class CodeNoise {
   std::vector<std::uint8_t> outcomes_;  ///< [code][place in the table of normals]
 };
 
-/// What one chip under a Bayer filter tells: in each pixel one colour only, red where row and column are even, blue
-/// where both are odd, green elsewhere.
+/// The picture of one chip under a Bayer filter: each pixel has one colour only, red where row and column are even,
+/// blue where both are odd, green elsewhere.
 using Mosaic = Image<float>;
 
-/// Which of r, g, b a pixel of the mosaic holds: 0, 1, 2.
+/// Returns which of r, g, b a pixel of the mosaic holds: 0, 1 or 2.
 constexpr int BayerColour(int x, int y) { return (x & 1) + (y & 1); }
 
-/// The two colours that each pixel lacks are the mean of the nearest two or four that have them: bilinear demosaicing,
-/// the baseline that better ones are compared with. Beyond an edge the mosaic is mirrored. At least 2 × 2 pixels.
+/// Interpolates the two colours that each pixel lacks, as the mean of the nearest two or four that have them: bilinear
+/// demosaicing, the baseline that better ones are compared with. Beyond an edge the mosaic is mirrored. At least 2 × 2
+/// pixels.
 /// @param out of the mosaic's size
 void Demosaic(const Mosaic& mosaic, LightImage& out);
 
-/// All that stands between the light behind the lens and what the sensor tells of it: light × transmission × exposure,
-/// noise, then the gains of the white balance.
+/// The sensor, from the light behind the lens to the values that it reads: light × transmission × exposure, noise, then
+/// the gains of the white balance.
 struct Sensor {
   const Transmission* transmission = nullptr;  ///< of the light's size; none: all light passes
   Toning toning{};
   SensorNoise noise{};
 
-  /// A chip for each colour. Each row throws for three colours a pixel.
+  /// Reads the light with a chip for each colour. Each row throws for three colours a pixel.
   void ReadColours(RandomStream& random, LightImage& light) const;
-  /// One chip under a Bayer filter; of the throws of ReadColours it uses those of the colours that are there.
+  /// Reads the light with one chip under a Bayer filter; of the throws of ReadColours it uses those of the colours that
+  /// are there.
   void ReadMosaic(const LightImage& light, RandomStream& random, Mosaic& out) const;
 };
 

@@ -7,7 +7,7 @@ namespace etude {
 /// The coach: a friendly low-poly toy bear (paper A, figure 16). Generated, bound to BodySkeleton(StandingPose()).
 Character BearCharacter();
 
-/// The learner: a plain mannequin, likewise.
+/// The learner: a plain mannequin, generated and bound likewise.
 Character MannequinCharacter();
 
 }  // namespace etude

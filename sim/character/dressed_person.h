@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// How a person is built. Joints are the clip's: this is the flesh around them.
+/// The build of a person: the flesh around the joints, which are the clip's.
 enum class Build { kMedium, kSlim, kStout, kChild, kTall };
 
-/// What one person is made of and wears.
+/// The build, the colours and the clothes of one person.
 struct Outfit {
   Build build = Build::kMedium;
   SurfacePaint skin, hair, top, bottom, shoes;
@@ -31,7 +31,8 @@ class DressedPerson {
  public:
   explicit DressedPerson(const Outfit& outfit);
 
-  /// The figure in a pose, filled as PosedFigure fills a body of other proportions; its shadow is that of its capsules.
+  /// Returns the figure in a pose, filled as PosedFigure fills a body of other proportions; its shadow is that of its
+  /// capsules.
   Figure At(const BodyPose& pose) const;
 
  private:

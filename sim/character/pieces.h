@@ -24,7 +24,7 @@ struct Piece {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
 };
 
-/// The same on the body's other side.
+/// Returns the mirror image of a piece, for the body's other side.
 Piece MirrorImage(const Piece& piece);
 
 /// A rounded body that moves with one joint; lengths in centimetres, axes as the body at rest: left, up, forward.
@@ -34,7 +34,7 @@ struct Blob {
   glm::dvec3 centre_cm;    ///< from the joint
   glm::dvec3 half_cm;      ///< half its size along the three axes, before it is tilted
   glm::dvec3 tilt_deg{0};  ///< about left, then up, then forward
-  /// Nothing of it lies lower above the floor: a foot's flat sole.
+  /// The lowest height above the floor, for a foot's flat sole.
   double sole_cm = -std::numeric_limits<double>::infinity();
   int around = 16;  ///< corners of its equator; half as many rings from pole to pole
 };
@@ -84,10 +84,10 @@ class CharacterBuilder {
  public:
   CharacterBuilder(std::string name, const BodyPose& rest);
 
-  /// A paint, as seen on a screen (sRGB); the number to add pieces with.
+  /// Adds a material of a colour in sRGB; returns the number to add pieces with.
   int AddMaterial(std::string name, Rgb8 colour);
   void Add(int material, const Piece& piece);
-  /// The piece and its mirror image on the other side.
+  /// Adds a piece and its mirror image on the other side.
   void AddOnBothSides(int material, const Piece& piece);
 
   Character Take() && { return std::move(character_); }

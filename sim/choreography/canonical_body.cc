@@ -25,7 +25,7 @@ constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
 
-/// Where a foot is, and which way its knee looks.
+/// The place of a foot, and the direction in which its knee points.
 struct FootGoal {
   glm::dvec3 ankle;
   glm::dvec3 to_toe;        // from the ankle

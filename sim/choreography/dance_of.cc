@@ -19,14 +19,14 @@
 namespace etude {
 namespace {
 
-/// Up to so many degrees (Posture: on its scale) a feature is called so.
+/// The word for a feature of up to so many degrees (Posture: on its own scale).
 struct Word {
   double up_to;
   std::string_view word;
 };
 constexpr double kAny = 1e9;
 
-/// What a feature is about, without its side, and its words; "" = not worth saying.
+/// The part of the body that a feature is about, without its side, and its words; "" is not worth saying.
 struct Vocabulary {
   std::string_view feature;  ///< R or L left out
   std::string_view part;     ///< of the body

@@ -13,7 +13,7 @@ using Keys = std::vector<PeriodicCurve::Key>;
 
 constexpr double kStandardGravity = 9.80665;  // m/s²
 
-/// Where a standing foot is on the floor.
+/// The controls that say where a standing foot is on the floor.
 constexpr SideControl kSpot[] = {SideControl::kFootSide, SideControl::kFootAhead, SideControl::kFootTurn};
 
 bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
@@ -22,7 +22,7 @@ bool IsOneOf(std::size_t control, std::span<const SideControl> of) {
   });
 }
 
-/// Whether the foot must be lifted off the floor on its way from one pose to the next.
+/// Tells whether the foot must be lifted off the floor on its way from one pose to the next.
 bool Steps(const Controls& from, const Controls& to, Side side) {
   if (from[MiddleControl::kJump] > 0 || to[MiddleControl::kJump] > 0) return false;
   for (SideControl off_the_floor : {SideControl::kFootLift, SideControl::kLegFree}) {
@@ -48,7 +48,7 @@ Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
 
 double JumpOf(const PoseKey& pose) { return pose.controls[MiddleControl::kJump]; }
 
-/// When a jump happens, in beats from its top: the body is in the air for `flight` before and after it, and the knees
+/// The times of a jump, in beats from its top: the body is in the air for `flight` before and after it, and the knees
 /// throw and catch it from `effort` before to `effort` after.
 struct JumpTimes {
   double flight, effort;
@@ -85,7 +85,7 @@ Keys JumpKeys(const std::vector<PoseKey>& poses, double beat_seconds) {
   return keys;
 }
 
-/// How much of the overlap each control comes late: hips lead, hands and head follow. Feet keep time.
+/// The share of the overlap by which each control comes late: hips lead, hands and head follow, feet keep time.
 constexpr std::array<double, kControlCount> kLateness = [] {
   std::array<double, kControlCount> lateness{};
   const auto late = [&](SideControl control, double share) {

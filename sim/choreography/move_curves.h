@@ -17,8 +17,8 @@ struct PoseKey {
   Ease ease = Ease::kSmooth;  ///< of the way to this pose from the one before
 };
 
-/// The keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two things
-/// are not left to the poses, because nobody would author them well enough:
+/// Returns the keys of one control's curve through the poses of a loop of `beats` beats, each `beat_seconds` long. Two
+/// things are not left to the poses, because nobody would author them well enough:
 /// - a foot whose spot differs between two poses steps there: it is lifted, travels, and is down again before the pose;
 /// - a pose with a jump is the top of a flight that obeys gravity: its height says how far
 ///   off take-off and landing are, and poses near it do not say how high the body is.
@@ -37,12 +37,12 @@ class MoveCurves {
   struct Style {
     /// Follow-through: how many beats the ends of a limb come after its root.
     double overlap_beats = 0;
-    /// How far the hips sink on every beat, metres.
+    /// The depth by which the hips sink on every beat, metres.
     double bounce = 0;
-    /// At the move's own tempo: gravity decides how many beats a flight lasts.
+    /// The length of a beat, seconds: gravity decides how many beats a flight lasts.
     double beat_seconds = 0.5;
-    /// Whether the last pose leads back to the first; if not, the body stands still in the first pose
-    /// before it and in the last one after it.
+    /// If true, the last pose leads back to the first; if not, the body stands still in the first pose before it and in
+    /// the last one after it.
     bool loops = true;
   };
 
@@ -51,13 +51,13 @@ class MoveCurves {
   /// seam.
   MoveCurves(const std::vector<PoseKey>& keys, double beats, Style style);
 
-  /// The smooth loop through bodies at even steps of `beats` beats (at least one): for a performance that no poses
-  /// describe. Equal neighbours are held exactly.
+  /// Makes the smooth loop through bodies at even steps of `beats` beats (at least one), for a performance that no
+  /// poses describe. Equal neighbours are held exactly.
   static MoveCurves Through(std::span<const Controls> bodies, double beats);
 
   const Style& style() const { return style_; }
 
-  /// The body at any beat, before 0 and after the end too.
+  /// Returns the body at any beat, also before 0 and after the end.
   Controls At(double beat) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace etude {
 
-/// How a player of music is worse than the dance's own clock.
+/// The faults of a music player, compared with the dance's own clock.
 struct MusicClockOptions {
   double drift = 0;             ///< it plays 1 + drift seconds of music in a second
   double stutters_per_min = 0;  ///< how often it stands still, on average
@@ -23,9 +23,9 @@ class MusicClock {
 
   void PlayFrom(double music_s);
   void Pause();
-  /// One frame later.
+  /// Moves the clock on by one frame.
   void Tick();
-  /// Seconds into the song.
+  /// Returns the position in the song, seconds.
   double Now() const { return now_s_; }
   bool IsPlaying() const { return playing_; }
 
@@ -37,8 +37,8 @@ class MusicClock {
   int standing_ = 0;  // frames that the stutter still lasts
 };
 
-/// A click on every beat, the first of four higher: samples in [-1, 1] of one channel, `duration_s` long. `beats_s`
-/// ascend; beats outside are silent.
+/// Makes a click on every beat, the first of four higher: samples in [-1, 1] of one channel, `duration_s` long.
+/// `beats_s` ascend; beats outside are silent.
 std::vector<double> ClickTrack(std::span<const double> beats_s, double duration_s, int rate_hz = 44100);
 
 }  // namespace etude

@@ -23,6 +23,8 @@ constexpr std::array<Named<Fault>, 10> kFaults = {{{"amplitude", Fault::kAmplitu
 
 using enum Role;
 
+/// The limbs that strays are measured by: trunk, line of the shoulders, and both upper arms, forearms, thighs, shanks.
+constexpr std::size_t kStrayLimbs = 10;
 constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre},
                                                    {kRightShoulder, kLeftShoulder},
                                                    {kLeftShoulder, kLeftElbow},
@@ -36,6 +38,18 @@ constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre}
 
 /// The middle of the i-th of `count` equal parts of [0, 1].
 double MiddleOf(int i, int count) { return (i + 0.5) / count; }
+
+/// Returns the unit directions of those limbs, as the person stands: `pose` faces +Z when they face the coach. A limb
+/// without length has none (zero), which differs from nothing.
+std::array<glm::dvec3, kStrayLimbs> LimbDirections(const BodyPose& pose) {
+  std::array<glm::dvec3, kStrayLimbs> directions{};
+  for (std::size_t i = 0; i < kStrayLimbs; ++i) {
+    const glm::dvec3 limb = pose[kLimbs[i].child] - pose[kLimbs[i].parent];
+    const double length = glm::length(limb);
+    if (length > 0) directions[i] = limb / length;
+  }
+  return directions;
+}
 
 }  // namespace
 
@@ -77,16 +91,6 @@ Truth TruthOf(const Stray& stray, const StrayLimits& limits) {
   };
   if (is_within(limits.right)) return Truth::kRight;
   return is_within(limits.wrong) ? Truth::kGrey : Truth::kWrong;
-}
-
-std::array<glm::dvec3, kStrayLimbs> LimbDirections(const BodyPose& pose) {
-  std::array<glm::dvec3, kStrayLimbs> directions{};
-  for (std::size_t i = 0; i < kStrayLimbs; ++i) {
-    const glm::dvec3 limb = pose[kLimbs[i].child] - pose[kLimbs[i].parent];
-    const double length = glm::length(limb);
-    if (length > 0) directions[i] = limb / length;
-  }
-  return directions;
 }
 
 double LimbStrayDeg(const std::function<BodyPose(double share)>& meant,

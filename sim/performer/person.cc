@@ -42,7 +42,8 @@ double ChildhoodOf(People kind, double stature_m) {
 /// Normal, but never further than two and a half deviations: nobody is a monster.
 double Bounded(RandomStream& random) { return std::clamp(random.Normal(), -2.5, 2.5); }
 
-/// How far people's own way of standing is from the ready stance, at looseness 1: radians and metres.
+/// Draws how far a person's own way of standing is from the ready stance; sizes are for looseness 1, in radians and
+/// metres.
 Controls DrawPosture(RandomStream& random, double looseness) {
   Controls posture;
   const auto middle = [&](MiddleControl control, double size) {
@@ -137,7 +138,7 @@ double VigourAfter(const Person& person, double danced_s) {
 
 BodyDimensions DimensionsOf(double stature_m, double childhood) {
   constexpr double kCanonicalStature = 1.7;
-  /// Of stature, at four years.
+  /// The shares of stature of a child of four years.
   constexpr BodyDimensions kChild = {.hip_half_width = 0.055,
                                      .thigh = 0.213,
                                      .shank = 0.211,

@@ -35,7 +35,8 @@ std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count,
   return drawn;
 }
 
-/// One more fault that the move can show, in another way than those it has; none when there is no such fault.
+/// Adds one more fault that the move can show, of another kind than those it has; adds none when there is no such
+/// fault.
 void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOptions& options, SessionEvent& event) {
   const Move& asked = *FindByName(moves, event.move);
   std::vector<Fault> left = options.faults.empty() ? AllFaults() : options.faults;
@@ -56,7 +57,7 @@ void AddFault(RandomStream& random, std::span<const Move> moves, const SessionOp
   }
 }
 
-/// One event, ready to be danced.
+/// An event, ready to be danced.
 class Dance {
  public:
   Dance(const SessionEvent& event, Rendition rendition)
@@ -67,7 +68,7 @@ class Dance {
     vigour_ = VigourAfter(rendition_.style().person(), event.start_s);
   }
 
-  /// How much of the body dances: 0 outside the event, 1 inside.
+  /// Returns how much of the body dances: 0 outside the event, 1 inside.
   double Weight(double time_s) const {
     const double since = time_s - starts_s_ - late_s_;
     const double inside =
@@ -78,7 +79,7 @@ class Dance {
   Controls At(double time_s) const { return rendition_.Danced(ShareAt(time_s), vigour_); }
 
   Stray Strays() const { return rendition_.Strays(); }
-  /// When the performance gets to this beat of its move.
+  /// Returns the time at which the performance gets to this beat of its move.
   double TimeOf(double beat) const {
     return starts_s_ + length_s_ * rendition_.DueOf(beat / rendition_.style().move().beats);
   }

@@ -24,7 +24,7 @@ struct SessionOptions {
   double rest_s = 1.5;                  ///< least pause between one event's window and the next first beat; at least 1
 };
 
-/// One scripted performance of a move. All times are seconds from the session's first frame.
+/// A scripted performance of a move. All times are seconds from the session's first frame.
 struct SessionEvent {
   std::string move;                      ///< asked for, and meant
   std::vector<GradedFault> faults = {};  ///< none: performed as meant
@@ -34,8 +34,8 @@ struct SessionEvent {
   Chance chance = {};                    ///< the luck of this performance
   Stray stray;                           ///< truth: from what was meant
   Truth truth = Truth::kRight;           ///< what follows from `stray`
-  /// When the move's last key beat was performed, of right events only: from the choreography's clock and the person's,
-  /// not from any pose.
+  /// The time at which the move's last key beat was performed, for right events only: by the clocks of the choreography
+  /// and of the person, not by any pose.
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }

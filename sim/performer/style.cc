@@ -109,7 +109,7 @@ const std::array<ControlSpan, kControlCount>& Spans() {
 
 bool IsSpot(SideControl control) { return control == kFootSide || control == kFootAhead || control == kFootTurn; }
 
-/// What has no size to make more or less of: whether a leg is free, and how high a body flies.
+/// Tells whether a control is a switch, which no gain or offset changes: whether a leg is free.
 bool IsSwitch(std::size_t control) {
   return control == Controls::SideIndex(Side::kLeft, kLegFree) ||
          control == Controls::SideIndex(Side::kRight, kLegFree);
@@ -125,7 +125,7 @@ std::array<double, 7> DrawTerms(RandomStream& random) {
   return terms;
 }
 
-/// What is left of a deviation where there is so much room: nearly all of a small one, never more than the room.
+/// Returns a deviation that fits into the room: nearly all of a small one, never more than the room.
 double Saturated(double deviation, double room) {
   if (room <= 0) return 0;
   return room * (1 - std::exp(-deviation / room));

@@ -52,7 +52,7 @@ RoomTile MakeTile(const PixelRect& pixels, const LampView& view, int width) {
   return tile;
 }
 
-/// `depths`: metres, infinite where there is no room.
+/// Computes the lamp's view of a picture. `depths`: metres, infinite where there is no room.
 LampView SeeFromLamp(const std::vector<float>& depths, const Camera& camera, const glm::dvec3& lamp) {
   const Intrinsics& in = camera.intrinsics;
   const glm::dmat3 R_WC = glm::transpose(camera.R_CW);

@@ -13,8 +13,8 @@
 
 namespace etude {
 
-/// What makes one tile of floor or wall differ from the next: x, y = centre of a round spot within the
-/// tile (0…1), z = its radius (0 = none; the spot stays inside the tile), w = tone of the tile, 0…1.
+/// The differences between the 64 tiles of floor or wall: x, y = centre of a round spot within the tile (0…1), z = its
+/// radius (0 = none; the spot stays inside the tile), w = tone of the tile, 0…1.
 using TilePattern = std::array<glm::vec4, 64>;
 
 /// The patterns of the room's two surfaces; tile (i, j) uses entry (i mod 8) + 8 (j mod 8).
@@ -23,14 +23,14 @@ struct RoomTexture {
   TilePattern wall;
 };
 
-/// Depends on `seed` alone.
+/// Draws the patterns of a room; they depend on `seed` alone.
 RoomTexture MakeRoomTexture(std::uint64_t seed);
 
 /// Pixels a side, at most: small enough to follow shadows closely, though each tile costs a look at every body.
 constexpr int kRoomTileSize = 16;
 
-/// A part of the picture, and where the lamp sees what the empty room shows there. Directions are unit vectors from the
-/// lamp.
+/// A tile of the picture, and the directions in which the lamp sees what the empty room shows there. Directions are
+/// unit vectors from the lamp.
 struct RoomTile {
   PixelRect pixels;
   glm::dvec3 middle{0};  ///< of the directions
@@ -40,7 +40,7 @@ struct RoomTile {
   double radius = 0;     ///< of that ball
 };
 
-/// What a picture of the empty room shows, as the lamp has it before it. One number per pixel, row by row.
+/// The points that a picture of the empty room shows, seen from the lamp: one number per pixel, row by row.
 struct LampView {
   glm::dvec3 lamp{0};           ///< in the world, metres
   std::vector<float> x, y, z;   ///< from the lamp, along the world's axes, metres; of no room: next to the lamp
@@ -74,7 +74,8 @@ class KeptRooms {
   KeptRooms(const KeptRooms&) = delete;
   KeptRooms& operator=(const KeptRooms&) = delete;
 
-  /// The room seen by `camera`. Changes GL's framebuffer, viewport and program when it has to draw.
+  /// Returns the room seen by `camera`, drawn now or kept. Changes GL's framebuffer, viewport and program when it has
+  /// to draw.
   const KeptRoom& FindOrDraw(const Room& room, const Camera& camera);
 
  private:
@@ -99,10 +100,10 @@ class KeptRooms {
 void FillBackdrop(const KeptRoom& room, int width, double brightness, Targets targets, const RowRange& rows,
                   View& view);
 
-/// The same of a rectangle of a whole picture, its colours only.
+/// Fills a rectangle of a whole picture likewise, with its colours only.
 void FillBackdrop(const KeptRoom& room, double brightness, const PixelRect& rect, ColourImage& picture);
 
-/// The levels of `count` numbers times the brightness, as GL rounds them.
+/// Writes the 8-bit levels of `count` numbers times the brightness, rounded as GL rounds them.
 void RoundToBytes(const float* light, std::size_t count, float brightness, std::uint8_t* bytes);
 
 }  // namespace etude

@@ -7,8 +7,8 @@
 
 namespace etude {
 
-/// One capsule as the vertex shader's box reads it (shaders.cc); frame E has the world's axes and the
-/// origin at the camera's centre.
+/// One capsule as the vertex shader reads it (kCapsuleBox in shaders.h); frame E has the world's axes and the origin at
+/// the camera's centre.
 struct CapsuleInstance {
   glm::vec4 start_and_radius;  ///< in E; of a face, the chin's end
   glm::vec4 end_and_label;     ///< in E
@@ -16,7 +16,7 @@ struct CapsuleInstance {
   glm::vec3 front;             ///< unit; where the face looks
 };
 
-/// All capsules of all figures. Capsules that are not finite, or not thicker than nothing, are left out.
+/// Returns all capsules of all figures. Capsules that are not finite, or not thicker than nothing, are left out.
 std::vector<CapsuleInstance> MakeInstances(const std::vector<Figure>& figures, const glm::dvec3& eye);
 
 /// One corner of a triangle as the surface shaders read it; frame E has the world's axes and the origin at the
@@ -29,13 +29,13 @@ struct SurfaceCorner {
       rest_and_paint;  ///< the place on the body at rest, or RG = that on the texture; A = the paint's number, or −1
 };
 
-/// Corners next to each other that have one texture.
+/// A run of corners that have one texture.
 struct TexturedCorners {
   SharedTexture texture;
   std::size_t first = 0, count = 0;
 };
 
-/// Three corners for each triangle.
+/// The corners of all triangles, three for each.
 struct SurfaceCorners {
   std::vector<SurfaceCorner> plain;    ///< of surfaces in one colour
   std::vector<SurfaceCorner> painted;  ///< of those with a paint
@@ -43,11 +43,12 @@ struct SurfaceCorners {
   std::vector<TexturedCorners> textures;  ///< whose `textured` are
 };
 
-/// All triangles of all figures. Triangles with a corner or normal that is not finite, or that lies beyond any scene,
-/// are left out. Paints are numbered in the order of PaintsOf. The memory of `corners` is used again.
+/// Collects all triangles of all figures into `corners`. Triangles with a corner or normal that is not finite, or that
+/// lies beyond any scene, are left out. Paints are numbered in the order of PaintsOf. The memory of `corners` is used
+/// again.
 void MakeCorners(const std::vector<Figure>& figures, const glm::dvec3& eye, SurfaceCorners& corners);
 
-/// The paints of all surfaces, in the order of their numbers.
+/// Returns the paints of all surfaces, in the order of their numbers.
 std::vector<SurfacePaint> PaintsOf(const std::vector<Figure>& figures);
 
 }  // namespace etude

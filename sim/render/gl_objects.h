@@ -9,16 +9,17 @@
 
 namespace etude {
 
-/// What one draw reads, sent anew for every picture: corners of triangles, or instances of one triangle strip whose
-/// corners the shader makes up. Lives as long as its context.
+/// The vertex data of one draw call, sent anew for every picture: corners of triangles, or instances of one triangle
+/// strip whose corners the shader makes up. Lives as long as its context.
 class VertexStream {
  public:
-  /// One input of the shader: `size` floats, `offset` bytes into an element. The first has location 0, and so on.
+  /// An input of the shader: `size` floats, `offset` bytes into an element. The first has location 0, and so on.
   struct Attribute {
     int size;
     std::size_t offset;
   };
-  /// `strip_length` = corners of the strip that each element stands for; 0 when elements are corners.
+  /// Makes the vertex array. `strip_length` is the number of corners of the strip that each element stands for; 0 when
+  /// elements are corners.
   VertexStream(const GlFunctions& gl, std::size_t element_bytes, GLsizei strip_length,
                std::initializer_list<Attribute> attributes);
 
@@ -28,7 +29,7 @@ class VertexStream {
   }
   bool IsEmpty() const { return count_ == 0; }
   void Draw() const;
-  /// Only `count` corners from `first` on; of streams of corners.
+  /// Draws only `count` corners from `first` on; for streams of corners.
   void DrawSome(std::size_t first, std::size_t count) const;
 
  private:
@@ -44,12 +45,12 @@ class VertexStream {
 /// The textures that GL has been given: a figure's stay from picture to picture. Lives as long as its context.
 class TextureStore {
  public:
-  /// Where shaders find the bound texture; unit 0 is the room's.
+  /// The texture unit where shaders find the bound texture; unit 0 is the room's.
   static constexpr GLint kUnit = 1;
 
   explicit TextureStore(const GlFunctions& gl) : gl_(gl) {}
 
-  /// Binds it to the unit, handed to GL first if need be, with ever smaller copies for what is far away.
+  /// Binds a texture to the unit; a texture that is new is handed to GL first, with mipmaps.
   void Bind(const SharedTexture& texture);
 
  private:
@@ -81,7 +82,8 @@ class FrameTargets {
   /// Makes rectangles, one at least, of the attachments that WriteOnly names ready to be drawn: nobody has drawn there,
   /// nothing is hidden. Drawing is then confined to about them.
   void Clear(const std::vector<PixelRect>& rects);
-  /// Which of the attachments the next draws write. By masks: other attachments would make Mesa finish what is drawn.
+  /// Says which attachments the next draws write. Masks are used because a change of attachments would make Mesa finish
+  /// what is drawn.
   void WriteOnly(bool colour, bool labels, bool depth);
   /// Copies what was drawn in a rectangle out of GL into the pictures of `view`, which have their size already and
   /// begin with `top_row`.

@@ -25,13 +25,13 @@ class Renderer {
   /// wall or a figure.
   View Render(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets);
 
-  /// Only those rows of that picture, the same bytes: the view is as high as there are rows. A rolling shutter sees
-  /// each band of rows at another time.
+  /// Draws only some rows of that picture, with the same bytes: the view is as high as there are rows. A rolling
+  /// shutter sees each band of rows at another time.
   View RenderRows(const Room& room, const std::vector<Figure>& figures, const Camera& camera, Targets targets,
                   const RowRange& rows);
 
-  /// The same picture with smooth edges, for people to look at: drawn at twice the size and averaged,
-  /// at about four times the cost. At most kLargestPicture / 2 wide and high.
+  /// Draws the same picture with smooth edges, for people to look at: at twice the size, then averaged, at about four
+  /// times the cost. At most kLargestPicture / 2 wide and high.
   ColourImage RenderSmooth(const Room& room, const std::vector<Figure>& figures, const Camera& camera);
 
  private:
@@ -48,7 +48,8 @@ Result<Renderer*> SharedRenderer();
 /// cannot be loaded, saying why.
 Result<void> LoadRenderer();
 
-/// What draws, and its version, on which pixels depend: "4.5 (Core Profile) Mesa 22.3.6"; else why nothing draws.
+/// Returns the version of OpenGL and Mesa, on which pixels depend ("4.5 (Core Profile) Mesa 22.3.6"), or the reason why
+/// there is no context.
 std::string RendererVersion();
 
 }  // namespace etude

@@ -14,9 +14,9 @@
 
 namespace etude {
 
-/// How two colours share a surface; those from kPlanks on are for rooms only, on figures they are plain. Places are
-/// metres in the surface's own space: of clothes the body at rest (so that patterns move with it), of a wall or floor
-/// its plane, of furniture the box.
+/// A pattern says how two colours share a surface; those from kPlanks on are for rooms only, on figures they are plain.
+/// Places are metres in the surface's own space: of clothes the body at rest (so that patterns move with it), of a wall
+/// or floor its plane, of furniture the box.
 enum class Pattern {
   kPlain,      ///< the first colour
   kBands,      ///< level bands, `size` apart
@@ -41,7 +41,7 @@ struct SurfacePaint {
   friend bool operator==(const SurfacePaint&, const SurfacePaint&) = default;
 };
 
-/// One colour for every Part of a body, by its number.
+/// The colours of the parts of a body, indexed by the number of the Part.
 using PartColours = std::array<Rgb8, 16>;
 
 /// Triangles in the world, of one colour, or with a paint, or with a texture. Both sides are drawn. Triangles with a
@@ -66,9 +66,9 @@ struct Figure {
   std::vector<Capsule> shape;
   PartColours colours{};
   std::vector<Surface> surfaces{};
-  /// In furnished rooms surfaces throw no shadow themselves: these invisible capsules do it for them.
+  /// Invisible capsules that throw the shadow of the surfaces in furnished rooms, where surfaces throw none themselves.
   std::vector<Capsule> shadow{};
-  /// What all its pixels are labelled, in place of its parts: kBystander, kClutter.
+  /// The label of all its pixels in place of its parts: kBystander or kClutter.
   std::optional<Part> seen_as{};
   bool is_hooded = false;  ///< neither hair nor a face is drawn on its capsules' head
 };
@@ -135,7 +135,7 @@ bool operator==(const Interior&, const Interior&);
 
 /// The room's wall is the plane z = kWallZ, endless and seen from its front only; the floor is y = 0.
 constexpr double kWallZ = -2.5;
-/// Where the one lamp hangs, metres.
+/// The position of the studio's one lamp, metres.
 constexpr glm::dvec3 kLamp{-1.8, 2.9, 4.0};
 
 /// The room: a floor at y = 0 and a wall behind, both textured, lit by one lamp that casts shadows; or an interior.
@@ -158,7 +158,7 @@ struct RowRange {
   int end = 0;
 };
 
-/// Which pictures a caller needs; colour alone is the fastest. The others are left empty.
+/// The pictures that a caller needs: colour alone is the fastest; pictures that are not needed are left empty.
 enum class Targets { kColour, kColourAndLabels, kAll };
 
 /// Pixels left ≤ x < right, top ≤ y < bottom.

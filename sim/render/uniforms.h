@@ -6,20 +6,20 @@
 
 namespace etude {
 
-/// Tells `program` (in use) how this camera's pixels and rays belong together, and where the room's
-/// surfaces and its lamp are.
+/// Sets the camera's pixel geometry, the room's surfaces and its lamp in `program`, which is in use.
 void SetPixelGeometry(const GlFunctions& gl, GLuint program, const Camera& camera, const Room& room);
 
-/// Tells `program` (in use) how the room's lights shine.
+/// Sets the room's lights in `program`, which is in use.
 void SetLights(const GlFunctions& gl, GLuint program, const Lights& lights);
 
-/// Tells `program` (in use) the paints `first`, `first` + 1, ….
+/// Sets the paints `first`, `first` + 1, … in `program`, which is in use.
 void SetPaints(const GlFunctions& gl, GLuint program, const std::vector<SurfacePaint>& paints, int first = 0);
 
 void SetPoint(const GlFunctions& gl, GLuint program, const char* name, const glm::dvec3& point);
 glm::vec3 ToShares(Rgb8 colour);
 
-/// Tells `program` (in use: InteriorFragmentShader) what stands in the room.
+/// Sets the walls, the furniture and the pictures of an interior in `program`, which is in use
+/// (InteriorFragmentShader).
 void SetInterior(const GlFunctions& gl, GLuint program, const Interior& interior);
 
 }  // namespace etude

@@ -1,5 +1,7 @@
 #include "sim/rig/rig.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

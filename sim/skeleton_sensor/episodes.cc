@@ -9,7 +9,7 @@
 namespace etude {
 namespace {
 
-/// How far from `eye` the ray to `joint` meets furniture or the second person.
+/// Returns how far from `eye` the ray to `joint` meets furniture or the second person.
 double NearestOccluder(const std::vector<Cuboid>& furniture, const std::vector<Capsule>& bystander,
                        const glm::dvec3& joint, const glm::dvec3& eye) {
   double nearest = std::numeric_limits<double>::infinity();

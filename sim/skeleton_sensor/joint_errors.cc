@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// How a first-order low pass keeps its value over one frame; a time constant of 0 keeps nothing.
+/// Returns the share of its value that a first-order low pass keeps over one frame; a time constant of 0 keeps nothing.
 double MemoryOf(double time_s, double rate_hz) { return time_s > 0 ? std::exp(-1.0 / (rate_hz * time_s)) : 0.0; }
 
 constexpr double kLoudnessTime = 0.7;  // seconds that a burst lasts, about (ours)
@@ -66,7 +66,7 @@ Sight SightOf(const Camera& sensor, const glm::dvec3& joint, const SkeletonSenso
           .along_growth = DepthDeviation(options.depth_law, z) / DepthDeviation(options.depth_law, z0)};
 }
 
-/// From unit errors (across, across, along) to metres in the world.
+/// Turns unit errors (across, across, along) into metres in the world.
 glm::dvec3 InWorld(const Sight& sight, const glm::dvec3& unit, double size, double depth_ratio) {
   const double across = size / std::sqrt(2 + depth_ratio * depth_ratio);
   return sight.axes *

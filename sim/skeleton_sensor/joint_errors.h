@@ -16,10 +16,10 @@ namespace etude {
 /// pass (Ornstein–Uhlenbeck, correlation exp(−t/τ)), or through two.
 class SlowNoise {
  public:
-  /// `time_s`: the longer time constant; `smoothing_s`: the shorter, 0 = one low pass only. Starts stationary.
+  /// Starts stationary. `time_s` is the longer time constant, `smoothing_s` the shorter; 0 means a single low pass.
   SlowNoise(double time_s, double smoothing_s, double rate_hz, RandomStream& dice);
 
-  /// The next frame's value; three throws.
+  /// Returns the next frame's value; takes three throws.
   glm::dvec3 Next(RandomStream& dice);
 
  private:
@@ -27,12 +27,12 @@ class SlowNoise {
   glm::dvec3 first_{0}, second_{0};
 };
 
-/// Short noise in bursts: unit variance over long times, heavy tails. Kurtosis 3 exp(4 tail²).
+/// Short noise in bursts, of unit variance over long times and with heavy tails. Kurtosis 3 exp(4 tail²).
 class BurstNoise {
  public:
   BurstNoise(double time_s, double tail, double rate_hz, RandomStream& dice);
 
-  /// Six throws.
+  /// Returns the next frame's value; takes six throws.
   glm::dvec3 Next(RandomStream& dice);
 
  private:
@@ -40,7 +40,7 @@ class BurstNoise {
   SlowNoise noise_, loudness_;
 };
 
-/// Over what distances a joint's error changes, metres.
+/// The distances over which a joint's error changes, metres.
 struct PoseLengths {
   double own = 0.25;  ///< moving the joint itself, or the next joint of its limb
   double far = 0.8;   ///< moving the arms, for joints of the trunk and legs
@@ -57,7 +57,7 @@ class PoseField {
  private:
   static constexpr int kWaves = 12;
   static constexpr std::size_t kMostPlaces = 5;
-  /// Where one joint is, from another or in the world.
+  /// A place that the function depends on: of one joint, from another or in the world.
   struct Seen {
     Role joint;
     bool from_shoulders;
@@ -73,7 +73,7 @@ class PoseField {
   std::array<Wave, kWaves> waves_;
 };
 
-/// Which error of one joint goes with a pose: unit mean square per axis, with jumps where the mode changes.
+/// The error of one joint as a function of the pose: unit mean square per axis, with jumps where the mode changes.
 class PoseError {
  public:
   PoseError(Role role, const SkeletonSensorOptions& options, RandomStream& dice);
@@ -85,7 +85,7 @@ class PoseError {
   double usual_size_ = 1, mode_size_ = 1, threshold_ = 0;
 };
 
-/// How far each joint of a frame is reported from where it is, metres, in the world.
+/// The offset of each joint of a frame from its true to its reported place, metres, in the world.
 using FrameErrors = std::array<glm::dvec3, kRoleCount>;
 
 /// The continuous errors of plainly seen joints, frame by frame. In units of its group's size, and along the line of
@@ -96,7 +96,7 @@ class ContinuousErrors {
   /// `rate_hz` > 0.
   ContinuousErrors(const Camera& sensor, const SkeletonSensorOptions& options, double rate_hz, const WorldKey& world);
 
-  /// Of the next frame; as many throws whatever the pose.
+  /// Returns the errors of the next frame; takes as many throws whatever the pose.
   FrameErrors Next(const BodyPose& pose, const FrameMotion& motion);
 
  private:

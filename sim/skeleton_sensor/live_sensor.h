@@ -9,10 +9,10 @@
 
 namespace etude {
 
-/// Metres per second, by role.
+/// The speeds of the joints, metres per second, by role.
 using JointSpeeds = std::array<double, kRoleCount>;
 
-/// How a body moves in one frame.
+/// The motion of a body in one frame.
 struct FrameMotion {
   JointSpeeds speeds{};                    ///< over the two frames before and after
   std::array<double, kRoleCount> moves{};  ///< 0 for a foot that rests on the floor, 1 in motion and for other joints
@@ -27,11 +27,11 @@ class MotionWindow {
   /// `rate_hz` > 0.
   explicit MotionWindow(double rate_hz) : rate_hz_(rate_hz) {}
 
-  /// The next frame of the stream.
+  /// Adds the next frame of the stream.
   void Push(const BodyPose& pose);
-  /// No frame follows: the last ones' motion is of what there is.
+  /// Ends the stream: the motion of the last frames is computed from the frames that there are.
   void End() { ended_ = true; }
-  /// The next frame whose motion is known: its pose and motion, each frame once, in order; nothing when none is.
+  /// The pose and the motion of the next frame whose motion is known.
   struct Known {
     const BodyPose& pose;  ///< valid until the next Push
     FrameMotion motion;
@@ -53,17 +53,17 @@ class MotionWindow {
   std::array<JointSpeeds, kKept> noted_{};
 };
 
-/// What watches a body while it moves, whatever it sees by: a loop is closed over this.
+/// The interface of a sensor that watches a body while it moves, for closed loops.
 class LiveSensor {
  public:
-  /// How many frames ahead a body must have planned: sensors err by how it is about to move, cameras look between
-  /// frames. What is reported of a frame depends on later pictures or reports in no case.
+  /// The number of frames that a body must have planned ahead: sensors err by how it is about to move, cameras look
+  /// between frames. What is reported of a frame depends on later pictures or reports in no case.
   static constexpr std::size_t kAhead = MotionWindow::kAhead;
 
   virtual ~LiveSensor() = default;
 
-  /// Takes the body's next pose, and tells what is reported in the frame `kAhead` before it; nothing in the first
-  /// `kAhead` frames.
+  /// Takes the body's next pose and returns the report of the frame `kAhead` before it; nothing in the first `kAhead`
+  /// frames.
   virtual std::optional<SensedFrame> Update(const BodyPose& pose) = 0;
 };
 

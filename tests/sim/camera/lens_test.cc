@@ -8,6 +8,7 @@
 
 #include "sim/body/shape.h"
 #include "sim/choreography/canonical_body.h"
+#include "sim/render/renderer.h"
 #include "tests/sim/camera/shots.h"
 
 namespace etude {

@@ -9,6 +9,7 @@
 #include "sim/body/shape.h"
 #include "sim/choreography/canonical_body.h"
 #include "sim/choreography/move.h"
+#include "sim/render/renderer.h"
 #include "sim/stage/palette.h"
 #include "tests/support/gtest_printers.h"
 
