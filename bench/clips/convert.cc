@@ -65,7 +65,7 @@ Result<Clip> Edited(const Clip& clip, const ConvertOptions& options) {
   return edited;
 }
 
-/// The unit that a BVH file is in, and which axis is up.
+/// Finds the unit that a BVH file is in, and which axis is up.
 Result<BodyConversion> FindUnit(const SourceClip& source, const OpenOptions& options) {
   auto opened = UnderstandClip(source, options);
   if (opened) return std::move(opened->body);

@@ -80,7 +80,7 @@ Result<std::vector<SourceClip>> ReadBuiltin(const std::string& reference) {
   return std::vector<SourceClip>{{reference, reference, ClipFormat::kBuiltin, std::move(clip), nullptr}};
 }
 
-/// The clip of that name; exporters write "Armature|Jump", where "Jump" alone does if there is but one.
+/// Finds the clip of that name; exporters write "Armature|Jump", where "Jump" alone does if there is but one.
 std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::string& name) {
   const auto exactly = std::ranges::find(clips, name, &Clip::name);
   if (exactly != clips.end()) return exactly;
@@ -88,7 +88,7 @@ std::vector<Clip>::iterator FindAnimation(std::vector<Clip>& clips, const std::s
   return std::ranges::count_if(clips, ends_so) == 1 ? std::ranges::find_if(clips, ends_so) : clips.end();
 }
 
-/// The one animation that was asked for, or all.
+/// Keeps the one animation that was asked for, or all.
 Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, std::vector<Clip>& clips) {
   if (clips.empty()) {
     return Fail({wanted.path, 0, 0}, "holds no animation, only a figure (joints: {}, meshes: {})",
@@ -109,14 +109,14 @@ Result<void> KeepWanted(const SplitReference& wanted, const Character& figure, s
 
 const TaughtRoles* TaughtBy(const OpenOptions& options) { return options.roles ? &*options.roles : nullptr; }
 
-/// A skeleton without roles has no ground; UnderstandClip says what it lacks.
+/// Finds the ground of a file with several clips. A skeleton without roles has none; UnderstandClip says what it lacks.
 std::optional<Ground> GroundOf(const ClipFile& file, const std::string& path, const OpenOptions& options) {
   if (file.clips.size() < 2) return std::nullopt;
   const auto map = FindJointMap(file.clips.front().skeleton, path, TaughtBy(options));
   return map ? FindGround(file.clips, *map, options.body) : std::nullopt;
 }
 
-/// Our own skeleton: a joint of the name of every role, exactly there.
+/// Opens a clip of our own skeleton, which has a joint of the name of every role, exactly there.
 Result<OpenedClip> UnderstandBuiltin(SourceClip source, const BodyOptions& options) {
   OpenedClip opened{.source = std::move(source), .map = {}, .body = {}};
   for (const Role role : AllRoles()) {

@@ -30,7 +30,7 @@ struct RealTake {
   bool operator==(const RealTake&) const = default;
 };
 
-/// The values of `RealTake::recovery`.
+/// Returns the values of `RealTake::recovery`.
 const std::vector<std::string>& RealRecoveries();
 
 /// Writes a take as JSON; the bytes are the same for the same take.

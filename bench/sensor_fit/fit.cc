@@ -10,7 +10,7 @@
 namespace etude {
 namespace {
 
-/// A place for every joint of every frame: where the twin has none, the last or else the next one it had.
+/// Returns a place for every joint of every frame: where the twin has none, the last or else the next one it had.
 BodyMotion WholeMotion(const RealRecording& real) {
   BodyMotion motion{.rate_hz = real.recording.rate_hz, .poses = std::vector<BodyPose>(real.match.truth.size())};
   for (const Role role : AllRoles()) {

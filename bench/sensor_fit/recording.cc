@@ -104,7 +104,7 @@ TwinMotion TwinOfJoints(const JointCsv& csv) {
   return twin;
 }
 
-/// The usual rate at which so many frames last `seconds` most nearly.
+/// Returns the usual rate at which so many frames last `seconds` most nearly.
 double UsualRate(std::size_t frames, double seconds) {
   double best = 60, best_error = 1e300;
   for (const double rate : {30.0, 50.0, 60.0, 100.0, 120.0, 200.0, 240.0}) {

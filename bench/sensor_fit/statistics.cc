@@ -55,7 +55,7 @@ bool IsPlanted(const TwinMatch& match, std::size_t frame, std::size_t joint, dou
   return true;
 }
 
-/// The deviation of the distance of two joints over its mean, percent.
+/// Returns the deviation of the distance of two joints over its mean, percent.
 std::optional<double> Variation(const JointRecording& recording, Role a, Role b) {
   std::vector<double> lengths;
   for (const RolePlaces& places : recording.frames) {
@@ -69,7 +69,7 @@ std::optional<double> Variation(const JointRecording& recording, Role a, Role b)
   return mean > 0 ? std::optional(100 * std::sqrt(squares / count) / mean) : std::nullopt;
 }
 
-/// |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.
+/// Returns |p(t−1) − 2 p(t) + p(t+1)| where all three were seen.
 std::optional<double> SecondDifference(const JointRecording& recording, std::size_t t, std::size_t j) {
   if (t == 0 || t + 1 >= recording.frames.size()) return std::nullopt;
   const auto &before = recording.frames[t - 1][j], &here = recording.frames[t][j], &after = recording.frames[t + 1][j];

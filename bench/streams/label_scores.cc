@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// The mean squared distance along the best way, which may stop when it exceeds `enough`.
+/// Returns the mean squared distance along the best way, which may stop when it exceeds `enough`.
 double WarpedCost(const std::vector<PoseVector>& a, const std::vector<PoseVector>& b, double enough) {
   if (a.empty() || b.empty()) return kFar;
   const double all = static_cast<double>(a.size() + b.size());
@@ -40,7 +40,7 @@ struct Described {
   std::vector<PoseVector> steps;
 };
 
-/// The move of the nearest performance by somebody else; "" when there is none.
+/// Returns the move of the nearest performance by somebody else; "" when there is none.
 std::string NearestByOthers(const Described& one, const std::vector<Described>& all) {
   double lowest = kFar;
   std::string move;
@@ -89,7 +89,7 @@ class Fold {
   }
 
  private:
-  /// Parts of one stream.
+  /// Takes the parts of one stream.
   void TakeStream(const std::string& person, std::span<const LabelledPart> parts) {
     const auto is_theirs = [&](const LabelledPart& part) { return part.person == person; };
     if (std::ranges::none_of(parts, is_theirs)) return;

@@ -115,7 +115,7 @@ PairTable::PairTable(std::span<const LabelledPair> pairs) {
   }
 }
 
-/// d² of every pair of the block.
+/// Computes d² of every pair of the block.
 void PairTable::AddUp(const Block& block, const FeatureWeights& weights, float (&squared)[kBlock]) {
   std::array<float, kFeatureCount> factors;
   for (std::size_t k = 0; k < kFeatureCount; ++k) factors[k] = static_cast<float>(weights[k]);

@@ -61,9 +61,9 @@ struct MatchScore {
   int close = 0;          ///< pairs that are close
   int close_matched = 0;  ///< both
 
-  /// The harmonic mean of precision (how many that are let through look alike) and recall (how many that look alike are
-  /// let through, the choice that is left); 0 when no close pair is. Not accuracy or AUC: close pairs are few, and
-  /// both of those are ruled by the mass of far pairs that no threshold near 0.4 ever lets through.
+  /// Returns the harmonic mean of precision (how many that are let through look alike) and recall (how many that look
+  /// alike are let through, the choice that is left); 0 when no close pair is. Not accuracy or AUC: close pairs are
+  /// few, and both of those are ruled by the mass of far pairs that no threshold near 0.4 ever lets through.
   double F1() const { return close_matched > 0 ? 2.0 * close_matched / (matched + close) : 0; }
 };
 

@@ -38,7 +38,7 @@ constexpr double kLastingFrames = 10;
 /// times a camera's noise *(ours)*. Errors that are not bias grow by (1 + unclearness).
 double Unclearness(double contrast);
 
-/// The mistakes made with a limb, for `error_px` = 2; all are *(ours)* and proportional to `error_px`.
+/// The chances and sizes of mistakes with a limb, for `error_px` = 2; all are *(ours)* and proportional to `error_px`.
 double MissProbability(const LimbEvidence& limb);  ///< 0.2 %, up to 10 % more when hardly seen, 3 % when unclear
 constexpr double kShortShare = 0.03;               ///< deviation of the share of a stroke that is left out at each end
 constexpr double kSwapProbability = 0.0003;        ///< per marked frame: left and right arms, or legs, are exchanged

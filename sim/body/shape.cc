@@ -135,7 +135,7 @@ void AddHead(const BodyPose& pose, std::vector<Capsule>& body) {
   body.push_back({Part::kHead, middle - half, middle + half, kHeadPerTrunk * trunk});
 }
 
-/// The smaller root of t² + 2bt + c = 0 when the ray enters from outside, else infinity.
+/// Returns the smaller root of t² + 2bt + c = 0 when the ray enters from outside, else infinity.
 double EntryRoot(double b, double c) {
   const double discriminant = b * b - c;
   if (discriminant < 0) return kInfinity;

@@ -25,7 +25,7 @@ AutomaticToning MakeToning(const CameraEffects& effects, const CameraIdentity& i
   return {effects, exposure, white_balance};
 }
 
-/// full + share · (demosaiced − full)
+/// Mixes the pictures: full + share · (demosaiced − full).
 void Mix(const LightImage& demosaiced, float share, LightImage& full) {
   for (std::size_t i = 0; i < full.pixels.size(); ++i) {
     const Light& to = demosaiced.pixels[i];

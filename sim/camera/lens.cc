@@ -28,7 +28,7 @@ constexpr int kMostUnrolled = 6;
 /// Rows of floats about the middle one: rows[reach + i] is i away.
 using Rows = const float* const*;
 
-/// out[i] = Σ weights[k] · (row −k [i] + row k [i]), k = 0 … kReach, in one pass.
+/// Computes out[i] = Σ weights[k] · (row −k [i] + row k [i]), k = 0 … kReach, in one pass.
 template <int kReach>
 void WeighUnrolled(Rows rows, const float* weights, std::size_t count, float* __restrict out) {
   std::array<float, kReach + 1> w;

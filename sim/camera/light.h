@@ -24,7 +24,8 @@ class CodeTable {
   static const CodeTable& Get();
   std::uint8_t operator()(float light) const { return At(StepOf(light)); }
 
-  /// The conversion in two parts, of which the first can be done for many values at once.
+  /// Returns the step of the table. This is the first of the conversion's two parts, which can be done for many values
+  /// at once.
   static std::int32_t StepOf(float light) {
     const float above = light > 0 ? light : 0;
     const float inside = above < 1 ? above : 1;
@@ -42,7 +43,7 @@ class CodeTable {
 /// Writes rows of pixels, all of one length.
 void DecodeRow(const Rgb8* codes, int pixels, Light* out);
 void EncodeRow(const Light* light, int pixels, Rgb8* out);
-/// Adds share · light.
+/// Adds share · light to a row.
 void AddDecodedRow(const Rgb8* codes, int pixels, float share, Light* out);
 
 }  // namespace etude

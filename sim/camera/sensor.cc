@@ -49,7 +49,7 @@ const NormalTable& Normals() {
   return kNormals;
 }
 
-/// A row with a mirrored pixel at either end: [−1] is [1].
+/// Writes a row with a mirrored pixel at either end: [−1] is [1].
 void Pad(const float* row, int width, float* padded) {
   padded[0] = row[1];
   for (int x = 0; x < width; ++x) padded[x + 1] = row[x];
@@ -61,13 +61,13 @@ struct Colours {
   float own, green, other;
 };
 
-/// At a pixel that holds the row's own colour.
+/// Interpolates at a pixel that holds the row's own colour.
 Colours AtOwn(const float* above, const float* here, const float* below) {
   return {here[0], 0.25f * ((here[-1] + here[1]) + (above[0] + below[0])),
           0.25f * ((above[-1] + above[1]) + (below[-1] + below[1]))};
 }
 
-/// At a green pixel.
+/// Interpolates at a green pixel.
 Colours AtGreen(const float* above, const float* here, const float* below) {
   return {0.5f * (here[-1] + here[1]), here[0], 0.5f * (above[0] + below[0])};
 }

@@ -50,9 +50,9 @@ struct SensorNoise {
   bool IsNone() const { return read == 0 && photon == 0; }
 };
 
-/// An indoor webcam with pixels of 3000 electrons, read with an error of 3: about 3 counts of an 8-bit picture in the
-/// dark, 2.4 at mid-grey, 2 in the light (ours). `strength` multiplies deviations. Amplified by `gain_db`, a pixel is
-/// full with so many fewer electrons.
+/// Returns the noise of an indoor webcam with pixels of 3000 electrons, read with an error of 3: about 3 counts of an
+/// 8-bit picture in the dark, 2.4 at mid-grey, 2 in the light (ours). `strength` multiplies deviations. Amplified by
+/// `gain_db`, a pixel is full with so many fewer electrons.
 SensorNoise WebcamNoise(double strength, double gain_db);
 
 /// Standard normal numbers, six out of each draw: a table of 1024 equally likely quantiles (nothing beyond 3.3

@@ -212,7 +212,7 @@ void AddArms(const Girth& girth, double sleeve_cm, const BodyPose& rest, Dressed
   AddBoth(pieces.top, MakePiece(ArmTube(Scaled(CutOff(kArmRings, std::min(sleeve_cm, 55.0)), g, loose), 1, 0.2), rest));
 }
 
-/// From the waist down around both legs: each side of it goes with its leg.
+/// Makes a skirt from the waist down around both legs; each side of it goes with its leg.
 Piece MakeSkirt(const Girth& girth, double length_cm, const BodyPose& rest) {
   Piece skirt;
   constexpr int kAround = 28, kRings = 7;

@@ -34,7 +34,7 @@ void CloseRings(Piece& piece, int around) {
 
 double CornerAngle(int corner, int around) { return 2 * kPi * corner / around; }
 
-/// A tube's shape in metres.
+/// The shape of a tube, in metres.
 class TubeShape {
  public:
   TubeShape(const Tube& tube, const BodyPose& rest) : tube_(tube) {
@@ -47,7 +47,7 @@ class TubeShape {
     }
   }
 
-  /// The ring that the table means at `along_cm`, within it.
+  /// Returns the ring that the table means at `along_cm`, within it.
   Tube::Ring RingAt(double along_cm) const {
     std::size_t i = 0;
     while (i + 2 < tube_.rings.size() && tube_.rings[i + 1].along_cm < along_cm) ++i;
@@ -57,7 +57,8 @@ class TubeShape {
             std::lerp(a.front_cm, b.front_cm, t), std::lerp(a.ahead_cm, b.ahead_cm, t)};
   }
 
-  /// A point of the ring at `angle` from the left over the front, `lift` metres above the skin, with its weights.
+  /// Returns a point of the ring at `angle` from the left over the front, `lift` metres above the skin, with its
+  /// weights.
   Piece::Vertex VertexAt(const Tube::Ring& ring, double angle, double lift = 0) const {
     const double along = ring.along_cm * kMetresPerCm;
     const auto [centre, direction] = PathAt(along);
@@ -103,7 +104,7 @@ class TubeShape {
   std::vector<double> starts_;
 };
 
-/// Half an ellipsoid on the end of a tube: smaller rings ever farther out, then the pole. In order from the tube
+/// Makes half an ellipsoid on the end of a tube: smaller rings ever farther out, then the pole. In order from the tube
 /// outwards; `out` is −1 before the first ring.
 std::vector<Tube::Ring> Cap(const Tube::Ring& end, double length_cm, double out) {
   constexpr int kRings = 3;
@@ -121,7 +122,7 @@ void TurnInsideOut(Piece& piece) {
   for (auto& triangle : piece.triangles) std::swap(triangle[1], triangle[2]);
 }
 
-/// Per vertex, the mean of its triangles' normals, weighted by their areas.
+/// Computes the normal of each vertex: the mean of its triangles' normals, weighted by their areas.
 std::vector<glm::dvec3> Normals(const Piece& piece) {
   std::vector<glm::dvec3> normals(piece.vertices.size(), glm::dvec3(0));
   for (const auto& [a, b, c] : piece.triangles) {

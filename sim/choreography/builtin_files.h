@@ -6,11 +6,11 @@
 
 namespace etude {
 
-/// The files scenarios/choreography/moves/*.yaml, sorted by name; the build writes the function.
+/// Returns the files scenarios/choreography/moves/*.yaml, sorted by name; the build writes the function.
 std::span<const EmbeddedText> BuiltinMoveFiles();
-/// The files scenarios/choreography/acts/*.yaml, likewise.
+/// Returns the files scenarios/choreography/acts/*.yaml, likewise.
 std::span<const EmbeddedText> BuiltinActFiles();
-/// The files scenarios/choreography/songs/*.yaml, likewise.
+/// Returns the files scenarios/choreography/songs/*.yaml, likewise.
 std::span<const EmbeddedText> BuiltinSongFiles();
 
 }  // namespace etude

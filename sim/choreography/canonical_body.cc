@@ -20,7 +20,7 @@ struct LegJoints {
   glm::dvec3 hip, knee, ankle, toe;
 };
 
-/// A straight leg is reached only up to this share: knees never lock, and never snap.
+/// The share of a straight leg's length up to which it reaches: knees never lock, and never snap.
 constexpr double kReach = 0.998;
 
 double LegLength(const BodyDimensions& body) { return body.thigh + body.shank; }
@@ -34,7 +34,7 @@ struct FootGoal {
 
 double Outward(Side side) { return side == Side::kLeft ? 1 : -1; }
 
-/// The foot on its spot, rolled up on its toes by the heel's rise.
+/// Returns the foot on its spot, rolled up on its toes by the heel's rise.
 FootGoal StandingGoal(const Controls& controls, const BodyDimensions& body, Side side) {
   const double out = Outward(side);
   const double heel = controls.Of(side, kFootHeel);
@@ -48,7 +48,7 @@ FootGoal StandingGoal(const Controls& controls, const BodyDimensions& body, Side
   return {toe - to_toe, to_toe, heading * glm::dvec3(0, 0, 1)};
 }
 
-/// The foot at the end of a leg that follows its angles.
+/// Returns the foot at the end of a leg that follows its angles.
 FootGoal FreeGoal(const Controls& controls, const BodyDimensions& body, Side side, const glm::dmat3& pelvis,
                   const glm::dvec3& hip) {
   const double out = Outward(side);
@@ -61,7 +61,7 @@ FootGoal FreeGoal(const Controls& controls, const BodyDimensions& body, Side sid
           foot * glm::dvec3(0, body.toe_height - body.ankle_height, body.foot_reach), thigh[2]};
 }
 
-/// Two-bone inverse kinematics: moves the ankle into reach and gives the knee on the wanted side.
+/// Solves two-bone inverse kinematics: moves the ankle into reach and returns the knee on the wanted side.
 glm::dvec3 SolveKnee(const BodyDimensions& body, const glm::dvec3& hip, glm::dvec3& ankle,
                      const glm::dvec3& knee_forward) {
   const double shortest = std::abs(body.thigh - body.shank) + 0.05;
@@ -102,8 +102,8 @@ LegJoints PlaceLeg(const Controls& controls, const BodyDimensions& body, Side si
   return {hip, knee, ankle, ankle + to_toe};
 }
 
-/// The greatest height of a hip above which the standing leg, nearly straight, loses its spot; it grows out of the way
-/// as the leg becomes free. Only x and z of `hip` count.
+/// Returns the greatest height of a hip above which the standing leg, nearly straight, loses its spot; it grows out of
+/// the way as the leg becomes free. Only x and z of `hip` count.
 double HighestHip(const Controls& controls, const BodyDimensions& body, Side side, const glm::dvec3& hip) {
   const glm::dvec3 ankle = StandingGoal(controls, body, side).ankle;
   const double sideways = std::hypot(hip.x - ankle.x, hip.z - ankle.z);
@@ -130,7 +130,7 @@ LegRoles LegOf(Side side) {
   return {kRightHip, kRightKnee, kRightAnkle, kRightFoot};
 }
 
-/// Trunk and neck, upward from the hip centre. Returns the chest's orientation.
+/// Places trunk and neck, upward from the hip centre; returns the chest's orientation.
 glm::dmat3 PlaceTrunk(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis, BodyPose& pose) {
   // The lower spine takes part of every bend: a back is an arc, not a hinge.
   constexpr double kLowerShare = 0.55;
@@ -177,13 +177,13 @@ glm::dvec3 HipOffset(const BodyDimensions& body, Side side, const glm::dmat3& pe
   return pelvis * glm::dvec3(side == Side::kLeft ? body.hip_half_width : -body.hip_half_width, 0, 0);
 }
 
-/// The smaller of both, rounded off where they come within some millimetres of each other.
+/// Returns the smaller of both, rounded off where they come within some millimetres of each other.
 double SmoothMin(double a, double b) {
   constexpr double kEase = 0.004;
   return 0.5 * (a + b - std::hypot(a - b, kEase));
 }
 
-/// The hips' place: where the choreography wants them, lowered until standing legs reach the floor.
+/// Places the hips where the choreography wants them, lowered until standing legs reach the floor.
 glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const glm::dmat3& pelvis) {
   const glm::dvec3 wanted(controls[kHipsSide], body.HipHeight() - controls[kHipsDrop] + controls[kJump],
                           controls[kHipsAhead]);
@@ -194,7 +194,7 @@ glm::dvec3 PlaceHips(const Controls& controls, const BodyDimensions& body, const
   return {wanted.x, SmoothMin(wanted.y, SmoothMin(limit(Side::kLeft), limit(Side::kRight))), wanted.z};
 }
 
-/// The controls with their metres in proportion to the body's legs.
+/// Returns the controls with their metres in proportion to the body's legs.
 Controls InProportion(const Controls& controls, const BodyDimensions& body) {
   constexpr std::array kMiddle = {kHipsSide, kHipsAhead, kHipsDrop, kJump};
   constexpr std::array kOfASide = {kFootSide, kFootAhead, kFootLift};

@@ -58,11 +58,11 @@ struct BodyDimensions {
 /// taken as they are, metres (of hips, feet and jumps) in proportion to the legs: a child's step is a child's.
 BodyPose PoseOf(const Controls& controls, const BodyDimensions& body = {});
 
-/// The ready stance near which every move starts and ends: feet on their home spots, knees soft,
-/// arms loosely hanging. What a choreography file does not name stands like this.
+/// Returns the ready stance near which every move starts and ends: feet on their home spots, knees soft, arms loosely
+/// hanging. What a choreography file does not name stands like this.
 Controls ReadyStance();
 
-/// The canonical body at rest, with straight legs and hanging arms: the pose to calibrate, fit and compare by.
+/// Returns the canonical body at rest, with straight legs and hanging arms: the pose to calibrate, fit and compare by.
 BodyPose StandingPose();
 
 }  // namespace etude

@@ -71,7 +71,8 @@ struct ControlName {
   std::string_view key;    ///< the key inside the group's mapping; empty: the group itself is a number
   double per_unit;         ///< radians per degree, or metres per centimetre
 };
-/// The names of all controls, in the order of the enums. `kLegFree` has no name: files free a leg by giving its angles.
+/// Returns the names of all controls, in the order of the enums. `kLegFree` has no name: files free a leg by giving its
+/// angles.
 std::span<const ControlName, kMiddleControlCount> MiddleControlNames();
 std::span<const ControlName, kSideControlCount> SideControlNames();
 

@@ -53,7 +53,7 @@ std::optional<double> DegreesOf(const KeyPose& pose, const std::string& feature)
   return found != pose.targets.end() ? std::optional(found->degrees) : std::nullopt;
 }
 
-/// The two sides of one part; "both …s" when they are alike.
+/// Says the two sides of one part; "both …s" when they are alike.
 void SayLimb(const KeyPose& pose, const Vocabulary& vocabulary, std::vector<std::string>& said) {
   const auto word_of = [&](const char* side) {
     const auto degrees = DegreesOf(pose, side + std::string(vocabulary.feature));
@@ -81,7 +81,7 @@ std::string Words(const KeyPose& pose) {
   return Join(said);
 }
 
-/// The pose with its targets' sides exchanged.
+/// Returns the pose with its targets' sides exchanged.
 KeyPose OtherSide(KeyPose pose) {
   for (KeyPose::Target& target : pose.targets) {
     char& side = target.feature.front();
@@ -100,7 +100,7 @@ Result<DanceMove> DanceMoveOf(const std::string& name) {
                    .slow = std::move(slow.motion)};
 }
 
-/// The moment of every beat, from the song's beginning to its end.
+/// Returns the moment of every beat, from the song's beginning to its end.
 std::vector<double> BeatsOf(const Song& song) {
   std::vector<double> beats;
   for (int beat = 0; beat * 60 / song.tempo_bpm <= song.motion.DurationSeconds(); ++beat) {
@@ -124,7 +124,7 @@ std::optional<double> NumberAtFront(std::string_view line) {
   return error == std::errc() && is_whole && std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
-/// Between two beats in proportion.
+/// Returns the moment of a beat; between two beats it goes in proportion.
 double MomentOf(double beat, const std::vector<double>& beats_s) {
   const auto before = static_cast<std::size_t>(beat);
   const double share = beat - std::floor(beat);

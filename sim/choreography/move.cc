@@ -16,10 +16,10 @@
 namespace etude {
 namespace {
 
-/// Wider than any body, narrow enough to catch a slip of the keyboard.
+/// The range of a control: wider than any body, narrow enough to catch a slip of the keyboard.
 constexpr Range kControlRange = {-200, 200};
 
-/// The keys of one group of a pose ("left_arm"), written into the controls that `set` names.
+/// Reads the keys of one group of a pose ("left_arm") into the controls that `set` names.
 template <std::size_t kCount, typename Set>
 bool ReadGroup(Fields& pose, const std::string& yaml_key, std::string_view group,
                std::span<const ControlName, kCount> names, Set set) {
@@ -77,7 +77,7 @@ Result<void> CheckList(const Node& list, std::string_view name) {
   return {};
 }
 
-/// The pose's beat, within [0, beats).
+/// Reads the pose's beat, within [0, beats).
 double ReadBeat(Fields& pose, double beats) {
   const auto beat = pose.OptionalNumber("beat", {0, beats});
   if (!beat && pose.ok()) pose.Complain(pose.node().place, "a pose needs a 'beat'");
@@ -165,7 +165,7 @@ void AppendMirrorImage(std::vector<PoseKey>& keys, double half) {
   }
 }
 
-/// `tempo_range_bpm: [slowest, fastest]`, which holds the move's own tempo.
+/// Reads `tempo_range_bpm: [slowest, fastest]`, which holds the move's own tempo.
 void ReadTempoRange(Fields& fields, Move& move) {
   const std::vector<double> range = fields.Numbers("tempo_range_bpm", kTempoRange);
   move.slowest_bpm = range.empty() ? move.tempo_bpm : range.front();
@@ -178,7 +178,7 @@ void ReadTempoRange(Fields& fields, Move& move) {
   }
 }
 
-/// The move with its curves and motion made of its poses, at its tempo.
+/// Makes the curves and the motion of a move from its poses, at its tempo.
 Result<Move> Perform(Move move, MoveCurves::Style style, const Place& place) {
   style.beat_seconds = 60 / move.tempo_bpm;
   RETURN_IF_ERROR(CheckJumps(move.poses, move.beats, style.beat_seconds, place));

@@ -31,7 +31,7 @@ bool Steps(const Controls& from, const Controls& to, Side side) {
   return std::ranges::any_of(kSpot, [&](SideControl spot) { return from.Of(side, spot) != to.Of(side, spot); });
 }
 
-/// The foot's height: as authored, and lifted half way through every step.
+/// Returns the keys of the foot's height: as authored, and lifted half way through every step.
 Keys LiftKeys(const std::vector<PoseKey>& poses, double beats, Side side) {
   constexpr double kStepHeight = 0.05;
   Keys keys;

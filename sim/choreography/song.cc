@@ -23,15 +23,15 @@ Controls Waiting(double beat) {
   return waiting;
 }
 
-/// A clock that stands until -`lead`, gathers way, and runs with the music from 0 on.
+/// Returns the time of a clock that stands until -`lead`, gathers way, and runs with the music from 0 on.
 double StartingClock(double time, double lead) {
   if (time >= 0) return time;
   const double t = std::max(time, -lead) + lead;
   return 0.5 * (t * t / lead - lead);
 }
 
-/// A turn's own clock, beats: runs with the music within the turn, gathers way in the blend before, and comes to rest
-/// in the blend after, so that nobody starts a gesture that is not to be.
+/// Returns a turn's own clock, beats: it runs with the music within the turn, gathers way in the blend before, and
+/// comes to rest in the blend after, so that nobody starts a gesture that is not to be.
 double ClockOf(const Turn& turn, double beat) {
   const double since = beat - turn.start_beat;
   if (since > turn.beats) return turn.beats - StartingClock(turn.beats - since, kBlendBeatsAfter);
@@ -43,18 +43,18 @@ Controls TurnAt(const Turn& turn, double beat) {
   return turn.move ? turn.move->curves.At(turn.pace * clock) : Waiting(clock);
 }
 
-/// Whether the control puts a foot somewhere. A heel rises above toes that stay where they are.
+/// Tells whether the control puts a foot somewhere. A heel rises above toes that stay where they are.
 bool MovesAFoot(SideControl control) { return control >= SideControl::kLegFree && control != SideControl::kFootHeel; }
 
 constexpr std::size_t kFewestMoves = 8, kMostMoves = 12;
 constexpr double kLongestSeconds = 600;
-/// The dancer waits that long for the music to come to the point, and stands again for as long.
+/// The beats for which the dancer waits before the first part, and stands after the last one.
 constexpr double kLeadBeats = 4;
 constexpr double kHalfTimePace = 0.5;
 
 double PaceOf(const SongPart& part) { return part.half_time ? kHalfTimePace : 1; }
 
-/// The part's move as danced to music of that tempo; fails when it does not suit it.
+/// Returns the part's move at the music's tempo; fails when the tempo does not suit it.
 Result<Move> MoveOf(const SongPart& part, double tempo_bpm, const Place& place) {
   if (FindByName(BuiltinMoveFiles(), part.move, StemOf) == nullptr) {
     return Fail(place, "{}", UnknownName("move", part.move, BuiltinMoveNames()));

@@ -19,7 +19,7 @@ bool IsDepthEdge(double a, double b) {
   return std::abs(a - b) > 0.03 * (a < b ? a : b);
 }
 
-/// One row of pixels as the projector would see them.
+/// A row of pixels as the projector would see them.
 class Row {
  public:
   Row(const DepthImage& depth, const Camera& camera, double baseline_m, int y)
@@ -35,8 +35,8 @@ class Row {
     for (int x = 0; x < depth.width; ++x) SetExtent(x);
   }
 
-  /// Whether the light on its way to a pixel's middle meets a nearer pixel's surface. Such a pixel lies to the right,
-  /// by as many columns as its disparity is larger.
+  /// Tells whether the light on its way to a pixel's middle meets a nearer pixel's surface. Such a pixel lies to the
+  /// right, by as many columns as its disparity is larger.
   bool IsUnlit(int x) const {
     const Pixel& here = pixels_[static_cast<std::size_t>(x)];
     const double column = here.ProjectorColumn();
@@ -82,7 +82,8 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 // Where LateralDeviationPx is taken at most: measured up to here.
 constexpr double kMeasuredAngle = 80 * std::numbers::pi / 180;
 
-/// From the normal of the surface that each pixel shows to its line of sight, radians; 0 where it has none of its own.
+/// Computes the angle between the normal of the surface that each pixel shows and its line of sight, radians; 0 where a
+/// pixel has no normal of its own.
 Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   const NormalImage normals = NormalsOf(depth, camera);
   const Intrinsics& in = camera.intrinsics;
@@ -101,7 +102,7 @@ Image<double> AnglesOfSight(const DepthImage& depth, const Camera& camera) {
   return angles;
 }
 
-/// One picture on its way through the sensor.
+/// A picture on its way through the sensor.
 class Exposure {
  public:
   Exposure(const DepthImage& truth, const Camera& camera, const DepthCameraOptions& options)

@@ -36,7 +36,7 @@ constexpr std::array<Bone, kStrayLimbs> kLimbs = {{{kHipCentre, kShoulderCentre}
                                                    {kRightHip, kRightKnee},
                                                    {kRightKnee, kRightAnkle}}};
 
-/// The middle of the i-th of `count` equal parts of [0, 1].
+/// Returns the middle of the i-th of `count` equal parts of [0, 1].
 double MiddleOf(int i, int count) { return (i + 0.5) / count; }
 
 /// Returns the unit directions of those limbs, as the person stands: `pose` faces +Z when they face the coach. A limb

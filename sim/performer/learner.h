@@ -49,7 +49,7 @@ struct LearnerOptions {
 struct LearnerPerformance {
   int repetition = -1;  ///< of the dance
   int move = 0;
-  int attempt = 0;       ///< the how-manieth of this move, from 0: what its luck is keyed by
+  int attempt = 0;       ///< the number of the attempt at this move, from 0; keys its luck
   bool is_over = false;  ///< the coach shows it no more
   bool is_cut = false;   ///< and stopped before its last beat: there is nothing to judge
   /// The event, with faults, stray and truth from its first frame on; `end_s` is expected until it is over;
@@ -78,9 +78,9 @@ class Learner {
   const BodyPose& Step(const Shown& shown);
 
   const Person& person() const { return person_; }
-  /// The performances in the order in which they began, the current one last.
+  /// Returns the performances in the order in which they began, the current one last.
   std::span<const LearnerPerformance> performances() const { return performances_; }
-  /// The patience that is left, in [0, 1]; at 0 the learner has given up.
+  /// Returns the patience that is left, in [0, 1]; at 0 the learner has given up.
   double patience() const { return patience_; }
   bool HasGivenUp() const { return patience_ <= 0; }
   /// Returns the chance that the next performance of this move has no fault, as things stand.

@@ -13,7 +13,7 @@ enum class LearningLaw {
   kPower,        ///< Newell and Rosenbloom (1981): quick at first, never quite done
   kTwoRate,      ///< Smith, Ghazizadeh and Shadmehr (2006): what is learnt fast is forgotten fast
 };
-/// The names "exponential", "power", "two-rate", in the order of the enum.
+/// Returns the names "exponential", "power", "two-rate", in the order of the enum.
 const std::vector<std::string>& LearningLawNames();
 /// Returns the law of a name, which must be one of LearningLawNames().
 LearningLaw FindLearningLaw(std::string_view name);

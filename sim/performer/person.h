@@ -23,7 +23,7 @@ enum class People {
   kAbsent,       ///< an adult who stands there and does not take part
 };
 
-/// The names "mixed", "toddler", "school-child", "adult", "expert", "absent", in the order of the enum.
+/// Returns the names "mixed", "toddler", "school-child", "adult", "expert", "absent", in the order of the enum.
 const std::vector<std::string>& PeopleNames();
 /// Returns the kind of a name, which must be one of PeopleNames().
 People FindPeople(std::string_view name);

@@ -15,8 +15,8 @@ namespace etude {
 /// The length of the way from standing into a move, and back.
 constexpr double kBlendSeconds = 0.45;
 
-/// A performance's clock, seconds: it runs with time between 0 and `length`, gathers way in the blend before, and comes
-/// to rest in the blend after, so that nothing starts or stops at a jerk.
+/// Returns a performance's clock, seconds: it runs with time between 0 and `length`, gathers way in the blend before,
+/// and comes to rest in the blend after, so that nothing starts or stops at a jerk.
 inline double EasedTime(double time, double length) {
   if (time < 0) {
     const double t = std::max(time, -kBlendSeconds) + kBlendSeconds;

@@ -16,13 +16,13 @@
 namespace etude {
 namespace {
 
-/// Fisher and Yates' shuffle.
+/// Shuffles items as Fisher and Yates do.
 template <typename T>
 void Shuffle(RandomStream& random, std::vector<T>& items) {
   for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[random.IndexBelow(i)]);
 }
 
-/// Indices of moves, `count` of them: every move is asked once before any is asked again.
+/// Draws `count` indices of moves: every move is asked once before any is asked again.
 std::vector<std::size_t> DrawMoves(RandomStream& random, std::size_t move_count, std::size_t count) {
   std::vector<std::size_t> drawn;
   while (drawn.size() < count) {
@@ -95,7 +95,7 @@ class Dance {
   double vigour_ = 1;
 };
 
-/// The person's ways with the moves that a plan names.
+/// Makes the person's styles of the moves that a plan names.
 std::map<std::string_view, Style> StylesFor(const SessionPlan& plan, std::span<const Move> moves,
                                             const Person& person) {
   std::map<std::string_view, Style> styles;

@@ -39,7 +39,7 @@ struct SessionEvent {
   std::optional<double> first_right_s = {};
 
   bool IsRight() const { return truth == Truth::kRight; }
-  /// The event is judged from its first beat to half a second after its last (docs/metrics.md).
+  /// Returns the end of the time in which the event is judged: half a second after its last beat (docs/metrics.md).
   double WindowEnd() const { return end_s + 0.5; }
 };
 
@@ -48,7 +48,7 @@ struct SessionPlan {
   double duration_s = 0;
 };
 
-/// A session as it was truly performed: what the sensor looks at.
+/// A session as it was truly performed, which the sensor looks at.
 struct Performance {
   Person person;
   BodyMotion motion;                 ///< the whole session, 30 Hz, the person's body

@@ -91,7 +91,7 @@ ControlSpan SpanOf(SideControl control) {
   return {};
 }
 
-/// The spans of all controls, in their order.
+/// Returns the spans of all controls, in their order.
 const std::array<ControlSpan, kControlCount>& Spans() {
   static const std::array<ControlSpan, kControlCount> spans = [] {
     std::array<ControlSpan, kControlCount> all{};
@@ -118,7 +118,7 @@ bool IsSwitch(std::size_t control) {
 /// The share of each harmonic in an offset's spread: half of it stays, the rest comes and goes. Squares sum to one.
 constexpr std::array<double, 7> kTermShares = {0.66, 0.38, 0.38, 0.28, 0.28, 0.22, 0.22};
 
-/// Standard normal terms times their shares.
+/// Draws standard normal terms, times their shares.
 std::array<double, 7> DrawTerms(RandomStream& random) {
   std::array<double, 7> terms{};
   for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kTermShares[i] * std::clamp(random.Normal(), -2.5, 2.5);

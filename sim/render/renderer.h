@@ -14,7 +14,7 @@ namespace etude {
 /// per process is enough, it can be used for cameras of any size.
 class Renderer {
  public:
-  /// Fails when no GL context can be made, saying why.
+  /// Makes a renderer. Fails when no GL context can be made, saying why.
   static Result<std::unique_ptr<Renderer>> Create();
   ~Renderer();
 
@@ -40,8 +40,8 @@ class Renderer {
   std::unique_ptr<State> state_;
 };
 
-/// The one renderer of this process, made when first asked for: compiling its shaders takes longer than drawing a
-/// hundred pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
+/// Returns the one renderer of this process, made when first asked for: compiling its shaders takes longer than drawing
+/// a hundred pictures. For one thread at a time, as every renderer; its pictures do not depend on what it drew before.
 Result<Renderer*> SharedRenderer();
 
 /// Loads what draws, so that it is among the libraries of this process; whoever draws does so anyway. Fails when it

@@ -76,8 +76,8 @@ struct Figure {
 /// The most painted surfaces that one picture shows.
 constexpr std::size_t kMostPaints = 64;
 
-/// The colours of the captured performer: clothes and skin of warm hues (335° over red to 45°), at
-/// least 85° of hue away from anything in the room, because segmentation compares hues.
+/// Returns the colours of the captured performer: clothes and skin of warm hues (335° over red to 45°), at least 85° of
+/// hue away from anything in the room, because segmentation compares hues.
 PartColours PerformerColours();
 
 /// A box that stands in the room all the time, turned about the vertical; its pixels are kFurniture. As
@@ -172,7 +172,7 @@ struct PixelRect {
 /// The largest picture, pixels per side.
 constexpr int kLargestPicture = 4096;
 
-/// The lights of the studio, or of the room's interior.
+/// Returns the lights of the studio, or of the room's interior.
 Lights LightsOf(const Room& room);
 
 }  // namespace etude

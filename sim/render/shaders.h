@@ -10,25 +10,25 @@ namespace etude {
 //
 // Frame E: the world's axes, with the origin at the camera's centre (keeps floats small).
 
-/// A triangle that covers the whole picture.
+/// Draws a triangle that covers the whole picture.
 std::string FullScreenVertexShader();
-/// The empty room: RGB = its colour at brightness 1, A = its depth. Drawn once per camera, then kept.
+/// Paints the empty room: RGB = its colour at brightness 1, A = its depth. Drawn once per camera, then kept.
 std::string RoomFragmentShader();
-/// A furnished room, likewise. Both also write RGB = the share of the lamp in the light, A = the label.
+/// Paints a furnished room likewise. Both also write RGB = the share of the lamp in the light, A = the label.
 std::string InteriorFragmentShader();
 
-/// A box around each capsule, drawn only to find the pixels worth asking.
+/// Draws a box around each capsule, only to find the pixels worth asking.
 std::string CapsuleVertexShader();
-/// The skin of capsules, with hair, eyes and a smile, or without them, which is faster.
+/// Paints the skin of capsules, with hair, eyes and a smile, or without them, which is faster.
 std::string CapsuleFragmentShader(bool with_face);
 
 /// The cover of a surface; the simpler, the faster.
 enum class Skin { kColour, kPaint, kTexture };
 
-/// The triangles of surfaces.
+/// Draw the triangles of surfaces.
 std::string SurfaceVertexShader();
 std::string SurfaceFragmentShader(Skin skin);
-/// The same triangles, thrown from the lamp onto the floor or the wall.
+/// Draw the same triangles, thrown from the lamp onto the floor or the wall.
 std::string SurfaceShadowVertexShader();
 std::string SurfaceShadowFragmentShader();
 

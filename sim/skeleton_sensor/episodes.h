@@ -13,7 +13,7 @@
 
 namespace etude {
 
-/// A flag for each joint of one frame that says whether it is hidden.
+/// Flags that say for each joint of one frame whether it is hidden.
 using HiddenJoints = std::array<bool, kRoleCount>;
 
 /// The things beside the body itself that may stand between it and a sensor.

@@ -19,7 +19,7 @@ using enum Role;
 
 bool IsLeft(Role role) { return RoleName(role).starts_with("left"); }
 
-/// The standard normal value that is exceeded with this probability, in (0, 1).
+/// Returns the standard normal value that is exceeded with this probability, in (0, 1).
 double NormalQuantileAbove(double probability) {
   double low = -9, high = 9;
   for (int i = 0; i < 60; ++i) {
