@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "engine/base/angles.h"
 #include "sim/random/stream.h"
-#include "sim/render/scene.h"
 #include "sim/stage/palette.h"
 
 namespace etude {

@@ -2,18 +2,11 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/cameras/camera.h"
-#include "engine/motion/body.h"
-#include "sim/random/stream.h"
 #include "sim/render/scene.h"
 
 namespace etude {
-
-// Pieces of furniture, made of boxes. `place` is on the floor, in the middle of the piece's back (of what stands free:
-// of the piece); `heading` is where it looks. Sizes, colours and details by dice; colours lie `share` of the way from
-// the studio's to those of everyday things. A piece always takes as many numbers.
 
 /// The floor that the performer needs: no piece stands there.
 struct FreeFloor {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "engine/base/angles.h"
 #include "sim/body/shape.h"

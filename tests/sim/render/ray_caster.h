@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/cameras/camera.h"
 #include "sim/render/scene.h"
 
 namespace etude {
