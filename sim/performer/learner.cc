@@ -6,7 +6,7 @@
 #include <array>
 #include <cassert>
 #include <numeric>
-#include <string>
+#include <memory>
 
 #include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
