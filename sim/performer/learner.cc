@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <numeric>
 #include <memory>
+#include <numeric>
 
 #include "engine/base/smoothstep.h"
 #include "sim/choreography/canonical_body.h"
