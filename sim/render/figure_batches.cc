@@ -70,7 +70,7 @@ bool IsWithin(const glm::vec3& v, float limit) {
   return std::abs(v.x) < limit && std::abs(v.y) < limit && std::abs(v.z) < limit;
 }
 
-bool IsSound(const SurfaceCorner& corner) {
+bool IsDrawable(const SurfaceCorner& corner) {
   return IsWithin(corner.place, kFarthestCorner) && IsWithin(corner.normal, 2);
 }
 
@@ -95,7 +95,7 @@ void AddCorners(const Surface& surface, std::optional<Part> seen_as, int paint, 
       return SurfaceCorner{glm::vec3(surface.positions[vertex] - eye), glm::vec3(surface.normals[vertex]),
                            paint_and_label, glm::vec4(rest, paint)};
     });
-    if (std::ranges::all_of(triangle, IsSound)) corners.insert(corners.end(), triangle.begin(), triangle.end());
+    if (std::ranges::all_of(triangle, IsDrawable)) corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
 }
 
